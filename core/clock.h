@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+namespace jnd::core {
+
+/// Where a session takes the time of its events from. Passed in, so that a simulated session
+/// runs on simulated time and a test on its own.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  /// Nanoseconds since 1970-01-01 UTC; a simulated session counts from 0.
+  [[nodiscard]] virtual std::int64_t now_ns() const = 0;
+};
+
+/// The machine's wall clock.
+class SystemClock final : public Clock {
+ public:
+  [[nodiscard]] std::int64_t now_ns() const override;
+};
+
+/// A clock that stands still until it is moved.
+class SimulatedClock final : public Clock {
+ public:
+  [[nodiscard]] std::int64_t now_ns() const override { return now_ns_; }
+  void advance_ns(std::int64_t by_ns) noexcept { now_ns_ += by_ns; }
+
+ private:
+  std::int64_t now_ns_ = 0;
+};
+
+}  // namespace jnd::core

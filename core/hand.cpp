@@ -1,0 +1,35 @@
+#include "core/hand.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace jnd::core {
+
+Eigen::Vector3d hand_plane_normal(const PointVectors& tip_position_m) noexcept {
+  const Eigen::Vector3d& inner = tip_position_m[static_cast<int>(ContactPoint::kPalmInner)];
+  const Eigen::Vector3d& outer = tip_position_m[static_cast<int>(ContactPoint::kPalmOuter)];
+  const Eigen::Vector3d& index = tip_position_m[static_cast<int>(ContactPoint::kIndex)];
+  const Eigen::Vector3d normal = (outer - inner).cross(index - inner);
+  const double length = normal.norm();
+  if (!(length > 1e-12)) return Eigen::Vector3d::Zero();
+  return normal / length;
+}
+
+HandMotion hand_motion(const PointVectors& tip_position_m,
+                       const PointVectors& tip_velocity_m_per_s) noexcept {
+  HandMotion motion;
+  for (const Eigen::Vector3d& velocity : tip_velocity_m_per_s) {
+    motion.velocity_m_per_s += velocity;
+  }
+  motion.velocity_m_per_s /= kNumContactPoints;
+  motion.speed_m_per_s = motion.velocity_m_per_s.norm();
+  if (motion.speed_m_per_s > 0.0) {
+    const double along_normal =
+        std::abs(motion.velocity_m_per_s.dot(hand_plane_normal(tip_position_m)));
+    motion.sin_angle_of_attack = std::min(along_normal / motion.speed_m_per_s, 1.0);
+  }
+  return motion;
+}
+
+}  // namespace jnd::core

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+namespace jnd::core {
+
+/// The five places where a finger of the exoskeleton meets the participant's hand. The order is
+/// that of the exoskeleton's fingers (thesis, fig. D.18): two at the palm, then thumb, index,
+/// middle.
+enum class ContactPoint { kPalmInner, kPalmOuter, kThumb, kIndex, kMiddle };
+
+inline constexpr int kNumContactPoints = 5;
+
+inline constexpr std::array<std::string_view, kNumContactPoints> kContactPointNames = {
+    "palm_inner", "palm_outer", "thumb", "index", "middle"};
+
+/// Share of the fluid's force that each point carries; they sum to 1. From the areas of the
+/// parts of the hand, 64/10/12/14 %, rounded by the thesis (sec. B.5).
+inline constexpr std::array<double, kNumContactPoints> kAreaShareRatio = {0.35, 0.35, 0.10,
+                                                                          0.10, 0.10};
+
+/// One vector per contact point, in the order of `ContactPoint`.
+using PointVectors = std::array<Eigen::Vector3d, kNumContactPoints>;
+
+/// How the hand as a whole moves through the medium: what a drag law needs to know.
+struct HandMotion {
+  Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();  ///< Mean of the five tips.
+  double speed_m_per_s = 0.0;
+  /// Sine of the angle of attack: 0 edge on, 1 head on. 0 for a hand at rest.
+  double sin_angle_of_attack = 0.0;
+};
+
+/// Unit normal of the hand plane: through both palm points and the index tip (thesis, C.3.1).
+/// Zero if the three points lie on a line. Its sign has no meaning. Real time.
+[[nodiscard]] Eigen::Vector3d hand_plane_normal(const PointVectors& tip_position_m) noexcept;
+
+/// Motion of the hand from its tips; any one frame. Real time.
+[[nodiscard]] HandMotion hand_motion(const PointVectors& tip_position_m,
+                                     const PointVectors& tip_velocity_m_per_s) noexcept;
+
+}  // namespace jnd::core

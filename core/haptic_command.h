@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/media/immersion.h"
+#include "core/media/medium.h"
+
+namespace jnd::core {
+
+/// What the experimenter's side may tell the haptic loop. Trivially copyable: it crosses to the
+/// haptic thread through a `LatestValue`.
+struct HapticCommand {
+  /// Rises by one with every command; samples echo the one in force. 0 is "no command yet".
+  std::uint64_t sequence = 0;
+  MediumAmounts medium;   ///< Free space by default.
+  Immersion immersion;    ///< Infinite surface by default.
+  double ramp_s = 0.050;  ///< Time over which the medium changes, >= 0. Never a force step.
+};
+
+static_assert(std::is_trivially_copyable_v<HapticCommand>);
+
+}  // namespace jnd::core

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/hand.h"
+
+namespace jnd::core {
+
+/// What a device measured in one tick. Workspace frame: +x to the participant's right, +y away
+/// from the participant, +z up; the surface of a fluid is the plane z = 0, the fluid is below.
+struct HapticState {
+  std::int64_t device_time_ns = 0;  ///< The device's own clock; must advance every tick.
+  PointVectors tip_position_m{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                              Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                              Eigen::Vector3d::Zero()};
+  PointVectors tip_velocity_m_per_s{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                    Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                    Eigen::Vector3d::Zero()};
+  /// Whether the point is held to the hand. A point that came off gets no force.
+  std::array<bool, kNumContactPoints> attached{true, true, true, true, true};
+  Eigen::Vector3d end_effector_position_m = Eigen::Vector3d::Zero();  ///< Of the carrying arm.
+};
+
+}  // namespace jnd::core

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/error.h"
+
+namespace jnd::core {
+
+/// Throws `Error` "FIELD: expected RULE, found VALUE" unless `holds`. Write the condition so
+/// that NaN fails it: `require(x > 0, ...)`. Not real time.
+void require(bool holds, std::string_view field, std::string_view rule, double value);
+
+}  // namespace jnd::core

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/hand.h"
+
+namespace jnd::core {
+
+/// x, y, z without Eigen, which is not trivially copyable.
+using PlainVector = std::array<double, 3>;
+
+/// One recorded tick of the haptic loop, workspace frame. Trivially copyable: it leaves the
+/// haptic thread through an `SpscQueue`.
+struct Sample {
+  std::int64_t tick = 0;  ///< Counted from 0 at the start of the session's recording.
+  std::uint32_t command_sequence = 0;
+  std::uint8_t attached_bits = 0;  ///< Bit i: contact point i holds the hand.
+  std::uint8_t immersed_bits = 0;  ///< Bit i: contact point i is in the medium.
+  std::uint8_t limited = 0;        ///< 1 where the force limiter changed the force.
+  std::uint8_t fault = 0;          ///< `Fault`, 0 is none.
+  std::array<PlainVector, kNumContactPoints> tip_position_m{};
+  std::array<PlainVector, kNumContactPoints> tip_velocity_m_per_s{};
+  /// Force on the hand as sent to the device, after every limit.
+  std::array<PlainVector, kNumContactPoints> tip_force_n{};
+  PlainVector end_effector_position_m{};
+};
+
+static_assert(std::is_trivially_copyable_v<Sample>);
+
+}  // namespace jnd::core

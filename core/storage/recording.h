@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/sample.h"
+#include "core/storage/study_store.h"
+
+namespace jnd::core {
+
+/// Writes a session's samples to recordings/SESSION.sqlite: fixed point (0.1 um, 0.1 mm/s, 1
+/// mN), second differences, zstd, a hash a chunk. Not thread-safe; not real time.
+class RecordingWriter {
+ public:
+  /// Opens a new segment after whatever the file holds.
+  RecordingWriter(const std::filesystem::path& file, double rate_hz,
+                  Durability durability = Durability::kEveryCommit);
+  ~RecordingWriter();
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  /// Samples come in order of their tick; a gap starts a new chunk.
+  void append(const Sample& sample);
+  /// Everything appended so far is on disk when this returns.
+  void flush();
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// One stored chunk, as `verify` and readers see it.
+struct RecordingChunk {
+  std::int64_t segment = 0;
+  std::int64_t first_tick = 0;
+  std::int64_t num_samples = 0;
+  std::int64_t num_bytes = 0;
+  bool intact = false;  ///< The hash fits the bytes.
+};
+
+/// Reads a recording. Throws `Error` if the file is missing or foreign. Not real time.
+class RecordingReader {
+ public:
+  explicit RecordingReader(const std::filesystem::path& file);
+  ~RecordingReader();
+  RecordingReader(const RecordingReader&) = delete;
+  RecordingReader& operator=(const RecordingReader&) = delete;
+
+  [[nodiscard]] double rate_hz() const noexcept;
+  [[nodiscard]] std::vector<RecordingChunk> chunks() const;
+  /// Calls `visit` for every sample with first_tick <= tick <= last_tick, in order.
+  void read(std::int64_t first_tick, std::int64_t last_tick,
+            const std::function<void(const Sample&)>& visit) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace jnd::core

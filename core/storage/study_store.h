@@ -1,0 +1,164 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace jnd::core {
+
+/// One act in a session, as it is stored. `data` is JSON that storage never looks into.
+struct EventRow {
+  std::int64_t session = 0;
+  std::int64_t sequence = 0;  ///< 1, 2, 3 ... within the session, without gaps.
+  std::string kind;
+  int version = 1;  ///< Of the layout of `data`.
+  std::int64_t time_ns = 0;
+  std::optional<std::int64_t> stage;    ///< Index into the participant's own list of stages.
+  std::optional<std::int64_t> trial;    ///< Running number of the trial in the session, from 1.
+  std::optional<std::int64_t> attempt;  ///< 1 is the first.
+  std::optional<std::int64_t> first_tick, last_tick;
+  std::optional<double> intensity;
+  std::optional<std::int64_t> supersedes;  ///< Sequence of the event that no longer counts.
+  std::string data = "{}";
+};
+
+/// One trial as it was drawn.
+struct DesignRow {
+  std::int64_t session = 0;
+  std::int64_t trial = 0;
+  std::int64_t stage = 0;
+  std::string block;  ///< Name of the block's stage.
+  std::string procedure;
+  std::string medium;
+  std::string quantity;
+  std::int64_t repetition = 0;  ///< From 1.
+  std::int64_t position = 0;    ///< Within the repetition, from 1.
+  std::optional<double> intensity, reference_intensity, starting_intensity, target_percent;
+};
+
+/// One presentation of a stimulus, with how the hand moved and what the device delivered.
+struct PresentationRow {
+  std::int64_t session = 0;
+  std::int64_t trial = 0;
+  std::int64_t attempt = 0;
+  std::int64_t presentation = 0;  ///< Within the attempt, from 1.
+  std::int64_t sequence = 0;      ///< Of the event that reported it.
+  std::string interval;           ///< "test", "reference" or "free_space".
+  double intensity = 0.0;
+  std::int64_t first_tick = 0, last_tick = 0;
+  std::optional<double> stroke_width_m, max_speed_m_per_s, mean_height_m;
+  std::int64_t num_strokes = 0;
+  /// Slope of delivered force against motion on speed; what the stimulus came out as.
+  std::optional<double> delivered_damping_n_s_per_m;
+  std::optional<double> commanded_damping_n_s_per_m;
+  std::int64_t limited_ticks = 0;  ///< Ticks in which the limiter changed the force.
+};
+
+/// One answered trial.
+struct TrialRow {
+  std::int64_t session = 0;
+  std::int64_t trial = 0;
+  std::int64_t attempt = 0;
+  std::int64_t sequence = 0;  ///< Of the answer's event.
+  std::string block, procedure, medium, quantity;
+  std::int64_t repetition = 0, position = 0;
+  std::optional<double> intensity;  ///< Of the test stimulus; in production, the value set.
+  std::optional<double> reference_intensity, starting_intensity, target_percent;
+  std::optional<double> response;  ///< Percent; 1 or 0 for yes or no; the value set.
+  std::optional<double> response_time_s;
+  std::int64_t num_presentations = 0, num_steps = 0;
+  std::int64_t first_tick = 0, last_tick = 0;
+};
+
+/// One answer outside of a trial.
+struct AnswerRow {
+  std::int64_t session = 0;
+  std::int64_t sequence = 0;
+  std::string stage;
+  std::string item;
+  std::string answer;
+};
+
+struct SessionRow {
+  std::int64_t session = 0;
+  std::string participant;
+  std::string protocol_sha256;
+  std::uint64_t seed = 0;
+  std::string cells;  ///< "priming=primed;method_order=estimation,production"
+  bool pilot = false;
+  bool simulated = false;
+  std::string device;
+  std::string laboratory;  ///< Whole text of the laboratory file; "" with a person.
+  std::string program_version;
+  std::string realtime;  ///< What the loop was given: "simulated", or policy and memory lock.
+  double rate_hz = 0.0;
+  std::int64_t started_time_ns = 0;
+};
+
+/// Everything that one act appends. All of it in one transaction, or none.
+struct Commit {
+  EventRow event;
+  std::vector<DesignRow> design;
+  std::optional<PresentationRow> presentation;
+  std::optional<TrialRow> trial;
+  std::vector<AnswerRow> answers;
+};
+
+/// How soon a commit is safe from a power cut.
+enum class Durability {
+  kEveryCommit,  ///< Synced before `append` returns. The only choice with a person.
+  kAtClose,      ///< Simulated sessions, which their seed can repeat.
+};
+
+/// The study folder NAME.study/: `study.sqlite` (events and the rows projected from them) and
+/// `recordings/`. Append only: no row is ever changed; a later event supersedes an earlier one.
+/// One writer process at a time; safe to call from several threads. Not real time.
+class StudyStore {
+ public:
+  enum class Mode { kReadOnly, kReadWrite, kCreate };
+
+  /// Throws `Error`: folder missing or foreign, format newer than this program, another writer.
+  StudyStore(std::filesystem::path folder, Mode mode,
+             Durability durability = Durability::kEveryCommit);
+  ~StudyStore();
+  StudyStore(const StudyStore&) = delete;
+  StudyStore& operator=(const StudyStore&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept;
+  /// Where the recording of a session lies: recordings/0001.sqlite.
+  [[nodiscard]] std::filesystem::path recording_file(std::int64_t session) const;
+
+  /// Keeps the text once, under its hash; returns the hash. The file name is for people.
+  std::string add_protocol(const std::string& file_name, const std::string& text);
+  [[nodiscard]] std::string protocol_text(const std::string& sha256) const;
+
+  /// Adds a session with the next free number unless `row.session` names one; returns its
+  /// number.
+  std::int64_t add_session(SessionRow row);
+  /// Appends one act; durable when it returns. Throws `Error` if the sequence is not the next
+  /// one.
+  void append(const Commit& commit);
+
+  [[nodiscard]] std::vector<SessionRow> sessions() const;
+  [[nodiscard]] std::vector<EventRow> events(std::int64_t session) const;
+  [[nodiscard]] std::vector<DesignRow> design(std::int64_t session) const;
+  /// Answered trials that count: not superseded. With `include_excluded`, also those set aside.
+  [[nodiscard]] std::vector<TrialRow> trials(std::int64_t session,
+                                             bool include_excluded = false) const;
+  [[nodiscard]] std::vector<PresentationRow> presentations(std::int64_t session) const;
+  /// Answers that count: the last one given to each item.
+  [[nodiscard]] std::vector<AnswerRow> answers(std::int64_t session) const;
+  /// Whether the session's log ends with `session_ended`.
+  [[nodiscard]] bool finished(std::int64_t session) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace jnd::core

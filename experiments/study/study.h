@@ -1,0 +1,158 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/media/immersion.h"
+
+namespace jnd::experiments {
+
+/// A text in the languages of the study: language code ("en", "de") to words.
+using Text = std::map<std::string, std::string>;
+
+/// A medium as a study names it, with its one varied quantity.
+struct MediumSetting {
+  std::string medium;    ///< "free_space", "water", "viscous", "viscous_stokes" or "solid".
+  std::string quantity;  ///< "scale", "viscosity_pa_s", "stiffness_n_per_m"; "" for free_space.
+  double intensity = 0.0;  ///< In the unit of `quantity`.
+};
+
+/// A medium to be explored for some time outside of any trial.
+struct Exploration {
+  MediumSetting setting;
+  double duration_s = 0.0;  ///< > 0.
+  Text say;                 ///< Sentence for the experimenter to say; may be empty.
+};
+
+struct ChecklistItem {
+  Text text;
+  Text say;  ///< Sentence to say word for word; may be empty.
+};
+
+struct Checklist {
+  std::vector<ChecklistItem> items;
+};
+
+struct Consent {
+  std::vector<Text> paragraphs;
+  Text agreement;  ///< The one sentence that is agreed to.
+};
+
+/// Free exploration, for example of free space, before anything is asked.
+struct Explore {
+  Text instruction;
+  std::vector<Exploration> media;
+};
+
+/// Example stimuli that show the range to come; nothing is scored.
+struct Training {
+  Text instruction;
+  std::vector<Exploration> examples;
+};
+
+/// One procedure over one varied quantity: the part of a study that gives data.
+struct Block {
+  std::string
+      procedure;       ///< "magnitude_estimation", "magnitude_production", "constant_stimuli".
+  std::string medium;  ///< "water", "viscous", "viscous_stokes".
+  std::string quantity;  ///< "scale" or "viscosity_pa_s".
+  Text instruction;
+  Text question;                    ///< What the participant is asked in every trial.
+  std::vector<double> intensities;  ///< Test stimuli, or starting values in production.
+  std::optional<double> reference_intensity;  ///< Constant stimuli.
+  std::vector<double> target_percent;         ///< Production: one repetition a target.
+  int repetitions = 1;                  ///< Each shows every intensity once, in random order.
+  double coarse_step = 0.0;             ///< Production, unit of the quantity, > fine_step.
+  double fine_step = 0.0;               ///< Production, > 0.
+  std::optional<double> max_intensity;  ///< Production: no step goes beyond; none by default.
+  double free_space_between_s = 0.0;    ///< Free space before each trial, >= 0.
+  double expected_trial_s = 0.0;        ///< For planning the length of a session, > 0.
+};
+
+struct Break {
+  Text instruction;
+  double duration_s = 0.0;  ///< Least rest, >= 0.
+};
+
+struct PostExperimentItem {
+  std::string name;
+  MediumSetting setting;
+  Text instruction;
+  Text question;
+  std::string answer;  ///< "yes_no", "text" or "words".
+  int num_words = 0;   ///< How many words "words" asks for.
+};
+
+struct PostExperiment {
+  std::vector<PostExperimentItem> items;
+};
+
+struct QuestionnaireItem {
+  std::string name;
+  std::string kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which" or "scale".
+  Text question;
+  std::string unit;            ///< kind number; may be empty.
+  std::vector<Text> options;   ///< kind choice.
+  int num_steps = 10;          ///< kind scale.
+  Text low_label, high_label;  ///< kind scale: what stands at step 1 and at the last step.
+  bool high_is_good = true;    ///< kind scale: which end is the favourable one.
+  bool required = true;
+};
+
+struct Questionnaire {
+  Text instruction;
+  std::vector<QuestionnaireItem> items;
+};
+
+struct Stage;
+
+/// Alternatives between participants. `order`: every arm is run, the order of the arms is a
+/// cell. `one_of`: each participant gets one arm.
+struct Counterbalance {
+  struct Arm {
+    std::string name;
+    std::vector<Stage> stages;
+  };
+  enum class Method { kOrder, kOneOf };
+  Method method = Method::kOrder;
+  std::vector<Arm> arms;
+  std::vector<Stage> between;  ///< Run between two arms of an order, for example a break.
+};
+
+struct Stage {
+  std::string name;  ///< Unique in the study; [a-z0-9_]+.
+  Text title;        ///< May be empty.
+  std::variant<Checklist, Consent, Explore, Training, Block, Break, PostExperiment,
+               Questionnaire, Counterbalance>
+      content;
+  int line = 0;  ///< Where it stands in the file, for messages.
+};
+
+enum class Blinding { kNone, kParticipant, kDouble };
+
+/// What a study asks of the apparatus.
+struct DeviceNeeds {
+  int min_contact_points = 5;
+  double rate_hz = 1000.0;
+  double ramp_s = 0.050;
+  core::Immersion immersion;  ///< Infinite surface unless the study says otherwise.
+};
+
+/// A study file, checked and with every default filled in.
+struct Study {
+  int format = 1;
+  std::string name;  ///< [a-z0-9_]+
+  Text title;
+  Text description;  ///< May be empty.
+  std::vector<std::string> authors;
+  std::string citation;  ///< Of the study it follows; may be empty.
+  DeviceNeeds device;
+  Blinding blinding = Blinding::kNone;
+  std::vector<Stage> stages;
+  std::string text;  ///< The file word for word; its SHA-256 identifies the study.
+};
+
+}  // namespace jnd::experiments
