@@ -1,0 +1,210 @@
+#include "app/apparatus.h"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+
+#include "core/doors/latest_value.h"
+#include "core/doors/spsc_queue.h"
+#include "core/error.h"
+#include "core/safety/emergency_stop.h"
+#include "core/safety/fault.h"
+#include "core/safety/heartbeat.h"
+#include "core/storage/recording.h"
+#include "device/haptic_loop.h"
+#include "device/lumped_hand_device.h"
+#include "device/realtime_thread.h"
+
+namespace jnd::app {
+namespace {
+
+// A power of two; at 1 kHz more than half a minute of a storage that is held up.
+constexpr std::size_t kQueueCapacity = 32768;
+
+device::LumpedHandDevice::Parameters device_parameters(
+    const Apparatus::Parameters& parameters, const experiments::Laboratory& laboratory) {
+  device::LumpedHandDevice::Parameters device;
+  device.rate_hz = parameters.rate_hz;
+  device.mass_kg = laboratory.device.mass_kg;
+  device.mechanical_viscosity_n_s_per_m = laboratory.device.mechanical_viscosity_n_s_per_m;
+  device.dry_friction_n = laboratory.device.dry_friction_n;
+  device.max_force_per_point_n = laboratory.device.max_force_per_point_n;
+  device.max_total_force_n = laboratory.device.max_total_force_n;
+  device.arm.stiffness_n_per_m = laboratory.arm.stiffness_n_per_m;
+  device.arm.damping_n_s_per_m = laboratory.arm.damping_n_s_per_m;
+  device.arm.home_s = laboratory.arm.home_s;
+  device.arm.home_z_m = parameters.home_height_m;
+  return device;
+}
+
+device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& parameters,
+                                               const experiments::Laboratory& laboratory) {
+  device::HapticLoop::Parameters loop;
+  loop.rate_hz = parameters.rate_hz;
+  loop.first_tick = parameters.first_tick;
+  loop.limits.per_point_n = laboratory.device.max_force_per_point_n;
+  loop.limits.total_n = laboratory.device.max_total_force_n;
+  loop.limits.slew_n_per_s = laboratory.device.max_slew_n_per_s;
+  return loop;
+}
+
+}  // namespace
+
+struct Apparatus::Implementation {
+  Implementation(const Parameters& the_parameters, const experiments::Laboratory& laboratory)
+      : parameters(the_parameters),
+        device(device_parameters(parameters, laboratory)),
+        samples(kQueueCapacity),
+        loop(loop_parameters(parameters, laboratory), device,
+             {.commands = commands,
+              .telemetry = telemetry,
+              .emergency_stop = emergency_stop,
+              .samples = &samples,
+              .heartbeat = parameters.realtime ? &heartbeat : nullptr}),
+        next_tick(parameters.first_tick) {
+    if (parameters.recording) {
+      recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
+    }
+    device.open();
+    storage.emplace(
+        samples, core::StorageThread::Parameters{.recording = recording ? &*recording : nullptr,
+                                                 .visit = [this](const core::Sample& sample) {
+                                                   if (metering) meter.feed(sample);
+                                                 }});
+    if (parameters.realtime) {
+      thread.emplace(device::RealtimeThread::Parameters{});
+      thread->start(loop);
+    }
+  }
+
+  ~Implementation() {
+    if (thread) thread->stop();
+    storage.reset();
+    device.close();
+  }
+
+  void run_simulated(std::int64_t num_ticks) {
+    for (std::int64_t done = 0; done < num_ticks;) {
+      // In simulation the queue blocks instead of dropping: wait until the storage has caught
+      // up.
+      while (samples.num_free() < kQueueCapacity / 2) std::this_thread::yield();
+      const auto batch = std::min<std::int64_t>(num_ticks - done, kQueueCapacity / 2);
+      for (std::int64_t i = 0; i < batch; ++i) loop.tick();
+      done += batch;
+    }
+    simulated_clock.advance_ns(
+        std::llround(static_cast<double>(num_ticks) * 1e9 / parameters.rate_hz));
+  }
+
+  void run_realtime(std::int64_t until_tick) {
+    while (true) {
+      heartbeat.beat();
+      telemetry.fetch();
+      const core::Telemetry& now = telemetry.value();
+      if (now.fault != core::Fault::kNone) return;
+      if (now.num_ticks > 0 && now.sample.tick + 1 >= until_tick) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  Parameters parameters;
+  device::LumpedHandDevice device;
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop emergency_stop;
+  core::Heartbeat heartbeat;
+  core::SpscQueue<core::Sample> samples;
+  device::HapticLoop loop;
+  std::optional<core::RecordingWriter> recording;
+  analysis::StrokeMeter meter;
+  bool metering = false;
+  std::optional<core::StorageThread> storage;
+  std::optional<device::RealtimeThread> thread;
+  core::SimulatedClock simulated_clock;
+  core::SystemClock system_clock;
+  core::HapticCommand command;
+  std::int64_t next_tick;
+};
+
+Apparatus::Apparatus(const Parameters& parameters, const experiments::Laboratory& laboratory)
+    : implementation_(std::make_unique<Implementation>(parameters, laboratory)) {}
+
+Apparatus::~Apparatus() = default;
+
+void Apparatus::render(const core::MediumAmounts& medium) {
+  Implementation& my = *implementation_;
+  ++my.command.sequence;
+  my.command.medium = medium;
+  my.command.immersion = my.parameters.immersion;
+  my.command.ramp_s = my.parameters.ramp_s;
+  my.commands.publish(my.command);
+}
+
+void Apparatus::begin_strokes(const device::StrokePlan& plan,
+                              const core::RandomStream& random) {
+  implementation_->device.begin_strokes(plan, random);
+}
+
+void Apparatus::go_home() { implementation_->device.go_home(); }
+
+void Apparatus::run_for(double duration_s) {
+  Implementation& my = *implementation_;
+  const auto num_ticks = std::llround(duration_s * my.parameters.rate_hz);
+  if (my.parameters.realtime) {
+    my.run_realtime(next_tick() + num_ticks);
+  } else {
+    my.run_simulated(num_ticks);
+  }
+  my.telemetry.fetch();
+  const core::Fault fault = my.telemetry.value().fault;
+  if (fault != core::Fault::kNone)
+    throw core::Error("haptic loop: " + std::string(words(fault)));
+}
+
+std::int64_t Apparatus::next_tick() const noexcept {
+  Implementation& my = *implementation_;
+  my.telemetry.fetch();
+  const core::Telemetry& now = my.telemetry.value();
+  return now.num_ticks > 0 ? now.sample.tick + 1 : my.parameters.first_tick;
+}
+
+const core::Telemetry& Apparatus::telemetry() const noexcept {
+  implementation_->telemetry.fetch();
+  return implementation_->telemetry.value();
+}
+
+void Apparatus::meter_strokes() {
+  Implementation& my = *implementation_;
+  my.storage->after(next_tick() - 1, [&my] {
+    my.meter = analysis::StrokeMeter(my.loop.period_s());
+    my.metering = true;
+  });
+}
+
+analysis::StrokeSummary Apparatus::finish_strokes() {
+  Implementation& my = *implementation_;
+  analysis::StrokeSummary summary;
+  my.storage->after(next_tick() - 1, [&] {
+    summary = my.meter.finish();
+    my.metering = false;
+  });
+  return summary;
+}
+
+void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
+  implementation_->storage->commit(store, commit);
+}
+
+std::string Apparatus::realtime() const {
+  if (!implementation_->thread) return "simulated";
+  const device::RealtimeReport& report = implementation_->thread->report();
+  return report.scheduler + (report.memory_locked ? ", memory locked" : ", memory not locked");
+}
+
+const core::Clock& Apparatus::clock() const noexcept {
+  if (implementation_->parameters.realtime) return implementation_->system_clock;
+  return implementation_->simulated_clock;
+}
+
+}  // namespace jnd::app

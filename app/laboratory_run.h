@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/storage/study_store.h"
+#include "experiments/participants/laboratory.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// One session to be run with a simulated participant.
+struct LaboratoryRun {
+  const experiments::Study& study;
+  const experiments::Laboratory& laboratory;
+  core::StudyStore& store;
+  std::int64_t session = 0;  ///< Its row is in the store already.
+  bool record = true;        ///< Samples, besides the summaries of strokes.
+  bool realtime = false;     ///< Paced by the clock; else as fast as it goes.
+  core::Durability durability = core::Durability::kEveryCommit;
+  /// How an interrupted session goes on: "repeat", "restart" or "end".
+  std::string choice = "repeat";
+  std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
+  std::function<void(double)> on_progress;              ///< 0 to 1; may be empty.
+  std::function<bool()> is_cancelled;                   ///< Ends resumably; may be empty.
+};
+
+/// What came of it.
+struct LaboratoryRunResult {
+  bool ended = false;  ///< False: cancelled, and can be resumed.
+  std::int64_t num_ticks = 0;
+  std::string realtime;  ///< "simulated", or what the real-time thread was given.
+};
+
+/// Joins device, loop, session and storage for one session: every presentation in closed loop,
+/// every event committed before the next act. Starts or resumes, whichever the log calls for.
+/// Throws `Error`; what was committed stays. Not real time.
+[[nodiscard]] LaboratoryRunResult run_laboratory(const LaboratoryRun& run);
+
+}  // namespace jnd::app

@@ -1,0 +1,178 @@
+#include "core/storage/database.h"
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace jnd::core {
+namespace {
+
+/// SQLite would create the file with the umask's rights; answers are for their owner only.
+void create_private(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor < 0) {
+    throw Error(file.string() +
+                ": expected to create this file, found: " + std::strerror(errno));
+  }
+  ::close(descriptor);
+}
+
+}  // namespace
+
+Database::Database(const std::filesystem::path& file, Mode mode, Durability durability)
+    : file_(file) {
+  if (mode == Mode::kCreate) {
+    create_private(file);
+  } else if (!std::filesystem::exists(file)) {
+    throw Error(file.string() + ": expected a database of jnd, found no such file");
+  }
+  const int flags = mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  if (sqlite3_open_v2(file.c_str(), &handle_, flags | SQLITE_OPEN_FULLMUTEX, nullptr) !=
+      SQLITE_OK) {
+    const std::string reason = sqlite3_errmsg(handle_);
+    sqlite3_close(handle_);
+    throw Error(file.string() + ": expected to open this database, found: " + reason);
+  }
+  try {
+    sqlite3_busy_timeout(handle_, 5000);
+    execute("PRAGMA foreign_keys = ON");
+    if (mode != Mode::kReadOnly) {
+      execute("PRAGMA journal_mode = WAL");
+      // FULL syncs the log at every commit; NORMAL only when it is folded into the database.
+      execute(durability == Durability::kEveryCommit ? "PRAGMA synchronous = FULL"
+                                                     : "PRAGMA synchronous = NORMAL");
+    }
+  } catch (...) {
+    sqlite3_close(handle_);
+    throw;
+  }
+}
+
+Database::~Database() { sqlite3_close_v2(handle_); }
+
+void Database::execute(const std::string& sql) {
+  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail(sql);
+}
+
+void Database::fail(const std::string& doing) const {
+  const std::string reason = sqlite3_errmsg(handle_);
+  throw Error(file_.string() + ": expected SQLite to carry out \"" + doing.substr(0, 60) +
+              "\", found: " + reason);
+}
+
+Statement::Statement(Database& database, const std::string& sql) : database_(database) {
+  if (sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement_, nullptr) !=
+      SQLITE_OK) {
+    database.fail(sql);
+  }
+}
+
+Statement::~Statement() { sqlite3_finalize(statement_); }
+
+Statement& Statement::bind(std::int64_t value) {
+  if (sqlite3_bind_int64(statement_, next_parameter_++, value) != SQLITE_OK) {
+    database_.fail("bind");
+  }
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  if (sqlite3_bind_double(statement_, next_parameter_++, value) != SQLITE_OK) {
+    database_.fail("bind");
+  }
+  return *this;
+}
+
+Statement& Statement::bind(const std::string& value) {
+  if (sqlite3_bind_text(statement_, next_parameter_++, value.data(),
+                        static_cast<int>(value.size()), SQLITE_TRANSIENT) != SQLITE_OK) {
+    database_.fail("bind");
+  }
+  return *this;
+}
+
+Statement& Statement::bind_bytes(std::string_view bytes) {
+  if (sqlite3_bind_blob(statement_, next_parameter_++, bytes.data(),
+                        static_cast<int>(bytes.size()), SQLITE_STATIC) != SQLITE_OK) {
+    database_.fail("bind");
+  }
+  return *this;
+}
+
+Statement& Statement::bind_null() {
+  if (sqlite3_bind_null(statement_, next_parameter_++) != SQLITE_OK) database_.fail("bind");
+  return *this;
+}
+
+bool Statement::step() {
+  const int result = sqlite3_step(statement_);
+  if (result == SQLITE_ROW) return true;
+  if (result == SQLITE_DONE) return false;
+  const char* sql = sqlite3_sql(statement_);
+  const std::string doing = sql != nullptr ? sql : "step";
+  sqlite3_reset(statement_);
+  next_parameter_ = 1;
+  database_.fail(doing);
+}
+
+void Statement::run() {
+  if (step()) {
+    reset();
+    throw Error(database_.file().string() + ": expected a statement without rows, found one");
+  }
+  reset();
+}
+
+void Statement::reset() {
+  sqlite3_reset(statement_);
+  next_parameter_ = 1;
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+
+double Statement::number(int column) const { return sqlite3_column_double(statement_, column); }
+
+std::string Statement::text(int column) const {
+  const auto* letters = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+  return letters == nullptr
+             ? std::string()
+             : std::string(letters,
+                           static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
+}
+
+std::string_view Statement::bytes(int column) const {
+  const auto* data = static_cast<const char*>(sqlite3_column_blob(statement_, column));
+  return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+}
+
+std::optional<std::int64_t> Statement::optional_integer(int column) const {
+  if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+  return integer(column);
+}
+
+std::optional<double> Statement::optional_number(int column) const {
+  if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+  return number(column);
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+  database_.execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  if (!open_) return;
+  // Nothing more can be done about a failing rollback here; SQLite rolls back on reopening.
+  sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace jnd::core

@@ -1,0 +1,158 @@
+#include "core/storage/recording.h"
+
+#include <optional>
+
+#include "core/storage/database.h"
+#include "core/storage/sample_codec.h"
+#include "core/storage/sha256.h"
+
+namespace jnd::core {
+namespace {
+
+// About four seconds at 1 kHz: large enough to compress well, small enough to lose little.
+constexpr std::size_t kSamplesPerChunk = 4096;
+constexpr std::int64_t kFormat = 1;
+
+constexpr char kSchema[] = R"sql(
+CREATE TABLE recording_format (
+  version INTEGER NOT NULL,
+  rate_hz REAL NOT NULL,
+  position_unit_m REAL NOT NULL,
+  velocity_unit_m_per_s REAL NOT NULL,
+  force_unit_n REAL NOT NULL
+);
+CREATE TABLE chunk (
+  segment INTEGER NOT NULL,
+  first_tick INTEGER NOT NULL,
+  num_samples INTEGER NOT NULL,
+  sha256 TEXT NOT NULL,
+  data BLOB NOT NULL,
+  PRIMARY KEY (segment, first_tick)
+);
+)sql";
+
+}  // namespace
+
+struct RecordingWriter::Implementation {
+  Implementation(const std::filesystem::path& file, double rate_hz, Durability durability)
+      : is_new(!std::filesystem::exists(file)),
+        database(file, is_new ? Database::Mode::kCreate : Database::Mode::kReadWrite,
+                 durability) {
+    if (is_new) {
+      Transaction transaction(database);
+      database.execute(kSchema);
+      Statement(database, "INSERT INTO recording_format VALUES (?, ?, ?, ?, ?)")
+          .bind(kFormat)
+          .bind(rate_hz)
+          .bind(kPositionUnitM)
+          .bind(kVelocityUnitMPerS)
+          .bind(kForceUnitN)
+          .run();
+      transaction.commit();
+    }
+    Statement next(database, "SELECT COALESCE(MAX(segment), 0) + 1 FROM chunk");
+    if (next.step()) segment = next.integer(0);
+    insert.emplace(database, "INSERT INTO chunk VALUES (?, ?, ?, ?, ?)");
+    pending.reserve(kSamplesPerChunk);
+  }
+
+  void write_chunk() {
+    if (pending.empty()) return;
+    const std::string bytes = encode_samples(pending);
+    insert->bind(segment)
+        .bind(pending.front().tick)
+        .bind(static_cast<std::int64_t>(pending.size()))
+        .bind(sha256(bytes))
+        .bind_bytes(bytes)
+        .run();
+    pending.clear();
+  }
+
+  bool is_new;
+  Database database;
+  std::int64_t segment = 1;
+  std::optional<Statement> insert;
+  std::vector<Sample> pending;
+};
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, double rate_hz,
+                                 Durability durability)
+    : implementation_(std::make_unique<Implementation>(file, rate_hz, durability)) {}
+
+RecordingWriter::~RecordingWriter() {
+  try {
+    flush();
+  } catch (const std::exception&) {
+    // `flush` was the place to hear of it; a destructor must not throw.
+  }
+}
+
+void RecordingWriter::append(const Sample& sample) {
+  std::vector<Sample>& pending = implementation_->pending;
+  const bool follows = pending.empty() || sample.tick == pending.back().tick + 1;
+  if (!follows || pending.size() == kSamplesPerChunk) implementation_->write_chunk();
+  pending.push_back(sample);
+}
+
+void RecordingWriter::flush() { implementation_->write_chunk(); }
+
+struct RecordingReader::Implementation {
+  explicit Implementation(const std::filesystem::path& file)
+      : database(file, Database::Mode::kReadOnly, Durability::kEveryCommit) {
+    Statement format(database, "SELECT version, rate_hz FROM recording_format");
+    if (!format.step()) {
+      throw Error(file.string() + ": expected a recording of jnd, found no format in it");
+    }
+    if (format.integer(0) > kFormat) {
+      throw Error(file.string() + ": expected recording format " + std::to_string(kFormat) +
+                  " or older, found " + std::to_string(format.integer(0)) +
+                  "; open it with a newer jnd");
+    }
+    rate_hz = format.number(1);
+  }
+
+  mutable Database database;
+  double rate_hz = 0.0;
+};
+
+RecordingReader::RecordingReader(const std::filesystem::path& file)
+    : implementation_(std::make_unique<Implementation>(file)) {}
+
+RecordingReader::~RecordingReader() = default;
+
+double RecordingReader::rate_hz() const noexcept { return implementation_->rate_hz; }
+
+std::vector<RecordingChunk> RecordingReader::chunks() const {
+  Statement rows(implementation_->database,
+                 "SELECT segment, first_tick, num_samples, sha256, data FROM chunk "
+                 "ORDER BY segment, first_tick");
+  std::vector<RecordingChunk> all;
+  while (rows.step()) {
+    const std::string_view bytes = rows.bytes(4);
+    all.push_back({.segment = rows.integer(0),
+                   .first_tick = rows.integer(1),
+                   .num_samples = rows.integer(2),
+                   .num_bytes = static_cast<std::int64_t>(bytes.size()),
+                   .intact = sha256(bytes.data(), bytes.size()) == rows.text(3)});
+  }
+  return all;
+}
+
+void RecordingReader::read(std::int64_t first_tick, std::int64_t last_tick,
+                           const std::function<void(const Sample&)>& visit) const {
+  Statement rows(implementation_->database,
+                 "SELECT first_tick, num_samples, data FROM chunk "
+                 "WHERE first_tick <= ? AND first_tick + num_samples > ? "
+                 "ORDER BY first_tick, segment");
+  rows.bind(last_tick).bind(first_tick);
+  while (rows.step()) {
+    const std::string place = implementation_->database.file().string() + ": chunk at tick " +
+                              std::to_string(rows.integer(0));
+    for (const Sample& sample :
+         decode_samples(rows.bytes(2), rows.integer(0), rows.integer(1), place)) {
+      if (sample.tick >= first_tick && sample.tick <= last_tick) visit(sample);
+    }
+  }
+}
+
+}  // namespace jnd::core

@@ -1,0 +1,233 @@
+#include "core/storage/sample_codec.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/error.h"
+
+namespace jnd::core {
+namespace {
+
+constexpr int kVectorsPerPoint = 3;  // position, velocity, force
+constexpr int kVectorChannels = kNumContactPoints * kVectorsPerPoint * 3;
+constexpr int kEndEffector = kVectorChannels;
+constexpr int kFlags = kEndEffector + 3;  // command, attached, immersed, limited, fault
+constexpr int kNumChannels = kFlags + 5;
+
+// Arithmetic modulo 2^32: differences wrap and come back exactly.
+using Word = std::uint32_t;
+using Row = std::array<Word, kNumChannels>;
+
+constexpr Word kNotANumber = 0x80000000U;
+
+Word fixed_point(double value, double units) noexcept {
+  const double scaled = value * units;
+  if (!(std::abs(scaled) < 2147483647.0)) {
+    if (std::isnan(scaled)) return kNotANumber;
+    return scaled > 0 ? 0x7fffffffU : static_cast<Word>(-0x7fffffff);
+  }
+  // Adding 1.5 * 2^52 rounds to the nearest integer in the low bits; several times faster than
+  // a call to lrint.
+  const double shifted = scaled + 6755399441055744.0;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return static_cast<Word>(bits);
+}
+
+double number(Word word, double unit) noexcept {
+  if (word == kNotANumber) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(static_cast<std::int32_t>(word)) * unit;
+}
+
+Row row_of(const Sample& sample) noexcept {
+  Row row;
+  int channel = 0;
+  for (int point = 0; point < kNumContactPoints; ++point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Word position = fixed_point(sample.tip_position_m[point][axis], 1e7);
+      const Word velocity = fixed_point(sample.tip_velocity_m_per_s[point][axis], 1e4);
+      // Relative to the first tip, a rigid hand's other tips do not change at all.
+      row[channel] = point == 0 ? position : position - row[axis];
+      row[channel + 3] = point == 0 ? velocity : velocity - row[axis + 3];
+      row[channel + 6] = fixed_point(sample.tip_force_n[point][axis], 1e3);
+      ++channel;
+    }
+    channel += 6;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    row[kEndEffector + axis] =
+        fixed_point(sample.end_effector_position_m[axis], 1e7) - row[axis];
+  }
+  row[kFlags] = sample.command_sequence;
+  row[kFlags + 1] = sample.attached_bits;
+  row[kFlags + 2] = sample.immersed_bits;
+  row[kFlags + 3] = sample.limited;
+  row[kFlags + 4] = sample.fault;
+  return row;
+}
+
+Sample sample_of(const Row& row, std::int64_t tick) noexcept {
+  Sample sample;
+  sample.tick = tick;
+  int channel = 0;
+  for (int point = 0; point < kNumContactPoints; ++point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Word base_position = point == 0 ? 0 : row[axis];
+      const Word base_velocity = point == 0 ? 0 : row[axis + 3];
+      sample.tip_position_m[point][axis] = number(row[channel] + base_position, kPositionUnitM);
+      sample.tip_velocity_m_per_s[point][axis] =
+          number(row[channel + 3] + base_velocity, kVelocityUnitMPerS);
+      sample.tip_force_n[point][axis] = number(row[channel + 6], kForceUnitN);
+      ++channel;
+    }
+    channel += 6;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    sample.end_effector_position_m[axis] =
+        number(row[kEndEffector + axis] + row[axis], kPositionUnitM);
+  }
+  sample.command_sequence = row[kFlags];
+  sample.attached_bits = static_cast<std::uint8_t>(row[kFlags + 1]);
+  sample.immersed_bits = static_cast<std::uint8_t>(row[kFlags + 2]);
+  sample.limited = static_cast<std::uint8_t>(row[kFlags + 3]);
+  sample.fault = static_cast<std::uint8_t>(row[kFlags + 4]);
+  return sample;
+}
+
+/// Small magnitudes of either sign become small numbers.
+Word zigzag(Word difference) noexcept { return (difference << 1) ^ (0U - (difference >> 31)); }
+Word unzigzag(Word coded) noexcept { return (coded >> 1) ^ (0U - (coded & 1U)); }
+
+void put_word(std::string& bytes, Word word) {
+  for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>((word >> (8 * byte)) & 0xffU);
+}
+
+/// Each channel: its first two values, the width of its differences in bytes, and their planes,
+/// lowest byte first.
+std::string planes(const std::vector<Row>& rows) {
+  std::string bytes;
+  bytes.reserve(rows.size() * 24);
+  std::vector<Word> coded(rows.size());
+  for (int channel = 0; channel < kNumChannels; ++channel) {
+    put_word(bytes, rows[0][channel]);
+    put_word(bytes, rows.size() > 1 ? rows[1][channel] : 0);
+    Word used_bits = 0;
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+      coded[i] = zigzag(rows[i][channel] - 2 * rows[i - 1][channel] + rows[i - 2][channel]);
+      used_bits |= coded[i];
+    }
+    int width = 0;
+    while (width < 4 && (used_bits >> (8 * width)) != 0) ++width;
+    bytes += static_cast<char>(width);
+    for (int byte = 0; byte < width; ++byte) {
+      for (std::size_t i = 2; i < rows.size(); ++i) {
+        bytes += static_cast<char>((coded[i] >> (8 * byte)) & 0xffU);
+      }
+    }
+  }
+  return bytes;
+}
+
+/// Reads what `planes` wrote; every length is checked, for the bytes may be damaged.
+class PlaneReader {
+ public:
+  PlaneReader(std::string_view bytes, const std::string& place)
+      : bytes_(bytes), place_(place) {}
+
+  std::string_view take(std::size_t num_bytes) {
+    if (num_bytes > bytes_.size()) fail();
+    const std::string_view taken = bytes_.substr(0, num_bytes);
+    bytes_.remove_prefix(num_bytes);
+    return taken;
+  }
+  Word word() {
+    const std::string_view four = take(4);
+    Word value = 0;
+    for (int byte = 0; byte < 4; ++byte) {
+      value |= static_cast<Word>(static_cast<unsigned char>(four[byte])) << (8 * byte);
+    }
+    return value;
+  }
+  int width() {
+    const int value = static_cast<unsigned char>(take(1)[0]);
+    if (value > 4) fail();
+    return value;
+  }
+  void finish() const {
+    if (!bytes_.empty()) fail();
+  }
+  [[noreturn]] void fail() const {
+    throw Error(place_ + ": expected a chunk of samples, found damaged bytes");
+  }
+
+ private:
+  std::string_view bytes_;
+  const std::string& place_;
+};
+
+}  // namespace
+
+std::string encode_samples(const std::vector<Sample>& samples) {
+  if (samples.empty()) return {};
+  std::vector<Row> rows;
+  rows.reserve(samples.size());
+  for (const Sample& sample : samples) rows.push_back(row_of(sample));
+  const std::string raw = planes(rows);
+  std::string bytes(ZSTD_compressBound(raw.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(bytes.data(), bytes.size(), raw.data(), raw.size(), /*compressionLevel=*/1);
+  if (ZSTD_isError(size) != 0) {
+    throw Error(std::string("recording: expected zstd to compress, found: ") +
+                ZSTD_getErrorName(size));
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+std::vector<Sample> decode_samples(std::string_view bytes, std::int64_t first_tick,
+                                   std::int64_t num_samples, const std::string& place) {
+  if (num_samples <= 0) return {};
+  const auto count = static_cast<std::size_t>(num_samples);
+  PlaneReader damaged({}, place);
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  const unsigned long long largest = kNumChannels * (9ULL + 4ULL * count);
+  if (size > largest) damaged.fail();  // The two error codes of zstd are larger still.
+  std::string raw(size, '\0');
+  if (ZSTD_decompress(raw.data(), raw.size(), bytes.data(), bytes.size()) != size)
+    damaged.fail();
+
+  std::vector<Row> rows(count);
+  PlaneReader reader(raw, place);
+  for (int channel = 0; channel < kNumChannels; ++channel) {
+    rows[0][channel] = reader.word();
+    const Word second = reader.word();
+    if (count > 1) rows[1][channel] = second;
+    const int width = reader.width();
+    for (std::size_t i = 2; i < count; ++i) rows[i][channel] = 0;
+    for (int byte = 0; byte < width && count > 2; ++byte) {
+      const std::string_view plane = reader.take(count - 2);
+      for (std::size_t i = 2; i < count; ++i) {
+        rows[i][channel] |= static_cast<Word>(static_cast<unsigned char>(plane[i - 2]))
+                            << (8 * byte);
+      }
+    }
+    for (std::size_t i = 2; i < count; ++i) {
+      rows[i][channel] =
+          unzigzag(rows[i][channel]) + 2 * rows[i - 1][channel] - rows[i - 2][channel];
+    }
+  }
+  reader.finish();
+  std::vector<Sample> samples;
+  samples.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples.push_back(sample_of(rows[i], first_tick + static_cast<std::int64_t>(i)));
+  }
+  return samples;
+}
+
+}  // namespace jnd::core

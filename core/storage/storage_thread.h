@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "core/doors/spsc_queue.h"
+#include "core/sample.h"
+#include "core/storage/recording.h"
+#include "core/storage/study_store.h"
+
+namespace jnd::core {
+
+/// The one thread that writes a session: it takes the loop's samples from their queue, hands
+/// them to the recording, and carries out what is asked of it in between, so that the recording
+/// is on disk before the event that speaks of it. Whatever fails in it is thrown from the next
+/// call.
+class StorageThread {
+ public:
+  struct Parameters {
+    RecordingWriter* recording = nullptr;      ///< nullptr: samples are only shown to `visit`.
+    std::function<void(const Sample&)> visit;  ///< Called for every sample, on this thread.
+  };
+
+  /// `samples` and what `parameters` points to must outlive the thread.
+  StorageThread(SpscQueue<Sample>& samples, Parameters parameters);
+  /// Takes what is left in the queue, then ends.
+  ~StorageThread();
+  StorageThread(const StorageThread&) = delete;
+  StorageThread& operator=(const StorageThread&) = delete;
+
+  /// Runs `work` on the storage thread once every sample up to `tick` has been taken (-1: at
+  /// once) and returns when it is done. Throws what `work` or an earlier sample threw. A tick
+  /// that never comes, because its sample was dropped or the loop stands still, counts as taken
+  /// after half a second without samples. Not real time.
+  void after(std::int64_t tick, const std::function<void()>& work);
+
+  /// The recording up to `commit`'s last tick, synced, then the commit, synced.
+  void commit(StudyStore& store, const Commit& commit);
+
+ private:
+  void run();
+  void take_samples();
+
+  SpscQueue<Sample>& samples_;
+  Parameters parameters_;
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  const std::function<void()>* work_ = nullptr;
+  std::int64_t work_tick_ = -1;
+  std::exception_ptr failure_;
+  bool ending_ = false;
+  std::int64_t last_taken_tick_ = -1;
+  std::thread thread_;
+};
+
+}  // namespace jnd::core

@@ -1,0 +1,260 @@
+#include "experiments/participants/laboratory.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Reads one object key by key and collects what is wrong with it.
+class Section {
+ public:
+  Section(const json& parent, const std::string& path, std::vector<std::string>& problems)
+      : path_(path), problems_(problems) {
+    const std::string key = path.substr(path.rfind('/') + 1);
+    if (parent.is_object() && parent.contains(key) && parent.at(key).is_object()) {
+      object_ = &parent.at(key);
+    } else {
+      problems_.push_back(path + ": expected an object, found none");
+    }
+  }
+
+  /// A number, or {"value": number, "basis": ..., "source": ...}, with low <= value <= high.
+  void number(const char* key, double& value, double low, double high) {
+    known_.insert(key);
+    if (object_ == nullptr) return;
+    const json* found = object_->contains(key) ? &object_->at(key) : nullptr;
+    if (found != nullptr && found->is_object()) {
+      check_annotated(key, *found);
+      found = found->contains("value") ? &found->at("value") : nullptr;
+    }
+    const std::string range = "expected a number from " + rounded(low) + " to " + rounded(high);
+    if (found == nullptr) {
+      problems_.push_back(path_ + "/" + key + ": " + range + ", found none");
+    } else if (!found->is_number() ||
+               !(found->get<double>() >= low && found->get<double>() <= high)) {
+      problems_.push_back(path_ + "/" + key + ": " + range + ", found " + found->dump());
+    } else {
+      value = found->get<double>();
+    }
+  }
+
+  void positive(const char* key, double& value) { number(key, value, 1e-9, 1e9); }
+  void not_negative(const char* key, double& value) { number(key, value, 0.0, 1e9); }
+
+  void word(const char* key, std::string& value, const std::set<std::string>& allowed) {
+    known_.insert(key);
+    if (object_ == nullptr) return;
+    const json* found = object_->contains(key) ? &object_->at(key) : nullptr;
+    if (found != nullptr && found->is_object()) {
+      check_annotated(key, *found);
+      found = found->contains("value") ? &found->at("value") : nullptr;
+    }
+    if (found == nullptr || !found->is_string() ||
+        !allowed.contains(found->get<std::string>())) {
+      std::string names;
+      for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
+      problems_.push_back(path_ + "/" + key + ": expected one of " + names + ", found " +
+                          (found == nullptr ? "none" : found->dump()));
+      return;
+    }
+    value = found->get<std::string>();
+  }
+
+  void finish() {
+    if (object_ == nullptr) return;
+    for (const auto& [key, value] : object_->items()) {
+      if (key != "comment" && !known_.contains(key)) {
+        problems_.push_back(path_ + "/" + key + ": unknown key");
+      }
+    }
+  }
+
+ private:
+  static std::string rounded(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+  void check_annotated(const char* key, const json& found) {
+    static const std::set<std::string> kKeys = {"value", "basis", "source"};
+    static const std::set<std::string> kBases = {"thesis", "calibrated", "assumption"};
+    for (const auto& [name, value] : found.items()) {
+      if (!kKeys.contains(name)) {
+        problems_.push_back(path_ + "/" + key + "/" + name + ": unknown key");
+      }
+    }
+    if (found.contains("basis") &&
+        (!found.at("basis").is_string() || !kBases.contains(found.at("basis")))) {
+      problems_.push_back(path_ + "/" + key +
+                          "/basis: expected thesis, calibrated or assumption, found " +
+                          found.at("basis").dump());
+    }
+  }
+
+  std::string path_;
+  std::vector<std::string>& problems_;
+  const json* object_ = nullptr;
+  std::set<std::string> known_;
+};
+
+void read_device(const json& file, Laboratory::Device& device,
+                 std::vector<std::string>& problems) {
+  Section in(file, "/device", problems);
+  in.positive("mass_kg", device.mass_kg);
+  in.not_negative("mechanical_viscosity_n_s_per_m", device.mechanical_viscosity_n_s_per_m);
+  in.not_negative("dry_friction_n", device.dry_friction_n);
+  in.positive("max_force_per_point_n", device.max_force_per_point_n);
+  in.positive("max_total_force_n", device.max_total_force_n);
+  in.positive("max_slew_n_per_s", device.max_slew_n_per_s);
+  in.finish();
+}
+
+void read_arm(const json& file, Laboratory::Arm& arm, std::vector<std::string>& problems) {
+  Section in(file, "/arm", problems);
+  in.not_negative("stiffness_n_per_m", arm.stiffness_n_per_m);
+  in.not_negative("damping_n_s_per_m", arm.damping_n_s_per_m);
+  in.positive("home_s", arm.home_s);
+  in.finish();
+}
+
+void read_movement(const json& file, Laboratory::Movement& movement,
+                   std::vector<std::string>& problems) {
+  Section in(file, "/movement", problems);
+  in.positive("max_speed_m_per_s", movement.max_speed_m_per_s);
+  in.number("max_speed_sd_ln", movement.max_speed_sd_ln, 0.0, 1.0);
+  in.number("stroke_amplitude_sd_ratio", movement.stroke_amplitude_sd_ratio, 0.0, 0.3);
+  in.number("stroke_speed_sd_ratio", movement.stroke_speed_sd_ratio, 0.0, 0.3);
+  in.number("stroke_height_sd_m", movement.stroke_height_sd_m, 0.0, 0.1);
+  in.number("lift_m", movement.lift_m, 0.0, 0.2);
+  in.number("body_height_m", movement.body_height_m, 1.0, 2.5);
+  in.number("body_height_sd_m", movement.body_height_sd_m, 0.0, 0.3);
+  in.number("hand_height_ratio", movement.hand_height_ratio, 0.1, 1.0);
+  in.number("hand_height_sd_ratio", movement.hand_height_sd_ratio, 0.0, 0.2);
+  in.number("surface_height_m", movement.surface_height_m, 0.0, 3.0);
+  in.finish();
+}
+
+void read_strokes(const json& file, std::map<std::string, Laboratory::Strokes>& strokes,
+                  std::vector<std::string>& problems) {
+  if (!file.contains("strokes") || !file.at("strokes").is_object() ||
+      !file.at("strokes").contains("default")) {
+    problems.emplace_back("/strokes: expected an object with the key default, found none");
+    return;
+  }
+  for (const auto& [procedure, value] : file.at("strokes").items()) {
+    if (procedure == "comment") continue;
+    Section in(file.at("strokes"), "/strokes/" + procedure, problems);
+    Laboratory::Strokes& read = strokes[procedure];
+    in.positive("amplitude_m", read.amplitude_m);
+    in.number("amplitude_sd_ln", read.amplitude_sd_ln, 0.0, 1.0);
+    in.number("strokes_per_presentation", read.strokes_per_presentation, 0.5, 50.0);
+    in.finish();
+  }
+}
+
+void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
+                    std::vector<std::string>& problems) {
+  Section in(file, "/perceiver", problems);
+  in.positive("weber_fraction", perceiver.weber_fraction);
+  in.number("weber_fraction_sd_ln", perceiver.weber_fraction_sd_ln, 0.0, 2.0);
+  in.word("noise", perceiver.noise, {"normal", "weibull"});
+  in.number("criterion_sd_ln", perceiver.criterion_sd_ln, 0.0, 2.0);
+  in.number("criterion_drift_per_trial_ln", perceiver.criterion_drift_per_trial_ln, 0.0, 1.0);
+  in.number("lapse_rate", perceiver.lapse_rate, 0.0, 0.499);
+  in.number("exponent", perceiver.exponent, 0.05, 5.0);
+  in.number("exponent_sd", perceiver.exponent_sd, 0.0, 1.0);
+  in.positive("unit", perceiver.unit);
+  in.number("unit_sd_ln", perceiver.unit_sd_ln, 0.0, 2.0);
+  in.positive("standard_damping_n_s_per_m", perceiver.standard_damping_n_s_per_m);
+  in.number("shrink", perceiver.shrink, 0.05, 1.0);
+  in.number("shrink_sd_ln", perceiver.shrink_sd_ln, 0.0, 2.0);
+  in.positive("centre_ratio", perceiver.centre_ratio);
+  in.number("anchor_ratio", perceiver.anchor_ratio, 0.0, 0.99);
+  in.number("assimilation_ratio", perceiver.assimilation_ratio, -0.99, 0.99);
+  in.number("learning_ratio", perceiver.learning_ratio, 0.0, 10.0);
+  in.positive("learning_trials", perceiver.learning_trials);
+  in.number("fatigue_ratio_per_trial", perceiver.fatigue_ratio_per_trial, 0.0, 1.0);
+  in.number("look_again_probability", perceiver.look_again_probability, 0.0, 0.99);
+  in.positive("match_tolerance_ln", perceiver.match_tolerance_ln);
+  in.positive("coarse_step_ln", perceiver.coarse_step_ln);
+  in.finish();
+}
+
+}  // namespace
+
+const Laboratory::Strokes& Laboratory::strokes_for(const std::string& procedure) const {
+  const auto found = strokes.find(procedure);
+  return found != strokes.end() ? found->second : strokes.at("default");
+}
+
+Laboratory parse_laboratory(const std::string& text, const std::string& place) {
+  const json file = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!file.is_object()) {
+    throw core::Error(place +
+                      ": expected a laboratory as one JSON object, found something else");
+  }
+  std::vector<std::string> problems;
+  Laboratory laboratory{.text = text};
+  static const std::set<std::string> kKeys = {"format",        "name",     "title", "comment",
+                                              "calibrated_on", "device",   "arm",   "movement",
+                                              "strokes",       "perceiver"};
+  for (const auto& [key, value] : file.items()) {
+    if (!kKeys.contains(key)) problems.push_back("/" + key + ": unknown key");
+  }
+  if (!file.contains("format") || file.at("format") != 1) {
+    problems.emplace_back("/format: expected 1");
+  }
+  for (auto [key, value] :
+       {std::pair{"name", &laboratory.name}, {"title", &laboratory.title}}) {
+    if (file.contains(key) && file.at(key).is_string()) {
+      *value = file.at(key).get<std::string>();
+    } else {
+      problems.push_back(std::string("/") + key + ": expected a text");
+    }
+  }
+  if (file.contains("calibrated_on")) {
+    for (const json& name : file.at("calibrated_on")) {
+      if (!name.is_string()) {
+        problems.emplace_back("/calibrated_on: expected a list of texts");
+        break;
+      }
+      laboratory.calibrated_on.push_back(name.get<std::string>());
+    }
+  }
+  read_device(file, laboratory.device, problems);
+  read_arm(file, laboratory.arm, problems);
+  read_movement(file, laboratory.movement, problems);
+  read_strokes(file, laboratory.strokes, problems);
+  read_perceiver(file, laboratory.perceiver, problems);
+  if (!problems.empty()) {
+    std::string message = place + ": " + std::to_string(problems.size()) + " problem(s)";
+    for (const std::string& problem : problems) message += "\n  " + problem;
+    throw core::Error(message);
+  }
+  return laboratory;
+}
+
+Laboratory read_laboratory(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw core::Error(file.string() +
+                      ": expected a laboratory file, found none that can be read");
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_laboratory(text.str(), file.string());
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace jnd::experiments {
+
+/// A simulated laboratory: an apparatus with its imperfections and a population of
+/// participants, read from a file. Every number comes with its basis: "thesis", "calibrated" or
+/// "assumption".
+struct Laboratory {
+  /// The lumped hand.
+  struct Device {
+    double mass_kg = 0.0;                         ///< Hand, fingers and arm as felt, > 0.
+    double mechanical_viscosity_n_s_per_m = 0.0;  ///< What free space feels like, >= 0.
+    double dry_friction_n = 0.0;                  ///< >= 0.
+    double max_force_per_point_n = 0.0;           ///< Force limiter, > 0.
+    double max_total_force_n = 0.0;               ///< Force limiter, > 0.
+    double max_slew_n_per_s = 0.0;                ///< Force limiter, > 0.
+  };
+
+  /// A normal or log-normal spread between persons.
+  struct Spread {
+    double mean = 0.0;
+    double sd = 0.0;  ///< In ln where the mean is a ratio or size, see each use.
+  };
+
+  struct Arm {
+    double stiffness_n_per_m = 0.0;  ///< >= 0.
+    double damping_n_s_per_m = 0.0;  ///< >= 0.
+    double home_s = 0.0;             ///< Time to come to rest between trials, > 0.
+  };
+
+  /// How persons stroke under one procedure. Spreads between persons are in ln.
+  struct Strokes {
+    double amplitude_m = 0.0, amplitude_sd_ln = 0.0;
+    double strokes_per_presentation = 1.0;  ///< Full cycles; fractions are allowed.
+  };
+  /// What strokes have in common.
+  struct Movement {
+    double max_speed_m_per_s = 0.0,
+           max_speed_sd_ln = 0.0;  ///< Of the reference, between persons.
+    double stroke_amplitude_sd_ratio = 0.0, stroke_speed_sd_ratio = 0.0;  ///< Within a person.
+    double stroke_height_sd_m = 0.0;
+    double lift_m = 0.0;  ///< Lower on the way forward, higher on the way back.
+    double body_height_m = 0.0, body_height_sd_m = 0.0;
+    double hand_height_ratio = 0.0, hand_height_sd_ratio = 0.0;  ///< Of the body's height.
+    double surface_height_m = 0.0;  ///< Of the fluid above the floor.
+  };
+
+  /// One perceiver for all procedures; see perceiver.h for the equations.
+  struct Perceiver {
+    double weber_fraction = 0.0, weber_fraction_sd_ln = 0.0;  ///< For total felt viscosity.
+    std::string noise;                                        ///< "normal" or "weibull".
+    double criterion_sd_ln = 0.0;                             ///< Between persons.
+    double criterion_drift_per_trial_ln = 0.0;  ///< Sd of a person's drift, per trial.
+    double lapse_rate = 0.0;                    ///< [0, 0.5)
+    double exponent = 0.0, exponent_sd = 0.0;
+    double unit = 0.0, unit_sd_ln = 0.0;      ///< Felt ratio to remembered water at scale 1.
+    double standard_damping_n_s_per_m = 0.0;  ///< What real water is remembered to feel like.
+    double shrink = 0.0;  ///< Weight of the percept against the range's centre; 1 is none.
+    double shrink_sd_ln = 0.0;        ///< Of 1 - shrink, between persons.
+    double centre_ratio = 0.0;        ///< Centre of the range, in standards.
+    double anchor_ratio = 0.0;        ///< Weight of the starting value in production, [0, 1).
+    double assimilation_ratio = 0.0;  ///< Pull of the answer before, (-1, 1).
+    double learning_ratio = 0.0;      ///< Extra noise at the first trial of a block.
+    double learning_trials = 0.0;     ///< Trials until it has fallen to 37 %, > 0.
+    double fatigue_ratio_per_trial = 0.0;  ///< Noise gained a trial.
+    double look_again_probability = 0.0;   ///< [0, 1)
+    double match_tolerance_ln = 0.0;       ///< Production: what passes for equal, > 0.
+    double coarse_step_ln = 0.0;           ///< Production: beyond this, a coarse step, > 0.
+  };
+
+  std::string name;
+  std::string title;
+  std::string text;  ///< The file word for word; stored with every session.
+  Device device;
+  Arm arm;
+  Movement movement;
+  std::map<std::string, Strokes> strokes;  ///< By procedure; "default" for any other.
+  Perceiver perceiver;
+  /// Names of estimates, as in results, that parameters were fitted to.
+  std::vector<std::string> calibrated_on;
+
+  [[nodiscard]] const Strokes& strokes_for(const std::string& procedure) const;
+};
+
+/// Throws `Error` with every problem found: missing and unknown keys, wrong types, out of
+/// range.
+[[nodiscard]] Laboratory read_laboratory(const std::filesystem::path& file);
+[[nodiscard]] Laboratory parse_laboratory(const std::string& text, const std::string& place);
+
+}  // namespace jnd::experiments

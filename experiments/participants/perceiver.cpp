@@ -1,0 +1,141 @@
+#include "experiments/participants/perceiver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random_stream.h"
+
+namespace jnd::experiments {
+namespace {
+
+using core::RandomStream;
+
+/// Standard deviation 1 and mean 0, of the chosen family.
+double unit_noise(const std::string& family, RandomStream& stream) {
+  if (family != "weibull") return stream.normal();
+  // ln of a Weibull variable is a Gumbel variable: mean -0.5772, sd pi / sqrt 6.
+  const double gumbel = std::log(-std::log(1.0 - stream.uniform()));
+  return (gumbel + std::numbers::egamma) * std::sqrt(6.0) / std::numbers::pi;
+}
+
+/// People answer in steps of 5, 10, 25, 50: finer where the number is small.
+double rounded_percent(double percent) {
+  double step = 5.0;
+  if (percent >= 50.0) step = 10.0;
+  if (percent >= 200.0) step = 25.0;
+  if (percent >= 400.0) step = 50.0;
+  return step * std::round(percent / step);
+}
+
+}  // namespace
+
+Person draw_person(const Laboratory& laboratory, std::uint64_t session_seed) {
+  const Laboratory::Perceiver& p = laboratory.perceiver;
+  const Laboratory::Movement& m = laboratory.movement;
+  // One stream a trait: giving the population another spread in one leaves the others alone.
+  const auto z = [&](const char* trait) {
+    return RandomStream(session_seed, std::string("person/") + trait).normal();
+  };
+  Person person;
+  person.weber_fraction =
+      p.weber_fraction * std::exp(p.weber_fraction_sd_ln * z("weber_fraction"));
+  person.criterion_ln = p.criterion_sd_ln * z("criterion");
+  person.criterion_drift_per_trial_ln = p.criterion_drift_per_trial_ln * z("drift");
+  person.exponent = std::max(0.05, p.exponent + p.exponent_sd * z("exponent"));
+  person.unit = p.unit * std::exp(p.unit_sd_ln * z("unit"));
+  person.shrink =
+      std::clamp(1.0 - (1.0 - p.shrink) * std::exp(p.shrink_sd_ln * z("shrink")), 0.05, 1.0);
+  person.body_height_m = m.body_height_m + m.body_height_sd_m * z("body_height");
+  person.hand_height_m =
+      (m.hand_height_ratio + m.hand_height_sd_ratio * z("hand_height")) * person.body_height_m;
+  RandomStream other(session_seed, "person/other");
+  person.right_handed = other.with_probability(0.9);
+  person.age_years = 20 + static_cast<int>(other.below(20));
+  person.amplitude_score = z("amplitude");
+  person.max_speed_m_per_s = m.max_speed_m_per_s * std::exp(m.max_speed_sd_ln * z("max_speed"));
+  return person;
+}
+
+Perceiver::Perceiver(const Laboratory& laboratory, const Person& person,
+                     std::uint64_t session_seed)
+    : laboratory_(laboratory), person_(person), seed_(session_seed) {}
+
+double Perceiver::reading_ln(double felt_damping_n_s_per_m, const Moment& moment) const {
+  const Laboratory::Perceiver& p = laboratory_.perceiver;
+  const auto trial = static_cast<double>(moment.trial_in_block - 1);
+  const double learning = 1.0 + p.learning_ratio * std::exp(-trial / p.learning_trials);
+  const double fatigue = 1.0 + p.fatigue_ratio_per_trial * trial;
+  const double sd =
+      std::log1p(person_.weber_fraction) / std::numbers::sqrt2 * learning * fatigue;
+  RandomStream stream(seed_, "reading", {moment.trial, moment.attempt, moment.presentation});
+  return std::log(std::max(felt_damping_n_s_per_m, 1e-6)) + sd * unit_noise(p.noise, stream);
+}
+
+bool Perceiver::lapses(const Moment& moment) const {
+  return RandomStream(seed_, "lapse", {moment.trial, moment.attempt})
+      .with_probability(2.0 * laboratory_.perceiver.lapse_rate);
+}
+
+bool Perceiver::says_thicker(double test_ln, double reference_ln, const Moment& moment) const {
+  // A lapse is a guess, so half of them happen to be right: the curve ends at lapse_rate.
+  if (lapses(moment)) {
+    return RandomStream(seed_, "guess", {moment.trial, moment.attempt}).with_probability(0.5);
+  }
+  const double criterion =
+      person_.criterion_ln +
+      person_.criterion_drift_per_trial_ln * static_cast<double>(moment.trial_in_block - 1);
+  return test_ln - reference_ln > criterion;
+}
+
+double Perceiver::magnitude_ln(double reading_ln) const {
+  const double excess =
+      std::exp(reading_ln) - laboratory_.device.mechanical_viscosity_n_s_per_m;
+  if (!(excess > 0.0)) return -INFINITY;
+  return std::log(person_.unit) +
+         person_.exponent * std::log(excess / laboratory_.perceiver.standard_damping_n_s_per_m);
+}
+
+double Perceiver::centre_ln() const {
+  return std::log(person_.unit) +
+         person_.exponent * std::log(laboratory_.perceiver.centre_ratio);
+}
+
+double Perceiver::estimate_percent(double reading_ln, const Moment& moment,
+                                   std::optional<double> previous_percent) const {
+  if (lapses(moment)) {
+    RandomStream stream(seed_, "guess", {moment.trial, moment.attempt});
+    return rounded_percent(100.0 * std::exp(centre_ln() + stream.normal()));
+  }
+  const double felt_ln = magnitude_ln(reading_ln);
+  if (!std::isfinite(felt_ln)) return 0.0;
+  double answer_ln = person_.shrink * felt_ln + (1.0 - person_.shrink) * centre_ln();
+  if (previous_percent && *previous_percent > 0.0) {
+    answer_ln += laboratory_.perceiver.assimilation_ratio *
+                 (std::log(*previous_percent / 100.0) - answer_ln);
+  }
+  return rounded_percent(100.0 * std::exp(answer_ln));
+}
+
+Perceiver::Wish Perceiver::wish(double reading_ln, double first_reading_ln,
+                                double target_percent, const Moment&) const {
+  const Laboratory::Perceiver& p = laboratory_.perceiver;
+  double aim_ln =
+      person_.shrink * std::log(target_percent / 100.0) + (1.0 - person_.shrink) * centre_ln();
+  const double felt_ln = magnitude_ln(reading_ln);
+  const double start_ln = magnitude_ln(first_reading_ln);
+  if (std::isfinite(start_ln)) aim_ln += p.anchor_ratio * (start_ln - aim_ln);
+  const double difference_ln = felt_ln - aim_ln;
+  if (std::abs(difference_ln) <= p.match_tolerance_ln) return Wish::kMatches;
+  if (difference_ln < 0.0) {
+    return difference_ln < -p.coarse_step_ln ? Wish::kRaiseCoarse : Wish::kRaiseFine;
+  }
+  return difference_ln > p.coarse_step_ln ? Wish::kLowerCoarse : Wish::kLowerFine;
+}
+
+bool Perceiver::looks_again(const Moment& moment) const {
+  return RandomStream(seed_, "look", {moment.trial, moment.attempt, moment.presentation})
+      .with_probability(laboratory_.perceiver.look_again_probability);
+}
+
+}  // namespace jnd::experiments

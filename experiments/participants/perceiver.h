@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "experiments/participants/laboratory.h"
+
+namespace jnd::experiments {
+
+/// One simulated person, drawn from a laboratory's population.
+struct Person {
+  double weber_fraction = 0.0;
+  double criterion_ln = 0.0;
+  double criterion_drift_per_trial_ln = 0.0;
+  double exponent = 1.0;
+  double unit = 1.0;
+  double shrink = 1.0;
+  double body_height_m = 0.0;
+  double hand_height_m = 0.0;  ///< Above the floor.
+  bool right_handed = true;
+  int age_years = 0;
+  double amplitude_score = 0.0;  ///< Own stroke width, in sd of the population.
+  double max_speed_m_per_s = 0.0;
+};
+
+/// The person that this session's seed stands for.
+[[nodiscard]] Person draw_person(const Laboratory& laboratory, std::uint64_t session_seed);
+
+/// Where in the session something is felt: keys the random numbers, so that a resumed session
+/// equals an uninterrupted one.
+struct Moment {
+  std::int64_t trial = 0;  ///< Running number in the session.
+  std::int64_t attempt = 1;
+  std::int64_t presentation = 1;
+  std::int64_t trial_in_block = 1;  ///< From 1, for learning and fatigue.
+};
+
+/// From felt viscosity to answers, the same person in every procedure.
+///
+/// A presentation is read as ln(felt total damping) with noise of sd ln(1 + w0) / sqrt 2; felt
+/// is what the hand was put through: rendered force and mechanical viscosity. "Thicker" is said
+/// where test minus reference exceeds the person's criterion, so that two total dampings that
+/// differ by the factor 1 + w0 are told apart with 84 %. A magnitude is
+///     unit ((felt - free space) / standard)^exponent,  clipped at 0,
+/// shrunk in ln toward that of the range's centre: answers in estimation, targets in
+/// production.
+class Perceiver {
+ public:
+  Perceiver(const Laboratory& laboratory, const Person& person, std::uint64_t session_seed);
+
+  /// Noisy ln of the felt damping; `felt_damping_n_s_per_m` > 0.
+  [[nodiscard]] double reading_ln(double felt_damping_n_s_per_m, const Moment& moment) const;
+
+  /// Answer to "is the test thicker", from the mean readings of all looks.
+  [[nodiscard]] bool says_thicker(double test_ln, double reference_ln,
+                                  const Moment& moment) const;
+
+  /// Percent of water, in the round numbers people use. `previous_percent` is the answer
+  /// before.
+  [[nodiscard]] double estimate_percent(double reading_ln, const Moment& moment,
+                                        std::optional<double> previous_percent) const;
+
+  enum class Wish { kMatches, kRaiseFine, kRaiseCoarse, kLowerFine, kLowerCoarse };
+
+  /// What the person signals in production. `first_reading_ln` is that of the starting value.
+  [[nodiscard]] Wish wish(double reading_ln, double first_reading_ln, double target_percent,
+                          const Moment& moment) const;
+
+  [[nodiscard]] bool looks_again(const Moment& moment) const;
+
+ private:
+  [[nodiscard]] double magnitude_ln(double reading_ln) const;
+  [[nodiscard]] double centre_ln() const;
+  [[nodiscard]] bool lapses(const Moment& moment) const;
+
+  const Laboratory& laboratory_;
+  Person person_;
+  std::uint64_t seed_;
+};
+
+}  // namespace jnd::experiments

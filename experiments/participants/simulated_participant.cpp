@@ -1,0 +1,77 @@
+#include "experiments/participants/simulated_participant.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "core/random_stream.h"
+
+namespace jnd::experiments {
+namespace {
+
+/// Fixed notation with two decimals, whatever the locale.
+std::string two_decimals(double value) {
+  char digits[32];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 2).ptr;
+  return {digits, end};
+}
+
+}  // namespace
+
+SimulatedParticipant::SimulatedParticipant(const Laboratory& laboratory,
+                                           std::uint64_t session_seed)
+    : laboratory_(laboratory),
+      seed_(session_seed),
+      person_(draw_person(laboratory, session_seed)),
+      perceiver_(laboratory, person_, session_seed) {}
+
+double SimulatedParticipant::home_height_m() const {
+  // The fluid has no bottom, but the hand has to be in it.
+  return std::min(person_.hand_height_m - laboratory_.movement.surface_height_m, -0.1);
+}
+
+StrokeIntent SimulatedParticipant::strokes(const std::string& procedure) const {
+  const Laboratory::Strokes& habit = laboratory_.strokes_for(procedure);
+  const double amplitude_m =
+      habit.amplitude_m * std::exp(habit.amplitude_sd_ln * person_.amplitude_score);
+  const double period_s = 2.0 * std::numbers::pi * amplitude_m / person_.max_speed_m_per_s;
+  return {.amplitude_m = amplitude_m,
+          .max_speed_m_per_s = person_.max_speed_m_per_s,
+          .height_m = home_height_m(),
+          .duration_s = habit.strokes_per_presentation * period_s};
+}
+
+std::string SimulatedParticipant::answer(const QuestionnaireItem& item) const {
+  core::RandomStream stream(seed_, "questionnaire/" + item.name);
+  if (item.name == "body_height_m") return two_decimals(person_.body_height_m);
+  if (item.name == "handedness") return person_.right_handed ? "right" : "left";
+  if (item.kind == "number") {
+    double value = person_.age_years;
+    if (item.minimum) value = std::max(value, *item.minimum);
+    if (item.maximum) value = std::min(value, *item.maximum);
+    return two_decimals(value);
+  }
+  if (item.kind == "choice") return item.options.at(stream.below(item.options.size())).value;
+  if (item.kind == "yes_no") return stream.with_probability(0.5) ? "yes" : "no";
+  if (item.kind == "yes_no_which") {
+    return stream.with_probability(0.5) ? "yes: a simulated answer" : "no";
+  }
+  if (item.kind == "scale") {
+    const auto third = static_cast<std::uint64_t>(std::max(1, item.num_steps / 3));
+    const auto from_good = static_cast<int>(stream.below(third));
+    return std::to_string(item.high_is_good ? item.num_steps - from_good : 1 + from_good);
+  }
+  return "a simulated answer";
+}
+
+std::string SimulatedParticipant::answer(const PostExperimentItem& item) const {
+  core::RandomStream stream(seed_, "post_experiment/" + item.name);
+  if (item.answer == "yes_no") return stream.with_probability(0.88) ? "yes" : "no";
+  std::string words = "simulated";
+  for (int word = 1; word < item.num_words; ++word) words += ", simulated";
+  return words;
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/participants/perceiver.h"
+#include "experiments/study/study.h"
+
+namespace jnd::experiments {
+
+/// How a person is about to stroke through one presentation.
+struct StrokeIntent {
+  double amplitude_m = 0.0;
+  double max_speed_m_per_s = 0.0;
+  double height_m = 0.0;  ///< Workspace frame: below the surface is negative.
+  double duration_s = 0.0;
+};
+
+/// A simulated person in a session: moves, feels, answers. Everything is a function of
+/// laboratory, session seed and what was felt in this trial, so a resumed session goes on as it
+/// would have.
+class SimulatedParticipant {
+ public:
+  /// The laboratory must outlive the participant.
+  SimulatedParticipant(const Laboratory& laboratory, std::uint64_t session_seed);
+
+  [[nodiscard]] const Person& person() const noexcept { return person_; }
+  [[nodiscard]] const Perceiver& perceiver() const noexcept { return perceiver_; }
+
+  /// Where the hand rests, workspace frame.
+  [[nodiscard]] double home_height_m() const;
+  /// For a presentation under this procedure; "" outside of any.
+  [[nodiscard]] StrokeIntent strokes(const std::string& procedure) const;
+
+  /// Answers to questions on paper.
+  [[nodiscard]] std::string answer(const QuestionnaireItem& item) const;
+  [[nodiscard]] std::string answer(const PostExperimentItem& item) const;
+
+ private:
+  const Laboratory& laboratory_;
+  std::uint64_t seed_;
+  Person person_;
+  Perceiver perceiver_;
+};
+
+}  // namespace jnd::experiments

@@ -1,0 +1,30 @@
+#include "experiments/procedures/constant_stimuli.h"
+
+#include "core/error.h"
+#include "experiments/procedures/repetitions.h"
+
+namespace jnd::experiments {
+
+TrialForm ConstantStimuli::form() const noexcept {
+  return {.answer = AnswerKind::kYesNo, .has_reference = true};
+}
+
+std::vector<PlannedTrial> ConstantStimuli::draw_next(const Block& block,
+                                                     const std::vector<AnsweredTrial>& answered,
+                                                     core::RandomStream& stream) const {
+  if (!answered.empty()) return {};
+  if (!block.reference_intensity) {
+    throw core::Error("constant_stimuli: expected a reference in the block, found none");
+  }
+  return shuffled_repetitions(
+      block.intensities, block.repetitions, stream, [&](int, double intensity) {
+        return PlannedTrial{.intensity = intensity,
+                            .reference_intensity = block.reference_intensity};
+      });
+}
+
+int ConstantStimuli::expected_trials(const Block& block) const noexcept {
+  return block.repetitions * static_cast<int>(block.intensities.size());
+}
+
+}  // namespace jnd::experiments

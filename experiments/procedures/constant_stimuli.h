@@ -1,0 +1,20 @@
+#pragma once
+
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// Method of constant stimuli with a reminder: the reference first, then the test, with free
+/// switching back, and a yes/no question about the test. Each repetition shows every test once
+/// in random order. (With the reference always first this is a reminder task, not 2AFC.)
+class ConstantStimuli final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }
+  [[nodiscard]] TrialForm form() const noexcept override;
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+}  // namespace jnd::experiments

@@ -1,0 +1,24 @@
+#include "experiments/procedures/magnitude_estimation.h"
+
+#include "experiments/procedures/repetitions.h"
+
+namespace jnd::experiments {
+
+TrialForm MagnitudeEstimation::form() const noexcept {
+  return {.answer = AnswerKind::kPercent};
+}
+
+std::vector<PlannedTrial> MagnitudeEstimation::draw_next(
+    const Block& block, const std::vector<AnsweredTrial>& answered,
+    core::RandomStream& stream) const {
+  if (!answered.empty()) return {};
+  return shuffled_repetitions(
+      block.intensities, block.repetitions, stream,
+      [](int, double intensity) { return PlannedTrial{.intensity = intensity}; });
+}
+
+int MagnitudeEstimation::expected_trials(const Block& block) const noexcept {
+  return block.repetitions * static_cast<int>(block.intensities.size());
+}
+
+}  // namespace jnd::experiments

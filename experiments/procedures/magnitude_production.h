@@ -1,0 +1,23 @@
+#pragma once
+
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// Magnitude production (Stevens 1957): the participant has the intensity raised and lowered,
+/// step by step, until it feels like the target. One repetition for each target, in the study's
+/// order; in it every starting value once, in random order. Steps may leave the range of
+/// starting values.
+class MagnitudeProduction final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override {
+    return "magnitude_production";
+  }
+  [[nodiscard]] TrialForm form() const noexcept override;
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+}  // namespace jnd::experiments

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/random_stream.h"
+#include "experiments/study/study.h"
+
+namespace jnd::experiments {
+
+/// One trial as it was drawn. Which fields are set depends on the procedure.
+struct PlannedTrial {
+  int repetition = 1;                         ///< From 1.
+  int position = 1;                           ///< Within the repetition, from 1.
+  std::optional<double> intensity;            ///< Of the test stimulus, unit of the quantity.
+  std::optional<double> reference_intensity;  ///< Unit of the quantity.
+  std::optional<double> starting_intensity;   ///< Production.
+  std::optional<double> target_percent;       ///< Production.
+};
+
+/// A trial with its answer, as an adaptive procedure needs it.
+struct AnsweredTrial {
+  PlannedTrial planned;
+  double response = 0.0;
+};
+
+enum class AnswerKind {
+  kPercent,  ///< A number >= 0, water being 100.
+  kYesNo,    ///< 1 is yes, 0 is no.
+  kMatch,    ///< "It matches"; the answer is the intensity that was set.
+};
+
+/// What the experimenter can do in a trial of this procedure.
+struct TrialForm {
+  AnswerKind answer = AnswerKind::kPercent;
+  bool has_reference = false;  ///< The reference comes first; free switching back and forth.
+  bool adjustable = false;     ///< The intensity moves by steps until it matches.
+};
+
+/// How a block asks: which trials, in which order, answered how. Stateless: what was drawn and
+/// answered is passed in, and randomness comes from the stream, so a session can be replayed.
+class Procedure {
+ public:
+  virtual ~Procedure() = default;
+  [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+  [[nodiscard]] virtual TrialForm form() const noexcept = 0;
+  /// The trials to be run next, once all of `answered` are; none when the block is finished.
+  /// Throws `Error` if the block lacks what the procedure needs.
+  [[nodiscard]] virtual std::vector<PlannedTrial> draw_next(
+      const Block& block, const std::vector<AnsweredTrial>& answered,
+      core::RandomStream& stream) const = 0;
+  /// How many trials to expect, for progress and planning.
+  [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
+};
+
+}  // namespace jnd::experiments

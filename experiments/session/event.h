@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/storage/study_store.h"
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// Everything that can happen in a session, as data. A session is the list of its events; its
+/// state is what `apply` makes of them. Each event is one row, committed before it counts.
+
+struct SessionStarted {};
+
+struct StageEntered {
+  std::int64_t stage = 0;  ///< Index into the participant's own list of stages, from 0.
+};
+
+/// A checklist ticked, a consent given, a question answered.
+struct ItemAnswered {
+  std::int64_t stage = 0;
+  std::string stage_name;
+  std::string item;
+  std::string answer;
+};
+
+/// A medium explored outside of any trial.
+struct MediumExplored {
+  std::int64_t stage = 0;
+  std::string medium;
+  double intensity = 0.0;
+  std::int64_t first_tick = 0, last_tick = 0;
+};
+
+struct StageFinished {
+  std::int64_t stage = 0;
+};
+
+/// The order of trials, drawn once and stored. `first_trial` is the running number in the
+/// session.
+struct TrialsDrawn {
+  std::int64_t stage = 0;
+  std::int64_t first_trial = 1;
+  std::vector<PlannedTrial> trials;
+};
+
+struct TrialStarted {
+  std::int64_t trial = 0, attempt = 1;
+  std::int64_t first_tick = 0;
+};
+
+/// The medium was switched to a stimulus; from the tick on it is being felt.
+struct PresentationStarted {
+  std::int64_t trial = 0, attempt = 1, presentation = 1;
+  std::string interval;  ///< "test", "reference" or "free_space".
+  double intensity = 0.0;
+  std::int64_t first_tick = 0;
+};
+
+/// How the hand moved and what was delivered in one presentation.
+struct PresentationSummary {
+  std::optional<double> stroke_width_m, max_speed_m_per_s, mean_height_m;
+  std::int64_t num_strokes = 0;
+  std::optional<double> delivered_damping_n_s_per_m, commanded_damping_n_s_per_m;
+  std::int64_t limited_ticks = 0;
+};
+
+struct PresentationEnded {
+  std::int64_t trial = 0, attempt = 1, presentation = 1;
+  std::int64_t last_tick = 0;
+  PresentationSummary summary;
+};
+
+/// One step of a production; the new intensity is presented next.
+struct IntensityAdjusted {
+  std::int64_t trial = 0, attempt = 1;
+  double from_intensity = 0.0, to_intensity = 0.0;
+};
+
+struct TrialAnswered {
+  std::int64_t trial = 0, attempt = 1;
+  double response = 0.0;  ///< Percent; 1 or 0; the intensity set.
+  double response_time_s = 0.0;
+  std::int64_t last_tick = 0;
+};
+
+/// An answer taken back; the trial is run again as a new attempt.
+struct AnswerUndone {
+  std::int64_t trial = 0, attempt = 1;
+  std::int64_t answer_sequence = 0;
+  std::string reason;
+};
+
+/// An answer set right later, the presentations untouched.
+struct AnswerCorrected {
+  std::int64_t trial = 0, attempt = 1;
+  std::int64_t answer_sequence = 0;
+  double response = 0.0;
+  std::string reason;
+};
+
+/// An attempt without an answer given up: interrupted, or invalid. The trial is run again.
+struct AttemptDiscarded {
+  std::int64_t trial = 0, attempt = 1;
+  std::string reason;
+};
+
+struct TrialExcluded {
+  std::int64_t trial = 0;
+  std::string reason;
+};
+struct TrialIncluded {
+  std::int64_t trial = 0;
+  std::string reason;
+};
+
+struct NoteAdded {
+  std::string text;
+};
+struct Paused {
+  std::string reason;
+};
+struct Continued {};
+
+/// The loop latched a fault.
+struct FaultRaised {
+  std::string fault;
+};
+
+/// The session goes on after its program ended without ending the session.
+struct SessionResumed {
+  std::string choice;                                     ///< "repeat", "restart" or "end".
+  std::int64_t lost_first_tick = 0, lost_last_tick = -1;  ///< Recorded, but of no answer.
+};
+
+struct SessionEnded {
+  bool completed = false;
+  std::string reason;
+};
+
+using EventData =
+    std::variant<SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished,
+                 TrialsDrawn, TrialStarted, PresentationStarted, PresentationEnded,
+                 IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
+                 AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
+                 FaultRaised, SessionResumed, SessionEnded>;
+
+struct Event {
+  std::int64_t sequence = 0;  ///< 1, 2, 3 ...
+  std::int64_t time_ns = 0;
+  EventData data;
+};
+
+/// The word an event is stored under: "trial_answered".
+[[nodiscard]] std::string kind_of(const EventData& data);
+
+/// To and from its stored form. `event_from_row` throws `Error` naming session and sequence for
+/// an unknown kind or damaged data.
+[[nodiscard]] core::EventRow row_from_event(std::int64_t session, const Event& event);
+[[nodiscard]] Event event_from_row(const core::EventRow& row);
+
+}  // namespace jnd::experiments

@@ -1,0 +1,351 @@
+#include "experiments/session/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/random_stream.h"
+#include "experiments/procedures/procedure_registry.h"
+
+namespace jnd::experiments {
+namespace {
+
+[[noreturn]] void cannot(const std::string& act, const std::string& expected) {
+  throw core::Error("session: expected " + expected + " in order to " + act +
+                    ", found none; nothing was stored");
+}
+
+}  // namespace
+
+Session::Session(Parameters parameters, const std::vector<core::EventRow>& history,
+                 EventLog& log, const core::Clock& clock)
+    : parameters_(std::move(parameters)), log_(log), clock_(clock) {
+  for (const core::EventRow& row : history) apply(state_, event_from_row(row));
+}
+
+const Stage* Session::current_stage() const noexcept {
+  const auto index = static_cast<std::size_t>(state_.stage);
+  return index < parameters_.stages.size() ? parameters_.stages[index] : nullptr;
+}
+
+const Block& Session::current_block() const {
+  const Stage* stage = current_stage();
+  const Block* block = stage == nullptr ? nullptr : std::get_if<Block>(&stage->content);
+  if (block == nullptr) cannot("run a trial", "a block under way");
+  return *block;
+}
+
+TrialForm Session::current_form() const {
+  return procedure_named(current_block().procedure).form();
+}
+
+void Session::start() {
+  if (state_.started) cannot("start", "a session that has not begun");
+  commit(SessionStarted{});
+}
+
+void Session::enter_stage() {
+  const Stage* stage = current_stage();
+  if (stage == nullptr || state_.stage_open || state_.ended) cannot("go on", "a next stage");
+  commit(StageEntered{state_.stage});
+  if (std::holds_alternative<Block>(stage->content)) draw_trials();
+}
+
+void Session::draw_trials() {
+  const Stage& stage = *current_stage();
+  const Block& block = current_block();
+  const std::vector<AnsweredTrial> answered = state_.answered_in(state_.stage);
+  core::RandomStream stream(parameters_.seed, "order",
+                            {state_.stage, static_cast<std::int64_t>(answered.size())});
+  const std::vector<PlannedTrial> trials =
+      procedure_named(block.procedure).draw_next(block, answered, stream);
+  if (trials.empty()) return;
+  TrialsDrawn drawn{.stage = state_.stage,
+                    .first_trial = static_cast<std::int64_t>(state_.trials.size()) + 1,
+                    .trials = trials};
+  core::Commit rows;
+  std::int64_t number = drawn.first_trial;
+  for (const PlannedTrial& trial : trials) {
+    rows.design.push_back({.session = parameters_.session,
+                           .trial = number++,
+                           .stage = state_.stage,
+                           .block = stage.name,
+                           .procedure = block.procedure,
+                           .medium = block.medium,
+                           .quantity = block.quantity,
+                           .repetition = trial.repetition,
+                           .position = trial.position,
+                           .intensity = trial.intensity,
+                           .reference_intensity = trial.reference_intensity,
+                           .starting_intensity = trial.starting_intensity,
+                           .target_percent = trial.target_percent});
+  }
+  commit(std::move(drawn), std::move(rows));
+}
+
+void Session::answer_item(const std::string& item, const std::string& answer) {
+  const Stage* stage = current_stage();
+  if (stage == nullptr || !state_.stage_open) cannot("answer " + item, "a stage under way");
+  core::Commit rows;
+  rows.answers.push_back({.session = parameters_.session,
+                          .sequence = state_.last_sequence + 1,
+                          .stage = stage->name,
+                          .item = item,
+                          .answer = answer});
+  commit(ItemAnswered{state_.stage, stage->name, item, answer}, std::move(rows));
+}
+
+void Session::explored(const std::string& medium, double intensity, std::int64_t first_tick,
+                       std::int64_t last_tick) {
+  if (!state_.stage_open) cannot("explore a medium", "a stage under way");
+  commit(MediumExplored{state_.stage, medium, intensity, first_tick, last_tick});
+}
+
+void Session::finish_stage() {
+  if (!state_.stage_open) cannot("finish the stage", "a stage under way");
+  if (state_.current_trial()) cannot("finish the block", "an answer to every trial");
+  commit(StageFinished{state_.stage});
+}
+
+void Session::start_trial(std::int64_t tick) {
+  const std::optional<std::int64_t> trial = state_.current_trial();
+  if (!state_.stage_open || !trial || state_.trial(*trial).under_way) {
+    cannot("start a trial", "a trial that waits");
+  }
+  commit(TrialStarted{*trial, state_.trial(*trial).attempt + 1, tick});
+}
+
+std::int64_t Session::open_trial(const char* act) const {
+  const std::optional<std::int64_t> trial = state_.current_trial();
+  if (!trial || !state_.trial(*trial).under_way) cannot(act, "a trial under way");
+  return *trial;
+}
+
+double Session::intensity_of(const TrialState& trial, const std::string& interval) const {
+  if (interval == "free_space") return 0.0;
+  if (interval == "reference") {
+    if (!trial.planned.reference_intensity) cannot("present the reference", "a reference");
+    return *trial.planned.reference_intensity;
+  }
+  if (interval != "test") cannot("present " + interval, "test, reference or free_space");
+  return trial.planned.intensity.value_or(trial.set_intensity);
+}
+
+void Session::begin_presentation(const std::string& interval, std::int64_t tick) {
+  const std::int64_t number = open_trial("present a stimulus");
+  const TrialState& trial = state_.trial(number);
+  if (!trial.presentations.empty() && !trial.presentations.back().last_tick) {
+    cannot("present another stimulus", "an end of the presentation under way");
+  }
+  commit(PresentationStarted{
+      .trial = number,
+      .attempt = trial.attempt,
+      .presentation = static_cast<std::int64_t>(trial.presentations.size()) + 1,
+      .interval = interval,
+      .intensity = intensity_of(trial, interval),
+      .first_tick = tick});
+}
+
+void Session::end_presentation(std::int64_t last_tick, const PresentationSummary& summary) {
+  const std::int64_t number = open_trial("end a presentation");
+  const TrialState& trial = state_.trial(number);
+  if (trial.presentations.empty() || trial.presentations.back().last_tick) {
+    cannot("end a presentation", "a presentation under way");
+  }
+  const PresentationState& open = trial.presentations.back();
+  const auto presentation = static_cast<std::int64_t>(trial.presentations.size());
+  core::Commit rows;
+  rows.presentation =
+      core::PresentationRow{.session = parameters_.session,
+                            .trial = number,
+                            .attempt = trial.attempt,
+                            .presentation = presentation,
+                            .sequence = state_.last_sequence + 1,
+                            .interval = open.interval,
+                            .intensity = open.intensity,
+                            .first_tick = open.first_tick,
+                            .last_tick = last_tick,
+                            .stroke_width_m = summary.stroke_width_m,
+                            .max_speed_m_per_s = summary.max_speed_m_per_s,
+                            .mean_height_m = summary.mean_height_m,
+                            .num_strokes = summary.num_strokes,
+                            .delivered_damping_n_s_per_m = summary.delivered_damping_n_s_per_m,
+                            .commanded_damping_n_s_per_m = summary.commanded_damping_n_s_per_m,
+                            .limited_ticks = summary.limited_ticks};
+  commit(PresentationEnded{number, trial.attempt, presentation, last_tick, summary},
+         std::move(rows));
+}
+
+bool Session::adjust(Direction direction, StepSize size) {
+  const Block& block = current_block();
+  const std::int64_t number = open_trial("adjust the intensity");
+  const TrialState& trial = state_.trial(number);
+  if (!current_form().adjustable) cannot("adjust the intensity", "a production");
+  const double step = size == StepSize::kCoarse ? block.coarse_step : block.fine_step;
+  double target = trial.set_intensity + (direction == Direction::kRaise ? step : -step);
+  // Whole multiples of the fine step keep 0.1 + 0.2 from drifting; a start between two stays
+  // so.
+  const double start = trial.planned.starting_intensity.value_or(0.0);
+  target = start + std::round((target - start) / block.fine_step) * block.fine_step;
+  target = std::clamp(target, 0.0, block.max_intensity.value_or(target < 0.0 ? 0.0 : target));
+  if (target == trial.set_intensity) return false;
+  commit(IntensityAdjusted{number, trial.attempt, trial.set_intensity, target});
+  return true;
+}
+
+core::TrialRow Session::answered_row(std::int64_t number, double response) const {
+  const TrialState& trial = state_.trial(number);
+  const Stage& stage = *parameters_.stages.at(static_cast<std::size_t>(trial.stage));
+  const Block& block = std::get<Block>(stage.content);
+  const bool is_match = procedure_named(block.procedure).form().answer == AnswerKind::kMatch;
+  return {.session = parameters_.session,
+          .trial = number,
+          .attempt = trial.attempt,
+          .sequence = state_.last_sequence + 1,
+          .block = stage.name,
+          .procedure = block.procedure,
+          .medium = block.medium,
+          .quantity = block.quantity,
+          .repetition = trial.planned.repetition,
+          .position = trial.planned.position,
+          .intensity = is_match ? response : trial.planned.intensity,
+          .reference_intensity = trial.planned.reference_intensity,
+          .starting_intensity = trial.planned.starting_intensity,
+          .target_percent = trial.planned.target_percent,
+          .response = response,
+          .response_time_s = trial.response_time_s,
+          .num_presentations = static_cast<std::int64_t>(trial.presentations.size()),
+          .num_steps = trial.num_steps,
+          .first_tick = trial.first_tick,
+          .last_tick = trial.last_tick};
+}
+
+void Session::answer(double value, double response_time_s, std::int64_t last_tick) {
+  const std::int64_t number = open_trial("take an answer");
+  const TrialState& trial = state_.trial(number);
+  if (trial.presentations.empty() || !trial.presentations.back().last_tick) {
+    cannot("take an answer", "a finished presentation");
+  }
+  const AnswerKind kind = current_form().answer;
+  const double response = kind == AnswerKind::kMatch ? trial.set_intensity : value;
+  if (!std::isfinite(response) || response < 0.0 ||
+      (kind == AnswerKind::kYesNo && response != 0.0 && response != 1.0)) {
+    cannot("take an answer", "a percentage >= 0, or 1 or 0 for yes or no,");
+  }
+  core::Commit rows;
+  rows.trial = answered_row(number, response);
+  rows.trial->response_time_s = response_time_s;
+  rows.trial->last_tick = last_tick;
+  commit(TrialAnswered{number, trial.attempt, response, response_time_s, last_tick},
+         std::move(rows));
+  if (!state_.current_trial()) draw_trials();
+}
+
+void Session::discard_attempt(const std::string& reason) {
+  const std::int64_t number = open_trial("discard an attempt");
+  commit(AttemptDiscarded{number, state_.trial(number).attempt, reason});
+}
+
+void Session::undo(const std::string& reason) {
+  const std::optional<std::int64_t> last = state_.last_answered_trial();
+  if (!last || state_.trial(*last).stage != state_.stage) {
+    cannot("undo", "an answer in this block (correct an earlier one instead)");
+  }
+  if (const auto open = state_.current_trial(); open && state_.trial(*open).under_way) {
+    discard_attempt("undo of the answer before");
+  }
+  const TrialState& trial = state_.trial(*last);
+  commit(AnswerUndone{*last, trial.attempt, trial.answer_sequence, reason});
+}
+
+void Session::correct(std::int64_t number, double response, const std::string& reason) {
+  if (number < 1 || number > static_cast<std::int64_t>(state_.trials.size()) ||
+      !state_.trial(number).response) {
+    cannot("correct an answer", "an answered trial");
+  }
+  if (!(response >= 0.0) || !std::isfinite(response)) {
+    cannot("correct an answer", "a number >= 0");
+  }
+  const TrialState& trial = state_.trial(number);
+  core::Commit rows;
+  rows.trial = answered_row(number, response);
+  commit(AnswerCorrected{number, trial.attempt, trial.answer_sequence, response, reason},
+         std::move(rows));
+}
+
+void Session::restart_block(const std::string& reason) {
+  (void)current_block();
+  if (const auto open = state_.current_trial(); open && state_.trial(*open).under_way) {
+    discard_attempt(reason);
+  }
+  // The latest first, as if undone one by one.
+  for (auto number = static_cast<std::int64_t>(state_.trials.size()); number >= 1; --number) {
+    const TrialState& trial = state_.trial(number);
+    if (trial.stage == state_.stage && trial.response) {
+      commit(AnswerUndone{number, trial.attempt, trial.answer_sequence, reason});
+    }
+  }
+}
+
+void Session::exclude(std::int64_t trial, const std::string& reason) {
+  if (trial < 1 || trial > static_cast<std::int64_t>(state_.trials.size())) {
+    cannot("exclude trial " + std::to_string(trial), "a trial of this session");
+  }
+  commit(TrialExcluded{trial, reason});
+}
+
+void Session::include(std::int64_t trial, const std::string& reason) {
+  if (trial < 1 || trial > static_cast<std::int64_t>(state_.trials.size()) ||
+      !state_.trial(trial).excluded) {
+    cannot("include trial " + std::to_string(trial), "an excluded trial");
+  }
+  commit(TrialIncluded{trial, reason});
+}
+
+void Session::note(const std::string& text) { commit(NoteAdded{text}); }
+
+void Session::pause(const std::string& reason) { commit(Paused{reason}); }
+
+void Session::go_on() {
+  if (!state_.paused) cannot("go on", "a pause");
+  commit(Continued{});
+}
+
+void Session::fault(const std::string& words) { commit(FaultRaised{words}); }
+
+void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
+                     std::int64_t lost_last_tick) {
+  if (!state_.started || state_.ended) cannot("resume", "a session that was interrupted");
+  commit(SessionResumed{choice, lost_first_tick, lost_last_tick});
+  if (const auto open = state_.current_trial(); open && state_.trial(*open).under_way) {
+    discard_attempt("interrupted");
+  }
+  if (choice == "restart" && state_.stage_open && current_stage() != nullptr &&
+      std::holds_alternative<Block>(current_stage()->content)) {
+    restart_block("restarted after an interruption");
+  }
+  if (choice == "end") return end(false, "ended after an interruption");
+  // Interrupted between entering the block, or its last answer, and the draw that follows.
+  if (state_.stage_open && current_stage() != nullptr &&
+      std::holds_alternative<Block>(current_stage()->content) && !state_.current_trial()) {
+    draw_trials();
+  }
+}
+
+void Session::end(bool completed, const std::string& reason) {
+  if (state_.ended) cannot("end", "a session that goes on");
+  commit(SessionEnded{completed, reason});
+}
+
+void Session::commit(EventData data) { commit(std::move(data), core::Commit{}); }
+
+void Session::commit(EventData data, core::Commit rows) {
+  const Event event{.sequence = state_.last_sequence + 1,
+                    .time_ns = clock_.now_ns(),
+                    .data = std::move(data)};
+  rows.event = row_from_event(parameters_.session, event);
+  log_.append(rows);
+  apply(state_, event);
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/storage/study_store.h"
+#include "experiments/procedures/procedure.h"
+#include "experiments/session/session_state.h"
+#include "experiments/study/study.h"
+
+namespace jnd::experiments {
+
+/// Where a session puts its events. `append` returns once the commit is as safe as promised and
+/// throws `Error` if it is not; then the act did not happen.
+class EventLog {
+ public:
+  virtual ~EventLog() = default;
+  virtual void append(const core::Commit& commit) = 0;
+};
+
+enum class Direction { kRaise, kLower };
+enum class StepSize { kCoarse, kFine };
+
+/// One visit of one participant. Every act commits its event first and moves the state on
+/// after. An act that is not possible now throws `Error` and leaves everything as it was. Not
+/// real time.
+class Session {
+ public:
+  struct Parameters {
+    std::int64_t session = 0;
+    std::uint64_t seed = 0;
+    std::vector<const Stage*> stages;  ///< The participant's own, counterbalance resolved.
+  };
+
+  /// Replays `history`; empty for a new session. The references must outlive the session.
+  Session(Parameters parameters, const std::vector<core::EventRow>& history, EventLog& log,
+          const core::Clock& clock);
+
+  [[nodiscard]] const SessionState& state() const noexcept { return state_; }
+  [[nodiscard]] std::int64_t id() const noexcept { return parameters_.session; }
+  [[nodiscard]] std::uint64_t seed() const noexcept { return parameters_.seed; }
+  [[nodiscard]] const std::vector<const Stage*>& stages() const noexcept {
+    return parameters_.stages;
+  }
+  /// The stage under way or next; null after the last one.
+  [[nodiscard]] const Stage* current_stage() const noexcept;
+  /// Of the current stage; throws `Error` if it is no block.
+  [[nodiscard]] const Block& current_block() const;
+  [[nodiscard]] TrialForm current_form() const;
+
+  void start();
+  /// Entering a block draws its order.
+  void enter_stage();
+  void answer_item(const std::string& item, const std::string& answer);
+  void explored(const std::string& medium, double intensity, std::int64_t first_tick,
+                std::int64_t last_tick);
+  void finish_stage();
+
+  void start_trial(std::int64_t tick);
+  /// `interval`: "test", "reference" or "free_space". Ends the presentation under way, if any,
+  /// must have been ended before.
+  void begin_presentation(const std::string& interval, std::int64_t tick);
+  void end_presentation(std::int64_t last_tick, const PresentationSummary& summary);
+  /// Production: one step, beyond the range of starting values if need be, never below 0.
+  /// Returns false, and does nothing, where the intensity cannot go further.
+  bool adjust(Direction direction, StepSize size);
+  /// Percent, or 1 and 0; in production the set intensity is the answer and `value` is ignored.
+  void answer(double value, double response_time_s, std::int64_t last_tick);
+  void discard_attempt(const std::string& reason);
+
+  /// Takes the last answer of the current block back; its trial is run again.
+  void undo(const std::string& reason);
+  /// Sets an earlier answer right, its presentations untouched.
+  void correct(std::int64_t trial, double response, const std::string& reason);
+  /// All answers of the current block are taken back; the order stays.
+  void restart_block(const std::string& reason);
+  void exclude(std::int64_t trial, const std::string& reason);
+  void include(std::int64_t trial, const std::string& reason);
+
+  void note(const std::string& text);
+  void pause(const std::string& reason);
+  void go_on();
+  void fault(const std::string& words);
+  void resume(const std::string& choice, std::int64_t lost_first_tick,
+              std::int64_t lost_last_tick);
+  void end(bool completed, const std::string& reason);
+
+ private:
+  void commit(EventData data);
+  void commit(EventData data, core::Commit rows);
+  void draw_trials();
+  [[nodiscard]] std::int64_t open_trial(const char* act) const;
+  [[nodiscard]] double intensity_of(const TrialState& trial, const std::string& interval) const;
+  [[nodiscard]] core::TrialRow answered_row(std::int64_t trial, double response) const;
+
+  Parameters parameters_;
+  EventLog& log_;
+  const core::Clock& clock_;
+  SessionState state_;
+};
+
+}  // namespace jnd::experiments

@@ -1,0 +1,159 @@
+#include "experiments/session/session_state.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace jnd::experiments {
+namespace {
+
+struct Fold {
+  SessionState& state;
+  const Event& event;
+
+  void operator()(const SessionStarted&) const { state.started = true; }
+  void operator()(const StageEntered& e) const {
+    state.stage = e.stage;
+    state.stage_open = true;
+  }
+  void operator()(const ItemAnswered& e) const { state.answers[{e.stage, e.item}] = e.answer; }
+  void operator()(const MediumExplored& e) const { saw_tick(e.last_tick); }
+  void operator()(const StageFinished& e) const {
+    state.stage = e.stage + 1;
+    state.stage_open = false;
+  }
+  void operator()(const TrialsDrawn& e) const {
+    if (e.first_trial != static_cast<std::int64_t>(state.trials.size()) + 1) {
+      damaged("trials drawn in sequence");
+    }
+    for (const PlannedTrial& planned : e.trials) {
+      state.trials.push_back({.stage = e.stage, .planned = planned});
+    }
+  }
+  void operator()(const TrialStarted& e) const {
+    TrialState& trial = of(e.trial);
+    trial.attempt = e.attempt;
+    trial.under_way = true;
+    trial.first_tick = e.first_tick;
+    trial.last_tick = e.first_tick;
+    trial.presentations.clear();
+    trial.set_intensity = trial.planned.starting_intensity.value_or(0.0);
+    trial.num_steps = 0;
+    trial.response.reset();
+    saw_tick(e.first_tick);
+  }
+  void operator()(const PresentationStarted& e) const {
+    of(e.trial).presentations.push_back({.interval = e.interval,
+                                         .intensity = e.intensity,
+                                         .first_tick = e.first_tick,
+                                         .started_time_ns = event.time_ns});
+    saw_tick(e.first_tick);
+  }
+  void operator()(const PresentationEnded& e) const {
+    TrialState& trial = of(e.trial);
+    if (trial.presentations.empty()) damaged("a presentation to end");
+    trial.presentations.back().last_tick = e.last_tick;
+    trial.last_tick = e.last_tick;
+    saw_tick(e.last_tick);
+  }
+  void operator()(const IntensityAdjusted& e) const {
+    TrialState& trial = of(e.trial);
+    trial.set_intensity = e.to_intensity;
+    ++trial.num_steps;
+  }
+  void operator()(const TrialAnswered& e) const {
+    TrialState& trial = of(e.trial);
+    trial.under_way = false;
+    trial.response = e.response;
+    trial.response_time_s = e.response_time_s;
+    trial.answer_sequence = event.sequence;
+    trial.last_tick = e.last_tick;
+    saw_tick(e.last_tick);
+  }
+  void operator()(const AnswerUndone& e) const {
+    TrialState& trial = of(e.trial);
+    trial.response.reset();
+    trial.under_way = false;
+  }
+  void operator()(const AnswerCorrected& e) const {
+    TrialState& trial = of(e.trial);
+    trial.response = e.response;
+    trial.answer_sequence = event.sequence;
+  }
+  void operator()(const AttemptDiscarded& e) const {
+    of(e.trial).under_way = false;
+    of(e.trial).response.reset();
+  }
+  void operator()(const TrialExcluded& e) const { of(e.trial).excluded = true; }
+  void operator()(const TrialIncluded& e) const { of(e.trial).excluded = false; }
+  void operator()(const NoteAdded& e) const { state.notes.push_back(e.text); }
+  void operator()(const Paused&) const { state.paused = true; }
+  void operator()(const Continued&) const { state.paused = false; }
+  void operator()(const FaultRaised&) const { state.paused = true; }
+  void operator()(const SessionResumed& e) const {
+    state.paused = false;
+    saw_tick(e.lost_last_tick);
+  }
+  void operator()(const SessionEnded& e) const {
+    state.ended = true;
+    state.completed = e.completed;
+  }
+
+ private:
+  [[nodiscard]] TrialState& of(std::int64_t trial) const {
+    if (trial < 1 || trial > static_cast<std::int64_t>(state.trials.size())) {
+      damaged("a trial that was drawn");
+    }
+    return state.trials[trial - 1];
+  }
+  void saw_tick(std::int64_t tick) const { state.last_tick = std::max(state.last_tick, tick); }
+  [[noreturn]] void damaged(const char* expected) const {
+    throw core::Error("event " + std::to_string(event.sequence) + ": expected " + expected +
+                      ", found " + kind_of(event.data) + "; the log is damaged");
+  }
+};
+
+}  // namespace
+
+std::optional<std::int64_t> SessionState::current_trial() const {
+  for (std::size_t index = 0; index < trials.size(); ++index) {
+    if (trials[index].stage == stage && !trials[index].response) {
+      return static_cast<std::int64_t>(index) + 1;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> SessionState::last_answered_trial() const {
+  std::optional<std::int64_t> last;
+  std::int64_t latest_sequence = 0;
+  for (std::size_t index = 0; index < trials.size(); ++index) {
+    if (trials[index].response && trials[index].answer_sequence > latest_sequence) {
+      latest_sequence = trials[index].answer_sequence;
+      last = static_cast<std::int64_t>(index) + 1;
+    }
+  }
+  return last;
+}
+
+std::vector<AnsweredTrial> SessionState::answered_in(std::int64_t of_stage) const {
+  std::vector<AnsweredTrial> answered;
+  for (const TrialState& trial : trials) {
+    if (trial.stage == of_stage && trial.response) {
+      answered.push_back({.planned = trial.planned, .response = *trial.response});
+    }
+  }
+  return answered;
+}
+
+void apply(SessionState& state, const Event& event) {
+  if (event.sequence != state.last_sequence + 1) {
+    throw core::Error("event " + std::to_string(event.sequence) + ": expected event " +
+                      std::to_string(state.last_sequence + 1) + "; the log is damaged");
+  }
+  std::visit(Fold{state, event}, event.data);
+  state.last_sequence = event.sequence;
+  state.last_time_ns = event.time_ns;
+}
+
+}  // namespace jnd::experiments

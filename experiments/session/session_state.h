@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/session/event.h"
+
+namespace jnd::experiments {
+
+struct PresentationState {
+  std::string interval;
+  double intensity = 0.0;
+  std::int64_t first_tick = 0;
+  std::int64_t started_time_ns = 0;
+  std::optional<std::int64_t> last_tick;  ///< Unset while it is being felt.
+};
+
+struct TrialState {
+  std::int64_t stage = 0;
+  PlannedTrial planned;
+  std::int64_t attempt = 0;  ///< 0 before the first start.
+  bool under_way = false;    ///< Started and neither answered nor discarded.
+  std::int64_t first_tick = 0, last_tick = 0;
+  std::vector<PresentationState> presentations;  ///< Of this attempt.
+  double set_intensity = 0.0;                    ///< Production: where the steps have come to.
+  std::int64_t num_steps = 0;
+  std::optional<double> response;
+  std::int64_t answer_sequence = 0;  ///< Of the event that holds the answer.
+  double response_time_s = 0.0;
+  bool excluded = false;
+};
+
+/// What a session has come to: the fold of its events. Never changed by anything but `apply`.
+struct SessionState {
+  bool started = false;
+  bool ended = false;
+  bool completed = false;
+  bool paused = false;
+  std::int64_t stage = 0;          ///< The stage under way, or the next one.
+  bool stage_open = false;         ///< Entered and not finished.
+  std::vector<TrialState> trials;  ///< Trial number n is at n - 1.
+  /// Last answer to (stage, item).
+  std::map<std::pair<std::int64_t, std::string>, std::string> answers;
+  std::vector<std::string> notes;
+  std::int64_t last_sequence = 0;
+  std::int64_t last_time_ns = 0;
+  std::int64_t last_tick = -1;  ///< The last tick that any event speaks of.
+
+  [[nodiscard]] const TrialState& trial(std::int64_t number) const {
+    return trials.at(number - 1);
+  }
+  /// The trial to be run in this stage: the first without an answer. None when all have one.
+  [[nodiscard]] std::optional<std::int64_t> current_trial() const;
+  /// The last answered trial, in any stage.
+  [[nodiscard]] std::optional<std::int64_t> last_answered_trial() const;
+  /// The trials of a stage with their answers, in the order they were drawn.
+  [[nodiscard]] std::vector<AnsweredTrial> answered_in(std::int64_t of_stage) const;
+};
+
+/// Moves the state on by one event. Draws nothing, asks nothing, so a replay gives the same
+/// state. Throws `Error` if the event cannot follow, which means that the log is damaged.
+void apply(SessionState& state, const Event& event);
+
+}  // namespace jnd::experiments

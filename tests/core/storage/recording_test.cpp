@@ -1,0 +1,97 @@
+#include "core/storage/recording.h"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+Sample at(std::int64_t tick) {
+  Sample sample;
+  sample.tick = tick;
+  sample.tip_position_m[0][0] = 1e-4 * static_cast<double>(tick);
+  return sample;
+}
+
+std::vector<std::int64_t> ticks_in(const fs::path& file, std::int64_t first,
+                                   std::int64_t last) {
+  std::vector<std::int64_t> ticks;
+  RecordingReader(file).read(first, last, [&](const Sample& s) { ticks.push_back(s.tick); });
+  return ticks;
+}
+
+TEST(Recording, ReadsBackExactlyTheTicksAskedFor) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  {
+    RecordingWriter writer(file, 1000.0);
+    for (std::int64_t tick = 0; tick < 10000; ++tick) writer.append(at(tick));
+    writer.flush();
+  }
+  const std::vector<std::int64_t> ticks = ticks_in(file, 4000, 4200);
+  ASSERT_EQ(ticks.size(), 201U);
+  EXPECT_EQ(ticks.front(), 4000);
+  EXPECT_EQ(ticks.back(), 4200);
+  EXPECT_EQ(ticks_in(file, 0, 1 << 20).size(), 10000U);
+}
+
+TEST(Recording, IsForItsOwnerOnly) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  const RecordingWriter writer(file, 1000.0);
+  EXPECT_EQ(fs::status(file).permissions() & fs::perms::all,
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(Recording, GoesOnInANewSegmentWhenReopened) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  for (const std::int64_t start : {0, 50}) {
+    RecordingWriter writer(file, 1000.0);
+    for (std::int64_t tick = start; tick < start + 10; ++tick) writer.append(at(tick));
+  }
+  const std::vector<RecordingChunk> chunks = RecordingReader(file).chunks();
+  ASSERT_EQ(chunks.size(), 2U);
+  EXPECT_EQ(chunks[0].segment, 1);
+  EXPECT_EQ(chunks[1].segment, 2);
+  EXPECT_EQ(chunks[1].first_tick, 50);
+  EXPECT_EQ(ticks_in(file, 0, 100).size(), 20U);
+}
+
+TEST(Recording, TellsADamagedChunkFromAnIntactOne) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  {
+    RecordingWriter writer(file, 1000.0);
+    for (std::int64_t tick = 0; tick < 9000; ++tick) writer.append(at(tick));
+  }
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(database,
+                   "UPDATE chunk SET data = zeroblob(length(data)) WHERE first_tick = 4096",
+                   nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(database);
+  const RecordingReader reader(file);
+  const std::vector<RecordingChunk> chunks = reader.chunks();
+  ASSERT_EQ(chunks.size(), 3U);
+  EXPECT_TRUE(chunks[0].intact);
+  EXPECT_FALSE(chunks[1].intact);
+  EXPECT_TRUE(chunks[2].intact);
+  EXPECT_THROW(reader.read(0, 9000, [](const Sample&) {}), Error);
+}
+
+TEST(Recording, RefusesAMissingFile) {
+  EXPECT_THROW(RecordingReader("/nonexistent/0001.sqlite"), Error);
+}
+
+}  // namespace
+}  // namespace jnd::core

@@ -1,0 +1,102 @@
+#include "core/storage/sample_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/random_stream.h"
+
+namespace jnd::core {
+namespace {
+
+/// A hand that sweeps back and forth in a viscous fluid.
+std::vector<Sample> sweep(int num_samples, std::int64_t first_tick) {
+  std::vector<Sample> samples;
+  for (int i = 0; i < num_samples; ++i) {
+    const double t = 0.001 * i;
+    Sample sample;
+    sample.tick = first_tick + i;
+    sample.command_sequence = 7;
+    sample.attached_bits = 0b11111;
+    sample.immersed_bits = 0b11011;
+    for (int point = 0; point < kNumContactPoints; ++point) {
+      sample.tip_position_m[point] = {0.13 * std::sin(3.4 * t) + 0.0123 * point, 0.01 * t,
+                                      -0.4 + 0.02 * std::cos(3.4 * t)};
+      sample.tip_velocity_m_per_s[point] = {0.442 * std::cos(3.4 * t), 0.01,
+                                            -0.068 * std::sin(3.4 * t)};
+      sample.tip_force_n[point] = {-3.3 * kAreaShareRatio[point] * std::cos(3.4 * t), -0.001,
+                                   0.2 * std::sin(3.4 * t)};
+    }
+    sample.end_effector_position_m = {0.13 * std::sin(3.4 * t), 0.01 * t - 0.1, -0.3};
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+void expect_near(const Sample& found, const Sample& expected) {
+  ASSERT_EQ(found.tick, expected.tick);
+  EXPECT_EQ(found.command_sequence, expected.command_sequence);
+  EXPECT_EQ(found.attached_bits, expected.attached_bits);
+  EXPECT_EQ(found.immersed_bits, expected.immersed_bits);
+  for (int point = 0; point < kNumContactPoints; ++point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(found.tip_position_m[point][axis], expected.tip_position_m[point][axis],
+                  0.501 * kPositionUnitM);
+      EXPECT_NEAR(found.tip_velocity_m_per_s[point][axis],
+                  expected.tip_velocity_m_per_s[point][axis], 0.501 * kVelocityUnitMPerS);
+      EXPECT_NEAR(found.tip_force_n[point][axis], expected.tip_force_n[point][axis],
+                  0.501 * kForceUnitN);
+    }
+  }
+}
+
+TEST(SampleCodec, BringsEveryValueBackToHalfAUnit) {
+  for (const int length : {1, 2, 3, 1000}) {
+    const std::vector<Sample> samples = sweep(length, 500);
+    const std::vector<Sample> found =
+        decode_samples(encode_samples(samples), 500, length, "test");
+    ASSERT_EQ(found.size(), samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) expect_near(found[i], samples[i]);
+  }
+}
+
+TEST(SampleCodec, NeedsAtMostFifteenBytesForASampleOfASmoothSweep) {
+  const std::vector<Sample> samples = sweep(4096, 0);
+  EXPECT_LE(static_cast<double>(encode_samples(samples).size()) / 4096.0, 15.0);
+}
+
+TEST(SampleCodec, KeepsWhatIsNotANumberAndClampsWhatIsTooLarge) {
+  std::vector<Sample> samples = sweep(5, 0);
+  samples[2].tip_force_n[1][0] = std::numeric_limits<double>::quiet_NaN();
+  samples[3].tip_force_n[1][0] = std::numeric_limits<double>::infinity();
+  samples[3].tip_position_m[0][2] = -1e12;
+  const std::vector<Sample> found = decode_samples(encode_samples(samples), 0, 5, "test");
+  EXPECT_TRUE(std::isnan(found[2].tip_force_n[1][0]));
+  EXPECT_DOUBLE_EQ(found[3].tip_force_n[1][0], 2147483.647);
+  EXPECT_DOUBLE_EQ(found[3].tip_position_m[0][2], -214.7483647);
+  expect_near(found[4], samples[4]);
+}
+
+TEST(SampleCodec, RefusesDamagedBytesInsteadOfInventingSamples) {
+  const std::string bytes = encode_samples(sweep(100, 0));
+  EXPECT_THROW((void)decode_samples(bytes.substr(0, bytes.size() / 2), 0, 100, "test"), Error);
+  EXPECT_THROW((void)decode_samples(bytes, 0, 99, "test"), Error);
+  EXPECT_THROW((void)decode_samples("not zstd at all", 0, 100, "test"), Error);
+  EXPECT_THROW((void)decode_samples("", 0, 100, "test"), Error);
+  RandomStream stream(1, "damage");
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    std::string damaged = bytes;
+    damaged[stream.below(damaged.size())] ^= static_cast<char>(1 + stream.below(255));
+    try {
+      EXPECT_EQ(decode_samples(damaged, 0, 100, "test").size(), 100U);
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "test: expected a chunk of samples, found damaged bytes");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace jnd::core

@@ -1,0 +1,53 @@
+#include "core/storage/storage_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+
+namespace jnd::core {
+namespace {
+
+Sample at(std::int64_t tick) {
+  Sample sample;
+  sample.tick = tick;
+  return sample;
+}
+
+TEST(StorageThread, TakesEverySampleUpToTheTickBeforeTheWork) {
+  SpscQueue<Sample> samples(1024);
+  std::int64_t last_seen = -1;
+  StorageThread storage(samples, {.visit = [&](const Sample& s) { last_seen = s.tick; }});
+  for (std::int64_t tick = 0; tick < 500; ++tick) ASSERT_TRUE(samples.try_push(at(tick)));
+  std::int64_t seen_at_work = -1;
+  storage.after(499, [&] { seen_at_work = last_seen; });
+  EXPECT_EQ(seen_at_work, 499);
+}
+
+TEST(StorageThread, DoesNotWaitForEverForATickThatNeverComes) {
+  SpscQueue<Sample> samples(16);
+  StorageThread storage(samples, {});
+  bool done = false;
+  storage.after(1000000, [&] { done = true; });
+  EXPECT_TRUE(done);
+}
+
+TEST(StorageThread, ThrowsFromTheNextCallWhatAWriteThrew) {
+  SpscQueue<Sample> samples(16);
+  StorageThread storage(
+      samples, {.visit = [](const Sample&) { throw std::runtime_error("disk full"); }});
+  ASSERT_TRUE(samples.try_push(at(0)));
+  EXPECT_THROW(storage.after(0, [] {}), std::runtime_error);
+}
+
+TEST(StorageThread, ThrowsWhatTheWorkThrewAndGoesOn) {
+  SpscQueue<Sample> samples(16);
+  StorageThread storage(samples, {});
+  EXPECT_THROW(storage.after(-1, [] { throw std::runtime_error("no"); }), std::runtime_error);
+  bool done = false;
+  storage.after(-1, [&] { done = true; });
+  EXPECT_TRUE(done);
+}
+
+}  // namespace
+}  // namespace jnd::core

@@ -1,0 +1,189 @@
+#include "core/storage/study_store.h"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <fstream>
+
+#include "support/temporary_folder.h"
+
+namespace jnd::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StudyStoreTest : public ::testing::Test {
+ protected:
+  fs::path folder() const { return temporary_.path() / "water.study"; }
+
+  /// A store with one session, ready for events.
+  std::unique_ptr<StudyStore> with_session() const {
+    auto store = std::make_unique<StudyStore>(folder(), StudyStore::Mode::kCreate);
+    const std::string hash = store->add_protocol("water.json", "{}");
+    EXPECT_EQ(
+        store->add_session({.participant = "P01", .protocol_sha256 = hash, .seed = ~0ULL}), 1);
+    return store;
+  }
+
+  static Commit event(std::int64_t sequence, const std::string& kind = "note_added") {
+    return {.event = {.session = 1, .sequence = sequence, .kind = kind}};
+  }
+
+  static Commit answered(std::int64_t sequence, std::int64_t trial, double response) {
+    Commit commit = event(sequence, "trial_answered");
+    commit.event.trial = trial;
+    commit.trial = TrialRow{.session = 1,
+                            .trial = trial,
+                            .attempt = 1,
+                            .sequence = sequence,
+                            .block = "group_d",
+                            .procedure = "constant_stimuli",
+                            .response = response};
+    return commit;
+  }
+
+ private:
+  test_support::TemporaryFolder temporary_;
+};
+
+TEST_F(StudyStoreTest, KeepsEventsAcrossReopeningColumnByColumn) {
+  {
+    const auto store = with_session();
+    Commit commit = event(1, "presentation_started");
+    commit.event.time_ns = 123456789012345;
+    commit.event.stage = 3;
+    commit.event.trial = 5;
+    commit.event.attempt = 2;
+    commit.event.first_tick = 777;
+    commit.event.intensity = 0.1;
+    commit.event.data = R"({"interval":"test"})";
+    store->append(commit);
+  }
+  const StudyStore store(folder(), StudyStore::Mode::kReadOnly);
+  const std::vector<EventRow> events = store.events(1);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, "presentation_started");
+  EXPECT_EQ(events[0].time_ns, 123456789012345);
+  EXPECT_EQ(events[0].stage, 3);
+  EXPECT_EQ(events[0].trial, 5);
+  EXPECT_EQ(events[0].attempt, 2);
+  EXPECT_EQ(events[0].first_tick, 777);
+  EXPECT_EQ(events[0].last_tick, std::nullopt);
+  EXPECT_EQ(events[0].intensity, 0.1);
+  EXPECT_EQ(events[0].data, R"({"interval":"test"})");
+  ASSERT_EQ(store.sessions().size(), 1U);
+  EXPECT_EQ(store.sessions()[0].seed, ~0ULL);
+}
+
+TEST_F(StudyStoreTest, TakesAnEventAndItsRowsTogetherOrNotAtAll) {
+  const auto store = with_session();
+  Commit commit = answered(1, 1, 1.0);
+  commit.answers = {
+      {.session = 1, .sequence = 1, .stage = "s", .item = "i", .answer = "a"},
+      {.session = 1, .sequence = 1, .stage = "s", .item = "i", .answer = "twice"}};
+  EXPECT_THROW(store->append(commit), Error);
+  EXPECT_TRUE(store->events(1).empty());
+  EXPECT_TRUE(store->trials(1).empty());
+  store->append(answered(1, 1, 1.0));
+  EXPECT_EQ(store->trials(1).size(), 1U);
+}
+
+TEST_F(StudyStoreTest, RefusesAGapOrARepetitionInTheSequence) {
+  const auto store = with_session();
+  store->append(event(1));
+  EXPECT_THROW(store->append(event(1)), Error);
+  EXPECT_THROW(store->append(event(3)), Error);
+  store->append(event(2));
+  EXPECT_EQ(store->events(1).size(), 2U);
+}
+
+TEST_F(StudyStoreTest, LeavesASupersededAnswerInPlaceButOutOfForce) {
+  const auto store = with_session();
+  store->append(answered(1, 1, 1.0));
+  store->append(answered(2, 2, 0.0));
+  Commit undone = event(3, "answer_undone");
+  undone.event.supersedes = 1;
+  store->append(undone);
+  const std::vector<TrialRow> trials = store->trials(1);
+  ASSERT_EQ(trials.size(), 1U);
+  EXPECT_EQ(trials[0].trial, 2);
+  EXPECT_EQ(store->events(1).size(), 3U);
+}
+
+TEST_F(StudyStoreTest, SetsATrialAsideAndTakesItBack) {
+  const auto store = with_session();
+  store->append(answered(1, 1, 1.0));
+  Commit excluded = event(2, "trial_excluded");
+  excluded.event.trial = 1;
+  store->append(excluded);
+  EXPECT_TRUE(store->trials(1).empty());
+  EXPECT_EQ(store->trials(1, /*include_excluded=*/true).size(), 1U);
+  Commit included = event(3, "trial_included");
+  included.event.trial = 1;
+  store->append(included);
+  EXPECT_EQ(store->trials(1).size(), 1U);
+}
+
+TEST_F(StudyStoreTest, NeverChangesOrDeletesAnEventOrATrial) {
+  with_session()->append(answered(1, 1, 1.0));
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder() / "study.sqlite").c_str(), &database), SQLITE_OK);
+  for (const char* sql : {"UPDATE event SET kind = 'x'", "DELETE FROM event",
+                          "UPDATE trial SET response = 0", "DELETE FROM trial"}) {
+    EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_CONSTRAINT) << sql;
+  }
+  sqlite3_close(database);
+}
+
+TEST_F(StudyStoreTest, RefusesASecondWriterAndNamesTheReason) {
+  const auto store = with_session();
+  try {
+    const StudyStore second(folder(), StudyStore::Mode::kReadWrite);
+    FAIL() << "two writers at once";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("found another one at work"), std::string::npos);
+  }
+  const StudyStore reader(folder(), StudyStore::Mode::kReadOnly);
+  EXPECT_EQ(reader.sessions().size(), 1U);
+}
+
+TEST_F(StudyStoreTest, RefusesAFormatNewerThanItself) {
+  with_session();
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder() / "study.sqlite").c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "INSERT INTO study_format VALUES (999, 'future')", nullptr, nullptr,
+               nullptr);
+  sqlite3_close(database);
+  try {
+    const StudyStore store(folder(), StudyStore::Mode::kReadOnly);
+    FAIL() << "a newer format was opened";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("found 999; open it with a newer jnd"),
+              std::string::npos);
+  }
+}
+
+TEST_F(StudyStoreTest, RefusesAForeignDatabaseAndAMissingFolder) {
+  EXPECT_THROW(StudyStore("/nonexistent.study", StudyStore::Mode::kReadOnly), Error);
+  fs::create_directories(folder());
+  std::ofstream(folder() / "study.sqlite")
+      << "this is a text file, not a database at all .......";
+  EXPECT_THROW(StudyStore(folder(), StudyStore::Mode::kReadWrite), Error);
+}
+
+TEST_F(StudyStoreTest, KeepsAProtocolOnceUnderItsHash) {
+  const auto store = with_session();
+  const std::string hash = store->add_protocol("again.json", "{}");
+  EXPECT_EQ(hash, store->sessions()[0].protocol_sha256);
+  EXPECT_EQ(store->protocol_text(hash), "{}");
+  EXPECT_THROW((void)store->protocol_text("0000"), Error);
+}
+
+TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {
+  const auto store = with_session();
+  EXPECT_EQ(fs::status(folder() / "study.sqlite").permissions() & fs::perms::all,
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+}  // namespace
+}  // namespace jnd::core
