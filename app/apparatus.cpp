@@ -70,7 +70,7 @@ struct Apparatus::Implementation {
     storage.emplace(
         samples, core::StorageThread::Parameters{.recording = recording ? &*recording : nullptr,
                                                  .visit = [this](const core::Sample& sample) {
-                                                   if (metering) meter.feed(sample);
+                                                   if (metering) feed_meter(sample);
                                                  }});
     if (parameters.realtime) {
       thread.emplace(device::RealtimeThread::Parameters{});
@@ -82,6 +82,19 @@ struct Apparatus::Implementation {
     if (thread) thread->stop();
     storage.reset();
     device.close();
+  }
+
+  void feed_meter(const core::Sample& sample) noexcept {
+    Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        position_m[axis] += sample.tip_position_m[point][axis];
+        velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis];
+      }
+    }
+    meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s / core::kNumContactPoints,
+               loop.period_s());
   }
 
   void run_simulated(std::int64_t num_ticks) {
@@ -117,7 +130,7 @@ struct Apparatus::Implementation {
   core::SpscQueue<core::Sample> samples;
   device::HapticLoop loop;
   std::optional<core::RecordingWriter> recording;
-  analysis::StrokeMeter meter;
+  analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
   bool metering = false;
   std::optional<core::StorageThread> storage;
   std::optional<device::RealtimeThread> thread;
@@ -177,7 +190,7 @@ const core::Telemetry& Apparatus::telemetry() const noexcept {
 void Apparatus::meter_strokes() {
   Implementation& my = *implementation_;
   my.storage->after(next_tick() - 1, [&my] {
-    my.meter = analysis::StrokeMeter(my.loop.period_s());
+    (void)my.meter.finish();
     my.metering = true;
   });
 }

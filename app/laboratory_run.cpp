@@ -273,7 +273,7 @@ class Visit {
     const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
 
     PresentationSummary summary;
-    summary.stroke_width_m = strokes.mean_stroke_width_m;
+    summary.stroke_width_m = strokes.stroke_width_m;
     summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
     summary.mean_height_m = strokes.mean_height_m;
     summary.num_strokes = strokes.num_strokes;

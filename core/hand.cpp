@@ -17,12 +17,17 @@ Eigen::Vector3d hand_plane_normal(const PointVectors& tip_position_m) noexcept {
 }
 
 HandMotion hand_motion(const PointVectors& tip_position_m,
-                       const PointVectors& tip_velocity_m_per_s) noexcept {
+                       const PointVectors& tip_velocity_m_per_s,
+                       const std::array<bool, kNumContactPoints>& attached) noexcept {
   HandMotion motion;
-  for (const Eigen::Vector3d& velocity : tip_velocity_m_per_s) {
-    motion.velocity_m_per_s += velocity;
+  int num_attached = 0;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    if (!attached[i]) continue;
+    motion.velocity_m_per_s += tip_velocity_m_per_s[i];
+    ++num_attached;
   }
-  motion.velocity_m_per_s /= kNumContactPoints;
+  if (num_attached == 0) return motion;
+  motion.velocity_m_per_s /= num_attached;
   motion.speed_m_per_s = motion.velocity_m_per_s.norm();
   if (motion.speed_m_per_s > 0.0) {
     const double along_normal =

@@ -24,9 +24,15 @@ inline constexpr std::array<double, kNumContactPoints> kAreaShareRatio = {0.35, 
 /// One vector per contact point, in the order of `ContactPoint`.
 using PointVectors = std::array<Eigen::Vector3d, kNumContactPoints>;
 
+[[nodiscard]] inline PointVectors zero_vectors() noexcept {
+  PointVectors vectors;
+  for (Eigen::Vector3d& vector : vectors) vector.setZero();
+  return vectors;
+}
+
 /// How the hand as a whole moves through the medium: what a drag law needs to know.
 struct HandMotion {
-  Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();  ///< Mean of the five tips.
+  Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();  ///< Mean of the tips.
   double speed_m_per_s = 0.0;
   /// Sine of the angle of attack: 0 edge on, 1 head on. 0 for a hand at rest.
   double sin_angle_of_attack = 0.0;
@@ -36,8 +42,13 @@ struct HandMotion {
 /// Zero if the three points lie on a line. Its sign has no meaning. Real time.
 [[nodiscard]] Eigen::Vector3d hand_plane_normal(const PointVectors& tip_position_m) noexcept;
 
-/// Motion of the hand from its tips; any one frame. Real time.
-[[nodiscard]] HandMotion hand_motion(const PointVectors& tip_position_m,
-                                     const PointVectors& tip_velocity_m_per_s) noexcept;
+inline constexpr std::array<bool, kNumContactPoints> kAllAttached = {true, true, true, true,
+                                                                     true};
+
+/// Motion of the hand from its tips; any one frame. A tip that came off has no say in the
+/// velocity, however it dangles; with none left the hand counts as at rest. Real time.
+[[nodiscard]] HandMotion hand_motion(
+    const PointVectors& tip_position_m, const PointVectors& tip_velocity_m_per_s,
+    const std::array<bool, kNumContactPoints>& attached = kAllAttached) noexcept;
 
 }  // namespace jnd::core

@@ -10,6 +10,12 @@ MediumAmounts viscous(const ViscousDrag::Parameters& parameters) {
   return {.damping_n_s_per_m = ViscousDrag(parameters).damping_n_s_per_m()};
 }
 
+MediumAmounts solid(const SolidPlane::Parameters& parameters) {
+  const SolidPlane plane(parameters);
+  return {.plane_stiffness_n_per_m = plane.stiffness_n_per_m(),
+          .plane_damping_n_s_per_m = plane.damping_n_s_per_m()};
+}
+
 void MediumRamp::start(const MediumAmounts& target, double ramp_s) noexcept {
   target_ = target;
   remaining_s_ = ramp_s;
@@ -23,10 +29,13 @@ const MediumAmounts& MediumRamp::advance(double period_s) noexcept {
     return current_;
   }
   const double step_ratio = period_s / remaining_s_;
-  current_.quadratic_kg_per_m +=
-      step_ratio * (target_.quadratic_kg_per_m - current_.quadratic_kg_per_m);
-  current_.damping_n_s_per_m +=
-      step_ratio * (target_.damping_n_s_per_m - current_.damping_n_s_per_m);
+  const auto approach = [step_ratio](double& current, double target) {
+    current += step_ratio * (target - current);
+  };
+  approach(current_.quadratic_kg_per_m, target_.quadratic_kg_per_m);
+  approach(current_.damping_n_s_per_m, target_.damping_n_s_per_m);
+  approach(current_.plane_stiffness_n_per_m, target_.plane_stiffness_n_per_m);
+  approach(current_.plane_damping_n_s_per_m, target_.plane_damping_n_s_per_m);
   remaining_s_ -= period_s;
   return current_;
 }

@@ -17,6 +17,10 @@ namespace {
 
 }  // namespace
 
+std::uint64_t session_seed(std::uint64_t study_seed, const std::string& participant) {
+  return core::derived_seed(study_seed, "session/" + participant);
+}
+
 Session::Session(Parameters parameters, const std::vector<core::EventRow>& history,
                  EventLog& log, const core::Clock& clock)
     : parameters_(std::move(parameters)), log_(log), clock_(clock) {

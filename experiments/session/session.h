@@ -23,6 +23,9 @@ class EventLog {
 enum class Direction { kRaise, kLower };
 enum class StepSize { kCoarse, kFine };
 
+/// The seed of one participant's session, from the study's.
+[[nodiscard]] std::uint64_t session_seed(std::uint64_t study_seed, const std::string& participant);
+
 /// One visit of one participant. Every act commits its event first and moves the state on
 /// after. An act that is not possible now throws `Error` and leaves everything as it was. Not
 /// real time.

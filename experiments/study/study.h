@@ -64,7 +64,7 @@ struct Block {
   std::vector<double> intensities;  ///< Test stimuli, or starting values in production.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::vector<double> target_percent;         ///< Production: one repetition a target.
-  int repetitions = 1;                  ///< Each shows every intensity once, in random order.
+  int repetitions = 1;  ///< Each shows every intensity once, in random order; 1 in production.
   double coarse_step = 0.0;             ///< Production, unit of the quantity, > fine_step.
   double fine_step = 0.0;               ///< Production, > 0.
   std::optional<double> max_intensity;  ///< Production: no step goes beyond; none by default.
@@ -90,13 +90,20 @@ struct PostExperiment {
   std::vector<PostExperimentItem> items;
 };
 
+/// One answer to choose from. The value is what is stored, whatever the language shown.
+struct Option {
+  std::string value;  ///< [a-z0-9_]+, unique in its item.
+  Text label;
+};
+
 struct QuestionnaireItem {
   std::string name;
   std::string kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which" or "scale".
   Text question;
-  std::string unit;            ///< kind number; may be empty.
-  std::vector<Text> options;   ///< kind choice.
-  int num_steps = 10;          ///< kind scale.
+  std::string unit;                        ///< kind number; may be empty.
+  std::optional<double> minimum, maximum;  ///< kind number: what can be true, in `unit`.
+  std::vector<Option> options;             ///< kind choice, at least two.
+  int num_steps = 10;                      ///< kind scale.
   Text low_label, high_label;  ///< kind scale: what stands at step 1 and at the last step.
   bool high_is_good = true;    ///< kind scale: which end is the favourable one.
   bool required = true;
@@ -125,6 +132,9 @@ struct Counterbalance {
 struct Stage {
   std::string name;  ///< Unique in the study; [a-z0-9_]+.
   Text title;        ///< May be empty.
+  /// Runs only for participants of these arms: name of a `one_of` counterbalance to name of its
+  /// arm. Empty: runs for everyone.
+  std::map<std::string, std::string> only_for;
   std::variant<Checklist, Consent, Explore, Training, Block, Break, PostExperiment,
                Questionnaire, Counterbalance>
       content;
@@ -144,7 +154,8 @@ struct DeviceNeeds {
 /// A study file, checked and with every default filled in.
 struct Study {
   int format = 1;
-  std::string name;  ///< [a-z0-9_]+
+  std::string name;                    ///< [a-z0-9_]+
+  std::vector<std::string> languages;  ///< Every text has exactly these; the first is shown.
   Text title;
   Text description;  ///< May be empty.
   std::vector<std::string> authors;

@@ -1,0 +1,248 @@
+#include "analysis/csv_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr std::size_t kMostProblems = 20;
+
+std::string_view trimmed(std::string_view text) noexcept {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string in_quotes(std::string_view cell) { return '"' + std::string(cell) + '"'; }
+
+[[noreturn]] void throw_all(const std::vector<std::string>& problems) {
+  std::string text;
+  for (std::size_t place = 0; place < std::min(problems.size(), kMostProblems); ++place) {
+    if (place > 0) text += '\n';
+    text += problems[place];
+  }
+  if (problems.size() > kMostProblems) {
+    text += "\n... and " + std::to_string(problems.size() - kMostProblems) + " more";
+  }
+  throw core::Error(text);
+}
+
+/// Takes the text apart, one row at a time.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : rest_(text) {}
+
+  [[nodiscard]] bool at_end() const noexcept { return rest_.empty(); }
+  [[nodiscard]] int line() const noexcept { return line_; }
+
+  /// The cells of the next row; nothing for an empty line. `closed` tells of an open quote.
+  std::vector<std::string> row(bool& closed) {
+    closed = true;
+    std::vector<std::string> cells;
+    std::string cell;
+    bool was_quoted = false;
+    while (true) {
+      if (!at_end() && rest_.front() == '"' && trimmed(cell).empty() && !was_quoted) {
+        cell = quoted_text(closed);
+        was_quoted = true;
+        continue;
+      }
+      const bool row_ends = at_end() || rest_.front() == '\n' || rest_.front() == '\r';
+      if (row_ends || rest_.front() == ',') {
+        const bool empty_line =
+            row_ends && cells.empty() && !was_quoted && trimmed(cell).empty();
+        if (!empty_line) cells.emplace_back(was_quoted ? cell : trimmed(cell));
+        if (row_ends) {
+          skip_line_end();
+          return cells;
+        }
+        cell.clear();
+        was_quoted = false;
+      } else if (!was_quoted || (rest_.front() != ' ' && rest_.front() != '\t')) {
+        cell += rest_.front();
+      }
+      rest_.remove_prefix(1);
+    }
+  }
+
+ private:
+  std::string quoted_text(bool& closed) {
+    rest_.remove_prefix(1);
+    std::string text;
+    while (!at_end()) {
+      const char letter = rest_.front();
+      rest_.remove_prefix(1);
+      if (letter == '\n') ++line_;
+      if (letter != '"') {
+        text += letter;
+      } else if (!at_end() && rest_.front() == '"') {
+        text += '"';
+        rest_.remove_prefix(1);
+      } else {
+        return text;
+      }
+    }
+    closed = false;
+    return text;
+  }
+
+  void skip_line_end() noexcept {
+    if (at_end()) return;
+    const bool carriage_return = rest_.front() == '\r';
+    rest_.remove_prefix(1);
+    if (carriage_return && !at_end() && rest_.front() == '\n') rest_.remove_prefix(1);
+    ++line_;
+  }
+
+  std::string_view rest_;
+  int line_ = 1;
+};
+
+/// A number with a point for the decimals, whatever the locale; NaN if the text is none.
+double parsed_number(std::string_view text) noexcept {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool has_decimal_comma(std::string text) {
+  if (std::count(text.begin(), text.end(), ',') != 1) return false;
+  std::replace(text.begin(), text.end(), ',', '.');
+  return std::isfinite(parsed_number(text));
+}
+
+}  // namespace
+
+CsvTable CsvTable::read(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  if (!in.is_open() || in.bad() || std::filesystem::is_directory(file)) {
+    throw core::Error(file.string() + ": expected a CSV file, found nothing that can be read");
+  }
+  return parse(text.str(), file.string());
+}
+
+CsvTable CsvTable::parse(std::string_view text, std::string name) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  CsvTable table;
+  table.name_ = std::move(name);
+  std::vector<std::string> problems;
+  const auto report = [&](int line, const std::string& what) {
+    problems.push_back(table.name_ + ':' + std::to_string(line) + ": " + what);
+  };
+  Scanner scanner(text);
+  while (!scanner.at_end()) {
+    const int line = scanner.line();
+    bool closed = true;
+    std::vector<std::string> cells = scanner.row(closed);
+    if (!closed) report(line, "expected a closing quote, found the end of the file");
+    if (cells.empty()) continue;
+    if (!table.columns_.empty()) {
+      if (cells.size() != table.columns_.size()) {
+        report(line, "expected " + std::to_string(table.columns_.size()) + " cells, found " +
+                         std::to_string(cells.size()) +
+                         (cells.size() > table.columns_.size()
+                              ? "; decimals need a point, not a comma"
+                              : ""));
+      } else {
+        table.rows_.push_back({line, std::move(cells)});
+      }
+      continue;
+    }
+    if (cells.size() == 1 && cells[0].find_first_of(";\t") != std::string::npos) {
+      report(line, std::string("expected commas between the columns, found ") +
+                       (cells[0].find(';') != std::string::npos ? "semicolons" : "tabs") +
+                       "; decimals need a point");
+      break;
+    }
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+      if (std::count(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(column),
+                     cells[column]) > 0) {
+        report(line,
+               "expected every column once, found " + in_quotes(cells[column]) + " again");
+      }
+    }
+    table.columns_ = std::move(cells);
+  }
+  if (problems.empty() && table.columns_.empty()) {
+    report(1, "expected a header line that names the columns, found an empty file");
+  }
+  if (!problems.empty()) throw_all(problems);
+  return table;
+}
+
+std::optional<std::size_t> CsvTable::find(std::string_view column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::optional<std::size_t> CsvReader::column(std::string_view name) {
+  const std::optional<std::size_t> found = table_.find(name);
+  if (found) return found;
+  std::string columns;
+  for (const std::string& column : table_.columns()) {
+    columns += (columns.empty() ? "" : ", ") + column;
+  }
+  problems_.push_back(table_.name() + ":1: " + std::string(name) +
+                      ": expected a column of this name, found the columns " + columns);
+  return std::nullopt;
+}
+
+void CsvReader::report(std::size_t row, std::string_view column, std::string_view rule) {
+  const std::string& cell = table_.cell(row, table_.find(column).value());
+  problems_.push_back(table_.name() + ':' + std::to_string(table_.line(row)) + ": " +
+                      std::string(column) + ": expected " + std::string(rule) + ", found " +
+                      (cell.empty() ? "an empty cell" : in_quotes(cell)));
+}
+
+double CsvReader::number(std::size_t row, std::size_t column) {
+  const std::string& cell = table_.cell(row, column);
+  const double value = parsed_number(trimmed(cell));
+  if (std::isfinite(value)) return value;
+  report(
+      row, table_.columns()[column],
+      has_decimal_comma(cell) ? "a number with a point for the decimals" : "a finite number");
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> CsvReader::numbers(std::string_view name) {
+  std::vector<double> values;
+  const std::optional<std::size_t> place = column(name);
+  for (std::size_t row = 0; place && row < table_.num_rows(); ++row) {
+    values.push_back(number(row, *place));
+  }
+  return values;
+}
+
+std::vector<double> CsvReader::numbers_until_empty(std::string_view name) {
+  std::vector<double> values;
+  const std::optional<std::size_t> place = column(name);
+  bool ended = false;
+  for (std::size_t row = 0; place && row < table_.num_rows(); ++row) {
+    if (table_.cell(row, *place).empty()) {
+      ended = true;
+    } else if (ended) {
+      report(row, name, "an empty cell, because an empty cell above ended the column");
+    } else {
+      values.push_back(number(row, *place));
+    }
+  }
+  return values;
+}
+
+void CsvReader::throw_problems() const {
+  if (!problems_.empty()) throw_all(problems_);
+}
+
+}  // namespace jnd::analysis

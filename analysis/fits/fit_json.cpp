@@ -1,0 +1,94 @@
+#include "analysis/fits/fit_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace jnd::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json interval(const Interval& ends) {
+  return Json::array({number(ends.low), number(ends.high)});
+}
+
+Json sentence(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+}  // namespace
+
+Json to_json(const PsychometricFit& fit) {
+  Json json;
+  json["status"] = to_string(fit.status);
+  json["reason"] = sentence(fit.reason);
+  json["method"] = to_string(fit.method);
+  json["weber_fraction"] = number(fit.weber_fraction);
+  json["weber_fraction_ci95"] = interval(fit.weber_fraction_ci95);
+  json["standard_error"] = number(fit.standard_error);
+  json["log_likelihood"] = number(fit.log_likelihood);
+  json["deviance"] = number(fit.deviance);
+  json["pse"] = number(fit.pse);
+  json["pse_ci95"] = fit.pse_ci95 ? interval(*fit.pse_ci95) : Json(nullptr);
+  json["lapse_rate"] = number(fit.lapse_rate);
+  json["r_squared"] = number(fit.r_squared);
+  json["bootstrap"] = nullptr;
+  if (!fit.bootstrap.method.empty()) {
+    json["bootstrap"] = {{"n", fit.bootstrap.n},
+                         {"ci95", interval(fit.bootstrap.ci95)},
+                         {"method", fit.bootstrap.method},
+                         {"num_degenerate", fit.bootstrap.num_degenerate}};
+  }
+  json["num_levels"] = fit.num_levels;
+  json["num_trials"] = fit.num_trials;
+  return json;
+}
+
+Json to_json(const PowerFit& fit) {
+  Json json;
+  json["status"] = to_string(fit.status);
+  json["reason"] = sentence(fit.reason);
+  json["method"] = to_string(fit.method);
+  json["k"] = number(fit.k);
+  json["a"] = number(fit.a);
+  json["k_standard_error"] = number(fit.k_standard_error);
+  json["a_standard_error"] = number(fit.a_standard_error);
+  json["k_ci95"] = interval(fit.k_ci95);
+  json["a_ci95"] = interval(fit.a_ci95);
+  json["r_squared"] = number(fit.r_squared);
+  json["num_rows"] = fit.num_rows;
+  json["excluded"] = Json::array();
+  for (const PowerFit::Excluded& excluded : fit.excluded) {
+    json["excluded"].push_back({{"row", excluded.row + 1},
+                                {"intensity", excluded.data.intensity},
+                                {"magnitude", excluded.data.magnitude},
+                                {"reason", excluded.reason}});
+  }
+  return json;
+}
+
+Json to_json(const Comparison& comparison) {
+  Json json;
+  json["status"] = to_string(comparison.status);
+  json["reason"] = sentence(comparison.reason);
+  json["method"] = comparison.method;
+  json["estimate"] = number(comparison.estimate);
+  json["ci95"] = interval(comparison.ci95);
+  json["statistic"] = number(comparison.statistic);
+  json["degrees_of_freedom"] = number(comparison.degrees_of_freedom);
+  json["p_value"] = number(comparison.p_value);
+  if (comparison.kind == Comparison::Kind::kPaired) {
+    json["cohen_dz"] = number(comparison.cohen_dz);
+  }
+  if (comparison.kind == Comparison::Kind::kWilcoxon) {
+    json["median_difference"] = number(comparison.median_difference);
+    json["median_difference_ci95"] = interval(comparison.median_difference_ci95);
+  }
+  json["num_a"] = comparison.num_a;
+  json["num_b"] = comparison.num_b;
+  return json;
+}
+
+}  // namespace jnd::analysis

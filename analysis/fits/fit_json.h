@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "analysis/fits/power_fit.h"
+#include "analysis/fits/psychometric_fit.h"
+#include "analysis/groups/comparison.h"
+
+namespace jnd::analysis {
+
+/// Results as JSON objects with the keys of the command line's contract. Every number is
+/// finite; what does not exist is null, an open end of an interval too.
+[[nodiscard]] nlohmann::ordered_json to_json(const PsychometricFit& fit);
+[[nodiscard]] nlohmann::ordered_json to_json(const PowerFit& fit);
+[[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
+
+}  // namespace jnd::analysis

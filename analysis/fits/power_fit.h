@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/fits/fit_status.h"
+#include "core/power_function.h"
+
+namespace jnd::analysis {
+
+/// One judgement, or one mean of several.
+struct Magnitude {
+  double intensity = 0.0;  ///< >= 0
+  double magnitude = 0.0;  ///< Ratio to the modulus, finite.
+};
+
+enum class PowerMethod {
+  kNonlinear,  ///< "nls": least squares of the magnitudes, every row.
+  kLogLog,     ///< "loglog": a line through the logarithms, rows with both > 0.
+};
+
+[[nodiscard]] constexpr std::string_view to_string(PowerMethod method) noexcept {
+  return method == PowerMethod::kNonlinear ? "nls" : "loglog";
+}
+
+/// A fitted power law, with the words of the JSON output. No number unless `status` is kOk.
+///
+/// What the standard errors assume: residuals independent and of one variance, of the
+/// magnitudes (nls) or of their logarithms (loglog). Means of the same participants at every
+/// intensity are not independent; compare participants' own exponents for a test.
+struct PowerFit {
+  struct Excluded {
+    std::size_t row = 0;  ///< Place in the data, from 0.
+    Magnitude data;
+    std::string reason;
+  };
+
+  FitStatus status = FitStatus::kNotRun;
+  std::string reason;  ///< Why there is no value; "" if there is one.
+  PowerMethod method = PowerMethod::kNonlinear;
+  std::optional<double> k, a;
+  /// nls: from sse/(n-2) (J^T J)^-1; loglog: of the line, for k by the delta method. Absent at
+  /// two rows.
+  std::optional<double> k_standard_error, a_standard_error;
+  /// By Student's t with n - 2 degrees of freedom; for k on ln k, so that it stays > 0.
+  Interval k_ci95, a_ci95;
+  std::optional<double> r_squared;  ///< 1 - sse / sst; loglog: of the logarithms.
+  std::vector<Excluded> excluded;
+  int num_rows = 0;  ///< Rows that were fitted.
+};
+
+/// Fits Stevens' power law S = k I^a, k > 0, with 0^a = 0. nls is solved over the exponent
+/// alone, since the best k for each is known, from a grid of starts: the minimum is global.
+///
+/// `degenerate` where no k > 0 and finite a is best: fewer than two different intensities > 0,
+/// magnitudes all 0, or data that only one intensity's magnitude carries, where the best
+/// exponent is infinite. Throws `core::Error` for an intensity not finite and >= 0 or a
+/// magnitude that is not finite. Not real time.
+[[nodiscard]] PowerFit fit_power(const std::vector<Magnitude>& data,
+                                 PowerMethod method = PowerMethod::kNonlinear);
+
+/// The least-squares power law through two curves at once, both evaluated at `intensities`: how
+/// the thesis joins estimation and production (sec. 4) into one unbiased law.
+[[nodiscard]] PowerFit power_between(const core::PowerFunction& first,
+                                     const core::PowerFunction& second,
+                                     const std::vector<double>& intensities);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,146 @@
+#include "analysis/fits/psychometric_fit.h"
+
+#include <Eigen/LU>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+
+#include "analysis/fits/psychometric_bootstrap.h"
+#include "analysis/fits/psychometric_interval.h"
+#include "analysis/fits/psychometric_limits.h"
+#include "analysis/fits/psychometric_search.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+/// Half the 95 % quantile of chi-squared with one degree of freedom.
+constexpr double kLikelihoodDrop = 1.9207294103470617;
+
+std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+/// Log-likelihood of the model that fits every level's proportion exactly.
+double saturated_log_likelihood(const PsychometricLevels& levels) {
+  const auto term = [](double yes, double trials) {
+    double value = 0.0;
+    if (yes > 0.0) value += yes * std::log(yes / trials);
+    if (yes < trials) value += (trials - yes) * std::log1p(-yes / trials);
+    return value;
+  };
+  double sum = levels.zero_trials > 0.0 ? term(levels.zero_yes, levels.zero_trials) : 0.0;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    sum += term(levels.num_yes[level], levels.num_trials[level]);
+  }
+  return sum;
+}
+
+/// Sum of squares of the proportions about their mean.
+double sum_about_mean(const PsychometricLevels& levels) {
+  std::vector<double> proportions;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    proportions.push_back(levels.proportion(level));
+  }
+  if (levels.zero_trials > 0.0) proportions.push_back(levels.zero_yes / levels.zero_trials);
+  double mean = 0.0;
+  for (const double proportion : proportions) mean += proportion;
+  mean /= static_cast<double>(proportions.size());
+  double sum = 0.0;
+  for (const double proportion : proportions) sum += (proportion - mean) * (proportion - mean);
+  return sum;
+}
+
+/// Standard error of w by the delta method, the matrix being that of the information over its
+/// `scale`. A lapse on its bound is held there.
+std::optional<double> standard_error(const PsychometricLevels& levels,
+                                     const PsychometricCurve& curve, const FreeParameters& free,
+                                     Eigen::Matrix3d information, double scale) {
+  for (int parameter = 0; parameter < 3; ++parameter) {
+    const bool moving =
+        free[static_cast<std::size_t>(parameter)] && !(parameter == 2 && curve.lapse <= 0.0);
+    if (moving) continue;
+    information.row(parameter).setZero();
+    information.col(parameter).setZero();
+    information(parameter, parameter) = 1.0;
+  }
+  const double variance = information.inverse()(0, 0) * scale;
+  // |dw / dslope| of w = exp(unit / slope) - 1.
+  const double slope = curve.slope;
+  return finite(std::sqrt(variance) * std::exp(levels.unit / slope) * levels.unit /
+                (slope * slope));
+}
+
+void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
+                     const PsychometricOptions& options, const FreeParameters& free,
+                     const PsychometricOptimum& optimum) {
+  double drop = kLikelihoodDrop;
+  if (options.method == kMaximumLikelihood) {
+    fit.standard_error = standard_error(levels, optimum.curve, free, optimum.cost.hessian, 1.0);
+  } else {
+    const int degrees_of_freedom = fit.num_levels - 1 - free[1] - free[2];
+    if (options.free_pse) fit.pse_ci95 = Interval{};
+    if (degrees_of_freedom < 1) return;
+    const double variance = optimum.cost.value / degrees_of_freedom;
+    fit.standard_error = standard_error(levels, optimum.curve, free,
+                                        squared_jacobian(levels, optimum.curve), variance);
+    drop =
+        variance * boost::math::quantile(boost::math::fisher_f(1.0, degrees_of_freedom), 0.95);
+  }
+  if (!options.intervals) return;
+  fit.weber_fraction_ci95 =
+      weber_fraction_interval(levels, options.method, free, optimum, drop);
+  if (options.free_pse) {
+    fit.pse_ci95 = pse_interval(levels, options.method, free, optimum, drop);
+  }
+}
+
+}  // namespace
+
+PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
+                                 const PsychometricOptions& options) {
+  const PsychometricLevels levels = pooled_levels(data, options.reference, options.free_pse);
+  PsychometricFit fit;
+  fit.method = options.method;
+  fit.num_levels = static_cast<int>(levels.size()) + (levels.zero_trials > 0.0 ? 1 : 0);
+  for (const AnswerCount& row : data) fit.num_trials += row.num_trials;
+
+  const PsychometricSearch search(levels, options.method, options.free_pse, options.free_lapse);
+  const PsychometricSearchResult found = search.find(levels);
+  if (found.supremum == PsychometricSupremum::kNotConverged) {
+    fit.status = FitStatus::kNotConverged;
+    fit.reason = "the search for the optimum did not come to rest";
+    return fit;
+  }
+  fit.status = FitStatus::kDegenerate;
+  fit.reason = found.reason;
+  if (found.supremum != PsychometricSupremum::kAttained) return fit;
+
+  const PsychometricCurve& curve = found.optimum.curve;
+  const double weber_fraction = curve.weber_fraction(levels);
+  const double pse = options.free_pse ? curve.pse(levels) : options.reference;
+  if (!(std::isfinite(weber_fraction) && std::isfinite(pse) && pse > 0.0)) {
+    fit.reason = "flat: the answers rise so little that the values exceed the range of numbers";
+    return fit;
+  }
+  fit.status = FitStatus::kOk;
+  fit.weber_fraction = weber_fraction;
+  fit.pse = pse;
+  fit.lapse_rate = curve.lapse;
+  const double log_likelihood = -psychometric_cost(levels, kMaximumLikelihood, curve).value;
+  fit.log_likelihood = finite(log_likelihood);
+  if (fit.log_likelihood) {
+    fit.deviance = std::max(0.0, 2.0 * (saturated_log_likelihood(levels) - log_likelihood));
+  }
+  if (options.method == PsychometricMethod::kLeastSquares) {
+    const double about_mean = sum_about_mean(levels);
+    if (about_mean > 0.0) fit.r_squared = 1.0 - found.optimum.cost.value / about_mean;
+  }
+  add_uncertainty(fit, levels, options, search.free(), found.optimum);
+  if (options.num_bootstrap > 0) {
+    fit.bootstrap =
+        bootstrapped_weber_fraction(search, levels, curve, options.num_bootstrap, options.seed);
+  }
+  return fit;
+}
+
+}  // namespace jnd::analysis

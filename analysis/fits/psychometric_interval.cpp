@@ -1,0 +1,149 @@
+#include "analysis/fits/psychometric_interval.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <functional>
+
+#include "analysis/fits/psychometric_limits.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr double kLargestLog = 700.0;  ///< exp of more would leave the range of double.
+constexpr double kStepZ = 40.0;        ///< Neighbouring levels this many z apart: a step.
+
+/// Where `excess`, < 0 at `from`, first is 0 when going by growing steps in the direction of
+/// `first_step`; absent if `may_go_on` fails before.
+std::optional<double> crossing(const std::function<double(double)>& excess, double from,
+                               double first_step,
+                               const std::function<bool(double)>& may_go_on) {
+  double inside = from;
+  double step = first_step;
+  double excess_inside = excess(inside);
+  while (may_go_on(inside + step)) {
+    const double outside = inside + step;
+    const double excess_outside = excess(outside);
+    if (excess_outside >= 0.0 && excess_inside < 0.0) {
+      const auto close_enough = [](double a, double b) {
+        return std::fabs(b - a) <= 1e-13 * std::max(std::fabs(a), std::fabs(b)) + 1e-300;
+      };
+      const bool rising = first_step > 0.0;
+      std::uintmax_t num_iterations = 200;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          excess, rising ? inside : outside, rising ? outside : inside,
+          rising ? excess_inside : excess_outside, rising ? excess_outside : excess_inside,
+          close_enough, num_iterations);
+      return 0.5 * (low + high);
+    }
+    inside = outside;
+    excess_inside = excess_outside;
+    step *= 1.6;
+  }
+  return std::nullopt;
+}
+
+/// Cost at a given slope, at its best over what else is free. Follows the optimum as the slope
+/// moves, because with lapses there can be several.
+class SlopeProfile {
+ public:
+  SlopeProfile(const PsychometricLevels& levels, PsychometricMethod method,
+               const FreeParameters& free, const PsychometricCurve& start)
+      : levels_(levels), method_(method), free_{false, free[1], free[2]}, last_(start) {}
+
+  double operator()(double log_slope) {
+    const double slope = std::exp(log_slope);
+    const PsychometricCurve start = {slope, last_.offset * (slope / last_.slope), last_.lapse};
+    if (!free_[1] && !free_[2]) return psychometric_cost(levels_, method_, start).value;
+    PsychometricOptimum best = minimised(levels_, method_, free_, start);
+    if (free_[2]) {
+      PsychometricCurve with_lapses = start;
+      with_lapses.lapse = 0.05;
+      const PsychometricOptimum other = minimised(levels_, method_, free_, with_lapses);
+      if (other.cost.value < best.cost.value) best = other;
+    }
+    last_ = best.curve;
+    return best.cost.value;
+  }
+
+ private:
+  const PsychometricLevels& levels_;
+  PsychometricMethod method_;
+  FreeParameters free_;
+  PsychometricCurve last_;
+};
+
+/// Cost at a given pse, `place` = ln(pse / origin) / unit.
+class PseProfile {
+ public:
+  PseProfile(const PsychometricLevels& levels, PsychometricMethod method,
+             const FreeParameters& free, const PsychometricCurve& start)
+      : levels_(levels),
+        shifted_(levels),
+        method_(method),
+        free_{true, false, free[2]},
+        last_{start.slope, 0.0, start.lapse} {}
+
+  double operator()(double place) {
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      shifted_.log_ratio[level] = levels_.log_ratio[level] - place;
+    }
+    // The best slope may be 0 or infinite here, though it is not at the optimum.
+    double best = std::min(flat_limit_cost(shifted_, method_, false, free_[2]),
+                           step_limit_cost(shifted_, method_, false, free_[2]));
+    const PsychometricOptimum found = minimised(shifted_, method_, free_, last_);
+    if (found.cost.value < best) {
+      best = found.cost.value;
+      last_ = found.curve;
+    }
+    return best;
+  }
+
+ private:
+  const PsychometricLevels& levels_;
+  PsychometricLevels shifted_;
+  PsychometricMethod method_;
+  FreeParameters free_;
+  PsychometricCurve last_;
+};
+
+}  // namespace
+
+Interval weber_fraction_interval(const PsychometricLevels& levels, PsychometricMethod method,
+                                 const FreeParameters& free, const PsychometricOptimum& optimum,
+                                 double drop) {
+  const double level = optimum.cost.value + drop;
+  const double log_slope = std::log(optimum.curve.slope);
+  const double flattest = std::log(levels.unit / kLargestLog);
+  const double steepest = std::log(kStepZ / levels.smallest_gap(free[1]));
+  const auto end = [&](double first_step) -> std::optional<double> {
+    SlopeProfile profile(levels, method, free, optimum.curve);
+    const std::optional<double> found =
+        crossing([&](double place) { return profile(place) - level; }, log_slope, first_step,
+                 [&](double place) {
+                   return place > flattest && place < std::max(steepest, log_slope + 1.0);
+                 });
+    if (!found) return std::nullopt;
+    return std::expm1(levels.unit * std::exp(-*found));
+  };
+  return {.low = end(0.1), .high = end(-0.1)};
+}
+
+Interval pse_interval(const PsychometricLevels& levels, PsychometricMethod method,
+                      const FreeParameters& free, const PsychometricOptimum& optimum,
+                      double drop) {
+  const double level = optimum.cost.value + drop;
+  const double place = -optimum.curve.offset / optimum.curve.slope;
+  const auto end = [&](double first_step) -> std::optional<double> {
+    PseProfile profile(levels, method, free, optimum.curve);
+    const std::optional<double> found =
+        crossing([&](double at) { return profile(at) - level; }, place, first_step,
+                 [&](double at) { return std::fabs(at * levels.unit) < kLargestLog; });
+    if (!found) return std::nullopt;
+    return levels.origin * std::exp(*found * levels.unit);
+  };
+  const double step = 0.1 / optimum.curve.slope;
+  return {.low = end(-step), .high = end(step)};
+}
+
+}  // namespace jnd::analysis

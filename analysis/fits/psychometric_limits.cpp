@@ -1,0 +1,165 @@
+#include "analysis/fits/psychometric_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jnd::analysis {
+namespace {
+
+constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+
+/// Levels that share one probability f, as a weighted count: answers for maximum likelihood,
+/// levels for least squares.
+struct Pool {
+  double yes = 0.0, total = 0.0, yes_squared = 0.0;
+
+  void add(double num_yes, double num_trials, PsychometricMethod method) noexcept {
+    const double weight = method == kMaximumLikelihood ? 1.0 : 1.0 / num_trials;
+    const double share = num_yes * weight;
+    yes += share;
+    total += num_trials * weight;
+    yes_squared += share * share;
+  }
+  /// Cost if all of them had probability f.
+  [[nodiscard]] double cost(double f, PsychometricMethod method) const noexcept {
+    if (method == PsychometricMethod::kLeastSquares) {
+      return std::max(0.0, yes_squared - 2.0 * f * yes + f * f * total);
+    }
+    double value = 0.0;
+    if (yes > 0.0) value -= yes * std::log(f);
+    if (total - yes > 0.0) value -= (total - yes) * std::log1p(-f);
+    return value;
+  }
+  [[nodiscard]] double mean() const noexcept { return total > 0.0 ? yes / total : 0.0; }
+};
+
+Pool pool_at_zero(const PsychometricLevels& levels, PsychometricMethod method) {
+  Pool pool;
+  if (levels.zero_trials > 0.0) pool.add(levels.zero_yes, levels.zero_trials, method);
+  return pool;
+}
+
+/// Derivative of -(log-likelihood) in the lapse.
+double lapse_gradient(const PsychometricLevels& levels, double lapse,
+                      const double* lower_tail) noexcept {
+  double sum = 0.0;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double gain = 1.0 - 2.0 * lower_tail[level];
+    const double f = lower_tail[level] + lapse * gain;
+    const double yes = levels.num_yes[level];
+    const double no = levels.num_trials[level] - yes;
+    if (yes > 0.0) sum -= yes * gain / f;
+    if (no > 0.0) sum += no * gain / (1.0 - f);
+  }
+  if (levels.zero_yes > 0.0) sum -= levels.zero_yes / lapse;
+  return sum + (levels.zero_trials - levels.zero_yes) / (1.0 - lapse);
+}
+
+double likelihood_lapse(const PsychometricLevels& levels, const double* lower_tail) noexcept {
+  double low = 0.0, high = 0.5;
+  if (!(lapse_gradient(levels, low, lower_tail) < 0.0)) return 0.0;
+  if (lapse_gradient(levels, high, lower_tail) < 0.0) return 0.5;
+  for (int halving = 0; halving < 14; ++halving) {  // A start for Newton: 3e-5 will do.
+    const double middle = 0.5 * (low + high);
+    (lapse_gradient(levels, middle, lower_tail) < 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double least_squares_lapse(const PsychometricLevels& levels,
+                           const double* lower_tail) noexcept {
+  double numerator = 0.0, denominator = 0.0;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double gain = 1.0 - 2.0 * lower_tail[level];
+    numerator += gain * (levels.proportion(level) - lower_tail[level]);
+    denominator += gain * gain;
+  }
+  if (levels.zero_trials > 0.0) {
+    numerator += levels.zero_yes / levels.zero_trials;
+    denominator += 1.0;
+  }
+  return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 0.5) : 0.0;
+}
+
+}  // namespace
+
+BestLapse best_lapse(const PsychometricLevels& levels, PsychometricMethod method,
+                     bool free_lapse, const double* lower_tail) noexcept {
+  double lapse = 0.0;
+  if (free_lapse) {
+    lapse = method == kMaximumLikelihood ? likelihood_lapse(levels, lower_tail)
+                                         : least_squares_lapse(levels, lower_tail);
+  }
+  double cost = pool_at_zero(levels, method).cost(lapse, method);
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double f = lower_tail[level] + lapse * (1.0 - 2.0 * lower_tail[level]);
+    if (method == kMaximumLikelihood) {
+      const double yes = levels.num_yes[level];
+      const double no = levels.num_trials[level] - yes;
+      if (yes > 0.0) cost -= yes * std::log(f);
+      if (no > 0.0) cost -= no * std::log(1.0 - f);
+    } else {
+      const double residual = f - levels.proportion(level);
+      cost += residual * residual;
+    }
+  }
+  return {lapse, cost};
+}
+
+double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod method,
+                       bool free_pse, bool free_lapse) {
+  // Cost with `num_below` levels below the threshold and the level after them at it, if any.
+  const auto cost_with = [&](std::size_t num_below, bool level_at) {
+    Pool errors = pool_at_zero(levels, method);
+    Pool at;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      const double yes = levels.num_yes[level];
+      const double trials = levels.num_trials[level];
+      if (level < num_below) {
+        errors.add(yes, trials, method);
+      } else if (level_at && level == num_below) {
+        at.add(yes, trials, method);
+      } else {
+        errors.add(trials - yes, trials, method);
+      }
+    }
+    const double lapse = free_lapse ? std::min(errors.mean(), 0.5) : 0.0;
+    const double at_threshold = free_pse ? std::clamp(at.mean(), lapse, 1.0 - lapse) : 0.5;
+    return errors.cost(lapse, method) + at.cost(at_threshold, method);
+  };
+  if (!free_pse) {
+    const auto first_at =
+        std::lower_bound(levels.log_ratio.begin(), levels.log_ratio.end(), 0.0);
+    const bool level_at = first_at != levels.log_ratio.end() && *first_at == 0.0;
+    return cost_with(static_cast<std::size_t>(first_at - levels.log_ratio.begin()), level_at);
+  }
+  // Where the free value at a threshold would leave [lapse, 1 - lapse], the best curve has that
+  // level below or above instead, which is among the others.
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t num_below = 0; num_below <= levels.size(); ++num_below) {
+    best = std::min(best, cost_with(num_below, false));
+    if (num_below < levels.size()) best = std::min(best, cost_with(num_below, true));
+  }
+  return best;
+}
+
+double flat_limit_cost(const PsychometricLevels& levels, PsychometricMethod method,
+                       bool free_pse, bool free_lapse) {
+  const Pool zero = pool_at_zero(levels, method);
+  Pool rest;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    rest.add(levels.num_yes[level], levels.num_trials[level], method);
+  }
+  double lapse = free_lapse ? std::min(zero.mean(), 0.5) : 0.0;
+  double f = free_pse ? rest.mean() : 0.5;
+  if (free_pse && lapse > std::min(f, 1.0 - f)) {
+    // The lapse may not pass f or 1 - f: at best they are equal, all levels in one pool.
+    const double pooled = zero.yes + (f < 0.5 ? rest.yes : rest.total - rest.yes);
+    lapse = std::min(pooled / (zero.total + rest.total), 0.5);
+    f = f < 0.5 ? lapse : 1.0 - lapse;
+  }
+  return zero.cost(lapse, method) + rest.cost(f, method);
+}
+
+}  // namespace jnd::analysis

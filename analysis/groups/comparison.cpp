@@ -1,0 +1,215 @@
+#include "analysis/groups/comparison.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/groups/signed_rank.h"
+#include "analysis/groups/summary.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+using boost::math::complement;
+using boost::math::students_t;
+
+void require_finite(const std::vector<double>& values, const char* name) {
+  for (const double value : values) {
+    core::require(std::isfinite(value), name, "a finite number", value);
+  }
+}
+
+void require_pairs(const std::vector<double>& a, const std::vector<double>& b) {
+  require_finite(a, "a");
+  require_finite(b, "b");
+  core::require(a.size() == b.size(), "b", "as many values as a, " + std::to_string(a.size()),
+                static_cast<double>(b.size()));
+}
+
+Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
+                   std::size_t num_b) {
+  Comparison result;
+  result.kind = kind;
+  result.status = FitStatus::kDegenerate;
+  result.method = method;
+  result.num_a = static_cast<int>(num_a);
+  result.num_b = static_cast<int>(num_b);
+  return result;
+}
+
+/// Rounding of values as large as `largest` leaves a spread of this where there is none.
+double rounding(double largest) {
+  return 8.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+double largest_magnitude(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0.0;
+  for (const double value : a) largest = std::max(largest, std::fabs(value));
+  for (const double value : b) largest = std::max(largest, std::fabs(value));
+  return largest;
+}
+
+/// Fills in t, p and the interval of an estimate with a known standard error.
+void fill_t(Comparison& result, double standard_error, double degrees_of_freedom) {
+  const students_t t(degrees_of_freedom);
+  const double reach = boost::math::quantile(t, 0.975) * standard_error;
+  result.statistic = *result.estimate / standard_error;
+  result.degrees_of_freedom = degrees_of_freedom;
+  result.p_value = 2.0 * boost::math::cdf(complement(t, std::fabs(*result.statistic)));
+  result.ci95 = {*result.estimate - reach, *result.estimate + reach};
+  result.status = FitStatus::kOk;
+}
+
+void fill_welch(Comparison& result, const PublishedGroup& a, const PublishedGroup& b) {
+  const double part_a = a.standard_deviation * a.standard_deviation / a.num_values;
+  const double part_b = b.standard_deviation * b.standard_deviation / b.num_values;
+  const double sum = part_a + part_b;
+  fill_t(result, std::sqrt(sum),
+         sum * sum /
+             (part_a * part_a / (a.num_values - 1) + part_b * part_b / (b.num_values - 1)));
+}
+
+}  // namespace
+
+Comparison paired_t_test(const std::vector<double>& a, const std::vector<double>& b) {
+  require_pairs(a, b);
+  Comparison result = started(Comparison::Kind::kPaired, "paired t", a.size(), b.size());
+  std::vector<double> difference(a.size());
+  for (std::size_t pair = 0; pair < a.size(); ++pair) difference[pair] = a[pair] - b[pair];
+  const Summary summary = summary_of(difference);
+  result.estimate = summary.mean;
+  if (difference.size() < 2) {
+    result.reason = "too few pairs: a t test needs two";
+    return result;
+  }
+  const double deviation = *summary.standard_deviation;
+  if (!(deviation > rounding(largest_magnitude(a, b)))) {
+    result.reason = "all differences are alike: t is undefined";
+    return result;
+  }
+  const double n = static_cast<double>(difference.size());
+  fill_t(result, deviation / std::sqrt(n), n - 1.0);
+  result.cohen_dz = *summary.mean / deviation;
+  return result;
+}
+
+Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>& b) {
+  require_finite(a, "a");
+  require_finite(b, "b");
+  Comparison result = started(Comparison::Kind::kWelch, "Welch's t", a.size(), b.size());
+  const Summary of_a = summary_of(a), of_b = summary_of(b);
+  if (of_a.mean && of_b.mean) result.estimate = *of_a.mean - *of_b.mean;
+  if (a.size() < 2 || b.size() < 2) {
+    result.reason = "too few values: Welch's t needs two in each group";
+    return result;
+  }
+  const double spread = std::max(*of_a.standard_deviation, *of_b.standard_deviation);
+  if (!(spread > rounding(largest_magnitude(a, b)))) {
+    result.reason = "all values of each group are alike: t is undefined";
+    return result;
+  }
+  fill_welch(result, {*of_a.mean, *of_a.standard_deviation, result.num_a},
+             {*of_b.mean, *of_b.standard_deviation, result.num_b});
+  return result;
+}
+
+Comparison pooled_t_test(const PublishedGroup& a, const PublishedGroup& b) {
+  for (const PublishedGroup& group : {a, b}) {
+    core::require(std::isfinite(group.mean), "mean", "a finite number", group.mean);
+    core::require(group.standard_deviation >= 0.0, "standard_deviation", "a number >= 0",
+                  group.standard_deviation);
+    core::require(group.num_values >= 2, "num_values", "a number >= 2", group.num_values);
+  }
+  Comparison result = started(Comparison::Kind::kPooled, "Student's t, pooled variance", 0, 0);
+  result.num_a = a.num_values;
+  result.num_b = b.num_values;
+  result.estimate = a.mean - b.mean;
+  const double degrees_of_freedom = a.num_values + b.num_values - 2;
+  const double variance = ((a.num_values - 1) * a.standard_deviation * a.standard_deviation +
+                           (b.num_values - 1) * b.standard_deviation * b.standard_deviation) /
+                          degrees_of_freedom;
+  if (!(variance > 0.0)) {
+    result.reason = "both standard deviations are 0: t is undefined";
+    return result;
+  }
+  fill_t(result, std::sqrt(variance * (1.0 / a.num_values + 1.0 / b.num_values)),
+         degrees_of_freedom);
+  return result;
+}
+
+Comparison pearson_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  require_pairs(a, b);
+  Comparison result = started(Comparison::Kind::kPearson, "Pearson's r, interval by Fisher's z",
+                              a.size(), b.size());
+  if (a.size() < 3) {
+    result.reason = "too few pairs: a correlation needs three";
+    return result;
+  }
+  const Summary of_a = summary_of(a), of_b = summary_of(b);
+  if (!(*of_a.standard_deviation > rounding(largest_magnitude(a, {}))) ||
+      !(*of_b.standard_deviation > rounding(largest_magnitude(b, {})))) {
+    result.reason = "a column is constant: the correlation is undefined";
+    return result;
+  }
+  // 1 - r and 1 + r from the standardised columns: no cancellation however near 1.
+  const double n = static_cast<double>(a.size());
+  double difference = 0.0, sum = 0.0, product = 0.0;
+  for (std::size_t pair = 0; pair < a.size(); ++pair) {
+    const double x = (a[pair] - *of_a.mean) / *of_a.standard_deviation;
+    const double y = (b[pair] - *of_b.mean) / *of_b.standard_deviation;
+    product += x * y;
+    difference += (x - y) * (x - y);
+    sum += (x + y) * (x + y);
+  }
+  const double r = std::clamp(product / (n - 1.0), -1.0, 1.0);
+  const double one_minus_r = 0.5 * difference / (n - 1.0), one_plus_r = 0.5 * sum / (n - 1.0);
+  result.estimate = r;
+  if (!(std::min(one_minus_r, one_plus_r) > 1e-28)) {
+    result.estimate = r > 0.0 ? 1.0 : -1.0;
+    result.reason = "the columns lie on a line: t is infinite";
+    return result;
+  }
+  const double degrees_of_freedom = n - 2.0;
+  result.degrees_of_freedom = degrees_of_freedom;
+  result.statistic = r * std::sqrt(degrees_of_freedom / (one_minus_r * one_plus_r));
+  result.p_value = 2.0 * boost::math::cdf(complement(students_t(degrees_of_freedom),
+                                                     std::fabs(*result.statistic)));
+  if (a.size() > 3) {
+    const double z = 0.5 * std::log(one_plus_r / one_minus_r);
+    const double reach =
+        boost::math::quantile(boost::math::normal(), 0.975) / std::sqrt(n - 3.0);
+    result.ci95 = {std::tanh(z - reach), std::tanh(z + reach)};
+  }
+  result.status = FitStatus::kOk;
+  return result;
+}
+
+Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>& b) {
+  require_pairs(a, b);
+  Comparison result =
+      started(Comparison::Kind::kWilcoxon, "Wilcoxon's signed ranks", a.size(), b.size());
+  if (a.empty()) {
+    result.reason = "no pairs";
+    return result;
+  }
+  std::vector<double> difference(a.size());
+  for (std::size_t pair = 0; pair < a.size(); ++pair) difference[pair] = a[pair] - b[pair];
+  result.estimate = summary_of(difference).mean;
+  const SignedRanks ranks = signed_ranks(difference);
+  if (ranks.num_nonzero == 0) {
+    result.reason = "all differences are 0: there is nothing to rank";
+    return result;
+  }
+  result.statistic = std::min(ranks.positive_sum, ranks.negative_sum);
+  result.p_value = ranks.p_value;
+  result.method += ranks.exact ? ", exact" : ", normal approximation corrected for ties";
+  result.median_difference = ranks.median;
+  result.median_difference_ci95 = ranks.median_ci95;
+  result.status = FitStatus::kOk;
+  return result;
+}
+
+}  // namespace jnd::analysis

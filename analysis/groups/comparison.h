@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/fits/fit_status.h"
+
+namespace jnd::analysis {
+
+/// Outcome of a test, with the words of the JSON output. What is undefined is absent, and
+/// `status` is kDegenerate: never a 0 or NaN in its place.
+struct Comparison {
+  enum class Kind { kPaired, kWelch, kPooled, kPearson, kWilcoxon };
+
+  FitStatus status = FitStatus::kNotRun;
+  Kind kind = Kind::kPaired;
+  std::string reason;               ///< Why a value is undefined; "" if all are defined.
+  std::string method;               ///< The test in words, with the approximation if any.
+  std::optional<double> estimate;   ///< Mean of a - b, or the correlation.
+  Interval ci95;                    ///< Of the estimate.
+  std::optional<double> statistic;  ///< t; for Wilcoxon the smaller sum of ranks.
+  std::optional<double> degrees_of_freedom;
+  std::optional<double> p_value;   ///< Two-sided.
+  std::optional<double> cohen_dz;  ///< Paired: mean difference over its standard deviation.
+  /// Wilcoxon: the median of all pairwise means of the differences (Hodges and Lehmann 1963),
+  /// and its distribution-free interval.
+  std::optional<double> median_difference;
+  Interval median_difference_ci95;
+  int num_a = 0, num_b = 0;  ///< Values used.
+};
+
+/// Student's t of the differences a[i] - b[i]. Throws `core::Error` if the lengths differ or a
+/// value is not finite, as do all of these.
+[[nodiscard]] Comparison paired_t_test(const std::vector<double>& a,
+                                       const std::vector<double>& b);
+
+/// Welch's t (1947), unequal variances, degrees of freedom by Welch and Satterthwaite.
+[[nodiscard]] Comparison welch_t_test(const std::vector<double>& a,
+                                      const std::vector<double>& b);
+
+/// Pearson's correlation; p by t with n - 2 degrees of freedom, interval by Fisher's z (1921).
+[[nodiscard]] Comparison pearson_correlation(const std::vector<double>& a,
+                                             const std::vector<double>& b);
+
+/// Wilcoxon's signed-rank test (1945). Differences of 0 are dropped. The distribution is exact
+/// up to 50 differences without ties or zeros; otherwise normal with the variance corrected for
+/// ties, without continuity correction. `method` says which.
+[[nodiscard]] Comparison wilcoxon_test(const std::vector<double>& a,
+                                       const std::vector<double>& b);
+
+/// Student's t with pooled variance from published means and standard deviations: for
+/// comparison with papers that print no raw data. Counts >= 2, deviations >= 0.
+struct PublishedGroup {
+  double mean = 0.0;
+  double standard_deviation = 0.0;
+  int num_values = 0;
+};
+[[nodiscard]] Comparison pooled_t_test(const PublishedGroup& a, const PublishedGroup& b);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "analysis/fits/fit_status.h"
+
+namespace jnd::analysis {
+
+/// What there is to say of one sample; absent where too few values define it.
+struct Summary {
+  int num_values = 0;
+  std::optional<double> mean;
+  std::optional<double> standard_deviation;  ///< With n - 1; absent at one value.
+  Interval mean_ci95;                        ///< By Student's t; open at one value.
+  std::optional<double> median;
+};
+
+/// Throws `core::Error` if a value is not finite.
+[[nodiscard]] Summary summary_of(const std::vector<double>& values);
+
+/// A percentile interval over participants drawn anew.
+struct ResampledInterval {
+  Interval ci95;
+  int num_resamples = 0;
+  int num_undefined = 0;  ///< Resamples for which the statistic did not exist.
+};
+
+/// Bootstrap over participants (Efron 1979), who are drawn with replacement: what varies
+/// between repetitions of a study. `statistic` is given the places of those drawn,
+/// num_participants of them, from 0, with repeats; it returns nothing where it is undefined,
+/// which is counted and left out. The same seed gives the same interval. At most half the
+/// resamples may be undefined, or both ends are open.
+[[nodiscard]] ResampledInterval resample_participants(
+    std::size_t num_participants, int num_resamples, std::uint64_t seed,
+    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic);
+
+/// The quantile of ascending values, interpolated between its two neighbours ((n-1) p, type 7
+/// of Hyndman and Fan 1996). `ascending` is not empty; 0 <= probability <= 1. Not finite if a
+/// neighbour is not.
+[[nodiscard]] double percentile(const std::vector<double>& ascending,
+                                double probability) noexcept;
+
+}  // namespace jnd::analysis

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace jnd::analysis {
+
+/// One published number, for comparison alone.
+struct PublishedValue {
+  double value = 0.0;
+  std::optional<double> standard_deviation;  ///< Between participants, where it was printed.
+  std::string place;                         ///< Where it stands in the publication.
+};
+
+/// Published values of one study, by the name of the estimate.
+struct Published {
+  std::string citation;
+  std::map<std::string, PublishedValue> values;
+};
+
+/// What the files in `folder` know of the study of this name; empty if none does. Throws
+/// `Error` for a file that cannot be read as published values.
+[[nodiscard]] Published published_for(const std::string& study,
+                                      const std::filesystem::path& folder);
+
+}  // namespace jnd::analysis

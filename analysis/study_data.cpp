@@ -1,0 +1,81 @@
+#include "analysis/study_data.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+json parsed(const std::string& text, const std::string& place) {
+  json value = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!value.is_object()) throw core::Error(place + ": expected a JSON object, found none");
+  return value;
+}
+
+ParticipantData& of(std::vector<ParticipantData>& participants, const std::string& name) {
+  for (ParticipantData& known : participants) {
+    if (known.participant == name) return known;
+  }
+  participants.push_back({.participant = name});
+  return participants.back();
+}
+
+}  // namespace
+
+std::vector<core::TrialRow> ParticipantData::trials_in(const std::string& block) const {
+  std::vector<core::TrialRow> found;
+  for (const core::TrialRow& trial : trials) {
+    if (trial.block == block) found.push_back(trial);
+  }
+  return found;
+}
+
+StudyData load_study(const core::StudyStore& store) {
+  StudyData data;
+  const std::string place = store.folder().string();
+  std::map<std::string, BlockDesign> blocks;
+  for (const core::SessionRow& session : store.sessions()) {
+    if (session.pilot) continue;
+    data.protocol_sha256 = session.protocol_sha256;
+    data.simulated = data.simulated || session.simulated;
+    if (!session.laboratory.empty()) {
+      const json laboratory = parsed(session.laboratory, place + ": laboratory");
+      data.laboratory = laboratory.value("name", "");
+      data.calibrated_on = laboratory.value("calibrated_on", std::vector<std::string>{});
+    }
+    std::map<std::int64_t, std::string> block_of_trial;
+    std::map<std::string, std::int64_t> num_trials;
+    for (const core::DesignRow& row : store.design(session.session)) {
+      block_of_trial[row.trial] = row.block;
+      BlockDesign& block = blocks[row.block];
+      block = {.block = row.block,
+               .procedure = row.procedure,
+               .quantity = row.quantity,
+               .num_trials = std::max(block.num_trials, ++num_trials[row.block])};
+    }
+    ParticipantData& participant = of(data.participants, session.participant);
+    for (core::TrialRow& trial : store.trials(session.session)) {
+      participant.trials.push_back(std::move(trial));
+    }
+    for (core::PresentationRow& row : store.presentations(session.session)) {
+      participant.presentations[block_of_trial[row.trial]].push_back(std::move(row));
+    }
+  }
+  if (data.participants.empty()) {
+    throw core::Error(place + ": expected sessions with participants, found none to analyse");
+  }
+  data.study =
+      parsed(store.protocol_text(data.protocol_sha256), place + ": protocol").value("name", "");
+  std::sort(data.participants.begin(), data.participants.end(),
+            [](const ParticipantData& a, const ParticipantData& b) {
+              return a.participant < b.participant;
+            });
+  for (auto& [name, block] : blocks) data.blocks.push_back(std::move(block));
+  return data;
+}
+
+}  // namespace jnd::analysis

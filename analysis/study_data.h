@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/storage/study_store.h"
+
+namespace jnd::analysis {
+
+/// What one participant left in a study: answers that stand, and how the hand moved.
+struct ParticipantData {
+  std::string participant;
+  std::vector<core::TrialRow> trials;
+  std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
+
+  [[nodiscard]] std::vector<core::TrialRow> trials_in(const std::string& block) const;
+};
+
+/// A block as it was drawn.
+struct BlockDesign {
+  std::string block;
+  std::string procedure;
+  std::string quantity;
+  std::int64_t num_trials = 0;  ///< For one participant.
+};
+
+/// A whole study, ready for analysis. Pilot sessions are left out.
+struct StudyData {
+  std::string study;  ///< Name in its file.
+  std::string protocol_sha256;
+  bool simulated = false;
+  std::string laboratory;                     ///< Name; "" with persons.
+  std::vector<std::string> calibrated_on;     ///< By that laboratory.
+  std::vector<ParticipantData> participants;  ///< By pseudonym.
+  std::vector<BlockDesign> blocks;            ///< By name.
+};
+
+/// Reads the folder's database; nothing is computed yet. Throws `Error` for a damaged study.
+[[nodiscard]] StudyData load_study(const core::StudyStore& store);
+
+}  // namespace jnd::analysis

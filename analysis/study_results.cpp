@@ -1,0 +1,77 @@
+#include "analysis/study_results.h"
+
+#include <algorithm>
+
+namespace jnd::analysis {
+namespace {
+
+std::vector<BlockDesign> blocks_of(const StudyData& data, const std::string& procedure) {
+  std::vector<BlockDesign> found;
+  for (const BlockDesign& block : data.blocks) {
+    if (block.procedure == procedure) found.push_back(block);
+  }
+  return found;
+}
+
+/// The laboratory names an estimate alone, or with its study before a slash where two studies
+/// share the name.
+bool is_calibrated(const StudyData& data, const std::string& name) {
+  const auto& list = data.calibrated_on;
+  return std::find(list.begin(), list.end(), name) != list.end() ||
+         std::find(list.begin(), list.end(), data.study + "/" + name) != list.end();
+}
+
+}  // namespace
+
+const Estimate* StudyResults::find(const std::string& name) const {
+  for (const ResultsSection& section : sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (estimate.name == name) return &estimate;
+    }
+  }
+  return nullptr;
+}
+
+StudyResults results_of(const StudyData& data, const Published& published,
+                        const ResultsOptions& options) {
+  StudyResults results{.study = data.study,
+                       .simulated = data.simulated,
+                       .laboratory = data.laboratory,
+                       .citation = published.citation,
+                       .num_participants = static_cast<int>(data.participants.size())};
+  const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
+  const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
+  const std::vector<BlockDesign> discriminations = blocks_of(data, "constant_stimuli");
+  for (const BlockDesign& block : estimations) {
+    results.sections.push_back(estimation_results(data, block, options));
+  }
+  for (const BlockDesign& block : productions) {
+    results.sections.push_back(production_results(data, block, options));
+  }
+  if (estimations.size() == 1 && productions.size() == 1 &&
+      estimations[0].quantity == productions[0].quantity) {
+    results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
+  }
+  for (const BlockDesign& block : discriminations) {
+    results.sections.push_back(discrimination_results(data, block, options));
+  }
+  for (std::size_t i = 0; i + 1 < discriminations.size(); ++i) {
+    results.sections.push_back(
+        discrimination_comparison(data, discriminations[i], discriminations[i + 1]));
+  }
+  results.sections.push_back(movement_results(data));
+
+  for (ResultsSection& section : results.sections) {
+    for (Estimate& estimate : section.estimates) {
+      const auto found = published.values.find(estimate.name);
+      if (found != published.values.end()) {
+        estimate.published = found->second.value;
+        estimate.published_sd = found->second.standard_deviation;
+      }
+      estimate.calibrated = data.simulated && is_calibrated(data, estimate.name);
+    }
+  }
+  return results;
+}
+
+}  // namespace jnd::analysis

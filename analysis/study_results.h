@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/fits/fit_status.h"
+#include "analysis/groups/comparison.h"
+#include "analysis/published.h"
+#include "analysis/study_data.h"
+
+namespace jnd::analysis {
+
+/// One number of a study, beside what was published.
+struct Estimate {
+  std::string name;  ///< "group_d.weber_fraction"
+  std::optional<double> value;
+  Interval ci95;
+  std::string unit;     ///< "1", "m", "m/s", "Pa s".
+  std::string meaning;  ///< What is estimated and how, in one phrase.
+  std::optional<double> published;
+  std::optional<double> published_sd;
+  bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
+  int n = 0;                ///< Participants it rests on.
+};
+
+struct ExcludedParticipant {
+  std::string participant;
+  std::string reason;
+};
+
+/// A test between two conditions.
+struct NamedComparison {
+  std::string name;  ///< "group_d - group_e: ln ln(1 + w), paired"
+  Comparison comparison;
+};
+
+struct ResultsSection {
+  std::string name;  ///< "magnitude_estimation", "group_d", "movement" ...
+  std::vector<Estimate> estimates;
+  std::vector<NamedComparison> comparisons;
+  std::vector<ExcludedParticipant> excluded;
+};
+
+/// Everything a study's design calls for, as plain data; the command line, the report and the
+/// window only show it.
+struct StudyResults {
+  std::string study;
+  bool simulated = false;
+  std::string laboratory;
+  std::string citation;  ///< Of the published values; "" without any.
+  int num_participants = 0;
+  std::vector<ResultsSection> sections;
+
+  [[nodiscard]] const Estimate* find(const std::string& name) const;
+};
+
+struct ResultsOptions {
+  int num_resamples = 1000;  ///< Of participants, for group intervals.
+  std::uint64_t seed = 1;    ///< Of the resampling.
+};
+
+/// Group intervals are percentiles over resampled participants: a likelihood interval of pooled
+/// answers would ignore that people differ. Not real time.
+[[nodiscard]] StudyResults results_of(const StudyData& data, const Published& published,
+                                      const ResultsOptions& options = {});
+
+/// The sections, one function a kind of block; `results_of` calls what the design has.
+[[nodiscard]] ResultsSection estimation_results(const StudyData& data, const BlockDesign& block,
+                                                const ResultsOptions& options);
+[[nodiscard]] ResultsSection production_results(const StudyData& data, const BlockDesign& block,
+                                                const ResultsOptions& options);
+[[nodiscard]] ResultsSection combined_results(const StudyData& data,
+                                              const BlockDesign& estimation,
+                                              const BlockDesign& production,
+                                              const ResultsOptions& options);
+[[nodiscard]] ResultsSection discrimination_results(const StudyData& data,
+                                                    const BlockDesign& block,
+                                                    const ResultsOptions& options);
+[[nodiscard]] ResultsSection discrimination_comparison(const StudyData& data,
+                                                       const BlockDesign& first,
+                                                       const BlockDesign& second);
+[[nodiscard]] ResultsSection movement_results(const StudyData& data);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,133 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/progress_bar.h"
+#include "app/results_output.h"
+#include "app/session_setup.h"
+#include "app/share.h"
+#include "core/error.h"
+#include "device/device_registry.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kParticipants = 13;
+constexpr const char* kStudies[] = {"magnitude_of_virtual_water", "viscosity_discrimination"};
+
+struct Options {
+  bool fast = false;
+  std::string out;
+  std::uint64_t seed = 1;
+  std::string laboratory = "thesis";
+  int jobs = 2;
+  std::string device = "lumped";
+  bool json = false;
+};
+
+fs::path fresh_folder() {
+  for (int number = 1;; ++number) {
+    fs::path folder = "demo-" + std::to_string(number);
+    if (!fs::exists(folder)) return folder;
+  }
+}
+
+int run(const Options& options) {
+  (void)device::device_named(options.device);
+  const fs::path out = options.out.empty() ? fresh_folder() : fs::path(options.out);
+  for (const char* name : kStudies) {
+    const fs::path folder = out / (std::string(name) + ".study");
+    if (fs::exists(folder)) {
+      throw UsageError(
+          folder.string() +
+          ": expected a folder that does not exist yet, found one; nothing is ever "
+          "overwritten, choose another --out");
+    }
+  }
+  const experiments::Laboratory laboratory =
+      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+  nlohmann::json document = {{"out", out.string()}, {"studies", nlohmann::json::array()}};
+  const auto start = std::chrono::steady_clock::now();
+  double simulated_s = 0.0;
+  for (const char* name : kStudies) {
+    const fs::path file = user_or_shipped(name, "protocols");
+    const experiments::Study study = experiments::read_study(file);
+    const fs::path folder = out / (std::string(name) + ".study");
+    {
+      core::StudyStore store(folder, core::StudyStore::Mode::kCreate,
+                             core::Durability::kAtClose);
+      const std::vector<std::int64_t> sessions =
+          add_sessions(store,
+                       {.study = study,
+                        .laboratory = laboratory,
+                        .study_file_name = file.filename().string(),
+                        .seed = options.seed},
+                       next_participants(store, kParticipants));
+      ProgressBar bar(name);
+      simulated_s += static_cast<double>(
+                         run_batch({.study = study,
+                                    .laboratory = laboratory,
+                                    .store = store,
+                                    .sessions = sessions,
+                                    .jobs = options.jobs,
+                                    .record = !options.fast,
+                                    .on_progress = [&bar](double done) { bar.show(done); }})) /
+                     study.device.rate_hz;
+    }
+    const analysis::StudyResults results = results_of_folder(folder);
+    if (options.json) {
+      document["studies"].push_back(to_json(results));
+    } else {
+      std::printf("%s\n", to_comparison_table(results).c_str());
+    }
+  }
+  const double elapsed_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.json) {
+    document["simulated_s"] = simulated_s;
+    document["elapsed_s"] = elapsed_s;
+    std::puts(document.dump(2).c_str());
+    return kDone;
+  }
+  std::printf(
+      "All values are SIMULATED. \"calibrated\": the laboratory file was fitted to the "
+      "published\n"
+      "value; \"held out\": it was not. Published: Schmidt (2018).\n"
+      "%d sessions, %.0f s at the device in %.1f s; every answer%s is in %s\n"
+      "Next: jnd results %s/%s.study\n",
+      2 * kParticipants, simulated_s, elapsed_s, options.fast ? "" : " and sample",
+      out.string().c_str(), out.string().c_str(), kStudies[1]);
+  return kDone;
+}
+
+}  // namespace
+
+void add_demo(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "demo",
+      "Both studies of the thesis with simulated participants, beside the published values");
+  const auto options = std::make_shared<Options>();
+  command->add_flag("--fast", options->fast,
+                    "Same sessions and answers; recordings reduced to summaries of strokes");
+  command->add_option("--out", options->out, "Folder to make; default: a fresh demo-N");
+  command->add_option("--seed", options->seed, "Of everything that is drawn")
+      ->capture_default_str();
+  command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Sessions at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--device", options->device, "Simulated device")->capture_default_str();
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

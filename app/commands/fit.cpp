@@ -1,0 +1,245 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "analysis/fits/fit_data.h"
+#include "analysis/fits/fit_json.h"
+#include "app/commands/commands.h"
+
+namespace jnd::app {
+namespace {
+
+using analysis::FitStatus;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string csv, weber_method = "ml", power_method = "nls";
+  double reference = 0.0;
+  std::vector<std::string> free, group_by;
+  int num_bootstrap = 0;
+  std::uint64_t seed = 1;
+  double k1 = 0.0, a1 = 0.0, k2 = 0.0, a2 = 0.0;
+  std::vector<double> intensities;
+  bool json = false;
+};
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "-";
+}
+
+/// "0.32 to 1.6", an end that the data leave open in words.
+std::string range(const analysis::Interval& interval) {
+  const auto end = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.4g}", *value) : std::string("open");
+  };
+  return end(interval.low) + " to " + end(interval.high);
+}
+
+void print_for_people(const analysis::PsychometricFit& fit, const Options& options) {
+  fmt::print("  {}, {} levels, {} trials\n",
+             fit.method == analysis::PsychometricMethod::kLeastSquares ? "least squares"
+                                                                       : "maximum likelihood",
+             fit.num_levels, fit.num_trials);
+  if (fit.status != FitStatus::kOk) {
+    fmt::print("  no Weber fraction: {}\n", fit.reason);
+    return;
+  }
+  fmt::print("  Weber fraction  {:<8}  95 % {}, standard error {}\n",
+             number(fit.weber_fraction), range(fit.weber_fraction_ci95),
+             number(fit.standard_error));
+  if (!fit.bootstrap.method.empty()) {
+    fmt::print("    bootstrap               95 % {} ({}, {} refits, {} without an optimum)\n",
+               range(fit.bootstrap.ci95), fit.bootstrap.method, fit.bootstrap.n,
+               fit.bootstrap.num_degenerate);
+  }
+  fmt::print("  PSE             {:<8}  {}, in the unit of the intensities\n", number(fit.pse),
+             fit.pse_ci95 ? "95 % " + range(*fit.pse_ci95) : "fixed at the reference");
+  const bool free_lapse =
+      std::find(options.free.begin(), options.free.end(), "lapse") != options.free.end();
+  fmt::print("  lapse rate      {:<8}  {}\n", number(fit.lapse_rate),
+             free_lapse ? "free" : "fixed");
+  fmt::print("  log-likelihood  {:<8}  deviance {}\n", number(fit.log_likelihood),
+             number(fit.deviance));
+  if (fit.r_squared) fmt::print("  R squared       {}\n", number(fit.r_squared));
+}
+
+void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lines) {
+  fmt::print("  S = k I^a by {}, {} rows\n",
+             fit.method == analysis::PowerMethod::kLogLog ? "a line through the logarithms"
+                                                          : "least squares",
+             fit.num_rows);
+  for (const analysis::PowerFit::Excluded& excluded : fit.excluded) {
+    fmt::print("  left out line {}: {}\n", lines[excluded.row], excluded.reason);
+  }
+  if (fit.status != FitStatus::kOk) {
+    fmt::print("  no power law: {}\n", fit.reason);
+    return;
+  }
+  fmt::print("  k          {:<8}  95 % {}, standard error {}\n", number(fit.k),
+             range(fit.k_ci95), number(fit.k_standard_error));
+  fmt::print("  a          {:<8}  95 % {}, standard error {}\n", number(fit.a),
+             range(fit.a_ci95), number(fit.a_standard_error));
+  fmt::print("  R squared  {}\n", number(fit.r_squared));
+}
+
+/// Fits every group, prints them all, and says whether each has a value. `fit` makes a result
+/// of a group, `print` shows it to people.
+template <typename Group, typename Fit, typename Print>
+int fit_groups(const std::vector<Group>& groups, const Options& options, const Fit& fit,
+               const Print& print) {
+  bool all_ok = true;
+  Json results = Json::array();
+  for (const Group& group : groups) {
+    const auto result = fit(group);
+    all_ok = all_ok && result.status == FitStatus::kOk;
+    if (options.json) {
+      Json json;
+      for (const auto& [column, value] : group.key) json["group"][column] = value;
+      json.update(analysis::to_json(result));
+      results.push_back(std::move(json));
+      continue;
+    }
+    std::string heading;
+    for (const auto& [column, value] : group.key) {
+      heading += (heading.empty() ? "" : ", ") + column + " " + value;
+    }
+    if (!heading.empty()) fmt::print("{}\n", heading);
+    print(result, group);
+  }
+  if (options.json) {
+    const Json document =
+        options.group_by.empty() ? results.at(0) : Json{{"groups", std::move(results)}};
+    fmt::print("{}\n", document.dump(2));
+  }
+  return all_ok ? kDone : kHasProblems;
+}
+
+int fit_weber(const Options& options) {
+  if (!(options.reference > 0.0 && std::isfinite(options.reference))) {
+    throw UsageError(
+        fmt::format("--reference: expected a number > 0 in the unit of the intensities, found "
+                    "{}; the Weber fraction is relative to it",
+                    options.reference));
+  }
+  const auto is_free = [&](const char* name) {
+    return std::find(options.free.begin(), options.free.end(), name) != options.free.end();
+  };
+  const analysis::PsychometricOptions how = {
+      .reference = options.reference,
+      .method = options.weber_method == "lsq"
+                    ? analysis::PsychometricMethod::kLeastSquares
+                    : analysis::PsychometricMethod::kMaximumLikelihood,
+      .free_pse = is_free("pse"),
+      .free_lapse = is_free("lapse"),
+      .num_bootstrap = options.num_bootstrap,
+      .seed = options.seed};
+  return fit_groups(
+      analysis::read_answer_counts(analysis::CsvTable::read(options.csv), options.group_by),
+      options, [&](const auto& group) { return analysis::fit_psychometric(group.rows, how); },
+      [&](const auto& fit, const auto&) { print_for_people(fit, options); });
+}
+
+int fit_power(const Options& options) {
+  const auto method = options.power_method == "loglog" ? analysis::PowerMethod::kLogLog
+                                                       : analysis::PowerMethod::kNonlinear;
+  return fit_groups(
+      analysis::read_magnitudes(analysis::CsvTable::read(options.csv), options.group_by),
+      options, [&](const auto& group) { return analysis::fit_power(group.rows, method); },
+      [](const auto& fit, const auto& group) { print_for_people(fit, group.lines); });
+}
+
+int fit_between(const Options& options) {
+  for (const double k : {options.k1, options.k2}) {
+    if (!(k > 0.0 && std::isfinite(k))) {
+      throw UsageError(fmt::format("--k1, --k2: expected numbers > 0, found {}", k));
+    }
+  }
+  for (const double intensity : options.intensities) {
+    if (!(intensity >= 0.0 && std::isfinite(intensity))) {
+      throw UsageError(
+          fmt::format("--intensities: expected numbers >= 0, found {}", intensity));
+    }
+  }
+  const analysis::PowerFit fit = analysis::power_between(
+      {options.k1, options.a1}, {options.k2, options.a2}, options.intensities);
+  if (options.json) {
+    const Json all = analysis::to_json(fit);
+    Json json;
+    for (const char* key : {"status", "reason", "k", "a"}) json[key] = all.at(key);
+    fmt::print("{}\n", json.dump(2));
+  } else if (fit.status == FitStatus::kOk) {
+    fmt::print("  S = {:.5g} I^{:.5g}, the least-squares power law through both curves\n",
+               *fit.k, *fit.a);
+  } else {
+    fmt::print("  no power law: {}\n", fit.reason);
+  }
+  return fit.status == FitStatus::kOk ? kDone : kHasProblems;
+}
+
+void add_table_options(CLI::App& command, Options& options, const char* columns) {
+  command.add_option("--csv", options.csv, std::string("table with the columns ") + columns)
+      ->required()
+      ->check(CLI::ExistingFile);
+  command
+      .add_option("--group-by", options.group_by, "columns; one fit for each of their values")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program, Invocation& invocation) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& fit = *program.add_subcommand("fit", "Fit a curve to a table of answers");
+  fit.require_subcommand(1);
+
+  CLI::App& weber = *fit.add_subcommand("weber", "Weber fraction from yes/no answers");
+  add_table_options(weber, *options, "intensity,num_yes,num_trials");
+  weber.add_option("--reference", options->reference, "reference intensity, > 0")->required();
+  weber.add_option("--method", options->weber_method, "maximum likelihood or least squares")
+      ->check(CLI::IsMember({"ml", "lsq"}))
+      ->capture_default_str();
+  weber.add_option("--free", options->free, "also fit the pse, the lapse rate, or both")
+      ->check(CLI::IsMember({"pse", "lapse"}))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  weber
+      .add_option("--bootstrap", options->num_bootstrap,
+                  "refits for a percentile interval of the Weber fraction")
+      ->check(CLI::Range(0, 10'000'000));
+  weber.add_option("--seed", options->seed, "of the bootstrap")->capture_default_str();
+  weber.callback(
+      [&invocation, options] { invocation.run = [options] { return fit_weber(*options); }; });
+
+  CLI::App& power = *fit.add_subcommand("power", "Power law from magnitudes");
+  add_table_options(power, *options, "intensity,magnitude");
+  power.add_option("--method", options->power_method, "nonlinear, or through the logarithms")
+      ->check(CLI::IsMember({"nls", "loglog"}))
+      ->capture_default_str();
+  power.callback(
+      [&invocation, options] { invocation.run = [options] { return fit_power(*options); }; });
+
+  CLI::App& between = *fit.add_subcommand("between", "Power law through two power laws");
+  between.add_option("--k1", options->k1, "factor of the first")->required();
+  between.add_option("--a1", options->a1, "exponent of the first")->required();
+  between.add_option("--k2", options->k2, "factor of the second")->required();
+  between.add_option("--a2", options->a2, "exponent of the second")->required();
+  between.add_option("--intensities", options->intensities, "where both are evaluated")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  between.callback(
+      [&invocation, options] { invocation.run = [options] { return fit_between(*options); }; });
+
+  for (CLI::App* command : {&weber, &power, &between}) {
+    command->add_flag("--json", options->json, "print one JSON document");
+  }
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "app/commands/commands.h"
+#include "core/error.h"
+#include "device/device_registry.h"
+#include "device/haptic_loop.h"
+#include "device/lumped_hand_device.h"
+#include "device/realtime_thread.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  double rate_hz = 1000.0;
+  double seconds = 5.0;
+  std::string device = "lumped";
+  int cpu = -1;
+  bool json = false;
+};
+
+struct Percentiles {
+  double p50, p99, p999, max;
+};
+
+Percentiles percentiles_us(const device::DurationHistogram& durations) {
+  const auto at = [&durations](double ratio) {
+    return 1e-3 * static_cast<double>(durations.percentile_ns(ratio));
+  };
+  return {at(0.5), at(0.99), at(0.999), 1e-3 * static_cast<double>(durations.max_ns())};
+}
+
+nlohmann::ordered_json json_of(const Percentiles& us) {
+  return {{"p50", us.p50}, {"p99", us.p99}, {"p999", us.p999}, {"max", us.max}};
+}
+
+void print_line(const char* what, const Percentiles& us) {
+  fmt::print("  {:<12} {:>10.1f} {:>10.1f} {:>10.1f} {:>10.1f}\n", what, us.p50, us.p99,
+             us.p999, us.max);
+}
+
+std::string verdict(const Options& options, const device::LoopTiming& timing,
+                    const device::RealtimeReport& report) {
+  if (timing.missed_ticks() > 0) {
+    return fmt::format(
+        "Not fit for a person: {} ticks were missed. Close other programs, or give "
+        "the loop a CPU of its own (--cpu).",
+        timing.missed_ticks());
+  }
+  if (!report.realtime_scheduler || !report.memory_locked) {
+    return "Fit for simulated devices alone: " + report.lacks + ".";
+  }
+  const double period_us = 1e6 / options.rate_hz;
+  if (percentiles_us(timing.lateness()).p999 > 0.2 * period_us) {
+    return "Usable, but one tick in a thousand came later than a fifth of its period.";
+  }
+  return "Fit for a person: no tick was missed and every force came in time.";
+}
+
+void print_for_people(const Options& options, const device::LoopTiming& timing,
+                      const device::RealtimeReport& report) {
+  fmt::print("{} ticks at {:g} Hz on {}, {} missed\n", timing.num_ticks(), options.rate_hz,
+             options.device, timing.missed_ticks());
+  fmt::print("{}, memory {}\n\n", report.scheduler,
+             report.memory_locked ? "locked" : "not locked");
+  fmt::print("  {:<12} {:>10} {:>10} {:>10} {:>10}\n", "us", "p50", "p99", "p99.9", "max");
+  print_line("lateness", percentiles_us(timing.lateness()));
+  print_line("tick cost", percentiles_us(timing.tick_cost()));
+  fmt::print("\n{}\n", verdict(options, timing, report));
+}
+
+void print_json(const Options& options, const device::LoopTiming& timing,
+                const device::RealtimeReport& report) {
+  nlohmann::ordered_json out;
+  out["rate_hz"] = options.rate_hz;
+  out["num_ticks"] = timing.num_ticks();
+  out["missed_ticks"] = timing.missed_ticks();
+  out["lateness_us"] = json_of(percentiles_us(timing.lateness()));
+  out["tick_cost_us"] = json_of(percentiles_us(timing.tick_cost()));
+  out["scheduler"] = report.scheduler;
+  out["memory_locked"] = report.memory_locked;
+  out["device"] = options.device;
+  fmt::print("{}\n", out.dump(2));
+}
+
+/// Whatever is wrong with the arguments is found here, before anything runs.
+struct Setup {
+  explicit Setup(const Options& options) try
+      : device(device::device_named(options.device).make(options.rate_hz)),
+        loop({.rate_hz = options.rate_hz}, *device, {commands, telemetry, emergency_stop}),
+        thread({.cpu = options.cpu}) {
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop emergency_stop;
+  std::unique_ptr<device::HapticDevice> device;
+  device::HapticLoop loop;
+  device::RealtimeThread thread;
+};
+
+int run(const Options& options) {
+  if (!(options.seconds > 0.0 && options.seconds <= 86'400.0)) {
+    throw UsageError(fmt::format("--seconds: expected a number > 0 and at most 86400, found {}",
+                                 options.seconds));
+  }
+  if (!(options.rate_hz > 0.0 && options.rate_hz <= 100'000.0)) {
+    throw UsageError(fmt::format(
+        "--rate-hz: expected a number > 0 and at most 100000, found {}", options.rate_hz));
+  }
+  Setup setup(options);
+  const device::RealtimeReport& report = setup.thread.report();
+  if (options.cpu >= 0 && !report.pinned) throw EnvironmentError(report.lacks);
+  try {
+    device::require_realtime(*setup.device, report, false);
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
+  }
+
+  setup.device->open();
+  // A hand that strokes through water: a tick with everything in it.
+  setup.commands.publish({.sequence = 1, .medium = core::water({})});
+  if (auto* hand = dynamic_cast<device::LumpedHandDevice*>(setup.device.get())) {
+    hand->begin_strokes({}, core::RandomStream(1, "loop"));
+  }
+  setup.thread.start(setup.loop);
+  std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));
+  setup.thread.stop();
+  setup.device->close();
+
+  if (options.json) {
+    print_json(options, setup.thread.timing(), report);
+  } else {
+    print_for_people(options, setup.thread.timing(), report);
+  }
+  setup.telemetry.fetch();
+  const core::Fault fault = setup.telemetry.value().fault;
+  if (fault != core::Fault::kNone) throw core::Error(std::string(core::words(fault)));
+  return kDone;
+}
+
+}  // namespace
+
+void add_loop(CLI::App& program, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("loop", "Runs the haptic loop and tells how punctual it is");
+  command->add_option("--rate-hz", options->rate_hz, "Ticks a second (default 1000)");
+  command->add_option("--seconds", options->seconds, "How long (default 5)");
+  command->add_option("--device", options->device, "As `jnd devices` lists them");
+  command->add_option("--cpu", options->cpu, "Pin the loop to this CPU")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback(
+      [options, &invocation] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,189 @@
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "app/commands/commands.h"
+#include "app/laboratory_run.h"
+#include "app/progress_bar.h"
+#include "app/session_setup.h"
+#include "app/share.h"
+#include "core/error.h"
+#include "device/device_registry.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+void request_stop(int) { stop_requested = true; }
+
+struct Options {
+  std::string file;
+  std::string folder;
+  std::string participant;
+  std::string device = "lumped";
+  std::optional<std::uint64_t> seed;
+  bool pilot = false;
+  bool allow_no_realtime = false;
+  bool headless = false;
+  std::string laboratory = "thesis";
+  bool realtime = false;
+  bool acknowledge = false;
+  std::string choose = "repeat";
+  std::optional<std::int64_t> session;
+};
+
+int run_session(const Options& options, core::StudyStore& store,
+                const experiments::Study& study, const experiments::Laboratory& laboratory,
+                std::int64_t session) {
+  stop_requested = false;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  LaboratoryRunResult result;
+  {
+    ProgressBar bar(study.name);
+    result = run_laboratory({.study = study,
+                             .laboratory = laboratory,
+                             .store = store,
+                             .session = session,
+                             .realtime = options.realtime,
+                             .choice = options.choose,
+                             .on_event =
+                                 [&](const core::EventRow& event) {
+                                   if (!options.acknowledge) return;
+                                   std::printf("EVENT %lld %s\n",
+                                               static_cast<long long>(event.sequence),
+                                               event.kind.c_str());
+                                   std::fflush(stdout);
+                                 },
+                             .on_progress = [&](double done) { bar.show(done); },
+                             .is_cancelled = [] { return stop_requested.load(); }});
+  }
+  if (!result.ended) {
+    std::fprintf(stderr,
+                 "jnd: stopped; every answer so far is on disk, and `jnd resume %s --headless` "
+                 "goes on from there\n",
+                 options.folder.c_str());
+    return kDone;
+  }
+  std::fprintf(options.acknowledge ? stderr : stdout,
+               "session %lld: finished, %lld samples, loop %s\n",
+               static_cast<long long>(session), static_cast<long long>(result.num_ticks),
+               result.realtime.c_str());
+  return kDone;
+}
+
+void require_headless(const Options& options) {
+  if (options.headless) return;
+  throw EnvironmentError(
+      "no window: expected --headless with a simulated participant, for no display was found");
+}
+
+int run(const Options& options) {
+  require_headless(options);
+  (void)device::device_named(options.device);
+  const std::filesystem::path file = user_or_shipped(options.file, "protocols");
+  const experiments::Study study = experiments::read_study(file);
+  const experiments::Laboratory laboratory =
+      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+  core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate);
+  const std::vector<std::int64_t> sessions =
+      add_sessions(store,
+                   {.study = study,
+                    .laboratory = laboratory,
+                    .study_file_name = file.filename().string(),
+                    .seed = options.seed.value_or(std::random_device{}()),
+                    .pilot = options.pilot,
+                    .realtime = options.realtime},
+                   {options.participant});
+  return run_session(options, store, study, laboratory, sessions.front());
+}
+
+/// The session asked for, or the open one; none if everything is finished.
+std::optional<core::SessionRow> session_to_resume(const core::StudyStore& store,
+                                                  const Options& options) {
+  for (const core::SessionRow& row : store.sessions()) {
+    if (options.session ? row.session == *options.session : !store.finished(row.session)) {
+      return row;
+    }
+  }
+  if (options.session) {
+    throw core::Error(options.folder + ": expected session " +
+                      std::to_string(*options.session) + ", found none of that number");
+  }
+  return std::nullopt;
+}
+
+int resume(const Options& options) {
+  core::StudyStore store(options.folder, core::StudyStore::Mode::kReadWrite);
+  const std::optional<core::SessionRow> row = session_to_resume(store, options);
+  if (!row || store.finished(row->session)) {
+    std::printf("%s: nothing to resume, every session is finished\n", options.folder.c_str());
+    return kDone;
+  }
+  require_headless(options);
+  const experiments::Study study = stored_study(store, row->session);
+  const experiments::Laboratory laboratory =
+      options.laboratory.empty()
+          ? experiments::parse_laboratory(row->laboratory, options.folder + ": laboratory")
+          : experiments::read_laboratory(
+                user_or_shipped(options.laboratory, "data/laboratories"));
+  return run_session(options, store, study, laboratory, row->session);
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("run", "Run a session");
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
+      ->required();
+  command->add_option("--study", options->folder, "Study folder, NAME.study, made if absent")
+      ->required();
+  command->add_option("--participant", options->participant, "Pseudonym, for example P01")
+      ->required();
+  command->add_option("--device", options->device, "See `jnd devices`")->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the study; drawn if not given");
+  command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");
+  command->add_flag("--allow-no-realtime", options->allow_no_realtime,
+                    "Run a real device without real-time rights");
+  command->add_flag("--headless", options->headless, "Without a window, participant simulated");
+  command->add_option("--laboratory", options->laboratory, "Of the simulated participant")
+      ->capture_default_str();
+  command->add_flag("--realtime", options->realtime,
+                    "Paced by the clock, not as fast as it goes");
+  command->add_flag("--acknowledge", options->acknowledge,
+                    "Print EVENT SEQUENCE KIND after each durable commit");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+void add_resume(CLI::App& program, Invocation& invocation) {
+  CLI::App* command =
+      program.add_subcommand("resume", "Go on with a session that was interrupted");
+  const auto options = std::make_shared<Options>();
+  options->laboratory.clear();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")->required();
+  command->add_option("--session", options->session, "Default: the open one");
+  command
+      ->add_option("--choose", options->choose,
+                   "repeat the interrupted trial, restart its block, or end the session")
+      ->check(CLI::IsMember({"repeat", "restart", "end"}))
+      ->capture_default_str();
+  command->add_flag("--headless", options->headless, "Without a window, participant simulated");
+  command->add_option("--laboratory", options->laboratory,
+                      "Of the simulated participant; default: the session's own");
+  command->add_flag("--realtime", options->realtime, "Paced by the clock");
+  command->add_flag("--acknowledge", options->acknowledge,
+                    "Print EVENT SEQUENCE KIND after each durable commit");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return resume(*options); }; });
+}
+
+}  // namespace jnd::app

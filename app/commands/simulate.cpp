@@ -1,0 +1,100 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/progress_bar.h"
+#include "app/session_setup.h"
+#include "app/share.h"
+#include "device/device_registry.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::string file;
+  int participants = 0;
+  std::string folder;
+  std::string laboratory = "thesis";
+  std::uint64_t seed = 1;
+  int jobs = 2;
+  std::string device = "lumped";
+  bool fast = false;
+  bool json = false;
+};
+
+int run(const Options& options) {
+  (void)device::device_named(options.device);
+  const std::filesystem::path file = user_or_shipped(options.file, "protocols");
+  const experiments::Study study = experiments::read_study(file);
+  const experiments::Laboratory laboratory =
+      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+  core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
+                         core::Durability::kAtClose);
+  const std::vector<std::string> participants = next_participants(store, options.participants);
+  const std::vector<std::int64_t> sessions =
+      add_sessions(store,
+                   {.study = study,
+                    .laboratory = laboratory,
+                    .study_file_name = file.filename().string(),
+                    .seed = options.seed},
+                   participants);
+  const auto start = std::chrono::steady_clock::now();
+  std::int64_t num_ticks = 0;
+  {
+    ProgressBar bar(study.name);
+    num_ticks = run_batch({.study = study,
+                           .laboratory = laboratory,
+                           .store = store,
+                           .sessions = sessions,
+                           .jobs = options.jobs,
+                           .record = !options.fast,
+                           .on_progress = [&bar](double done) { bar.show(done); }});
+  }
+  const double simulated_s = static_cast<double>(num_ticks) / study.device.rate_hz;
+  const double elapsed_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.json) {
+    const nlohmann::json document = {{"study", study.name},          {"folder", options.folder},
+                                     {"participants", participants}, {"num_ticks", num_ticks},
+                                     {"simulated_s", simulated_s},   {"elapsed_s", elapsed_s}};
+    std::puts(document.dump(2).c_str());
+  } else {
+    std::printf("%s: %d simulated sessions, %.0f s at the device in %.1f s, stored in %s\n",
+                study.name.c_str(), options.participants, simulated_s, elapsed_s,
+                options.folder.c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, Invocation& invocation) {
+  CLI::App* command =
+      program.add_subcommand("simulate", "Whole sessions with simulated participants");
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
+      ->required();
+  command->add_option("--participants", options->participants, "How many")
+      ->required()
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--study", options->folder, "Study folder to store in, made if absent")
+      ->required();
+  command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of everything that is drawn")
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Sessions at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--device", options->device, "Simulated device")->capture_default_str();
+  command->add_flag("--fast", options->fast, "Keep summaries of strokes instead of samples");
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

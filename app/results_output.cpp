@@ -1,0 +1,171 @@
+#include "app/results_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/share.h"
+#include "core/storage/study_store.h"
+
+namespace jnd::app {
+namespace {
+
+using analysis::Estimate;
+using analysis::Interval;
+using nlohmann::json;
+
+json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? json(*value) : json(nullptr);
+}
+
+json interval(const Interval& ci95) {
+  return json::array({number(ci95.low), number(ci95.high)});
+}
+
+std::string text(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? fmt::format("{:.4f}", *value) : "-";
+}
+
+std::string text(const Interval& ci95) {
+  if (!ci95.low && !ci95.high) return "-";
+  return fmt::format("{} .. {}", ci95.low ? text(ci95.low) : "open",
+                     ci95.high ? text(ci95.high) : "open");
+}
+
+std::string published_text(const Estimate& estimate) {
+  if (!estimate.published) return "-";
+  return estimate.published_sd
+             ? fmt::format("{:.4f} (sd {:.4f})", *estimate.published, *estimate.published_sd)
+             : fmt::format("{:.4f}", *estimate.published);
+}
+
+std::string heading(const analysis::StudyResults& results) {
+  std::string line =
+      fmt::format("{}: {} participants", results.study, results.num_participants);
+  if (results.simulated) {
+    line += fmt::format(", SIMULATED (laboratory \"{}\")", results.laboratory);
+  }
+  return line + "\n";
+}
+
+constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}  {}\n";
+
+std::string header() {
+  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published", "") + "  " +
+         std::string(122, '-') + "\n";
+}
+
+std::string row(const Estimate& estimate, bool simulated) {
+  const char* basis = !simulated || !estimate.published ? ""
+                      : estimate.calibrated             ? "calibrated"
+                                                        : "held out";
+  return fmt::format(kRow, estimate.name, text(estimate.value), text(estimate.ci95),
+                     estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
+                     basis);
+}
+
+}  // namespace
+
+analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
+                                         const analysis::ResultsOptions& options) {
+  const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  const analysis::StudyData data = analysis::load_study(store);
+  return analysis::results_of(
+      data, analysis::published_for(data.study, share_folder() / "data" / "published"),
+      options);
+}
+
+json to_json(const analysis::StudyResults& results) {
+  json sections = json::array();
+  for (const analysis::ResultsSection& section : results.sections) {
+    json estimates = json::array();
+    for (const Estimate& estimate : section.estimates) {
+      estimates.push_back({{"name", estimate.name},
+                           {"value", number(estimate.value)},
+                           {"ci95", interval(estimate.ci95)},
+                           {"unit", estimate.unit},
+                           {"meaning", estimate.meaning},
+                           {"published", number(estimate.published)},
+                           {"published_sd", number(estimate.published_sd)},
+                           {"calibrated", estimate.calibrated},
+                           {"n", estimate.n}});
+    }
+    json comparisons = json::array();
+    for (const analysis::NamedComparison& named : section.comparisons) {
+      const analysis::Comparison& c = named.comparison;
+      comparisons.push_back({{"name", named.name},
+                             {"status", std::string(to_string(c.status))},
+                             {"reason", c.reason},
+                             {"method", c.method},
+                             {"estimate", number(c.estimate)},
+                             {"ci95", interval(c.ci95)},
+                             {"statistic", number(c.statistic)},
+                             {"degrees_of_freedom", number(c.degrees_of_freedom)},
+                             {"p_value", number(c.p_value)},
+                             {"cohen_dz", number(c.cohen_dz)},
+                             {"n_a", c.num_a},
+                             {"n_b", c.num_b}});
+    }
+    json excluded = json::array();
+    for (const analysis::ExcludedParticipant& one : section.excluded) {
+      excluded.push_back({{"participant", one.participant}, {"reason", one.reason}});
+    }
+    sections.push_back({{"name", section.name},
+                        {"estimates", std::move(estimates)},
+                        {"comparisons", std::move(comparisons)},
+                        {"excluded", std::move(excluded)}});
+  }
+  return {{"study", results.study},
+          {"simulated", results.simulated},
+          {"laboratory", results.laboratory},
+          {"citation", results.citation},
+          {"num_participants", results.num_participants},
+          {"sections", std::move(sections)}};
+}
+
+std::string to_table(const analysis::StudyResults& results) {
+  std::string table = heading(results);
+  for (const analysis::ResultsSection& section : results.sections) {
+    table += fmt::format("\n{}\n{}", section.name, header());
+    for (const Estimate& estimate : section.estimates)
+      table += row(estimate, results.simulated);
+    for (const analysis::NamedComparison& named : section.comparisons) {
+      const analysis::Comparison& c = named.comparison;
+      if (c.status != analysis::FitStatus::kOk) {
+        table += fmt::format("  {}: {}\n", named.name, c.reason);
+        continue;
+      }
+      table +=
+          fmt::format("  {}: difference {} ({}), t({:.1f}) = {:.2f}, p = {:.4f}\n", named.name,
+                      text(c.estimate), text(c.ci95), c.degrees_of_freedom.value_or(0.0),
+                      c.statistic.value_or(0.0), c.p_value.value_or(1.0));
+    }
+    for (const analysis::ExcludedParticipant& one : section.excluded) {
+      table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
+    }
+  }
+  return table;
+}
+
+std::string to_comparison_table(const analysis::StudyResults& results) {
+  std::vector<const Estimate*> published;
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (estimate.published) published.push_back(&estimate);
+    }
+  }
+  std::stable_partition(published.begin(), published.end(),
+                        [](const Estimate* estimate) { return estimate->calibrated; });
+  std::string table = heading(results) + header();
+  for (const Estimate* estimate : published) table += row(*estimate, results.simulated);
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const analysis::ExcludedParticipant& one : section.excluded) {
+      table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
+    }
+  }
+  return table;
+}
+
+}  // namespace jnd::app

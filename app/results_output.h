@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "analysis/study_results.h"
+
+namespace jnd::app {
+
+/// Results of a study folder, with the published values that are shipped.
+[[nodiscard]] analysis::StudyResults results_of_folder(
+    const std::filesystem::path& folder, const analysis::ResultsOptions& options = {});
+
+/// The contract's JSON: study, simulated, sections.
+[[nodiscard]] nlohmann::json to_json(const analysis::StudyResults& results);
+
+/// Every estimate with interval and published value, a table a section.
+[[nodiscard]] std::string to_table(const analysis::StudyResults& results);
+
+/// Only what has a published value: ours beside it, first what the laboratory was calibrated
+/// on, then what was held out.
+[[nodiscard]] std::string to_comparison_table(const analysis::StudyResults& results);
+
+}  // namespace jnd::app

@@ -1,0 +1,124 @@
+#include "app/session_setup.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "app/laboratory_run.h"
+#include "core/error.h"
+#include "core/random_stream.h"
+#include "experiments/order/counterbalance.h"
+#include "experiments/session/session.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+
+std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSetup& setup,
+                                       const std::vector<std::string>& participants) {
+  std::vector<std::string> completed;
+  std::set<std::string> known;
+  const std::vector<core::SessionRow> rows = store.sessions();
+  for (const core::SessionRow& row : rows) {
+    known.insert(row.participant);
+    if (!row.pilot && store.finished(row.session)) completed.push_back(row.cells);
+  }
+  const std::string hash = store.add_protocol(setup.study_file_name, setup.study.text);
+  const std::vector<experiments::Cell> cells = experiments::planned_cells(
+      setup.study, completed, setup.seed, static_cast<std::int64_t>(rows.size()),
+      static_cast<int>(participants.size()));
+  std::vector<std::int64_t> sessions;
+  for (std::size_t i = 0; i < participants.size(); ++i) {
+    if (!known.insert(participants[i]).second) {
+      throw core::Error(store.folder().string() + ": expected a new participant, found that " +
+                        participants[i] + " has a session already; choose another or resume");
+    }
+    core::SessionRow row;
+    row.participant = participants[i];
+    row.protocol_sha256 = hash;
+    row.seed = experiments::session_seed(setup.seed, participants[i]);
+    row.cells = to_string(cells[i]);
+    row.pilot = setup.pilot;
+    row.simulated = true;
+    row.device = "lumped";
+    row.laboratory = setup.laboratory.text;
+    row.program_version = JND_VERSION;
+    row.realtime = setup.realtime ? "real-time thread" : "simulated";
+    row.rate_hz = setup.study.device.rate_hz;
+    sessions.push_back(store.add_session(row));
+  }
+  return sessions;
+}
+
+std::vector<std::string> next_participants(const core::StudyStore& store, int count) {
+  std::set<std::string> known;
+  for (const core::SessionRow& row : store.sessions()) known.insert(row.participant);
+  std::vector<std::string> names;
+  for (int number = 1; static_cast<int>(names.size()) < count; ++number) {
+    char name[16];
+    std::snprintf(name, sizeof name, "P%02d", number);
+    if (!known.contains(name)) names.emplace_back(name);
+  }
+  return names;
+}
+
+experiments::Study stored_study(const core::StudyStore& store, std::int64_t session) {
+  for (const core::SessionRow& row : store.sessions()) {
+    if (row.session != session) continue;
+    return experiments::read_study_text(store.protocol_text(row.protocol_sha256),
+                                        store.folder().string() + ": stored protocol");
+  }
+  throw core::Error(store.folder().string() + ": expected session " + std::to_string(session) +
+                    ", found none of that number");
+}
+
+std::int64_t run_batch(const Batch& batch) {
+  std::vector<std::atomic<double>> progress(batch.sessions.size());
+  std::atomic<std::size_t> next{0};
+  std::atomic<std::int64_t> num_ticks{0};
+  std::atomic<bool> failed{false};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto report = [&] {
+    if (!batch.on_progress) return;
+    double sum = 0.0;
+    for (const std::atomic<double>& one : progress) sum += one.load(std::memory_order_relaxed);
+    batch.on_progress(sum / static_cast<double>(progress.size()));
+  };
+  const auto work = [&] {
+    for (std::size_t i = next++; i < batch.sessions.size() && !failed; i = next++) {
+      try {
+        const LaboratoryRunResult result =
+            run_laboratory({.study = batch.study,
+                            .laboratory = batch.laboratory,
+                            .store = batch.store,
+                            .session = batch.sessions[i],
+                            .record = batch.record,
+                            .durability = core::Durability::kAtClose,
+                            .on_progress = [&, i](double done) {
+                              progress[i].store(done, std::memory_order_relaxed);
+                              report();
+                            }});
+        progress[i].store(1.0);
+        num_ticks += result.num_ticks;
+      } catch (...) {
+        const std::lock_guard guard(failure_mutex);
+        failed = true;
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  };
+  const auto jobs =
+      std::clamp<std::size_t>(static_cast<std::size_t>(batch.jobs), 1, batch.sessions.size());
+  std::vector<std::thread> workers;
+  for (std::size_t job = 1; job < jobs; ++job) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  if (failure) std::rethrow_exception(failure);
+  return num_ticks;
+}
+
+}  // namespace jnd::app

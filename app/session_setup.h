@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/storage/study_store.h"
+#include "experiments/participants/laboratory.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// What every session of a run has in common.
+struct SessionSetup {
+  const experiments::Study& study;
+  const experiments::Laboratory& laboratory;
+  std::string study_file_name;
+  std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
+  bool pilot = false;
+  bool realtime = false;
+};
+
+/// Adds the rows of sessions for these participants, cells assigned in the order given, before
+/// any of them starts: so what a session holds does not depend on how many run at once. Returns
+/// their numbers. Throws `Error` if one of the participants has a session already.
+[[nodiscard]] std::vector<std::int64_t> add_sessions(
+    core::StudyStore& store, const SessionSetup& setup,
+    const std::vector<std::string>& participants);
+
+/// "P01", "P02", ...: the next free pseudonyms of a study.
+[[nodiscard]] std::vector<std::string> next_participants(const core::StudyStore& store,
+                                                         int count);
+
+/// The study as it was when the session began, from the store; its text may have changed since.
+[[nodiscard]] experiments::Study stored_study(const core::StudyStore& store,
+                                              std::int64_t session);
+
+/// Runs sessions that were added, up to `jobs` at once, with progress on the terminal.
+struct Batch {
+  const experiments::Study& study;
+  const experiments::Laboratory& laboratory;
+  core::StudyStore& store;
+  std::vector<std::int64_t> sessions;
+  int jobs = 1;
+  bool record = true;
+  std::function<void(double)> on_progress;  ///< 0 to 1, from several threads; may be empty.
+};
+/// Throws the first error of any session, after the others have come to an end. Returns the
+/// simulated ticks of all.
+std::int64_t run_batch(const Batch& batch);
+
+}  // namespace jnd::app

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace jnd::core {
+
+/// The sign of life of the thread that a person talks to. Real time, any thread.
+class Heartbeat {
+ public:
+  void beat() noexcept { count_.fetch_add(1, std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t count() const noexcept {
+    return count_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  std::atomic<std::uint64_t> count_{0};
+};
+
+/// The listening side, owned by the haptic loop. It counts ticks instead of reading a clock: a
+/// loop that stands still renders nothing either. Real time.
+class HeartbeatMonitor {
+ public:
+  /// `heartbeat` may be nullptr: a simulation, where silence means nothing.
+  HeartbeatMonitor(const Heartbeat* heartbeat, std::int64_t timeout_ticks) noexcept
+      : heartbeat_(heartbeat), timeout_ticks_(timeout_ticks) {}
+
+  /// Called once a tick; true once `timeout_ticks` have passed without a beat. The first tick
+  /// counts as a beat.
+  [[nodiscard]] bool is_silent() noexcept {
+    if (heartbeat_ == nullptr) return false;
+    const std::uint64_t count = heartbeat_->count();
+    if (count != last_count_) {
+      last_count_ = count;
+      silent_ticks_ = 0;
+      return false;
+    }
+    // Saturates, so that a night of silence does not overflow.
+    if (silent_ticks_ < timeout_ticks_) ++silent_ticks_;
+    return silent_ticks_ >= timeout_ticks_;
+  }
+
+ private:
+  const Heartbeat* heartbeat_;
+  std::int64_t timeout_ticks_;
+  std::int64_t silent_ticks_ = 0;
+  std::uint64_t last_count_ = 0;
+};
+
+}  // namespace jnd::core

@@ -1,0 +1,50 @@
+#include "core/safety/passivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/require.h"
+
+namespace jnd::core {
+
+PassivityController::PassivityController(const Parameters& parameters, double period_s)
+    : max_credit_j_(parameters.max_credit_j), period_s_(period_s) {
+  require(max_credit_j_ > 0.0 && std::isfinite(max_credit_j_), "max_credit_j",
+          "a finite number > 0", max_credit_j_);
+  require(period_s_ > 0.0 && std::isfinite(period_s_), "period_s", "a finite number > 0",
+          period_s_);
+}
+
+bool PassivityController::control(const PointVectors& tip_position_m,
+                                  const PointVectors& tip_velocity_m_per_s,
+                                  PointVectors& force_on_hand_n) noexcept {
+  bool changed = false;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    if (has_last_) {
+      const double put_in_j = -last_force_n_[i].dot(tip_position_m[i] - last_position_m_[i]);
+      if (std::isfinite(put_in_j)) {
+        credit_j_[i] = std::min(credit_j_[i] + put_in_j, max_credit_j_);
+      }
+    }
+    const double pushing_w = force_on_hand_n[i].dot(tip_velocity_m_per_s[i]);
+    const double deficit_w = pushing_w - credit_j_[i] / period_s_;
+    // Only a push along the motion gives energy; NaN is not ours to mend.
+    if (pushing_w > 0.0 && deficit_w > 0.0) {
+      const double removed_w = std::min(deficit_w, pushing_w);
+      force_on_hand_n[i] -=
+          (removed_w / tip_velocity_m_per_s[i].squaredNorm()) * tip_velocity_m_per_s[i];
+      changed = true;
+    }
+  }
+  last_position_m_ = tip_position_m;
+  has_last_ = true;
+  return changed;
+}
+
+void PassivityController::reset() noexcept {
+  has_last_ = false;
+  credit_j_.fill(0.0);
+  last_force_n_ = zero_vectors();
+}
+
+}  // namespace jnd::core

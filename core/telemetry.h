@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/contact_sums.h"
+#include "core/safety/fault.h"
+#include "core/sample.h"
+
+namespace jnd::core {
+
+/// What the haptic loop tells the rest of the program after each tick; workspace frame.
+/// Trivially copyable: it leaves the haptic thread through a `LatestValue`.
+struct Telemetry {
+  std::int64_t num_ticks = 0;          ///< Ticks done by this loop; 0 is "none yet".
+  Sample sample;                       ///< The last one, as recorded.
+  std::uint64_t command_sequence = 0;  ///< Of the command in force.
+  Fault fault = Fault::kNone;
+  bool limited = false;           ///< The limiter changed the force in this tick.
+  bool ramp_finished = true;      ///< The medium in force is the commanded one.
+  double authority_ratio = 1;     ///< 1 normally; below while the force fades out or back in.
+  PlainVector hand_position_m{};  ///< Mean of the five tips.
+  PlainVector hand_velocity_m_per_s{};  ///< Mean of the attached tips.
+  PlainVector total_force_n{};          ///< On the hand, sum of the points, after every limit.
+  std::uint64_t num_dropped_samples = 0;
+  std::uint64_t num_limited_ticks = 0;  ///< So far; a difference over a trial marks it.
+  ContactSums contact_sums;             ///< Zeros from a device that does not know them.
+};
+
+static_assert(std::is_trivially_copyable_v<Telemetry>);
+
+}  // namespace jnd::core

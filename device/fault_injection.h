@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/hand.h"
+#include "device/haptic_device.h"
+
+namespace jnd::device {
+
+enum class Injection {
+  kNonFinitePosition,  ///< NaN at the point.
+  kNonFiniteVelocity,  ///< Infinity at the point.
+  kReadFailure,
+  kWriteFailure,  ///< The write does not reach the device.
+  kFrozenSample,  ///< The measurement stands still, with its velocity; time goes on.
+  kStaleTime,     ///< The same measurement again, with its time.
+  kDetachedPoint,
+  kPositionJump,   ///< The point is off by `magnitude`, in metres, along +x.
+  kVelocitySpike,  ///< The point's velocity is off by `magnitude`, in m/s, along +x.
+  kForceSpike,     ///< The device adds `magnitude`, in newtons, along +x, whatever it was told.
+  kStall,          ///< Each read takes `magnitude` seconds of the wall clock.
+};
+
+/// One fault, over a range of ticks.
+struct ScheduledFault {
+  std::int64_t first_tick = 0;  ///< Counted in reads since `open`, from 0.
+  std::int64_t num_ticks = 1;
+  Injection injection = Injection::kReadFailure;
+  core::ContactPoint point = core::ContactPoint::kIndex;
+  double magnitude = 0.0;
+};
+
+/// Any device, with things going wrong at set ticks: for tests, and for rehearsing what to do.
+/// It counts as simulated only if the device inside does.
+class FaultInjectingDevice final : public HapticDevice {
+ public:
+  /// `inner` has to outlive this. Not real time.
+  FaultInjectingDevice(HapticDevice& inner, std::vector<ScheduledFault> faults);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return inner_.name(); }
+  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+    return inner_.capabilities();
+  }
+  void open() override;
+  [[nodiscard]] bool read(core::HapticState& state) noexcept override;
+  [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
+  void close() noexcept override { inner_.close(); }
+  [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
+    return inner_.contact_sums();
+  }
+
+ private:
+  [[nodiscard]] bool is_due(const ScheduledFault& fault) const noexcept {
+    return tick_ >= fault.first_tick && tick_ - fault.first_tick < fault.num_ticks;
+  }
+
+  HapticDevice& inner_;
+  std::vector<ScheduledFault> faults_;
+  std::int64_t tick_ = -1;
+  core::HapticState last_good_;
+};
+
+}  // namespace jnd::device

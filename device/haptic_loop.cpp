@@ -1,0 +1,256 @@
+#include "device/haptic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/media/solid_plane.h"
+#include "core/require.h"
+#include "core/safety/force_distribution.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Fault;
+using core::kNumContactPoints;
+
+double period_of(double rate_hz) {
+  core::require(rate_hz > 0.0 && std::isfinite(rate_hz), "rate_hz", "a finite number > 0",
+                rate_hz);
+  return 1.0 / rate_hz;
+}
+
+core::ForceLimiter::Parameters within(core::ForceLimiter::Parameters limits,
+                                      const DeviceCapabilities& device) {
+  limits.per_point_n = std::min(limits.per_point_n, device.max_force_per_point_n);
+  limits.total_n = std::min(limits.total_n, device.max_total_force_n);
+  return limits;
+}
+
+std::int64_t ticks(double duration_s, double rate_hz) {
+  return static_cast<std::int64_t>(std::lround(duration_s * rate_hz));
+}
+
+void require_positive(double value, const char* field) {
+  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
+}
+
+core::PlainVector plain(const Eigen::Vector3d& vector) noexcept {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+bool is_finite(const core::HapticState& state) noexcept {
+  // A sum is finite only if every term is; overflow would need coordinates of 1e307.
+  Eigen::Vector3d sum = state.end_effector_position_m;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    sum += state.tip_position_m[i] + state.tip_velocity_m_per_s[i];
+  }
+  return std::isfinite(sum.x() + sum.y() + sum.z());
+}
+
+}  // namespace
+
+HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const Doors& doors)
+    : parameters_(parameters),
+      device_(device),
+      doors_(doors),
+      period_s_(period_of(parameters.rate_hz)),
+      max_stale_ticks_(ticks(parameters.max_stale_s, parameters.rate_hz)),
+      heartbeat_(doors.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
+      passivity_(parameters.passivity, period_s_),
+      limiter_(within(parameters.limits, device.capabilities()), period_s_),
+      flight_recorder_(static_cast<std::size_t>(
+          std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
+  require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
+  require_positive(parameters.heartbeat_timeout_s, "heartbeat_timeout_s");
+  require_positive(parameters.fade_out_s, "fade_out_s");
+  require_positive(parameters.rearm_s, "rearm_s");
+  core::require(parameters.max_stale_s >= 0.0 && std::isfinite(parameters.max_stale_s),
+                "max_stale_s", "a finite number >= 0", parameters.max_stale_s);
+  require_positive(parameters.max_jump_m, "max_jump_m");
+  require_positive(parameters.flight_recorder_s, "flight_recorder_s");
+  telemetry_.sample.tick = parameters.first_tick - 1;
+}
+
+void HapticLoop::render() noexcept {
+  // The stop comes first, before anything that could go wrong.
+  const bool stopped = doors_.emergency_stop.is_pressed();
+  if (stopped) latch(Fault::kEmergencyStop);
+  rearm_if_requested();
+  if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost);
+  advance_authority();
+
+  const Fault found = read_device();
+  if (found != Fault::kNone) latch(found);
+  take_command();
+  compute_force();
+  if (!device_.write(force_on_hand_n_)) latch(Fault::kDeviceWriteFailed);
+}
+
+void HapticLoop::latch(Fault fault) noexcept {
+  // The first fault is the one to tell, but the fading of a lost heartbeat must not soften what
+  // comes on top of it.
+  if (fault_ == Fault::kNone || (fault_ == Fault::kHeartbeatLost && fault != fault_)) {
+    fault_ = fault;
+  }
+  if (fault_ != Fault::kHeartbeatLost) authority_ratio_ = 0.0;
+}
+
+void HapticLoop::rearm_if_requested() noexcept {
+  if (!rearm_requested_.load(std::memory_order_relaxed)) return;
+  rearm_requested_.store(false, std::memory_order_relaxed);
+  if (doors_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
+  fault_ = Fault::kNone;
+  authority_ratio_ = 0.0;
+  limiter_.rearm();
+  passivity_.reset();
+  // A ramp that had met a value that is no number would never get rid of it.
+  ramp_.start(doors_.commands.value().medium, 0.0);
+  has_last_state_ = false;
+  num_stale_ticks_ = 0;
+  flight_recorder_.thaw();
+}
+
+void HapticLoop::advance_authority() noexcept {
+  if (fault_ == Fault::kNone) {
+    authority_ratio_ = std::min(1.0, authority_ratio_ + period_s_ / parameters_.rearm_s);
+  } else {
+    authority_ratio_ = std::max(0.0, authority_ratio_ - period_s_ / parameters_.fade_out_s);
+  }
+}
+
+Fault HapticLoop::read_device() noexcept {
+  last_state_ = state_;
+  if (!device_.read(state_)) {
+    state_ = last_state_;
+    return Fault::kDeviceReadFailed;
+  }
+  if (!is_finite(state_)) {
+    // Recordings and telemetry get the last state that was one.
+    state_ = last_state_;
+    return Fault::kNonFiniteState;
+  }
+  const Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
+  has_last_state_ = true;
+  attached_bits_ = 0;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    attached_bits_ =
+        static_cast<std::uint8_t>(attached_bits_ | (state_.attached[i] ? 1 : 0) << i);
+  }
+  return found;
+}
+
+Fault HapticLoop::check_against_last() noexcept {
+  // Unsigned, for a device may report any time without making the subtraction overflow.
+  const auto elapsed_ns =
+      static_cast<std::int64_t>(static_cast<std::uint64_t>(state_.device_time_ns) -
+                                static_cast<std::uint64_t>(last_state_.device_time_ns));
+  const double elapsed_s = 1e-9 * static_cast<double>(elapsed_ns);
+  const double max_distance_m = parameters_.max_jump_m + parameters_.limits.max_speed_m_per_s *
+                                                             std::max(elapsed_s, period_s_);
+  bool moved = false;
+  bool claims_to_move = false;
+  bool jumped = false;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    const double squared_m2 =
+        (state_.tip_position_m[i] - last_state_.tip_position_m[i]).squaredNorm();
+    moved |= squared_m2 > 0.0;
+    jumped |= state_.attached[i] && last_state_.attached[i] &&
+              squared_m2 > max_distance_m * max_distance_m;
+    constexpr double kMovingM2PerS2 = 0.05 * 0.05;
+    claims_to_move |= state_.tip_velocity_m_per_s[i].squaredNorm() > kMovingM2PerS2;
+  }
+  if (jumped) return Fault::kPositionJump;
+  // Time that stands still, or a hand that moves without getting anywhere.
+  const bool stale = elapsed_s <= 0.0 || (claims_to_move && !moved);
+  num_stale_ticks_ = stale ? num_stale_ticks_ + 1 : 0;
+  return num_stale_ticks_ > max_stale_ticks_ ? Fault::kStaleSample : Fault::kNone;
+}
+
+void HapticLoop::take_command() noexcept {
+  if (doors_.commands.fetch()) {
+    const core::HapticCommand& command = doors_.commands.value();
+    ramp_.start(command.medium, command.ramp_s);
+  }
+}
+
+void HapticLoop::compute_force() noexcept {
+  const core::HapticCommand& command = doors_.commands.value();
+  const core::MediumAmounts& medium = ramp_.advance(period_s_);
+  motion_ =
+      core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
+  immersed_bits_ = 0;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    const int inside = command.immersion.contains(state_.tip_position_m[i]) ? 1 : 0;
+    immersed_bits_ = static_cast<std::uint8_t>(immersed_bits_ | inside << i);
+  }
+  limited_ = false;
+  if (authority_ratio_ == 0.0) {
+    force_on_hand_n_ = core::zero_vectors();
+    // The limiter knows that nothing was sent, whatever it had sent before.
+    limiter_.rearm();
+    passivity_.reset();
+    return;
+  }
+  core::distribute_drag(medium.drag_n(motion_), state_, immersed_bits_,
+                        parameters_.fade_speed_m_per_s, force_on_hand_n_);
+  if (medium.plane_stiffness_n_per_m != 0.0 || medium.plane_damping_n_s_per_m != 0.0) {
+    for (int i = 0; i < kNumContactPoints; ++i) {
+      if (!state_.attached[i]) continue;
+      force_on_hand_n_[i].z() +=
+          core::kAreaShareRatio[i] *
+          core::SolidPlane::force_n(medium.plane_stiffness_n_per_m,
+                                    medium.plane_damping_n_s_per_m,
+                                    command.immersion.origin_z_m - state_.tip_position_m[i].z(),
+                                    state_.tip_velocity_m_per_s[i].z());
+    }
+  }
+  if (authority_ratio_ < 1.0) {
+    for (Eigen::Vector3d& force : force_on_hand_n_) force *= authority_ratio_;
+  }
+  passivity_.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n_);
+  limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_);
+  passivity_.sent(force_on_hand_n_);
+  if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
+}
+
+void HapticLoop::report() noexcept {
+  const core::HapticCommand& command = doors_.commands.value();
+  core::Sample& sample = telemetry_.sample;
+  ++sample.tick;
+  sample.command_sequence = static_cast<std::uint32_t>(command.sequence);
+  sample.attached_bits = attached_bits_;
+  sample.immersed_bits = immersed_bits_;
+  sample.limited = limited_ ? 1 : 0;
+  sample.fault = static_cast<std::uint8_t>(fault_);
+  Eigen::Vector3d position_sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    sample.tip_position_m[i] = plain(state_.tip_position_m[i]);
+    sample.tip_velocity_m_per_s[i] = plain(state_.tip_velocity_m_per_s[i]);
+    sample.tip_force_n[i] = plain(force_on_hand_n_[i]);
+    position_sum += state_.tip_position_m[i];
+    force_sum += force_on_hand_n_[i];
+  }
+  sample.end_effector_position_m = plain(state_.end_effector_position_m);
+
+  flight_recorder_.record(sample);
+  if (fault_ != Fault::kNone) flight_recorder_.freeze();
+  if (doors_.samples != nullptr && !doors_.samples->try_push(sample)) {
+    telemetry_.num_dropped_samples = doors_.samples->num_dropped();
+  }
+
+  ++telemetry_.num_ticks;
+  telemetry_.command_sequence = command.sequence;
+  telemetry_.fault = fault_;
+  telemetry_.limited = limited_;
+  telemetry_.ramp_finished = ramp_.finished();
+  telemetry_.authority_ratio = authority_ratio_;
+  telemetry_.hand_position_m = plain(position_sum / kNumContactPoints);
+  telemetry_.hand_velocity_m_per_s = plain(motion_.velocity_m_per_s);
+  telemetry_.total_force_n = plain(force_sum);
+  if (limited_) ++telemetry_.num_limited_ticks;
+  telemetry_.contact_sums = device_.contact_sums();
+  doors_.telemetry.publish(telemetry_);
+}
+
+}  // namespace jnd::device

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/doors/flight_recorder.h"
+#include "core/doors/latest_value.h"
+#include "core/doors/spsc_queue.h"
+#include "core/haptic_command.h"
+#include "core/safety/emergency_stop.h"
+#include "core/safety/force_limiter.h"
+#include "core/safety/heartbeat.h"
+#include "core/safety/passivity.h"
+#include "core/telemetry.h"
+#include "device/haptic_device.h"
+
+namespace jnd::device {
+
+/// One tick of haptics over a device and a command:
+///
+///     emergency stop -> read -> command, ramp -> kinematics -> immersion -> drag, plane
+///     -> distribution -> passivity -> limiter -> write -> sample, telemetry
+///
+/// It knows no wall clock: a real-time thread drives it by absolute time, a simulation and a
+/// test as fast as they like. Whatever is wrong with the device, the force or the rest of the
+/// program becomes a latched fault and zero force, at once; only a lost heartbeat fades out.
+/// After a fault it goes on reading and writing zeros, so that everything stays recorded.
+class HapticLoop {
+ public:
+  struct Parameters {
+    double rate_hz = 1000.0;                ///< > 0.
+    double fade_speed_m_per_s = 0.005;      ///< See `distribute_drag`, > 0.
+    core::ForceLimiter::Parameters limits;  ///< The device's own limits apply besides.
+    core::PassivityController::Parameters passivity;
+    double heartbeat_timeout_s = 0.250;  ///< > 0.
+    double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
+    double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
+    double max_stale_s = 0.005;      ///< For how long the last measurement may stand in, >= 0.
+    double max_jump_m = 0.005;       ///< Of a point between ticks beyond its top speed, > 0.
+    double flight_recorder_s = 1.0;  ///< > 0.
+    std::int64_t first_tick = 0;  ///< Number of the first sample: a resumed recording goes on.
+  };
+
+  /// What leads out of the haptic thread. The caller keeps all of it alive.
+  struct Doors {
+    core::LatestValue<core::HapticCommand>& commands;
+    core::LatestValue<core::Telemetry>& telemetry;
+    core::EmergencyStop& emergency_stop;
+    core::SpscQueue<core::Sample>* samples = nullptr;  ///< nullptr: nothing is recorded.
+    const core::Heartbeat* heartbeat = nullptr;        ///< nullptr: a simulation needs none.
+  };
+
+  /// Throws `core::Error` naming the field. The device is opened and closed by the caller. Not
+  /// real time.
+  HapticLoop(const Parameters& parameters, HapticDevice& device, const Doors& doors);
+  HapticLoop(const HapticLoop&) = delete;
+  HapticLoop& operator=(const HapticLoop&) = delete;
+
+  /// One whole tick. Real time.
+  void tick() noexcept {
+    render();
+    report();
+  }
+
+  /// The part of a tick up to the device's write, and the rest: for whoever measures lateness.
+  /// Always in this order. Real time.
+  void render() noexcept;
+  void report() noexcept;
+
+  /// Asks for the force back, faded in from zero. Takes effect in the next tick, unless the
+  /// emergency stop is still pressed. Any thread. Real time.
+  void rearm() noexcept { rearm_requested_.store(true, std::memory_order_release); }
+
+  [[nodiscard]] double period_s() const noexcept { return period_s_; }
+
+  /// The last second before a fault; read it before `rearm`.
+  [[nodiscard]] const core::FlightRecorder& flight_recorder() const noexcept {
+    return flight_recorder_;
+  }
+
+ private:
+  void latch(core::Fault fault) noexcept;
+  void rearm_if_requested() noexcept;
+  void advance_authority() noexcept;
+  [[nodiscard]] core::Fault read_device() noexcept;
+  [[nodiscard]] core::Fault check_against_last() noexcept;
+  void take_command() noexcept;
+  void compute_force() noexcept;
+
+  Parameters parameters_;
+  HapticDevice& device_;
+  Doors doors_;
+  double period_s_;
+  std::int64_t max_stale_ticks_;
+  core::HeartbeatMonitor heartbeat_;
+  core::PassivityController passivity_;
+  core::ForceLimiter limiter_;
+  core::FlightRecorder flight_recorder_;
+  std::atomic<bool> rearm_requested_{false};
+
+  core::Fault fault_ = core::Fault::kNone;
+  double authority_ratio_ = 1.0;
+  core::MediumRamp ramp_;
+  core::HapticState state_;
+  core::HapticState last_state_;
+  bool has_last_state_ = false;
+  std::int64_t num_stale_ticks_ = 0;
+  std::uint8_t attached_bits_ = 0;
+  std::uint8_t immersed_bits_ = 0;
+  core::HandMotion motion_;
+  core::PointVectors force_on_hand_n_ = core::zero_vectors();
+  bool limited_ = false;
+  core::Telemetry telemetry_;
+};
+
+}  // namespace jnd::device

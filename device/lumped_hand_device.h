@@ -1,0 +1,88 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/doors/latest_value.h"
+#include "device/haptic_device.h"
+#include "device/stroking_arm.h"
+
+namespace jnd::device {
+
+/// A simulated hand on a simulated device: one mass that a `StrokingArm` pulls along,
+///
+///     mass a = rendered force + arm force - viscosity v - friction v / sqrt(|v|^2 + v0^2),
+///
+/// with five tips fixed to it, the hand plane's normal along x, so that a stroke meets the
+/// medium head on. Semi-implicit Euler at the loop's period; its own time moves on by one
+/// period a write, so that a run is the same to the bit, however fast it goes.
+///
+/// `read`, `write` and `contact_sums` belong to the loop's thread; `begin_strokes`, `go_home`,
+/// `strokes_finished` and `is_home` to one other, which may be the same.
+class LumpedHandDevice final : public HapticDevice {
+ public:
+  struct Parameters {
+    double rate_hz = 1000.0;                      ///< Of the loop that drives it, > 0.
+    double mass_kg = 1.0;                         ///< Of hand and device together, > 0.
+    double mechanical_viscosity_n_s_per_m = 0.0;  ///< Of the device, >= 0.
+    double dry_friction_n = 0.0;                  ///< Of the device, >= 0.
+    /// v0: the friction's force is smooth around rest, within this speed; > 0.
+    double friction_speed_m_per_s = 0.01;
+    StrokingArm::Parameters arm;
+    double max_force_per_point_n = 10.0;  ///< > 0.
+    double max_total_force_n = 30.0;      ///< > 0.
+  };
+
+  /// Throws `core::Error` naming the field, also where one period is too long for so light a
+  /// hand in so much damping. Not real time.
+  explicit LumpedHandDevice(const Parameters& parameters);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "lumped"; }
+  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override;
+  /// The hand at rest at home, time and sums at 0.
+  void open() override;
+  [[nodiscard]] bool read(core::HapticState& state) noexcept override;
+  [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
+  void close() noexcept override {}
+  [[nodiscard]] core::ContactSums contact_sums() const noexcept override { return sums_; }
+
+  /// Throws `core::Error` for a plan out of range. Takes effect in the next tick.
+  void begin_strokes(const StrokePlan& plan, const core::RandomStream& random);
+  void go_home() noexcept;
+  /// Whole strokes since the last `begin_strokes`.
+  [[nodiscard]] std::int64_t strokes_finished() const noexcept;
+  /// The arm has come to rest at home since the last order.
+  [[nodiscard]] bool is_home() const noexcept;
+
+ private:
+  struct ArmOrder {
+    std::uint32_t number = 0;
+    bool stroke = false;  ///< Else go home.
+    StrokePlan plan;
+    core::RandomStream random{0, "stroke"};
+  };
+  void give(const ArmOrder& order) noexcept;
+  void follow_orders() noexcept;
+  void report_progress() noexcept;
+
+  Parameters parameters_;
+  double period_s_;
+  std::int64_t period_ns_;
+  StrokingArm arm_;
+  Eigen::Vector3d position_m_;
+  Eigen::Vector3d velocity_m_per_s_ = Eigen::Vector3d::Zero();
+  std::int64_t device_time_ns_ = 0;
+  core::ContactSums sums_;
+
+  core::LatestValue<ArmOrder> orders_;
+  std::uint32_t last_order_ = 0;
+  std::uint32_t last_stroke_order_ = 0;
+  /// Number of the order in force in the upper half, 2 * strokes + home in the lower.
+  std::atomic<std::uint64_t> progress_{1};
+};
+
+/// Where the tips are relative to the hand, in metres: multiples of 0.1 um, the grid of a
+/// recording, with mean zero.
+[[nodiscard]] const core::PointVectors& lumped_hand_tips_m() noexcept;
+
+}  // namespace jnd::device

@@ -1,0 +1,175 @@
+#include "experiments/session/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "core/hand.h"
+#include "core/random_stream.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/session/event.h"
+#include "experiments/session/stimulus.h"
+
+namespace jnd::experiments {
+namespace {
+
+double total_duration_s(const std::vector<Exploration>& explorations) {
+  double duration_s = 0.0;
+  for (const Exploration& exploration : explorations) duration_s += exploration.duration_s;
+  return duration_s;
+}
+
+/// Collects the settings of a study's stages, arms included, each once for a stage.
+class RangeCollector {
+ public:
+  explicit RangeCollector(const RangeLimits& limits) : limits_(limits) {}
+
+  void add(const std::vector<Stage>& stages) {
+    for (const Stage& stage : stages) add(stage);
+  }
+
+  std::vector<RangeEntry> entries;
+
+ private:
+  void add(const Stage& stage) {
+    if (const auto* explore = std::get_if<Explore>(&stage.content)) {
+      for (const Exploration& medium : explore->media) add(stage, medium.setting);
+    } else if (const auto* training = std::get_if<Training>(&stage.content)) {
+      for (const Exploration& example : training->examples) add(stage, example.setting);
+    } else if (const auto* post = std::get_if<PostExperiment>(&stage.content)) {
+      for (const PostExperimentItem& item : post->items) add(stage, item.setting);
+    } else if (const auto* block = std::get_if<Block>(&stage.content)) {
+      std::vector<double> intensities = block->intensities;
+      if (block->reference_intensity) intensities.push_back(*block->reference_intensity);
+      if (block->max_intensity) intensities.push_back(*block->max_intensity);
+      std::sort(intensities.begin(), intensities.end());
+      for (const double intensity : intensities) {
+        add(stage, {block->medium, block->quantity, intensity});
+      }
+    } else if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
+      for (const Counterbalance::Arm& arm : counterbalance->arms) add(arm.stages);
+      add(counterbalance->between);
+    }
+  }
+
+  void add(const Stage& stage, const MediumSetting& setting) {
+    for (const RangeEntry& known : entries) {
+      if (known.stage == stage.name && known.setting.medium == setting.medium &&
+          known.setting.intensity == setting.intensity) {
+        return;
+      }
+    }
+    const core::MediumAmounts amounts = amounts_of(setting);
+    const core::HandMotion motion = {
+        .velocity_m_per_s = {limits_.expected_speed_m_per_s, 0.0, 0.0},
+        .speed_m_per_s = limits_.expected_speed_m_per_s,
+        .sin_angle_of_attack = 1.0};
+    const double share =
+        *std::max_element(core::kAreaShareRatio.begin(), core::kAreaShareRatio.end());
+    RangeEntry entry;
+    entry.stage = stage.name;
+    entry.setting = setting;
+    entry.total_force_n =
+        amounts.drag_n(motion) + amounts.plane_stiffness_n_per_m * limits_.expected_depth_m;
+    entry.largest_point_force_n = share * entry.total_force_n;
+    const double most_n =
+        std::min(limits_.max_total_force_n, limits_.max_force_per_point_n / share);
+    entry.fits = entry.total_force_n <= most_n;
+    // quadratic v^2 + linear v = most, in the form that keeps its digits where one is 0.
+    const double quadratic =
+        amounts.quadratic_kg_per_m * core::WaterDrag::drag_coefficient(1.0);
+    const double linear = amounts.damping_n_s_per_m;
+    if (quadratic > 0.0 || linear > 0.0) {
+      entry.fits_up_to_m_per_s =
+          2.0 * most_n / (linear + std::sqrt(linear * linear + 4.0 * quadratic * most_n));
+    }
+    entries.push_back(entry);
+  }
+
+  const RangeLimits& limits_;
+};
+
+}  // namespace
+
+double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
+  return std::visit(
+      [&](const auto& content) -> double {
+        using Content = std::decay_t<decltype(content)>;
+        if constexpr (std::is_same_v<Content, Checklist>) {
+          return times.checklist_item_s * static_cast<double>(content.items.size());
+        } else if constexpr (std::is_same_v<Content, Consent>) {
+          return times.consent_paragraph_s * static_cast<double>(content.paragraphs.size());
+        } else if constexpr (std::is_same_v<Content, Explore>) {
+          return total_duration_s(content.media);
+        } else if constexpr (std::is_same_v<Content, Training>) {
+          return total_duration_s(content.examples);
+        } else if constexpr (std::is_same_v<Content, Block>) {
+          return (content.free_space_between_s + content.expected_trial_s) *
+                 procedure_named(content.procedure).expected_trials(content);
+        } else if constexpr (std::is_same_v<Content, Break>) {
+          return content.duration_s;
+        } else if constexpr (std::is_same_v<Content, PostExperiment>) {
+          return times.post_experiment_item_s * static_cast<double>(content.items.size());
+        } else if constexpr (std::is_same_v<Content, Questionnaire>) {
+          return times.questionnaire_item_s * static_cast<double>(content.items.size());
+        } else {
+          return 0.0;  // A counterbalance is resolved before anything takes time.
+        }
+      },
+      stage.content);
+}
+
+std::uint64_t session_seed(std::uint64_t study_seed, std::int64_t participant_index) noexcept {
+  return core::derived_seed(study_seed, "session", {participant_index});
+}
+
+std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanRequest& request) {
+  std::vector<ParticipantPlan> plans;
+  std::int64_t participant_index = request.first_participant_index;
+  for (Cell& cell : planned_cells(study, request.completed, request.seed,
+                                  request.first_participant_index, request.num_participants)) {
+    ParticipantPlan plan;
+    plan.participant_index = participant_index;
+    plan.stages = stages_of(study, cell);
+    plan.cell = std::move(cell);
+    const std::uint64_t seed = session_seed(request.seed, participant_index);
+    for (std::size_t index = 0; index < plan.stages.size(); ++index) {
+      const Stage& stage = *plan.stages[index].stage;
+      plan.duration_s += expected_duration_s(stage);
+      const auto* block = std::get_if<Block>(&stage.content);
+      if (block == nullptr) continue;
+      const auto stage_index = static_cast<std::int64_t>(index);
+      // The key of the draw that a session makes on entering a block: 0 trials answered.
+      core::RandomStream stream(seed, "order", {stage_index, 0});
+      const Procedure& procedure = procedure_named(block->procedure);
+      plan.blocks.push_back({&stage, stage_index, procedure.expected_trials(*block),
+                             procedure.draw_next(*block, {}, stream)});
+    }
+    plans.push_back(std::move(plan));
+    ++participant_index;
+  }
+  return plans;
+}
+
+std::vector<std::string> completed_cells(const core::StudyStore& store) {
+  std::vector<std::string> cells;
+  for (const core::SessionRow& row : store.sessions()) {
+    if (row.pilot || !store.finished(row.session)) continue;
+    const std::vector<core::EventRow> events = store.events(row.session);
+    const bool completed =
+        std::any_of(events.begin(), events.end(), [](const core::EventRow& event) {
+          if (event.kind != kind_of(SessionEnded{})) return false;
+          return std::get<SessionEnded>(event_from_row(event).data).completed;
+        });
+    if (completed) cells.push_back(row.cells);
+  }
+  return cells;
+}
+
+std::vector<RangeEntry> planned_range(const Study& study, const RangeLimits& limits) {
+  RangeCollector collector(limits);
+  collector.add(study.stages);
+  return std::move(collector.entries);
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/storage/study_store.h"
+#include "experiments/order/counterbalance.h"
+#include "experiments/procedures/procedure.h"
+#include "experiments/study/study.h"
+
+namespace jnd::experiments {
+
+/// Rough times for what a study gives none for. Only for planning the length of a session.
+struct ExpectedTimes {
+  double checklist_item_s = 20.0;
+  double consent_paragraph_s = 30.0;
+  double questionnaire_item_s = 15.0;
+  double post_experiment_item_s = 45.0;
+};
+
+/// How long this stage is expected to take, in seconds.
+[[nodiscard]] double expected_duration_s(const Stage& stage, const ExpectedTimes& times = {});
+
+/// A block with the order in which its first trials will be drawn: all of them, unless the
+/// procedure adapts.
+struct PlannedBlock {
+  const Stage* stage = nullptr;
+  std::int64_t stage_index = 0;  ///< Into the participant's own list, as in events.
+  int num_trials = 0;            ///< To be expected.
+  std::vector<PlannedTrial> trials;
+};
+
+/// What one participant will get.
+struct ParticipantPlan {
+  std::int64_t participant_index = 0;  ///< From 0.
+  Cell cell;
+  std::vector<StageInstance> stages;
+  std::vector<PlannedBlock> blocks;
+  double duration_s = 0.0;
+};
+
+struct PlanRequest {
+  int num_participants = 0;  ///< >= 1.
+  std::uint64_t seed = 0;    ///< Of the study.
+  std::int64_t first_participant_index = 0;
+  std::vector<std::string> completed;  ///< Cells of the sessions completed so far.
+};
+
+/// Seed of everything drawn in one participant's session.
+[[nodiscard]] std::uint64_t session_seed(std::uint64_t study_seed,
+                                         std::int64_t participant_index) noexcept;
+
+/// Cells and orders exactly as the sessions will draw them, if they come in this sequence and
+/// all complete. The study must outlive the plan. Throws `Error` for a procedure that lacks
+/// something. Not real time.
+[[nodiscard]] std::vector<ParticipantPlan> plan_participants(const Study& study,
+                                                             const PlanRequest& request);
+
+/// Cells of the completed sessions of a study folder; pilots do not count.
+[[nodiscard]] std::vector<std::string> completed_cells(const core::StudyStore& store);
+
+/// What the device can render and how the hand is expected to move.
+struct RangeLimits {
+  double max_force_per_point_n;         ///< > 0.
+  double max_total_force_n;             ///< > 0.
+  double expected_speed_m_per_s = 0.5;  ///< > 0; the hand head on to its motion.
+  double expected_depth_m = 0.01;       ///< > 0; of the hand in a solid surface.
+};
+
+/// One stimulus of the study against the limits.
+struct RangeEntry {
+  std::string stage;  ///< Name.
+  MediumSetting setting;
+  double total_force_n = 0.0;          ///< On the whole hand, at the expected speed or depth.
+  double largest_point_force_n = 0.0;  ///< On the point with the largest share.
+  bool fits = false;
+  /// The speed up to which both limits hold; none for a medium that does not resist motion.
+  std::optional<double> fits_up_to_m_per_s;
+};
+
+/// Every stimulus that any participant of the study can be given, once for each stage, in the
+/// order of the file; of an adjustment the starting values and its end, where it has one.
+[[nodiscard]] std::vector<RangeEntry> planned_range(const Study& study,
+                                                    const RangeLimits& limits);
+
+}  // namespace jnd::experiments

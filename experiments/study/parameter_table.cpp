@@ -1,0 +1,287 @@
+#include "experiments/study/parameter_table.h"
+
+#include <charconv>
+
+#include "experiments/study/stage_tables.h"
+
+namespace jnd::experiments {
+namespace {
+
+const ParameterTable& immersion_table() {
+  static const ParameterTable kTable = {
+      .name = "immersion",
+      .meaning =
+          "Where the fluid is: below a surface, in a cylinder with a vertical axis. "
+          "Workspace frame, z up.",
+      .example = R"({"radius_m": 0.25, "depth_m": 0.3})",
+      .parameters = {
+          {.key = "radius_m",
+           .kind = ValueKind::kNumber,
+           .meaning = "Radius of the cylinder. Absent: the fluid has no walls.",
+           .required = false,
+           .unit = "m",
+           .range = {0.0, 100.0, true}},
+          {.key = "depth_m",
+           .kind = ValueKind::kNumber,
+           .meaning = "Depth of the fluid below its surface. Absent: bottomless.",
+           .required = false,
+           .unit = "m",
+           .range = {0.0, 100.0, true}},
+          {.key = "origin_x_m",
+           .kind = ValueKind::kNumber,
+           .meaning = "Axis of the cylinder, to the participant's right.",
+           .required = false,
+           .default_json = "0.0",
+           .unit = "m",
+           .range = {-10.0, 10.0}},
+          {.key = "origin_y_m",
+           .kind = ValueKind::kNumber,
+           .meaning = "Axis of the cylinder, away from the participant.",
+           .required = false,
+           .default_json = "0.0",
+           .unit = "m",
+           .range = {-10.0, 10.0}},
+          {.key = "origin_z_m",
+           .kind = ValueKind::kNumber,
+           .meaning = "Height of the surface of the fluid.",
+           .required = false,
+           .default_json = "0.0",
+           .unit = "m",
+           .range = {-10.0, 10.0}},
+      }};
+  return kTable;
+}
+
+const ParameterTable& device_table() {
+  static const ParameterTable kTable = {
+      .name = "device",
+      .meaning = "What the study asks of the apparatus. A session does not start on less.",
+      .example = R"({"min_contact_points": 5, "rate_hz": 1000, "ramp_s": 0.05})",
+      .parameters = {
+          {.key = "min_contact_points",
+           .kind = ValueKind::kInteger,
+           .meaning = "How many points of the hand must be held by the device.",
+           .required = false,
+           .default_json = "5",
+           .range = {1, 5}},
+          {.key = "rate_hz",
+           .kind = ValueKind::kNumber,
+           .meaning = "Rate of the haptic loop.",
+           .required = false,
+           .default_json = "1000.0",
+           .unit = "Hz",
+           .range = {100.0, 10000.0}},
+          {.key = "ramp_s",
+           .kind = ValueKind::kNumber,
+           .meaning = "Time in which one medium turns into the next; a force never steps.",
+           .required = false,
+           .default_json = "0.05",
+           .unit = "s",
+           .range = {0.0, 10.0}},
+          {.key = "immersion",
+           .kind = ValueKind::kObject,
+           .meaning = "Where the fluid is. Absent: everywhere below the height 0.",
+           .required = false,
+           .nested = &immersion_table()},
+      }};
+  return kTable;
+}
+
+}  // namespace
+
+const Parameter* ParameterTable::find(std::string_view key) const noexcept {
+  for (const Parameter& parameter : parameters) {
+    if (parameter.key == key) return &parameter;
+  }
+  return nullptr;
+}
+
+const Parameter& comment_parameter() {
+  static const Parameter kComment = {
+      .key = "comment",
+      .kind = ValueKind::kString,
+      .meaning = "A note to whoever reads the file. Allowed in every object, without effect.",
+      .required = false};
+  return kComment;
+}
+
+const ParameterTable& study_table() {
+  static const ParameterTable kTable = {
+      .name = "study",
+      .meaning =
+          "A psychophysical study: what happens in one session, from the greeting to the "
+          "backup, stage by stage.",
+      .example = R"json({"format": 1, "name": "honey", "languages": ["en"],
+  "title": {"en": "How thick is honey?"}, "authors": ["A. Author"],
+  "stages": [{"kind": "break", "name": "rest", "instruction": {"en": "Rest."}, "duration_s": 60}]})json",
+      .parameters = {
+          {.key = "$schema",
+           .kind = ValueKind::kString,
+           .meaning = "Where an editor finds the JSON Schema. Without effect.",
+           .required = false},
+          {.key = "format",
+           .kind = ValueKind::kInteger,
+           .meaning = "Version of the study format; this is version 1.",
+           .range = {1, 1}},
+          {.key = "name",
+           .kind = ValueKind::kName,
+           .meaning = "Short name of the study, for folders and files."},
+          {.key = "languages",
+           .kind = ValueKind::kStrings,
+           .meaning = "Codes of the languages that every text of the study has, such as `en` "
+                      "and `de`. The first is shown unless another is chosen.",
+           .max_items = 20},
+          {.key = "title", .kind = ValueKind::kText, .meaning = "Title of the study."},
+          {.key = "description",
+           .kind = ValueKind::kText,
+           .meaning = "What the study is about, for whoever chooses it from a list.",
+           .required = false},
+          {.key = "authors", .kind = ValueKind::kStrings, .meaning = "Who wrote the study."},
+          {.key = "citation",
+           .kind = ValueKind::kString,
+           .meaning = "The publication that the study follows.",
+           .required = false},
+          {.key = "device",
+           .kind = ValueKind::kObject,
+           .meaning = "What the study asks of the apparatus.",
+           .required = false,
+           .nested = &device_table()},
+          {.key = "blinding",
+           .kind = ValueKind::kString,
+           .meaning = "Who does not see which stimulus is presented: nobody is blind (`none`), "
+                      "the participant is, or participant and experimenter are (`double`).",
+           .required = false,
+           .default_json = R"("none")",
+           .allowed = {"none", "participant", "double"}},
+          {.key = "stages",
+           .kind = ValueKind::kStages,
+           .meaning = "What happens in a session, in order."},
+      }};
+  return kTable;
+}
+
+const ParameterTable* stage_table(std::string_view kind) noexcept {
+  for (const ParameterTable* table : stage_tables()) {
+    if (table->name == kind) return table;
+  }
+  return nullptr;
+}
+
+const std::vector<const ParameterTable*>& all_tables() {
+  static const std::vector<const ParameterTable*> kAll = [] {
+    std::vector<const ParameterTable*> tables = {&study_table(), &device_table(),
+                                                 &immersion_table()};
+    for (const ParameterTable* stage : stage_tables()) {
+      tables.push_back(stage);
+      for (const Parameter& parameter : stage->parameters) {
+        if (parameter.nested == nullptr) continue;
+        tables.push_back(parameter.nested);
+        for (const Parameter& inner : parameter.nested->parameters) {
+          if (inner.nested != nullptr) tables.push_back(inner.nested);
+        }
+      }
+    }
+    std::vector<const ParameterTable*> unique;
+    for (const ParameterTable* table : tables) {
+      bool known = false;
+      for (const ParameterTable* other : unique) known = known || other == table;
+      if (!known) unique.push_back(table);
+    }
+    return unique;
+  }();
+  return kAll;
+}
+
+const std::vector<MediumQuantity>& media() {
+  // The upper ends are far beyond any device. They catch a value in the wrong unit: mPa s, or
+  // percent instead of a factor.
+  static const Range kScale = {0.0, 99.0, false};
+  static const Range kViscosity = {0.0, 1000.0, true};
+  static const std::vector<MediumQuantity> kMedia = {
+      {"free_space", "", "", {}, ""},
+      {"water", "scale", "", kScale, "factor on the drag of real water; 1 is water, 0 nothing"},
+      {"viscous", "viscosity_pa_s", "Pa s", kViscosity,
+       "dynamic viscosity of a thick fluid; honey has about 10"},
+      {"viscous_stokes", "viscosity_pa_s", "Pa s", kViscosity,
+       "dynamic viscosity, rendered as the drag of a sphere of the hand's surface"},
+      {"solid",
+       "stiffness_n_per_m",
+       "N/m",
+       {0.0, 100000.0, true},
+       "stiffness of a flat surface against the whole hand"},
+  };
+  return kMedia;
+}
+
+std::string quantity_of(std::string_view medium) {
+  for (const MediumQuantity& entry : media()) {
+    if (entry.medium == medium) return entry.quantity;
+  }
+  return "";
+}
+
+std::string plain_number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string one_of_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += '`' + words[i] + '`';
+  }
+  return text;
+}
+
+std::string number_expectation(const Parameter& parameter) {
+  const bool whole = parameter.kind == ValueKind::kInteger;
+  std::string text = whole ? "a whole number" : "a number";
+  const Range& range = parameter.range;
+  if (whole && range.low == range.high) return plain_number(range.low);
+  const bool has_low = range.low > -std::numeric_limits<double>::infinity();
+  if (has_low) text += (range.low_is_open ? " > " : " >= ") + plain_number(range.low);
+  if (range.high < std::numeric_limits<double>::infinity()) {
+    text += std::string(has_low ? " and" : "") + " <= " + plain_number(range.high);
+  }
+  if (!parameter.unit.empty()) text += " (" + parameter.unit + ")";
+  return text;
+}
+
+std::string expectation(const Parameter& parameter) {
+  const std::string list =
+      parameter.min_items == 0 ? "a list of "
+      : parameter.min_items == 1
+          ? "a list of one or more "
+          : "a list of " + std::to_string(parameter.min_items) + " or more ";
+  switch (parameter.kind) {
+    case ValueKind::kString:
+      return parameter.allowed.empty() ? "a text in quotes" : one_of_words(parameter.allowed);
+    case ValueKind::kName:
+      return "a name of lower-case letters, digits and _";
+    case ValueKind::kText:
+      return R"(an object of languages such as {"en": "..."})";
+    case ValueKind::kNumber:
+    case ValueKind::kInteger:
+      return number_expectation(parameter);
+    case ValueKind::kBoolean:
+      return "true or false";
+    case ValueKind::kNumbers:
+      return list + "numbers";
+    case ValueKind::kStrings:
+      return list + "texts in quotes";
+    case ValueKind::kTexts:
+      return list + R"(objects of languages such as {"en": "..."})";
+    case ValueKind::kObject:
+      return "an object";
+    case ValueKind::kObjects:
+      return list + "objects";
+    case ValueKind::kStages:
+      return list + "stages";
+    case ValueKind::kArms:
+      return R"(an object such as {"priming": "primed"})";
+  }
+  return "";
+}
+
+}  // namespace jnd::experiments

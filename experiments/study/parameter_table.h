@@ -1,0 +1,100 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jnd::experiments {
+
+/// What a value of the study file is.
+enum class ValueKind {
+  kString,  ///< Words for people or one of `allowed`; never empty.
+  kName,    ///< [a-z0-9_]+
+  kText,    ///< Words in every language of the study: {"en": "...", "de": "..."}.
+  kNumber,
+  kInteger,
+  kBoolean,
+  kNumbers,  ///< List of numbers.
+  kStrings,  ///< List of strings.
+  kTexts,    ///< List of texts.
+  kObject,   ///< Object with the keys of `nested`.
+  kObjects,  ///< List of such objects.
+  kStages,   ///< List of stages; the table of each follows from its `kind`.
+  kArms,     ///< Object: name of a `one_of` counterbalance to name of its arm.
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_is_open = false;  ///< x > low instead of x >= low.
+};
+
+/// Another key of the same object that has one of these values.
+struct Condition {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+struct ParameterTable;
+
+/// One key of the study format. Everything that is true of it stands here and nowhere else:
+/// reader, JSON Schema and reference documentation are made from these.
+struct Parameter {
+  std::string key{};
+  ValueKind kind = ValueKind::kString;
+  std::string meaning{};
+  bool required = true;  ///< Where `only_where` holds.
+  std::string
+      default_json{};  ///< What an absent optional key stands for; "" is nothing at all.
+  std::string unit{};  ///< In words: "Pa s"; "" for numbers that have none.
+  Range range{};       ///< Of a number, or of each number of a list.
+  std::vector<std::string> allowed{};
+  std::size_t min_items = 1, max_items = 10000;  ///< Of a list.
+  const ParameterTable* nested = nullptr;
+  std::vector<Condition> only_where{};  ///< The key belongs here only where all of these hold.
+};
+
+/// The keys of one kind of object. `comment` is allowed in every object besides.
+struct ParameterTable {
+  std::string name{};
+  std::string meaning{};
+  std::string example{};  ///< JSON; "" where an enclosing table's example shows it.
+  std::vector<Parameter> parameters{};
+
+  [[nodiscard]] const Parameter* find(std::string_view key) const noexcept;
+};
+
+/// The whole file.
+[[nodiscard]] const ParameterTable& study_table();
+/// One table for each stage kind, its `name` being the kind.
+[[nodiscard]] const std::vector<const ParameterTable*>& stage_tables();
+/// Null for an unknown kind.
+[[nodiscard]] const ParameterTable* stage_table(std::string_view kind) noexcept;
+/// Every table there is, each once.
+[[nodiscard]] const std::vector<const ParameterTable*>& all_tables();
+/// `comment`, the key that every object may have.
+[[nodiscard]] const Parameter& comment_parameter();
+
+/// A medium and its one varied quantity, which is the key it is given under.
+struct MediumQuantity {
+  std::string medium;
+  std::string quantity;  ///< "" for free space.
+  std::string unit;
+  Range range;
+  std::string meaning;
+};
+[[nodiscard]] const std::vector<MediumQuantity>& media();
+/// "" for free space and for unknown media.
+[[nodiscard]] std::string quantity_of(std::string_view medium);
+
+/// "a number > 0 and <= 1000 (Pa s)", "a list of texts", "`yes_no` or `text`".
+[[nodiscard]] std::string expectation(const Parameter& parameter);
+/// Expectation of one element of a list of numbers.
+[[nodiscard]] std::string number_expectation(const Parameter& parameter);
+/// A number as a person writes it: "0.5", "1000".
+[[nodiscard]] std::string plain_number(double value);
+/// "`a`, `b` or `c`".
+[[nodiscard]] std::string one_of_words(const std::vector<std::string>& words);
+
+}  // namespace jnd::experiments

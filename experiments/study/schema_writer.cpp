@@ -1,0 +1,198 @@
+#include "experiments/study/schema_writer.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "experiments/study/located_json.h"
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+namespace {
+
+// Ordered, so that keys stand in the order of the tables.
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kNamePattern = "^[a-z0-9_]+$";
+
+Json reference(const std::string& definition) {
+  return {{"$ref", "#/definitions/" + definition}};
+}
+
+Json number_schema(const Parameter& parameter) {
+  Json schema = {{"type", parameter.kind == ValueKind::kInteger ? "integer" : "number"}};
+  const Range& range = parameter.range;
+  if (range.low == range.high) return {{"const", static_cast<int>(range.low)}};
+  if (range.low > -std::numeric_limits<double>::infinity()) {
+    schema[range.low_is_open ? "exclusiveMinimum" : "minimum"] = range.low;
+  }
+  if (range.high < std::numeric_limits<double>::infinity()) schema["maximum"] = range.high;
+  return schema;
+}
+
+Json list_schema(const Parameter& parameter, Json items) {
+  return {{"type", "array"},
+          {"items", std::move(items)},
+          {"minItems", parameter.min_items},
+          {"maxItems", parameter.max_items}};
+}
+
+Json value_schema(const Parameter& parameter) {
+  switch (parameter.kind) {
+    case ValueKind::kString:
+      if (!parameter.allowed.empty()) return {{"enum", parameter.allowed}};
+      return {{"type", "string"}, {"minLength", 1}};
+    case ValueKind::kName:
+      return {{"type", "string"}, {"pattern", kNamePattern}};
+    case ValueKind::kText:
+      return reference("text");
+    case ValueKind::kNumber:
+    case ValueKind::kInteger:
+      return number_schema(parameter);
+    case ValueKind::kBoolean:
+      return {{"type", "boolean"}};
+    case ValueKind::kNumbers:
+      return list_schema(parameter, number_schema(parameter));
+    case ValueKind::kStrings:
+      return list_schema(parameter, {{"type", "string"}, {"minLength", 1}});
+    case ValueKind::kTexts:
+      return list_schema(parameter, reference("text"));
+    case ValueKind::kObject:
+      return reference(parameter.nested->name);
+    case ValueKind::kObjects:
+      return list_schema(parameter, reference(parameter.nested->name));
+    case ValueKind::kStages:
+      return list_schema(parameter, reference("stage"));
+    case ValueKind::kArms:
+      return {{"type", "object"},
+              {"minProperties", 1},
+              {"additionalProperties", {{"type", "string"}, {"pattern", kNamePattern}}}};
+  }
+  return {};
+}
+
+/// "where `procedure` is `constant_stimuli` and `medium` is `water`"
+std::string condition_words(const std::vector<Condition>& conditions) {
+  std::string words;
+  for (const Condition& condition : conditions) {
+    words += (words.empty() ? "where `" : " and `") + condition.key + "` is " +
+             one_of_words(condition.values);
+  }
+  return words;
+}
+
+std::string description(const Parameter& parameter) {
+  std::string text = parameter.meaning;
+  if (!parameter.unit.empty()) text += " Unit: " + parameter.unit + '.';
+  if (!parameter.only_where.empty()) {
+    text += std::string(parameter.required ? " Required" : " Allowed") + " only " +
+            condition_words(parameter.only_where) + '.';
+  }
+  return text;
+}
+
+Json property_schema(const Parameter& parameter) {
+  Json schema = value_schema(parameter);
+  // Draft 7 ignores what stands beside a $ref.
+  if (schema.contains("$ref")) schema = {{"allOf", Json::array({schema})}};
+  Json described = {{"description", description(parameter)}};
+  described.update(schema);
+  if (!parameter.default_json.empty()) {
+    described["default"] = Json::parse(parameter.default_json);
+  }
+  return described;
+}
+
+/// One if/then/else for each set of conditions: its keys are required where it holds and
+/// forbidden where it does not.
+Json conditional_schemas(const ParameterTable& table) {
+  std::vector<std::pair<std::string, Json>> rules;
+  for (const Parameter& parameter : table.parameters) {
+    if (parameter.only_where.empty()) continue;
+    const std::string words = condition_words(parameter.only_where);
+    Json* rule = nullptr;
+    for (auto& [known, schema] : rules) {
+      if (known == words) rule = &schema;
+    }
+    if (rule == nullptr) {
+      Json condition = {{"properties", Json::object()}, {"required", Json::array()}};
+      for (const Condition& one : parameter.only_where) {
+        condition["properties"][one.key] = {{"enum", one.values}};
+        condition["required"].push_back(one.key);
+      }
+      rules.emplace_back(words, Json{{"if", condition},
+                                     {"then", {{"required", Json::array()}}},
+                                     {"else", {{"properties", Json::object()}}}});
+      rule = &rules.back().second;
+    }
+    if (parameter.required) (*rule)["then"]["required"].push_back(parameter.key);
+    (*rule)["else"]["properties"][parameter.key] = false;
+  }
+  Json schemas = Json::array();
+  for (auto& [words, schema] : rules) schemas.push_back(std::move(schema));
+  return schemas;
+}
+
+Json table_schema(const ParameterTable& table) {
+  Json schema = {{"description", table.meaning}, {"type", "object"}};
+  if (!table.example.empty()) schema["examples"] = Json::array({Json::parse(table.example)});
+  Json required = Json::array();
+  Json properties = Json::object();
+  for (const Parameter& parameter : table.parameters) {
+    properties[parameter.key] = property_schema(parameter);
+    if (parameter.required && parameter.only_where.empty()) required.push_back(parameter.key);
+  }
+  properties[comment_parameter().key] = property_schema(comment_parameter());
+  schema["properties"] = std::move(properties);
+  schema["required"] = std::move(required);
+  schema["additionalProperties"] = false;
+  if (Json rules = conditional_schemas(table); !rules.empty())
+    schema["allOf"] = std::move(rules);
+  return schema;
+}
+
+Json stage_schema() {
+  std::string kinds = "One thing that happens in a session. ";
+  Json names = Json::array();
+  Json rules = Json::array();
+  for (const ParameterTable* table : stage_tables()) {
+    names.push_back(table->name);
+    kinds += '`' + table->name + "`: " + table->meaning + ' ';
+    rules.push_back({{"if",
+                      {{"properties", {{"kind", {{"const", table->name}}}}},
+                       {"required", Json::array({"kind"})}}},
+                     {"then", reference(table->name)}});
+  }
+  kinds.pop_back();
+  return {{"description", kinds},
+          {"type", "object"},
+          {"properties", {{"kind", {{"enum", names}}}}},
+          {"required", Json::array({"kind"})},
+          {"allOf", rules}};
+}
+
+}  // namespace
+
+std::string study_schema() {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "jnd study, format 1"}};
+  schema.update(table_schema(study_table()));
+  Json definitions = {
+      {"text",
+       {{"description", "Words in every language of the study: language code to words."},
+        {"type", "object"},
+        {"examples", Json::array({{{"en", "Rest."}, {"de", "Pause."}}})},
+        {"patternProperties",
+         {{"^([a-z]{2,3}|comment)$", {{"type", "string"}, {"minLength", 1}}}}},
+        {"additionalProperties", false},
+        {"minProperties", 1}}},
+      {"stage", stage_schema()}};
+  for (const ParameterTable* table : all_tables()) {
+    if (table != &study_table()) definitions[table->name] = table_schema(*table);
+  }
+  schema["definitions"] = std::move(definitions);
+  return schema.dump(2) + '\n';
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+
+/// The keys every stage has, in front of its own: `kind`, `name`, `title`, `only_for`.
+[[nodiscard]] std::vector<Parameter> stage_parameters(const std::string& kind,
+                                                      std::vector<Parameter> own);
+
+/// `medium` and, in the unit of its key, the one value of its quantity; then `own`.
+[[nodiscard]] std::vector<Parameter> setting_parameters(std::vector<Parameter> own);
+
+[[nodiscard]] const ParameterTable& block_table();
+[[nodiscard]] const ParameterTable& questionnaire_table();
+
+}  // namespace jnd::experiments

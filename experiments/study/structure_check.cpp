@@ -1,0 +1,329 @@
+#include "experiments/study/structure_check.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+enum class Holds { kYes, kNo, kUnknown };
+
+/// Whether a key belongs in this object. Unknown while the key it depends on is itself wrong:
+/// one mistake is told once.
+Holds belongs(const Parameter& parameter, const json& object, const ParameterTable& table) {
+  Holds all = Holds::kYes;
+  for (const Condition& condition : parameter.only_where) {
+    const auto found = object.find(condition.key);
+    const Parameter* decider = table.find(condition.key);
+    const bool is_sound = found != object.end() && found->is_string() && decider != nullptr &&
+                          std::find(decider->allowed.begin(), decider->allowed.end(),
+                                    found->get<std::string>()) != decider->allowed.end();
+    if (!is_sound) {
+      if (all == Holds::kYes) all = Holds::kUnknown;
+    } else if (std::find(condition.values.begin(), condition.values.end(),
+                         found->get<std::string>()) == condition.values.end()) {
+      all = Holds::kNo;
+    }
+  }
+  return all;
+}
+
+std::string misplaced(const Parameter& parameter, const json& object) {
+  std::string wanted, found;
+  for (const Condition& condition : parameter.only_where) {
+    const auto value = object.find(condition.key);
+    if (value == object.end() || !value->is_string()) continue;
+    if (std::find(condition.values.begin(), condition.values.end(),
+                  value->get<std::string>()) != condition.values.end()) {
+      continue;
+    }
+    if (!wanted.empty()) {
+      wanted += " and ";
+      found += " and ";
+    }
+    wanted += '`' + condition.key + "` is " + one_of_words(condition.values);
+    found += '`' + condition.key + "` is `" + value->get<std::string>() + '`';
+  }
+  return "expected this key only where " + wanted + ", found it where " + found;
+}
+
+bool is_language(std::string_view code) {
+  return (code.size() == 2 || code.size() == 3) &&
+         std::all_of(code.begin(), code.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+bool in_range(const Range& range, double value) {
+  const bool above = range.low_is_open ? value > range.low : value >= range.low;
+  return above && value <= range.high;
+}
+
+bool is_blank(const std::string& text) {
+  return text.find_first_not_of(" \t\r\n") == std::string::npos;
+}
+
+}  // namespace
+
+std::string found_words(const json& value) {
+  if (value.is_string()) {
+    std::string text = value.get<std::string>();
+    constexpr std::size_t kLongest = 40;
+    if (text.size() > kLongest) {
+      std::size_t end = kLongest;  // Not in the middle of a UTF-8 character.
+      while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+      text = text.substr(0, end) + "...";
+    }
+    return text.empty() ? "an empty text" : "the text " + json(text).dump();
+  }
+  if (value.is_array()) {
+    return value.empty() ? "an empty list" : "a list of " + std::to_string(value.size());
+  }
+  if (value.is_object()) return value.empty() ? "an empty object" : "an object";
+  return value.dump();
+}
+
+bool is_name(std::string_view text) noexcept {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+StructureCheck::StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems)
+    : file_(file), problems_(problems) {}
+
+void StructureCheck::run() {
+  read_languages();
+  check_object(file_.root(), "", study_table());
+}
+
+void StructureCheck::read_languages() {
+  const json& root = file_.root();
+  if (!root.is_object()) return;
+  const auto found = root.find("languages");
+  if (found == root.end() || !found->is_array()) return;
+  std::vector<std::string> languages;
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    const json& code = (*found)[i];
+    const std::string pointer = "/languages/" + std::to_string(i);
+    if (!code.is_string()) return;
+    if (!is_language(code.get<std::string>())) {
+      report(pointer,
+             "expected a code of two or three lower-case letters such as `en`, found " +
+                 found_words(code));
+      return;
+    }
+    if (std::find(languages.begin(), languages.end(), code) != languages.end()) {
+      report(pointer, "expected each language once, found `" + code.get<std::string>() +
+                          "` a second time");
+      return;
+    }
+    languages.push_back(code);
+  }
+  languages_ = std::move(languages);
+}
+
+void StructureCheck::check_object(const json& object, const std::string& pointer,
+                                  const ParameterTable& table) {
+  if (!object.is_object()) {
+    report(pointer, "expected an object, found " + found_words(object));
+    return;
+  }
+  check_keys(object, pointer, table);
+  for (const Parameter& parameter : table.parameters) {
+    const auto found = object.find(parameter.key);
+    const Holds holds = belongs(parameter, object, table);
+    const std::string child = pointer + '/' + pointer_token(parameter.key);
+    if (found == object.end()) {
+      if (parameter.required && holds == Holds::kYes) {
+        report(child, "expected " + expectation(parameter) + ", found nothing");
+      }
+    } else if (holds == Holds::kNo) {
+      report_key(child, misplaced(parameter, object));
+    } else {
+      check_value(*found, child, parameter);
+    }
+  }
+}
+
+void StructureCheck::check_keys(const json& object, const std::string& pointer,
+                                const ParameterTable& table) {
+  std::vector<std::string> candidates = {"comment"};
+  for (const Parameter& parameter : table.parameters) {
+    if (!object.contains(parameter.key) && belongs(parameter, object, table) != Holds::kNo) {
+      candidates.push_back(parameter.key);
+    }
+  }
+  for (const auto& [key, value] : object.items()) {
+    const std::string child = pointer + '/' + pointer_token(key);
+    if (key == "comment") {
+      check_value(value, child, comment_parameter());
+    } else if (table.find(key) == nullptr) {
+      report_key(child, "expected a key of `" + table.name + "`, found the unknown key `" +
+                            key + "`" + did_you_mean(key, candidates));
+    }
+  }
+}
+
+void StructureCheck::check_value(const json& value, const std::string& pointer,
+                                 const Parameter& parameter) {
+  const auto expect = [&](bool holds) {
+    if (!holds) {
+      report(pointer, "expected " + expectation(parameter) + ", found " + found_words(value));
+    }
+    return holds;
+  };
+  switch (parameter.kind) {
+    case ValueKind::kString:
+    case ValueKind::kName:
+      return check_string(value, pointer, parameter);
+    case ValueKind::kText:
+      return check_text(value, pointer);
+    case ValueKind::kNumber:
+    case ValueKind::kInteger:
+      return check_number(value, pointer, parameter);
+    case ValueKind::kBoolean:
+      expect(value.is_boolean());
+      return;
+    case ValueKind::kObject:
+      return check_object(value, pointer, *parameter.nested);
+    case ValueKind::kArms:
+      if (expect(value.is_object() && !value.empty())) check_arms(value, pointer);
+      return;
+    case ValueKind::kNumbers:
+    case ValueKind::kStrings:
+    case ValueKind::kTexts:
+    case ValueKind::kObjects:
+    case ValueKind::kStages:
+      if (expect(value.is_array() && value.size() >= parameter.min_items)) {
+        check_list(value, pointer, parameter);
+      }
+      return;
+  }
+}
+
+void StructureCheck::check_string(const json& value, const std::string& pointer,
+                                  const Parameter& parameter) {
+  const bool is_text = value.is_string() && !is_blank(value.get<std::string>());
+  const std::string text = is_text ? value.get<std::string>() : "";
+  const auto& allowed = parameter.allowed;
+  const bool is_allowed =
+      allowed.empty() || std::find(allowed.begin(), allowed.end(), text) != allowed.end();
+  const bool is_well_named = parameter.kind != ValueKind::kName || is_name(text);
+  if (is_text && is_allowed && is_well_named) return;
+  const std::string found = is_text && !allowed.empty() ? '`' + text + '`' : found_words(value);
+  report(pointer, "expected " + expectation(parameter) + ", found " + found +
+                      (is_text ? did_you_mean(text, allowed) : ""));
+}
+
+void StructureCheck::check_number(const json& value, const std::string& pointer,
+                                  const Parameter& parameter) {
+  const bool whole = parameter.kind == ValueKind::kInteger;
+  const bool is_right_kind = whole ? value.is_number_integer() : value.is_number();
+  if (is_right_kind && in_range(parameter.range, value.get<double>())) return;
+  report(pointer,
+         "expected " + number_expectation(parameter) + ", found " + found_words(value));
+}
+
+void StructureCheck::check_text(const json& value, const std::string& pointer) {
+  if (!value.is_object()) {
+    const std::string language = languages_.empty() ? "en" : languages_.front();
+    const std::string shown = value.is_string() ? value.dump() : "\"...\"";
+    report(pointer, "expected an object of languages such as {\"" + language +
+                        "\": " + (shown.size() < 40 ? shown : "\"...\"") + "}, found " +
+                        found_words(value));
+    return;
+  }
+  for (const auto& [language, words] : value.items()) {
+    const std::string child = pointer + '/' + pointer_token(language);
+    if (language == "comment") {
+      check_value(words, child, comment_parameter());
+    } else if (!is_language(language)) {
+      report_key(child, "expected a language code such as `en`, found `" + language + "`");
+    } else if (!words.is_string() || is_blank(words.get<std::string>())) {
+      report(child, "expected a text in quotes, found " + found_words(words));
+    } else if (!languages_.empty() &&
+               std::find(languages_.begin(), languages_.end(), language) == languages_.end()) {
+      report_key(child, "expected one of the study's `languages` (" + one_of_words(languages_) +
+                            "), found `" + language + "`");
+    }
+  }
+  for (const std::string& language : languages_) {
+    if (!value.contains(language)) {
+      report(pointer + '/' + language,
+             "expected the text in `" + language + "` too, as `languages` says, found nothing");
+    }
+  }
+}
+
+void StructureCheck::check_list(const json& list, const std::string& pointer,
+                                const Parameter& parameter) {
+  if (list.size() > parameter.max_items) {
+    report(pointer, "expected a list of at most " + std::to_string(parameter.max_items) +
+                        ", found " + found_words(list));
+    return;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string child = pointer + '/' + std::to_string(i);
+    switch (parameter.kind) {
+      case ValueKind::kNumbers:
+        check_number(list[i], child, parameter);
+        break;
+      case ValueKind::kStrings:
+        check_string(list[i], child, {.key = parameter.key});
+        break;
+      case ValueKind::kTexts:
+        check_text(list[i], child);
+        break;
+      case ValueKind::kStages:
+        check_stage(list[i], child);
+        break;
+      default:
+        check_object(list[i], child, *parameter.nested);
+    }
+  }
+}
+
+void StructureCheck::check_stage(const json& stage, const std::string& pointer) {
+  if (!stage.is_object()) {
+    report(pointer, "expected a stage, an object with `kind`, found " + found_words(stage));
+    return;
+  }
+  std::vector<std::string> kinds;
+  for (const ParameterTable* table : stage_tables()) kinds.push_back(table->name);
+  const auto kind = stage.find("kind");
+  const Parameter any_kind = {.key = "kind", .allowed = kinds};
+  if (kind == stage.end()) {
+    report(pointer + "/kind", "expected " + expectation(any_kind) + ", found nothing");
+  } else if (!kind->is_string() || stage_table(kind->get<std::string>()) == nullptr) {
+    check_string(*kind, pointer + "/kind", any_kind);
+  } else {
+    check_object(stage, pointer, *stage_table(kind->get<std::string>()));
+  }
+}
+
+void StructureCheck::check_arms(const json& arms, const std::string& pointer) {
+  for (const auto& [counterbalance, arm] : arms.items()) {
+    const std::string child = pointer + '/' + pointer_token(counterbalance);
+    const Parameter name = {.key = counterbalance, .kind = ValueKind::kName};
+    if (counterbalance == "comment") {
+      check_value(arm, child, comment_parameter());
+    } else {
+      check_string(arm, child, name);
+    }
+  }
+}
+
+void StructureCheck::report(const std::string& pointer, std::string message) {
+  const TextPosition position = file_.value_position(pointer);
+  problems_.push_back(
+      {file_.file(), position.line, position.column, pointer, std::move(message)});
+}
+
+void StructureCheck::report_key(const std::string& pointer, std::string message) {
+  const TextPosition position = file_.key_position(pointer);
+  problems_.push_back(
+      {file_.file(), position.line, position.column, pointer, std::move(message)});
+}
+
+}  // namespace jnd::experiments

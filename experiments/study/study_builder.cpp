@@ -1,0 +1,270 @@
+#include "experiments/study/study_builder.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+/// One checked object: values by key, defaults from the table.
+class ObjectReader {
+ public:
+  ObjectReader(const json& object, const ParameterTable& table)
+      : object_(object), table_(table) {}
+
+  [[nodiscard]] double number(const std::string& key) const { return value(key); }
+  [[nodiscard]] int integer(const std::string& key) const { return value(key); }
+  [[nodiscard]] bool boolean(const std::string& key) const { return value(key); }
+  [[nodiscard]] std::string string(const std::string& key) const {
+    const json found = value(key);
+    return found.is_null() ? "" : found.get<std::string>();
+  }
+  [[nodiscard]] std::optional<double> optional_number(const std::string& key) const {
+    const json found = value(key);
+    return found.is_null() ? std::nullopt : std::optional<double>(found.get<double>());
+  }
+  [[nodiscard]] std::vector<double> numbers(const std::string& key) const { return value(key); }
+  [[nodiscard]] std::vector<std::string> strings(const std::string& key) const {
+    return value(key);
+  }
+  [[nodiscard]] Text text(const std::string& key) const { return to_text(value(key)); }
+  [[nodiscard]] std::map<std::string, std::string> arms(const std::string& key) const {
+    return to_text(value(key));
+  }
+  [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
+
+  /// Calls `read(object reader, index)` for every object of a list; none where it is absent.
+  template <typename Read>
+  void each_object(const std::string& key, Read read) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) return;
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      read(ObjectReader((*found)[i], nested(key)), i);
+    }
+  }
+  [[nodiscard]] ObjectReader object(const std::string& key) const {
+    static const json kEmpty = json::object();
+    const auto found = object_.find(key);
+    return {found == object_.end() ? kEmpty : *found, nested(key)};
+  }
+  [[nodiscard]] json list(const std::string& key) const {
+    return object_.contains(key) ? object_.at(key) : json::array();
+  }
+
+  static Text to_text(const json& words) {
+    Text text;
+    for (const auto& [language, sentence] : words.items()) {
+      if (language != "comment") text[language] = sentence.get<std::string>();
+    }
+    return text;
+  }
+
+ private:
+  [[nodiscard]] const ParameterTable& nested(const std::string& key) const {
+    return *parameter(key).nested;
+  }
+  [[nodiscard]] const Parameter& parameter(const std::string& key) const {
+    const Parameter* found = table_.find(key);
+    // Asking for a key without a table is a mistake of ours, not of the file.
+    if (found == nullptr) throw std::logic_error(table_.name + ": no parameter " + key);
+    return *found;
+  }
+  [[nodiscard]] json value(const std::string& key) const {
+    const Parameter& known = parameter(key);
+    const auto found = object_.find(key);
+    if (found != object_.end()) return *found;
+    return known.default_json.empty() ? json() : json::parse(known.default_json);
+  }
+
+  const json& object_;
+  const ParameterTable& table_;
+};
+
+MediumSetting setting(const ObjectReader& in) {
+  MediumSetting setting = {.medium = in.string("medium"), .quantity = "", .intensity = 0.0};
+  setting.quantity = quantity_of(setting.medium);
+  if (!setting.quantity.empty()) setting.intensity = in.number(setting.quantity);
+  return setting;
+}
+
+std::vector<Exploration> explorations(const ObjectReader& in, const std::string& key) {
+  std::vector<Exploration> found;
+  in.each_object(key, [&](const ObjectReader& item, std::size_t) {
+    found.push_back({.setting = setting(item),
+                     .duration_s = item.number("duration_s"),
+                     .say = item.text("say")});
+  });
+  return found;
+}
+
+Checklist checklist(const ObjectReader& in) {
+  Checklist checklist;
+  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
+    checklist.items.push_back({.text = item.text("text"), .say = item.text("say")});
+  });
+  return checklist;
+}
+
+Consent consent(const ObjectReader& in) {
+  Consent consent = {.paragraphs = {}, .agreement = in.text("agreement")};
+  for (const json& paragraph : in.list("paragraphs")) {
+    consent.paragraphs.push_back(ObjectReader::to_text(paragraph));
+  }
+  return consent;
+}
+
+Block block(const ObjectReader& in) {
+  Block block;
+  block.procedure = in.string("procedure");
+  block.medium = in.string("medium");
+  block.quantity = quantity_of(block.medium);
+  block.instruction = in.text("instruction");
+  block.question = in.text("question");
+  block.intensities = in.numbers(block.quantity);
+  block.free_space_between_s = in.number("free_space_between_s");
+  block.expected_trial_s = in.number("expected_trial_s");
+  if (in.has("repetitions")) block.repetitions = in.integer("repetitions");
+  if (in.has("target_percent")) {
+    block.target_percent = in.numbers("target_percent");
+    block.coarse_step = in.number("coarse_step_" + block.quantity);
+    block.fine_step = in.number("fine_step_" + block.quantity);
+    block.max_intensity = in.optional_number("max_" + block.quantity);
+  }
+  block.reference_intensity = in.optional_number("reference_" + block.quantity);
+  return block;
+}
+
+PostExperiment post_experiment(const ObjectReader& in) {
+  PostExperiment stage;
+  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
+    stage.items.push_back({.name = item.string("name"),
+                           .setting = setting(item),
+                           .instruction = item.text("instruction"),
+                           .question = item.text("question"),
+                           .answer = item.string("answer"),
+                           .num_words = item.has("num_words") ? item.integer("num_words") : 0});
+  });
+  return stage;
+}
+
+Questionnaire questionnaire(const ObjectReader& in) {
+  Questionnaire stage = {.instruction = in.text("instruction"), .items = {}};
+  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
+    QuestionnaireItem read;
+    read.name = item.string("name");
+    read.kind = item.string("kind");
+    read.question = item.text("question");
+    read.required = item.boolean("required");
+    read.unit = item.string("unit");
+    read.minimum = item.optional_number("minimum");
+    read.maximum = item.optional_number("maximum");
+    item.each_object("options", [&](const ObjectReader& option, std::size_t) {
+      read.options.push_back({.value = option.string("value"), .label = option.text("label")});
+    });
+    read.num_steps = item.integer("num_steps");
+    read.low_label = item.text("low_label");
+    read.high_label = item.text("high_label");
+    if (item.has("high_is_good")) read.high_is_good = item.boolean("high_is_good");
+    stage.items.push_back(std::move(read));
+  });
+  return stage;
+}
+
+class StageBuilder {
+ public:
+  explicit StageBuilder(const LocatedJson& file) : file_(file) {}
+
+  [[nodiscard]] std::vector<Stage> stages(const json& list, const std::string& pointer) const {
+    std::vector<Stage> built;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      built.push_back(stage(list[i], pointer + '/' + std::to_string(i)));
+    }
+    return built;
+  }
+
+ private:
+  [[nodiscard]] Stage stage(const json& object, const std::string& pointer) const {
+    const ObjectReader in(object, *stage_table(object.at("kind").get<std::string>()));
+    const std::string kind = in.string("kind");
+    Stage stage;
+    stage.name = in.string("name");
+    stage.title = in.text("title");
+    if (kind != "counterbalance") stage.only_for = in.arms("only_for");
+    stage.line = file_.value_position(pointer).line;
+    if (kind == "checklist") stage.content = checklist(in);
+    if (kind == "consent") stage.content = consent(in);
+    if (kind == "explore") {
+      stage.content = Explore{in.text("instruction"), explorations(in, "media")};
+    }
+    if (kind == "training") {
+      stage.content = Training{in.text("instruction"), explorations(in, "examples")};
+    }
+    if (kind == "block") stage.content = block(in);
+    if (kind == "break") stage.content = Break{in.text("instruction"), in.number("duration_s")};
+    if (kind == "post_experiment") stage.content = post_experiment(in);
+    if (kind == "questionnaire") stage.content = questionnaire(in);
+    if (kind == "counterbalance") stage.content = counterbalance(in, pointer);
+    return stage;
+  }
+
+  [[nodiscard]] Counterbalance counterbalance(const ObjectReader& in,
+                                              const std::string& pointer) const {
+    Counterbalance content;
+    content.method = in.string("method") == "order" ? Counterbalance::Method::kOrder
+                                                    : Counterbalance::Method::kOneOf;
+    in.each_object("arms", [&](const ObjectReader& arm, std::size_t index) {
+      const std::string at = pointer + "/arms/" + std::to_string(index) + "/stages";
+      content.arms.push_back({arm.string("name"), stages(arm.list("stages"), at)});
+    });
+    content.between = stages(in.list("between"), pointer + "/between");
+    return content;
+  }
+
+  const LocatedJson& file_;
+};
+
+DeviceNeeds device_needs(const ObjectReader& in) {
+  DeviceNeeds needs;
+  needs.min_contact_points = in.integer("min_contact_points");
+  needs.rate_hz = in.number("rate_hz");
+  needs.ramp_s = in.number("ramp_s");
+  const ObjectReader immersion = in.object("immersion");
+  if (const auto radius_m = immersion.optional_number("radius_m")) {
+    needs.immersion.radius_m = *radius_m;
+  }
+  if (const auto depth_m = immersion.optional_number("depth_m")) {
+    needs.immersion.depth_m = *depth_m;
+  }
+  needs.immersion.origin_x_m = immersion.number("origin_x_m");
+  needs.immersion.origin_y_m = immersion.number("origin_y_m");
+  needs.immersion.origin_z_m = immersion.number("origin_z_m");
+  return needs;
+}
+
+}  // namespace
+
+Study build_study(const LocatedJson& file, std::string text) {
+  const ObjectReader in(file.root(), study_table());
+  Study study;
+  study.format = in.integer("format");
+  study.name = in.string("name");
+  study.languages = in.strings("languages");
+  study.title = in.text("title");
+  study.description = in.text("description");
+  study.authors = in.strings("authors");
+  study.citation = in.string("citation");
+  study.device = device_needs(in.object("device"));
+  const std::string blinding = in.string("blinding");
+  study.blinding = blinding == "double"        ? Blinding::kDouble
+                   : blinding == "participant" ? Blinding::kParticipant
+                                               : Blinding::kNone;
+  study.stages = StageBuilder(file).stages(in.list("stages"), "/stages");
+  study.text = std::move(text);
+  return study;
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,89 @@
+#include "experiments/study/study_reader.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "experiments/study/located_json.h"
+#include "experiments/study/structure_check.h"
+#include "experiments/study/study_builder.h"
+#include "experiments/study/study_rules.h"
+
+namespace jnd::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The whole file, or a problem in words.
+std::optional<std::string> file_text(const fs::path& file,
+                                     std::vector<StudyProblem>& problems) {
+  constexpr std::uintmax_t kLargestStudy = 16 * 1024 * 1024;
+  const auto refuse = [&](const std::string& found) -> std::optional<std::string> {
+    problems.push_back(
+        {file.string(), 0, 0, "", "expected a study file that can be read, found " + found});
+    return std::nullopt;
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) return refuse("no such file");
+  if (fs::is_directory(status)) return refuse("a folder");
+  if (fs::is_regular_file(status) && fs::file_size(file, error) > kLargestStudy) {
+    return refuse("a file of more than 16 MiB");
+  }
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return refuse(errno != 0 ? std::strerror(errno) : "a file that does not open");
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) return refuse("an error while reading it");
+  return text;
+}
+
+LocatedJson checked(const std::string& text, const std::string& file_name,
+                    std::vector<StudyProblem>& problems) {
+  LocatedJson file(text, file_name, problems);
+  if (file.usable()) {
+    StructureCheck(file, problems).run();
+    check_study_rules(file, problems);
+  }
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const StudyProblem& a, const StudyProblem& b) {
+                     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+                   });
+  return file;
+}
+
+}  // namespace
+
+Study read_study_text(const std::string& text, const std::string& file_name) {
+  std::vector<StudyProblem> problems;
+  const LocatedJson file = checked(text, file_name, problems);
+  if (!problems.empty()) throw ProtocolError(std::move(problems));
+  return build_study(file, text);
+}
+
+Study read_study(const fs::path& file) {
+  std::vector<StudyProblem> problems;
+  const std::optional<std::string> text = file_text(file, problems);
+  if (!text) throw ProtocolError(std::move(problems));
+  return read_study_text(*text, file.string());
+}
+
+std::vector<StudyProblem> study_text_problems(const std::string& text,
+                                              const std::string& file_name) {
+  std::vector<StudyProblem> problems;
+  static_cast<void>(checked(text, file_name, problems));
+  return problems;
+}
+
+std::vector<StudyProblem> study_problems(const fs::path& file) {
+  std::vector<StudyProblem> problems;
+  const std::optional<std::string> text = file_text(file, problems);
+  return text ? study_text_problems(*text, file.string()) : problems;
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,248 @@
+#include "experiments/study/study_rules.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "experiments/study/parameter_table.h"
+#include "experiments/study/structure_check.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+std::string word(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+const json* number(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? &*found : nullptr;
+}
+
+/// The list at `key`, or an empty one.
+const json& list(const json& object, const std::string& key) {
+  static const json kNone = json::array();
+  const auto found = object.find(key);
+  return found != object.end() && found->is_array() ? *found : kNone;
+}
+
+class Rules {
+ public:
+  Rules(const LocatedJson& file, std::vector<StudyProblem>& problems)
+      : file_(file), problems_(problems) {}
+
+  void run() {
+    if (!file_.root().is_object()) return;
+    const json& stages = list(file_.root(), "stages");
+    collect_arms(stages);
+    check_stages(stages, "/stages", false);
+    check_num_cells();
+  }
+
+ private:
+  void report(const std::string& pointer, std::string message) {
+    const TextPosition position = file_.value_position(pointer);
+    problems_.push_back(
+        {file_.file(), position.line, position.column, pointer, std::move(message)});
+  }
+
+  /// Reports a word that stands at another pointer of the same namespace already.
+  void check_unique(std::map<std::string, std::string>& known, const std::string& name,
+                    const std::string& pointer) {
+    if (name.empty()) return;
+    const auto [first, is_new] = known.emplace(name, pointer);
+    if (!is_new) {
+      report(pointer, "expected a name of its own, found `" + name + "`, the name of " +
+                          first->second.substr(0, first->second.rfind('/')) + " already");
+    }
+  }
+
+  void collect_arms(const json& stages) {
+    for (const json& stage : stages) {
+      if (!stage.is_object() || word(stage, "kind") != "counterbalance") continue;
+      if (word(stage, "method") == "one_of") {
+        for (const json& arm : list(stage, "arms")) {
+          if (arm.is_object()) one_of_arms_[word(stage, "name")].push_back(word(arm, "name"));
+        }
+      }
+      const double num_arms = static_cast<double>(list(stage, "arms").size());
+      const bool is_order = word(stage, "method") == "order";
+      num_cells_ *= !is_order       ? std::max(1.0, num_arms)
+                    : num_arms == 3 ? 6.0
+                                    : (num_arms > 3 && list(stage, "arms").size() % 2 == 1
+                                           ? 2.0 * num_arms
+                                           : std::max(1.0, num_arms));
+    }
+  }
+
+  void check_num_cells() {
+    constexpr double kMostCells = 10000.0;
+    if (num_cells_ > kMostCells) {
+      report("/stages", "expected counterbalances that cross to at most " +
+                            plain_number(kMostCells) + " cells, found " +
+                            plain_number(num_cells_));
+    }
+  }
+
+  void check_stages(const json& stages, const std::string& pointer, bool inside) {
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      if (stages[i].is_object()) {
+        check_stage(stages[i], pointer + '/' + std::to_string(i), inside);
+      }
+    }
+  }
+
+  void check_stage(const json& stage, const std::string& pointer, bool inside) {
+    check_unique(stage_names_, word(stage, "name"), pointer + "/name");
+    check_only_for(stage, pointer);
+    const std::string kind = word(stage, "kind");
+    if (kind == "block") check_block(stage, pointer);
+    if (kind == "questionnaire" || kind == "post_experiment") check_items(stage, pointer);
+    if (kind != "counterbalance") return;
+    if (inside) {
+      report(pointer + "/kind",
+             "expected no counterbalance inside another, found one; side by side they are "
+             "crossed");
+    }
+    check_counterbalance(stage, pointer);
+  }
+
+  void check_counterbalance(const json& stage, const std::string& pointer) {
+    std::map<std::string, std::string> arm_names;
+    const json& arms = list(stage, "arms");
+    for (std::size_t i = 0; i < arms.size(); ++i) {
+      if (!arms[i].is_object()) continue;
+      const std::string arm = pointer + "/arms/" + std::to_string(i);
+      check_unique(arm_names, word(arms[i], "name"), arm + "/name");
+      const json& stages = list(arms[i], "stages");
+      if (word(stage, "method") == "order" && arms[i].contains("stages") && stages.empty() &&
+          arms[i]["stages"].is_array()) {
+        report(arm + "/stages",
+               "expected one or more stages, as `method` is `order`, found an empty list");
+      }
+      check_stages(stages, arm + "/stages", true);
+    }
+    check_stages(list(stage, "between"), pointer + "/between", true);
+  }
+
+  void check_only_for(const json& stage, const std::string& pointer) {
+    const auto only_for = stage.find("only_for");
+    if (only_for == stage.end() || !only_for->is_object()) return;
+    for (const auto& [counterbalance, arm] : only_for->items()) {
+      if (counterbalance == "comment" || !arm.is_string()) continue;
+      const std::string child = pointer + "/only_for/" + pointer_token(counterbalance);
+      const auto known = one_of_arms_.find(counterbalance);
+      if (known == one_of_arms_.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, arms] : one_of_arms_) names.push_back(name);
+        report(child, "expected the name of a `one_of` counterbalance, found `" +
+                          counterbalance + "`" + did_you_mean(counterbalance, names));
+      } else if (std::find(known->second.begin(), known->second.end(), arm) ==
+                 known->second.end()) {
+        report(child, "expected an arm of `" + counterbalance + "`: " +
+                          one_of_words(known->second) + ", found `" + arm.get<std::string>() +
+                          "`" + did_you_mean(arm.get<std::string>(), known->second));
+      }
+    }
+  }
+
+  void check_items(const json& stage, const std::string& pointer) {
+    const json& items = list(stage, "items");
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!items[i].is_object()) continue;
+      const std::string item = pointer + "/items/" + std::to_string(i);
+      check_unique(item_names_, word(items[i], "name"), item + "/name");
+      std::map<std::string, std::string> values;
+      const json& options = list(items[i], "options");
+      for (std::size_t j = 0; j < options.size(); ++j) {
+        if (!options[j].is_object()) continue;
+        check_unique(values, word(options[j], "value"),
+                     item + "/options/" + std::to_string(j) + "/value");
+      }
+      const json* minimum = number(items[i], "minimum");
+      const json* maximum = number(items[i], "maximum");
+      if (minimum != nullptr && maximum != nullptr &&
+          !(minimum->get<double>() < maximum->get<double>())) {
+        report(item + "/maximum", "expected a number > `minimum` (" + minimum->dump() +
+                                      "), found " + maximum->dump());
+      }
+    }
+  }
+
+  void check_block(const json& block, const std::string& pointer) {
+    const std::string quantity = quantity_of(word(block, "medium"));
+    if (quantity.empty()) return;
+    const std::string procedure = word(block, "procedure");
+    const std::string at = pointer + '/';
+    std::map<double, std::size_t> seen;
+    const json& values = list(block, quantity);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!values[i].is_number()) continue;
+      const std::string here = at + quantity + '/' + std::to_string(i);
+      const auto [first, is_new] = seen.emplace(values[i].get<double>(), i);
+      if (!is_new) {
+        report(here, "expected each value once, found " + values[i].dump() + " at index " +
+                         std::to_string(first->second) + " already");
+      }
+      if (procedure == "constant_stimuli" && quantity == "scale" &&
+          values[i].get<double>() == 0.0) {
+        report(here, "expected a number > 0, as `constant_stimuli` compares ratios, found " +
+                         values[i].dump());
+      }
+    }
+    if (seen.empty()) return;
+    if (procedure == "constant_stimuli") check_reference(block, at, quantity, seen);
+    if (procedure == "magnitude_production") check_steps(block, at, quantity, seen);
+  }
+
+  void check_reference(const json& block, const std::string& at, const std::string& quantity,
+                       const std::map<double, std::size_t>& seen) {
+    const std::string key = "reference_" + quantity;
+    const json* reference = number(block, key);
+    if (reference == nullptr) return;
+    const double value = reference->get<double>();
+    if (!(value > seen.begin()->first && value < seen.rbegin()->first)) {
+      report(at + key,
+             "expected a number between the smallest and the largest test stimulus (" +
+                 plain_number(seen.begin()->first) + " and " +
+                 plain_number(seen.rbegin()->first) + "), found " + reference->dump());
+    }
+  }
+
+  void check_steps(const json& block, const std::string& at, const std::string& quantity,
+                   const std::map<double, std::size_t>& seen) {
+    const json* coarse = number(block, "coarse_step_" + quantity);
+    const json* fine = number(block, "fine_step_" + quantity);
+    if (coarse != nullptr && fine != nullptr &&
+        !(fine->get<double>() < coarse->get<double>())) {
+      report(at + "fine_step_" + quantity, "expected a number < `coarse_step_" + quantity +
+                                               "` (" + coarse->dump() + "), found " +
+                                               fine->dump());
+    }
+    const json* max = number(block, "max_" + quantity);
+    if (max != nullptr && !(max->get<double>() >= seen.rbegin()->first)) {
+      report(at + "max_" + quantity, "expected a number >= the largest starting value (" +
+                                         plain_number(seen.rbegin()->first) + "), found " +
+                                         max->dump());
+    }
+  }
+
+  const LocatedJson& file_;
+  std::vector<StudyProblem>& problems_;
+  std::map<std::string, std::string> stage_names_, item_names_;  ///< Name to pointer.
+  std::map<std::string, std::vector<std::string>> one_of_arms_;
+  double num_cells_ = 1.0;
+};
+
+}  // namespace
+
+void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& problems) {
+  Rules(file, problems).run();
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,105 @@
+#include "core/media/medium.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "support/allocation_counter.h"
+
+namespace jnd::core {
+namespace {
+
+HandMotion moving(double speed_m_per_s, double sin_angle_of_attack) {
+  return {.velocity_m_per_s = {speed_m_per_s, 0.0, 0.0},
+          .speed_m_per_s = speed_m_per_s,
+          .sin_angle_of_attack = sin_angle_of_attack};
+}
+
+TEST(MediumAmounts, GiveTheForceOfEachLaw) {
+  const HandMotion motion = moving(0.7, 0.6);
+  EXPECT_EQ(free_space().drag_n(motion), 0.0);
+  EXPECT_NEAR(water({.scale = 2.0}).drag_n(motion), WaterDrag({.scale = 2.0}).drag_n(0.7, 0.6),
+              1e-14);
+  EXPECT_NEAR(viscous({.viscosity_pa_s = 3.0}).drag_n(motion),
+              ViscousDrag({.viscosity_pa_s = 3.0}).drag_n(0.7), 1e-14);
+  EXPECT_EQ(solid({.stiffness_n_per_m = 500.0}).drag_n(motion), 0.0);
+}
+
+TEST(MediumAmounts, AddUp) {
+  MediumAmounts both = water({.scale = 2.0});
+  both.damping_n_s_per_m = viscous({.viscosity_pa_s = 3.0}).damping_n_s_per_m;
+  const HandMotion motion = moving(0.3, 0.9);
+  EXPECT_NEAR(
+      both.drag_n(motion),
+      water({.scale = 2.0}).drag_n(motion) + viscous({.viscosity_pa_s = 3.0}).drag_n(motion),
+      1e-14);
+}
+
+TEST(MediumAmounts, NeedParametersInRange) {
+  EXPECT_THROW(static_cast<void>(water({.scale = -1.0})), Error);
+  EXPECT_THROW(static_cast<void>(viscous({.viscosity_pa_s = -1.0})), Error);
+  EXPECT_THROW(static_cast<void>(solid({.stiffness_n_per_m = -1.0})), Error);
+}
+
+TEST(MediumRamp, StartsInFreeSpaceAndHasArrived) {
+  MediumRamp ramp;
+  EXPECT_TRUE(ramp.finished());
+  EXPECT_EQ(ramp.advance(0.001).damping_n_s_per_m, 0.0);
+}
+
+TEST(MediumRamp, IsAStraightLineInEveryAmountAndEndsExactly) {
+  const MediumAmounts target = {.quadratic_kg_per_m = 5.0,
+                                .damping_n_s_per_m = 10.0,
+                                .plane_stiffness_n_per_m = 500.0,
+                                .plane_damping_n_s_per_m = 20.0};
+  MediumRamp ramp;
+  ramp.start(target, 0.050);
+  for (int tick = 1; tick < 50; ++tick) {
+    const MediumAmounts& amounts = ramp.advance(0.001);
+    EXPECT_FALSE(ramp.finished());
+    const double part = tick / 50.0;
+    EXPECT_NEAR(amounts.quadratic_kg_per_m, part * 5.0, 1e-9);
+    EXPECT_NEAR(amounts.damping_n_s_per_m, part * 10.0, 1e-9);
+    EXPECT_NEAR(amounts.plane_stiffness_n_per_m, part * 500.0, 1e-9);
+    EXPECT_NEAR(amounts.plane_damping_n_s_per_m, part * 20.0, 1e-9);
+  }
+  ramp.advance(0.001);
+  ramp.advance(0.001);  // Rounding may leave a hair of the ramp to the 51st tick.
+  EXPECT_TRUE(ramp.finished());
+  EXPECT_EQ(ramp.current().quadratic_kg_per_m, 5.0);
+  EXPECT_EQ(ramp.current().plane_stiffness_n_per_m, 500.0);
+}
+
+TEST(MediumRamp, StartsFromWhereAnUnfinishedRampHadCome) {
+  MediumRamp ramp;
+  ramp.start({.damping_n_s_per_m = 10.0}, 0.1);
+  for (int tick = 0; tick < 50; ++tick) ramp.advance(0.001);
+  const double halfway = ramp.current().damping_n_s_per_m;
+  ramp.start(free_space(), 0.1);
+  EXPECT_NEAR(ramp.advance(0.001).damping_n_s_per_m, 0.99 * halfway, 1e-9);
+}
+
+TEST(MediumRamp, ARampTimeThatIsNoTimeIsOverAtOnce) {
+  for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    MediumRamp ramp;
+    ramp.start({.damping_n_s_per_m = 10.0}, wrong);
+    EXPECT_EQ(ramp.advance(0.001).damping_n_s_per_m, 10.0);
+    EXPECT_TRUE(ramp.finished());
+  }
+}
+
+TEST(MediumRamp, IsSafeToCallOnTheHapticThread) {
+  if (!test_support::AllocationCounter::is_supported()) GTEST_SKIP();
+  const MediumAmounts honey = viscous({.viscosity_pa_s = 10.0});
+  MediumRamp ramp;
+  const test_support::AllocationCounter counter;
+  ramp.start(honey, 0.05);
+  const double drag_n = ramp.advance(0.001).drag_n(moving(0.1, 1.0));
+  EXPECT_EQ(counter.allocations(), 0U);
+  EXPECT_GT(drag_n, 0.0);
+}
+
+}  // namespace
+}  // namespace jnd::core

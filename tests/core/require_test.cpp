@@ -1,0 +1,29 @@
+#include "core/require.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace jnd::core {
+namespace {
+
+std::string message_for(double value) {
+  try {
+    require(value > 0.0, "rate_hz", "a number > 0", value);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Require, SaysFieldRuleAndValue) {
+  EXPECT_EQ(message_for(-1.5), "rate_hz: expected a number > 0, found -1.5");
+  EXPECT_EQ(message_for(std::numeric_limits<double>::quiet_NaN()),
+            "rate_hz: expected a number > 0, found nan");
+}
+
+TEST(Require, IsSilentWhenTheRuleHolds) { EXPECT_EQ(message_for(1.0), ""); }
+
+}  // namespace
+}  // namespace jnd::core

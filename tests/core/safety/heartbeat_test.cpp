@@ -1,0 +1,32 @@
+#include "core/safety/heartbeat.h"
+
+#include <gtest/gtest.h>
+
+namespace jnd::core {
+namespace {
+
+TEST(HeartbeatMonitor, HearsSilenceAfterItsTimeoutAndNotBefore) {
+  Heartbeat heartbeat;
+  HeartbeatMonitor monitor(&heartbeat, 250);
+  for (int tick = 1; tick < 250; ++tick) EXPECT_FALSE(monitor.is_silent()) << tick;
+  EXPECT_TRUE(monitor.is_silent());
+  EXPECT_TRUE(monitor.is_silent());
+}
+
+TEST(HeartbeatMonitor, OneBeatStartsTheTimeAnew) {
+  Heartbeat heartbeat;
+  HeartbeatMonitor monitor(&heartbeat, 250);
+  for (int second = 0; second < 10; ++second) {
+    for (int tick = 0; tick < 249; ++tick) EXPECT_FALSE(monitor.is_silent());
+    heartbeat.beat();
+    EXPECT_FALSE(monitor.is_silent());
+  }
+}
+
+TEST(HeartbeatMonitor, ASimulationNeedsNoHeart) {
+  HeartbeatMonitor monitor(nullptr, 1);
+  for (int tick = 0; tick < 1000; ++tick) EXPECT_FALSE(monitor.is_silent());
+}
+
+}  // namespace
+}  // namespace jnd::core

@@ -1,0 +1,37 @@
+#include "device/device_registry.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/error.h"
+
+namespace jnd::device {
+namespace {
+
+TEST(DeviceRegistry, EveryDeviceIsMadeUnderItsOwnName) {
+  std::set<std::string> names;
+  for (const DeviceEntry& entry : devices()) {
+    const auto device = entry.make(1000.0);
+    ASSERT_NE(device, nullptr);
+    EXPECT_EQ(device->name(), entry.name);
+    EXPECT_EQ(&device_named(entry.name), &entry);
+    EXPECT_FALSE(entry.description.empty());
+    names.emplace(entry.name);
+  }
+  EXPECT_EQ(names.size(), devices().size());
+  EXPECT_TRUE(names.contains("lumped"));
+}
+
+TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
+  try {
+    static_cast<void>(device_named("phantom"));
+    FAIL() << "a device that does not exist was found";
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(), "device: expected one of lumped, found phantom");
+  }
+}
+
+}  // namespace
+}  // namespace jnd::device

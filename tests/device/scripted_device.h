@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "device/haptic_device.h"
+
+namespace jnd::device {
+
+/// A device that measures what the test says and remembers every force that it was sent. The
+/// hand plane's normal is along x; the hand is 10 cm below the surface.
+class ScriptedDevice final : public HapticDevice {
+ public:
+  ScriptedDevice() {
+    state.tip_position_m = {Eigen::Vector3d(0, -0.061, -0.1), Eigen::Vector3d(0, -0.061, -0.16),
+                            Eigen::Vector3d(0, 0, -0.08), Eigen::Vector3d(0, 0.059, -0.1),
+                            Eigen::Vector3d(0, 0.064, -0.12)};
+    received.reserve(100'000);
+  }
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "scripted"; }
+  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+    return device_capabilities;
+  }
+  void open() override {}
+  [[nodiscard]] bool read(core::HapticState& measured) noexcept override {
+    measured = state;
+    return true;
+  }
+  [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
+    received.push_back(force_on_hand_n);
+    state.device_time_ns += 1'000'000;
+    for (int i = 0; i < core::kNumContactPoints; ++i) {
+      state.tip_position_m[i] += 0.001 * state.tip_velocity_m_per_s[i];
+    }
+    return true;
+  }
+  void close() noexcept override {}
+
+  void move_all(const Eigen::Vector3d& velocity_m_per_s) {
+    state.tip_velocity_m_per_s.fill(velocity_m_per_s);
+  }
+  [[nodiscard]] Eigen::Vector3d last_total_n() const {
+    Eigen::Vector3d total = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& force : received.back()) total += force;
+    return total;
+  }
+
+  core::HapticState state;
+  DeviceCapabilities device_capabilities;
+  std::vector<core::PointVectors> received;
+};
+
+}  // namespace jnd::device

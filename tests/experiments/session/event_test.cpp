@@ -1,0 +1,95 @@
+#include "experiments/session/event.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace jnd::experiments {
+namespace {
+
+/// One of each kind, no field left at its default.
+std::vector<EventData> one_of_each() {
+  const PresentationSummary summary{.stroke_width_m = 0.26,
+                                    .max_speed_m_per_s = 0.44,
+                                    .mean_height_m = -0.4,
+                                    .num_strokes = 3,
+                                    .delivered_damping_n_s_per_m = 3.2,
+                                    .commanded_damping_n_s_per_m = std::nullopt,
+                                    .limited_ticks = 4};
+  return {SessionStarted{},
+          StageEntered{2},
+          ItemAnswered{2, "about_you", "body_height_m", "1.75"},
+          MediumExplored{2, "viscous", 16.0, 10, 20},
+          StageFinished{2},
+          TrialsDrawn{2, 4, {{.repetition = 2, .position = 3, .intensity = 1.5}}},
+          TrialStarted{4, 2, 30},
+          PresentationStarted{4, 2, 3, "reference", 1.853, 31},
+          PresentationEnded{4, 2, 3, 40, summary},
+          IntensityAdjusted{4, 2, 1.0, 1.5},
+          TrialAnswered{4, 2, 1.0, 2.5, 41},
+          AnswerUndone{4, 2, 17, "why"},
+          AnswerCorrected{4, 2, 17, 0.0, "why"},
+          AttemptDiscarded{4, 2, "why"},
+          TrialExcluded{4, "why"},
+          TrialIncluded{4, "why"},
+          NoteAdded{"a note with \"quotes\" and \xc3\xbc"},
+          Paused{"why"},
+          Continued{},
+          FaultRaised{"what"},
+          SessionResumed{"repeat", 5, 6},
+          SessionEnded{true, "why"}};
+}
+
+TEST(Event, EveryKindComesBackFromItsRowAsItWas) {
+  const std::vector<EventData> all = one_of_each();
+  ASSERT_EQ(all.size(), std::variant_size_v<EventData>);
+  for (std::size_t index = 0; index < all.size(); ++index) {
+    ASSERT_EQ(all[index].index(), index);
+    const core::EventRow row =
+        row_from_event(7, {.sequence = 9, .time_ns = 11, .data = all[index]});
+    const Event back = event_from_row(row);
+    EXPECT_EQ(back.sequence, 9);
+    EXPECT_EQ(back.time_ns, 11);
+    // The stored form of what came back is the stored form of what went in.
+    const core::EventRow again = row_from_event(7, back);
+    EXPECT_EQ(again.kind, row.kind);
+    EXPECT_EQ(again.data, row.data) << row.kind;
+    EXPECT_EQ(again.stage, row.stage);
+    EXPECT_EQ(again.trial, row.trial);
+    EXPECT_EQ(again.attempt, row.attempt);
+    EXPECT_EQ(again.first_tick, row.first_tick);
+    EXPECT_EQ(again.last_tick, row.last_tick);
+    EXPECT_EQ(again.intensity, row.intensity);
+    EXPECT_EQ(again.supersedes, row.supersedes);
+  }
+}
+
+TEST(Event, StoresAnAnswerUnderReadableWords) {
+  const core::EventRow row =
+      row_from_event(1, {.sequence = 1, .data = TrialAnswered{4, 2, 120, 2.5, 41}});
+  EXPECT_EQ(row.kind, "trial_answered");
+  EXPECT_EQ(row.trial, 4);
+  EXPECT_EQ(row.last_tick, 41);
+  EXPECT_EQ(row.data, R"({"response":120.0,"response_time_s":2.5})");
+}
+
+TEST(Event, NamesTheEventWhoseDataAreDamaged) {
+  core::EventRow row = row_from_event(3, {.sequence = 8, .data = NoteAdded{"x"}});
+  for (const char* damage : {"", "{", "[]", "{\"text\":5}", "null"}) {
+    row.data = damage;
+    try {
+      (void)event_from_row(row);
+      FAIL() << damage;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("session 3, event 8"), std::string::npos);
+    }
+  }
+  row.kind = "teleported";
+  EXPECT_THROW((void)event_from_row(row), core::Error);
+  core::EventRow without_columns = row_from_event(3, {.sequence = 8, .data = StageEntered{1}});
+  without_columns.stage.reset();
+  EXPECT_THROW((void)event_from_row(without_columns), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::experiments

@@ -1,0 +1,180 @@
+#include "experiments/session/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "core/clock.h"
+#include "experiments/session/session.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::experiments {
+namespace {
+
+const std::string kStudy = R"json({
+  "format": 1, "name": "planned", "languages": ["en"], "title": {"en": "Planned"},
+  "authors": ["A. Author"],
+  "stages": [
+    {"kind": "checklist", "name": "before", "items": [
+      {"text": {"en": "One."}}, {"text": {"en": "Two."}}]},
+    {"kind": "explore", "name": "explore", "instruction": {"en": "Feel."}, "media": [
+      {"medium": "free_space", "duration_s": 30}, {"medium": "water", "scale": 4, "duration_s": 10}]},
+    {"kind": "counterbalance", "name": "method_order", "method": "order",
+     "arms": [
+       {"name": "estimation", "stages": [
+         {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation",
+          "medium": "water", "scale": [0, 1, 4], "repetitions": 3,
+          "instruction": {"en": "Say."}, "question": {"en": "How?"},
+          "free_space_between_s": 2, "expected_trial_s": 18}]},
+       {"name": "comparison", "stages": [
+         {"kind": "block", "name": "comparison", "procedure": "constant_stimuli",
+          "medium": "viscous", "viscosity_pa_s": [10, 30], "reference_viscosity_pa_s": 16,
+          "repetitions": 5, "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
+          "expected_trial_s": 15}]}],
+     "between": [{"kind": "break", "name": "rest", "instruction": {"en": "Rest."}, "duration_s": 60}]},
+    {"kind": "post_experiment", "name": "after", "items": [
+      {"name": "is_solid", "medium": "solid", "stiffness_n_per_m": 1000,
+       "instruction": {"en": "Touch."}, "question": {"en": "Solid?"}, "answer": "yes_no"}]}
+  ]
+})json";
+
+class MemoryLog final : public EventLog {
+ public:
+  void append(const core::Commit& commit) override {
+    design.insert(design.end(), commit.design.begin(), commit.design.end());
+  }
+  std::vector<core::DesignRow> design;
+};
+
+TEST(Plan, FillsTheCellsEvenly) {
+  const Study study = read_study_text(kStudy, "x");
+  std::map<std::string, int> starts;
+  for (const auto& plan : plan_participants(study, {.num_participants = 13, .seed = 3})) {
+    ++starts[to_string(plan.cell)];
+  }
+  EXPECT_EQ(starts.size(), 2u);
+  EXPECT_EQ(std::abs(starts.begin()->second - starts.rbegin()->second), 1);
+}
+
+TEST(Plan, GoesOnWhereTheStudyFolderStands) {
+  const Study study = read_study_text(kStudy, "x");
+  const auto plans =
+      plan_participants(study, {.num_participants = 2,
+                                .seed = 3,
+                                .first_participant_index = 2,
+                                .completed = {"method_order=estimation,comparison",
+                                              "method_order=estimation,comparison"}});
+  ASSERT_EQ(plans.size(), 2u);
+  EXPECT_EQ(plans[0].participant_index, 2);
+  EXPECT_EQ(plans[1].participant_index, 3);
+  for (const auto& plan : plans) {
+    EXPECT_EQ(to_string(plan.cell), "method_order=comparison,estimation");
+  }
+}
+
+TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
+  const Study study = read_study_text(kStudy, "x");
+  for (const auto& plan : plan_participants(study, {.num_participants = 4, .seed = 9})) {
+    std::vector<const Stage*> stages;
+    for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
+    MemoryLog log;
+    const core::SimulatedClock clock;
+    Session session(
+        {.session = 1, .seed = session_seed(9, plan.participant_index), .stages = stages}, {},
+        log, clock);
+    session.start();
+    std::int64_t tick = 0;
+    while (session.current_stage() != nullptr) {
+      session.enter_stage();
+      while (session.state().current_trial()) {
+        session.start_trial(tick);
+        session.begin_presentation("test", tick);
+        session.end_presentation(tick += 10, {});
+        session.answer(1.0, 1.0, tick);
+        tick += 1;
+      }
+      session.finish_stage();
+    }
+    std::vector<std::optional<double>> planned, drawn;
+    for (const PlannedBlock& block : plan.blocks) {
+      for (const PlannedTrial& trial : block.trials) planned.push_back(trial.intensity);
+    }
+    for (const core::DesignRow& row : log.design) drawn.push_back(row.intensity);
+    EXPECT_EQ(planned.size(), 19u);
+    EXPECT_EQ(planned, drawn);
+  }
+}
+
+TEST(Plan, GivesEveryParticipantAnOrderOfTheirOwn) {
+  const Study study = read_study_text(kStudy, "x");
+  const auto plans = plan_participants(study, {.num_participants = 2, .seed = 3});
+  const auto order_of = [](const ParticipantPlan& plan) {
+    std::vector<double> order;
+    for (const PlannedBlock& block : plan.blocks) {
+      if (block.stage->name != "comparison") continue;
+      for (const PlannedTrial& trial : block.trials) order.push_back(*trial.intensity);
+    }
+    return order;
+  };
+  EXPECT_NE(order_of(plans[0]), order_of(plans[1]));
+}
+
+TEST(Plan, AddsUpTheExpectedDuration) {
+  // 2 points of a checklist, 40 s of exploring, 9 trials of 20 s, 10 of 15 s, a break of 60 s
+  // and one thing afterwards.
+  const ExpectedTimes times;
+  const Study study = read_study_text(kStudy, "x");
+  EXPECT_DOUBLE_EQ(plan_participants(study, {.num_participants = 1}).at(0).duration_s,
+                   2 * times.checklist_item_s + 40.0 + 9 * 20.0 + 10 * 15.0 + 60.0 +
+                       times.post_experiment_item_s);
+}
+
+TEST(Plan, PutsEveryStimulusAgainstTheLimits) {
+  const auto range = planned_range(read_study_text(kStudy, "x"), {.max_force_per_point_n = 10.0,
+                                                                  .max_total_force_n = 40.0,
+                                                                  .expected_speed_m_per_s = 1.0,
+                                                                  .expected_depth_m = 0.01});
+  const auto entry = [&](const std::string& stage, double intensity) {
+    const auto found = std::find_if(range.begin(), range.end(), [&](const RangeEntry& e) {
+      return e.stage == stage && e.setting.intensity == intensity;
+    });
+    return found == range.end() ? RangeEntry{} : *found;
+  };
+  EXPECT_EQ(range.size(), 2u + 3u + 3u + 1u);
+
+  // Water, hand head on at 1 m/s: 6.585 N (thesis, B.4), four times that with scale 4.
+  EXPECT_NEAR(entry("estimation", 1).total_force_n, 6.585, 1e-3);
+  EXPECT_NEAR(entry("explore", 4).total_force_n, 4 * 6.58526, 1e-4);
+  EXPECT_TRUE(entry("estimation", 4).fits);
+  // 10 N at the palm, which carries 35 %: 28.571 N in all, sqrt(28.571 / 26.341) m/s.
+  EXPECT_NEAR(entry("estimation", 4).fits_up_to_m_per_s.value(), 1.04147, 1e-4);
+
+  // 1.776 m * 16 Pa s * 1 m/s = 28.416 N fits by a hair, 30 Pa s does not.
+  EXPECT_NEAR(entry("comparison", 16).total_force_n, 28.416, 1e-9);
+  EXPECT_NEAR(entry("comparison", 16).largest_point_force_n, 9.9456, 1e-9);
+  EXPECT_TRUE(entry("comparison", 16).fits);
+  EXPECT_FALSE(entry("comparison", 30).fits);
+  EXPECT_NEAR(entry("comparison", 30).fits_up_to_m_per_s.value(), 10.0 / 0.35 / 53.28, 1e-9);
+
+  EXPECT_EQ(entry("estimation", 0).total_force_n, 0.0);
+  EXPECT_FALSE(entry("estimation", 0).fits_up_to_m_per_s.has_value());
+  EXPECT_NEAR(entry("after", 1000).total_force_n, 10.0, 1e-12);
+  EXPECT_FALSE(entry("after", 1000).fits_up_to_m_per_s.has_value());
+}
+
+TEST(Plan, NamesTheTotalLimitWhereItIsTheTighterOne) {
+  const auto range =
+      planned_range(read_study_text(kStudy, "x"),
+                    {.max_force_per_point_n = 100.0, .max_total_force_n = 5.328});
+  const auto thick = std::find_if(range.begin(), range.end(), [](const RangeEntry& e) {
+    return e.setting.intensity == 30.0;
+  });
+  ASSERT_NE(thick, range.end());
+  EXPECT_FALSE(thick->fits);
+  EXPECT_NEAR(thick->fits_up_to_m_per_s.value(), 0.1, 1e-9);
+}
+
+}  // namespace
+}  // namespace jnd::experiments

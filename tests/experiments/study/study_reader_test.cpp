@@ -1,0 +1,156 @@
+#include "experiments/study/study_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/experiments/study/broken_study.h"
+
+namespace jnd::experiments {
+namespace {
+
+TEST(StudyReader, FillsTheStudyWordForWord) {
+  const Study study = read_study_text(kSoundStudy, "x.json");
+  EXPECT_EQ(study.format, 1);
+  EXPECT_EQ(study.name, "sound");
+  EXPECT_EQ(study.languages, (std::vector<std::string>{"en", "de"}));
+  EXPECT_EQ(study.title.at("de"), "Heil");
+  EXPECT_EQ(study.authors, (std::vector<std::string>{"A. Author"}));
+  EXPECT_EQ(study.text, kSoundStudy);
+  ASSERT_EQ(study.stages.size(), 4u);
+  EXPECT_EQ(study.stages[1].name, "estimation");
+  EXPECT_EQ(study.stages[1].line, 13);
+}
+
+TEST(StudyReader, ReadsAnEstimation) {
+  const Study study = read_study_text(kSoundStudy, "x.json");
+  const auto& block = std::get<Block>(study.stages[1].content);
+  EXPECT_EQ(block.procedure, "magnitude_estimation");
+  EXPECT_EQ(block.medium, "water");
+  EXPECT_EQ(block.quantity, "scale");
+  EXPECT_EQ(block.intensities, (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(block.repetitions, 3);
+  EXPECT_EQ(block.expected_trial_s, 20.0);
+  EXPECT_FALSE(block.reference_intensity.has_value());
+  EXPECT_TRUE(block.target_percent.empty());
+}
+
+TEST(StudyReader, ReadsAProductionAndAComparisonInTheirArms) {
+  const Study study = read_study_text(kSoundStudy, "x.json");
+  const auto& counterbalance = std::get<Counterbalance>(study.stages[2].content);
+  EXPECT_EQ(counterbalance.method, Counterbalance::Method::kOrder);
+  ASSERT_EQ(counterbalance.arms.size(), 2u);
+  const auto& production = std::get<Block>(counterbalance.arms[0].stages[0].content);
+  EXPECT_EQ(production.target_percent, (std::vector<double>{100, 50}));
+  EXPECT_EQ(production.repetitions, 1);
+  EXPECT_EQ(production.coarse_step, 0.5);
+  EXPECT_EQ(production.fine_step, 0.1);
+  EXPECT_EQ(production.max_intensity, 8.0);
+  const auto& comparison = std::get<Block>(counterbalance.arms[1].stages[0].content);
+  EXPECT_EQ(comparison.quantity, "viscosity_pa_s");
+  EXPECT_EQ(comparison.reference_intensity, 16.0);
+  ASSERT_EQ(counterbalance.between.size(), 1u);
+  EXPECT_EQ(counterbalance.between[0].only_for.at("priming"), "primed");
+}
+
+TEST(StudyReader, ReadsAQuestionnaire) {
+  const Study study = read_study_text(kSoundStudy, "x.json");
+  const auto& items = std::get<Questionnaire>(study.stages[3].content).items;
+  ASSERT_EQ(items.size(), 3u);
+  EXPECT_EQ(items[0].unit, "m");
+  EXPECT_EQ(items[0].minimum, 1.0);
+  EXPECT_EQ(items[0].maximum, 2.5);
+  EXPECT_TRUE(items[0].required);
+  ASSERT_EQ(items[1].options.size(), 2u);
+  EXPECT_EQ(items[1].options[1].value, "left");
+  EXPECT_EQ(items[1].options[1].label.at("de"), "links");
+  EXPECT_EQ(items[2].num_steps, 10);
+  EXPECT_TRUE(items[2].high_is_good);
+  EXPECT_FALSE(
+      std::get<Questionnaire>(
+          read_study_text(broken("\"high_is_good\": true", "\"high_is_good\": false"), "x")
+              .stages[3]
+              .content)
+          .items[2]
+          .high_is_good);
+}
+
+TEST(StudyReader, FillsInTheDefaultsOfTheTables) {
+  const Study study = read_study_text(broken("\"blinding\": \"none\",", ""), "x.json");
+  EXPECT_EQ(study.blinding, Blinding::kNone);
+  EXPECT_EQ(study.device.min_contact_points, 5);
+  EXPECT_EQ(study.device.rate_hz, 1000.0);
+  EXPECT_EQ(study.device.ramp_s, 0.05);
+  EXPECT_TRUE(std::isinf(study.device.immersion.radius_m));
+  EXPECT_TRUE(std::isinf(study.device.immersion.depth_m));
+  EXPECT_EQ(study.device.immersion.origin_z_m, 0.0);
+  EXPECT_EQ(std::get<Block>(study.stages[1].content).free_space_between_s, 0.0);
+}
+
+TEST(StudyReader, ReadsTheNeedsOfTheDeviceAndTheBlinding) {
+  const Study study = read_study_text(
+      broken(
+          "\"blinding\": \"none\"",
+          "\"blinding\": \"double\", \"device\": {\"min_contact_points\": 1, \"rate_hz\": 833,"
+          " \"ramp_s\": 0.1, \"immersion\": {\"radius_m\": 0.25, \"origin_z_m\": -0.1}}"),
+      "x.json");
+  EXPECT_EQ(study.blinding, Blinding::kDouble);
+  EXPECT_EQ(study.device.min_contact_points, 1);
+  EXPECT_EQ(study.device.rate_hz, 833.0);
+  EXPECT_EQ(study.device.ramp_s, 0.1);
+  EXPECT_EQ(study.device.immersion.radius_m, 0.25);
+  EXPECT_EQ(study.device.immersion.origin_z_m, -0.1);
+}
+
+TEST(StudyReader, KeepsCommentsOutOfTexts) {
+  const Study study = read_study_text(
+      broken("{\"en\": \"Say.\"", "{\"comment\": \"c\", \"en\": \"Say.\""), "x");
+  EXPECT_EQ(std::get<Block>(study.stages[1].content).instruction.size(), 2u);
+}
+
+TEST(StudyReader, ThrowsEveryProblemAtOnce) {
+  const std::string text = broken("\"format\": 1", "\"format\": 7, \"nmae\": 1");
+  try {
+    static_cast<void>(read_study_text(text, "x.json"));
+    FAIL() << "a broken study was read";
+  } catch (const ProtocolError& error) {
+    EXPECT_EQ(error.problems().size(), 2u);
+    EXPECT_EQ(std::string(error.what()), problems_of(text));
+  }
+}
+
+TEST(StudyReader, TellsOfAFileThatCannotBeRead) {
+  const auto none = study_problems("/no/such/study.json");
+  ASSERT_EQ(none.size(), 1u);
+  EXPECT_EQ(to_string(none[0]),
+            "/no/such/study.json: expected a study file that can be read, found no such file");
+  const auto folder = study_problems(std::filesystem::temp_directory_path());
+  ASSERT_EQ(folder.size(), 1u);
+  EXPECT_NE(folder[0].message.find("found a folder"), std::string::npos);
+  EXPECT_THROW(static_cast<void>(read_study("/no/such/study.json")), ProtocolError);
+}
+
+TEST(StudyReader, NeverCrashesOnATextCutShort) {
+  for (std::size_t length = 0; length < kSoundStudy.size(); ++length) {
+    EXPECT_FALSE(study_text_problems(kSoundStudy.substr(0, length), "x").empty()) << length;
+  }
+}
+
+TEST(StudyReader, EitherReadsOrRefusesAStudyWithAnyValueReplaced) {
+  // Wherever a value stands, another type must be a problem or be read; never a crash.
+  for (const std::string value : {"null", "[]", "{}", "-1", "\"\"", "[[{}]]", "1e308"}) {
+    for (std::size_t at = kSoundStudy.find(": "); at != std::string::npos;
+         at = kSoundStudy.find(": ", at + 1)) {
+      const std::size_t end = kSoundStudy.find_first_of(",}]\n", at + 2);
+      std::string text = kSoundStudy;
+      text.replace(at + 2, end - at - 2, value);
+      if (study_text_problems(text, "x").empty()) {
+        EXPECT_NO_THROW(static_cast<void>(read_study_text(text, "x"))) << text.substr(at, 40);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace jnd::experiments
