@@ -194,16 +194,19 @@ std::optional<std::size_t> CsvReader::column(std::string_view name) {
   for (const std::string& column : table_.columns()) {
     columns += (columns.empty() ? "" : ", ") + column;
   }
-  problems_.push_back(table_.name() + ":1: " + std::string(name) +
-                      ": expected a column of this name, found the columns " + columns);
+  problems_.emplace_back(1, table_.name() + ":1: " + std::string(name) +
+                                ": expected a column of this name, found the columns " +
+                                columns);
   return std::nullopt;
 }
 
 void CsvReader::report(std::size_t row, std::string_view column, std::string_view rule) {
   const std::string& cell = table_.cell(row, table_.find(column).value());
-  problems_.push_back(table_.name() + ':' + std::to_string(table_.line(row)) + ": " +
-                      std::string(column) + ": expected " + std::string(rule) + ", found " +
-                      (cell.empty() ? "an empty cell" : in_quotes(cell)));
+  const int line = table_.line(row);
+  problems_.emplace_back(line, table_.name() + ':' + std::to_string(line) + ": " +
+                                   std::string(column) + ": expected " + std::string(rule) +
+                                   ", found " +
+                                   (cell.empty() ? "an empty cell" : in_quotes(cell)));
 }
 
 double CsvReader::number(std::size_t row, std::size_t column) {
@@ -242,7 +245,13 @@ std::vector<double> CsvReader::numbers_until_empty(std::string_view name) {
 }
 
 void CsvReader::throw_problems() const {
-  if (!problems_.empty()) throw_all(problems_);
+  if (problems_.empty()) return;
+  std::vector<std::pair<int, std::string>> by_line = problems_;
+  std::stable_sort(by_line.begin(), by_line.end(),
+                   [](const auto& one, const auto& other) { return one.first < other.first; });
+  std::vector<std::string> problems;
+  for (auto& [line, problem] : by_line) problems.push_back(std::move(problem));
+  throw_all(problems);
 }
 
 }  // namespace jnd::analysis

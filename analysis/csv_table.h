@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace jnd::analysis {
@@ -59,14 +60,15 @@ class CsvReader {
   /// A problem "NAME:LINE: column: expected RULE, found CELL".
   void report(std::size_t row, std::string_view column, std::string_view rule);
 
-  /// Throws `core::Error` with the problems, one a line, the first twenty if there are more.
+  /// Throws `core::Error` with the problems in the order of the file, one a line, the first
+  /// twenty if there are more.
   void throw_problems() const;
 
  private:
   [[nodiscard]] double number(std::size_t row, std::size_t column);
 
   const CsvTable& table_;
-  std::vector<std::string> problems_;
+  std::vector<std::pair<int, std::string>> problems_;  ///< With the line of each.
 };
 
 }  // namespace jnd::analysis

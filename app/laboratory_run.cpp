@@ -351,24 +351,41 @@ class Visit {
   void produce(const Block& block, std::int64_t trial) {
     constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
     const double target_percent = session_.state().trial(trial).planned.target_percent.value();
-    Felt felt = present(block, "test");
-    double reading_ln = read(felt, block);
+    // What is felt now, with the noise of all looks at this trial averaged: who steps on and on
+    // knows better where they are than who felt it once.
+    double noise_ln = 0.0;
+    int looks = 0;
+    double duration_s = 0.0;
+    Felt felt;
+    const auto look = [&] {
+      felt = present(block, "test");
+      duration_s += felt.duration_s;
+      const double felt_ln = std::log(std::max(felt.damping_n_s_per_m, 1e-6));
+      noise_ln += read(felt, block) - felt_ln;
+      ++looks;
+      return felt_ln + noise_ln / looks;
+    };
+    double reading_ln = look();
     const double first_ln = reading_ln;
-    double duration_s = felt.duration_s;
+    using Wish = Perceiver::Wish;
+    Wish last_wish = Wish::kMatches;
     for (int step = 0; step < kMaxSteps; ++step) {
-      using Wish = Perceiver::Wish;
       const Wish wish =
           participant_.perceiver().wish(reading_ln, first_ln, target_percent, moment(block));
       if (wish == Wish::kMatches) break;
+      // Back and forth over the target by the smallest step: it does not get closer than this.
+      if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
+          (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
+        break;
+      }
+      last_wish = wish;
       const bool raise = wish == Wish::kRaiseFine || wish == Wish::kRaiseCoarse;
       const bool coarse = wish == Wish::kRaiseCoarse || wish == Wish::kLowerCoarse;
       if (!session_.adjust(raise ? Direction::kRaise : Direction::kLower,
                            coarse ? StepSize::kCoarse : StepSize::kFine)) {
         break;
       }
-      felt = present(block, "test");
-      duration_s += felt.duration_s;
-      reading_ln = read(felt, block);
+      reading_ln = look();
     }
     session_.answer(0.0, duration_s, felt.last_tick);
   }

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "experiments/order/counterbalance.h"
+#include "experiments/session/plan.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
 
@@ -19,17 +20,13 @@ namespace jnd::app {
 
 std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSetup& setup,
                                        const std::vector<std::string>& participants) {
-  std::vector<std::string> completed;
   std::set<std::string> known;
   const std::vector<core::SessionRow> rows = store.sessions();
-  for (const core::SessionRow& row : rows) {
-    known.insert(row.participant);
-    if (!row.pilot && store.finished(row.session)) completed.push_back(row.cells);
-  }
+  for (const core::SessionRow& row : rows) known.insert(row.participant);
   const std::string hash = store.add_protocol(setup.study_file_name, setup.study.text);
   const std::vector<experiments::Cell> cells = experiments::planned_cells(
-      setup.study, completed, setup.seed, static_cast<std::int64_t>(rows.size()),
-      static_cast<int>(participants.size()));
+      setup.study, experiments::completed_cells(store), setup.seed,
+      static_cast<std::int64_t>(rows.size()), static_cast<int>(participants.size()));
   std::vector<std::int64_t> sessions;
   for (std::size_t i = 0; i < participants.size(); ++i) {
     if (!known.insert(participants[i]).second) {

@@ -185,10 +185,8 @@ void HapticLoop::compute_force() noexcept {
   }
   limited_ = false;
   if (authority_ratio_ == 0.0) {
+    // Limiter and passivity start from here when the loop is armed again.
     force_on_hand_n_ = core::zero_vectors();
-    // The limiter knows that nothing was sent, whatever it had sent before.
-    limiter_.rearm();
-    passivity_.reset();
     return;
   }
   core::distribute_drag(medium.drag_n(motion_), state_, immersed_bits_,

@@ -98,7 +98,11 @@ bool LumpedHandDevice::write(const core::PointVectors& force_on_hand_n) noexcept
   const double rendered_opposing_w = -rendered_n.dot(velocity_m_per_s_);
   ++sums_.num_ticks;
   sums_.rendered_opposing_w += rendered_opposing_w;
-  sums_.opposing_w += rendered_opposing_w + damping_n_s_per_m * squared_m2_per_s2;
+  const double opposing_w = rendered_opposing_w + damping_n_s_per_m * squared_m2_per_s2;
+  const double speed_m_per_s = std::sqrt(squared_m2_per_s2);
+  sums_.opposing_w += opposing_w;
+  sums_.opposing_n += speed_m_per_s > 0.0 ? opposing_w / speed_m_per_s : 0.0;
+  sums_.speed_m_per_s += speed_m_per_s;
   sums_.speed_squared_m2_per_s2 += squared_m2_per_s2;
 
   arm_.advance();

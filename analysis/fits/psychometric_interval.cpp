@@ -13,22 +13,21 @@ namespace {
 constexpr double kLargestLog = 700.0;  ///< exp of more would leave the range of double.
 constexpr double kStepZ = 40.0;        ///< Neighbouring levels this many z apart: a step.
 
-/// Where `excess`, < 0 at `from`, first is 0 when going by growing steps in the direction of
-/// `first_step`; absent if `may_go_on` fails before.
+/// Where `excess`, < 0 at `from`, first is 0 when going by growing steps toward `limit`; absent
+/// if it is not by then.
 std::optional<double> crossing(const std::function<double(double)>& excess, double from,
-                               double first_step,
-                               const std::function<bool(double)>& may_go_on) {
+                               double first_step, double limit) {
   double inside = from;
-  double step = first_step;
   double excess_inside = excess(inside);
-  while (may_go_on(inside + step)) {
-    const double outside = inside + step;
+  for (double step = first_step; inside != limit; step *= 1.6) {
+    const bool beyond = std::fabs(limit - inside) <= step;
+    const double outside = beyond ? limit : inside + std::copysign(step, limit - inside);
     const double excess_outside = excess(outside);
     if (excess_outside >= 0.0 && excess_inside < 0.0) {
       const auto close_enough = [](double a, double b) {
         return std::fabs(b - a) <= 1e-13 * std::max(std::fabs(a), std::fabs(b)) + 1e-300;
       };
-      const bool rising = first_step > 0.0;
+      const bool rising = outside > inside;
       std::uintmax_t num_iterations = 200;
       const auto [low, high] = boost::math::tools::toms748_solve(
           excess, rising ? inside : outside, rising ? outside : inside,
@@ -38,7 +37,6 @@ std::optional<double> crossing(const std::function<double(double)>& excess, doub
     }
     inside = outside;
     excess_inside = excess_outside;
-    step *= 1.6;
   }
   return std::nullopt;
 }
@@ -116,17 +114,15 @@ Interval weber_fraction_interval(const PsychometricLevels& levels, PsychometricM
   const double log_slope = std::log(optimum.curve.slope);
   const double flattest = std::log(levels.unit / kLargestLog);
   const double steepest = std::log(kStepZ / levels.smallest_gap(free[1]));
-  const auto end = [&](double first_step) -> std::optional<double> {
+  const auto end = [&](double limit) -> std::optional<double> {
     SlopeProfile profile(levels, method, free, optimum.curve);
     const std::optional<double> found =
-        crossing([&](double place) { return profile(place) - level; }, log_slope, first_step,
-                 [&](double place) {
-                   return place > flattest && place < std::max(steepest, log_slope + 1.0);
-                 });
+        crossing([&](double place) { return profile(place) - level; }, log_slope, 0.1, limit);
     if (!found) return std::nullopt;
     return std::expm1(levels.unit * std::exp(-*found));
   };
-  return {.low = end(0.1), .high = end(-0.1)};
+  return {.low = end(std::max(steepest, log_slope + 1.0)),
+          .high = end(std::min(flattest, log_slope))};
 }
 
 Interval pse_interval(const PsychometricLevels& levels, PsychometricMethod method,
@@ -134,16 +130,15 @@ Interval pse_interval(const PsychometricLevels& levels, PsychometricMethod metho
                       double drop) {
   const double level = optimum.cost.value + drop;
   const double place = -optimum.curve.offset / optimum.curve.slope;
-  const auto end = [&](double first_step) -> std::optional<double> {
+  const auto end = [&](double limit) -> std::optional<double> {
     PseProfile profile(levels, method, free, optimum.curve);
-    const std::optional<double> found =
-        crossing([&](double at) { return profile(at) - level; }, place, first_step,
-                 [&](double at) { return std::fabs(at * levels.unit) < kLargestLog; });
-    if (!found) return std::nullopt;
-    return levels.origin * std::exp(*found * levels.unit);
+    const std::optional<double> found = crossing([&](double at) { return profile(at) - level; },
+                                                 place, 0.1 / optimum.curve.slope, limit);
+    const double pse = levels.origin * std::exp(found.value_or(0.0) * levels.unit);
+    return found && std::isfinite(pse) && pse > 0.0 ? std::optional<double>(pse) : std::nullopt;
   };
-  const double step = 0.1 / optimum.curve.slope;
-  return {.low = end(-step), .high = end(step)};
+  const double farthest = std::max(kLargestLog / levels.unit, std::fabs(place));
+  return {.low = end(-farthest), .high = end(farthest)};
 }
 
 }  // namespace jnd::analysis

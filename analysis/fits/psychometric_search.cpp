@@ -157,6 +157,26 @@ bool is_ridge(const PsychometricOptimum& optimum, const FreeParameters& free) {
   return !(eigen.eigenvalues()(0) > 1e-12);
 }
 
+/// Where to try the pse at one slope, ascending: every 0.7 z within 6 z of a level, and in the
+/// middle of wider gaps.
+std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope) {
+  constexpr double kReachZ = 6.0, kSpacingZ = 0.7, kMostPlaces = 400.0;
+  const double reach = kReachZ / slope;
+  const double range = levels.log_ratio.back() - levels.log_ratio.front();
+  const double spacing = std::max(kSpacingZ / slope, range / kMostPlaces);
+  std::vector<double> places;
+  double next = levels.log_ratio.front() - reach;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double here = levels.log_ratio[level];
+    if (here - reach > next) {
+      places.push_back(0.5 * (levels.log_ratio[level - 1] + here));
+      next = here - reach;
+    }
+    for (; next <= here + reach; next += spacing) places.push_back(next);
+  }
+  return places;
+}
+
 }  // namespace
 
 PsychometricSearch::PsychometricSearch(const PsychometricLevels& levels,
@@ -174,73 +194,66 @@ void PsychometricSearch::build_grid(const PsychometricLevels& levels) {
   // From nearly flat to a step between neighbours; a search may leave this range.
   constexpr double kFlattest = 0.02, kRatio = 1.2, kSteepestZ = 9.0, kSmallestGap = 1e-3;
   const double steepest = kSteepestZ / std::max(levels.smallest_gap(free_pse_), kSmallestGap);
-  std::vector<double> slopes;
   for (double slope = kFlattest; slope < steepest * kRatio; slope *= kRatio) {
-    slopes.push_back(slope);
+    slope_begin_.push_back(grid_.size());
+    const std::vector<double> places =
+        free_pse_ ? places_of_pse(levels, slope) : std::vector<double>{0.0};
+    for (const double place : places) grid_.push_back({slope, place});
   }
-  // Where the pse may lie: at levels, between them, and outside by up to six z.
-  constexpr double kOutsideZ[] = {6.0, 3.0, 1.5, 0.7};
-  constexpr std::size_t kMostInside = 61;
-  std::vector<double> inside;
-  const std::size_t num_inside = 2 * levels.size() - 1;
-  const std::size_t stride = 1 + num_inside / kMostInside;
-  for (std::size_t place = 0; place < num_inside; place += stride) {
-    inside.push_back(0.5 * (levels.log_ratio[place / 2] + levels.log_ratio[(place + 1) / 2]));
-  }
-  for (const double slope : slopes) {
-    if (!free_pse_) {
-      grid_.push_back({slope, 0.0});
-      continue;
-    }
-    for (const double z : kOutsideZ) {
-      grid_.push_back({slope, z - slope * levels.log_ratio.front()});
-    }
-    for (const double pse : inside) grid_.push_back({slope, -slope * pse});
-    for (const double z : kOutsideZ) {
-      grid_.push_back({slope, -z - slope * levels.log_ratio.back()});
-    }
-  }
-  num_slopes_ = slopes.size();
-  num_offsets_ = grid_.size() / num_slopes_;
+  slope_begin_.push_back(grid_.size());
   lower_tail_.reserve(grid_.size() * levels.size());
   for (const GridPoint& point : grid_) {
     for (const double u : levels.log_ratio) {
-      lower_tail_.push_back(normal_tails(point.slope * u + point.offset).lower);
+      lower_tail_.push_back(normal_tails(point.slope * (u - point.place)).lower);
     }
   }
 }
 
+bool PsychometricSearch::is_lowest_around(std::size_t slope, std::size_t point,
+                                          const std::vector<double>& cost) const {
+  // Strict on one side, so that a plateau counts once.
+  const double here = cost[point];
+  if (point > slope_begin_[slope] && cost[point - 1] <= here) return false;
+  if (point + 1 < slope_begin_[slope + 1] && cost[point + 1] < here) return false;
+  for (const bool steeper : {false, true}) {
+    if (steeper ? slope + 2 >= slope_begin_.size() : slope == 0) continue;
+    const std::size_t other = steeper ? slope + 1 : slope - 1;
+    const auto begin = grid_.begin() + static_cast<std::ptrdiff_t>(slope_begin_[other]);
+    const auto end = grid_.begin() + static_cast<std::ptrdiff_t>(slope_begin_[other + 1]);
+    auto nearest =
+        std::lower_bound(begin, end, grid_[point].place,
+                         [](const GridPoint& one, double place) { return one.place < place; });
+    if (nearest == end) --nearest;
+    const double there = cost[static_cast<std::size_t>(nearest - grid_.begin())];
+    if (steeper ? there < here : there <= here) return false;
+  }
+  return true;
+}
+
 std::vector<PsychometricCurve> PsychometricSearch::starts(
     const PsychometricLevels& levels) const {
-  std::vector<BestLapse> cost;
+  std::vector<double> cost, lapse;
   cost.reserve(grid_.size());
+  lapse.reserve(grid_.size());
   for (std::size_t point = 0; point < grid_.size(); ++point) {
-    cost.push_back(
-        best_lapse(levels, method_, free_lapse_, &lower_tail_[point * levels.size()]));
+    const BestLapse best =
+        best_lapse(levels, method_, free_lapse_, &lower_tail_[point * levels.size()]);
+    cost.push_back(best.cost);
+    lapse.push_back(std::min(best.lapse, 0.49));
   }
-  const auto cost_at = [&](std::size_t slope, std::size_t offset) {
-    return slope < num_slopes_ && offset < num_offsets_
-               ? cost[slope * num_offsets_ + offset].cost
-               : kInfinity;  // An index below 0 wraps round, and is outside too.
-  };
   std::vector<std::pair<double, std::size_t>> minima;
-  for (std::size_t slope = 0; slope < num_slopes_; ++slope) {
-    for (std::size_t offset = 0; offset < num_offsets_; ++offset) {
-      const double here = cost_at(slope, offset);
-      // Strict on one side, so that a plateau counts once.
-      if (here < cost_at(slope - 1, offset) && here <= cost_at(slope + 1, offset) &&
-          here < cost_at(slope, offset - 1) && here <= cost_at(slope, offset + 1)) {
-        minima.emplace_back(here, slope * num_offsets_ + offset);
-      }
+  for (std::size_t slope = 0; slope + 1 < slope_begin_.size(); ++slope) {
+    for (std::size_t point = slope_begin_[slope]; point < slope_begin_[slope + 1]; ++point) {
+      if (is_lowest_around(slope, point, cost)) minima.emplace_back(cost[point], point);
     }
   }
-  constexpr std::size_t kMostStarts = 8;
+  constexpr std::size_t kMostStarts = 12;
   std::sort(minima.begin(), minima.end());
   if (minima.size() > kMostStarts) minima.resize(kMostStarts);
   std::vector<PsychometricCurve> curves;
   for (const auto& [value, point] : minima) {
-    curves.push_back(
-        {grid_[point].slope, grid_[point].offset, std::min(cost[point].lapse, 0.49)});
+    const GridPoint& at = grid_[point];
+    curves.push_back({at.slope, -at.slope * at.place, lapse[point]});
   }
   return curves;
 }

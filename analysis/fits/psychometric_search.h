@@ -64,10 +64,13 @@ class PsychometricSearch {
 
  private:
   struct GridPoint {
-    double slope, offset;
+    double slope, place;  ///< z = slope (log_ratio - place)
   };
 
   void build_grid(const PsychometricLevels& levels);
+  /// Whether a grid point costs less than its neighbours along place and slope.
+  [[nodiscard]] bool is_lowest_around(std::size_t slope, std::size_t point,
+                                      const std::vector<double>& cost) const;
   /// The grid's local minima, best first, each with its best lapse.
   [[nodiscard]] std::vector<PsychometricCurve> starts(const PsychometricLevels& levels) const;
   [[nodiscard]] PsychometricSearchResult grid_optimum(const PsychometricLevels& levels,
@@ -76,8 +79,8 @@ class PsychometricSearch {
   PsychometricMethod method_;
   bool free_pse_, free_lapse_;
   FreeParameters free_;
-  std::size_t num_slopes_ = 0, num_offsets_ = 0;  ///< Of the grid, offsets running fastest.
-  std::vector<GridPoint> grid_;
+  std::vector<GridPoint> grid_;           ///< By slope, then by place.
+  std::vector<std::size_t> slope_begin_;  ///< Of each slope in the grid, then the grid's end.
   std::vector<double> lower_tail_;  ///< Phi(z) at each grid point and level, levels fastest.
 };
 

@@ -10,6 +10,7 @@
 #include "analysis/fits/fit_json.h"
 #include "analysis/groups/comparison.h"
 #include "app/commands/commands.h"
+#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -22,7 +23,7 @@ struct Options {
 };
 
 /// Both columns as the test needs them: pairs, or for Welch two columns of their own lengths.
-Comparison compared(const Options& options) {
+Comparison compared(const Options& options) try {
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
   analysis::CsvReader reader(table);
   const bool welch = options.test == "welch";
@@ -33,6 +34,9 @@ Comparison compared(const Options& options) {
   if (options.test == "pearson") return analysis::pearson_correlation(a, b);
   if (options.test == "wilcoxon") return analysis::wilcoxon_test(a, b);
   return analysis::paired_t_test(a, b);
+} catch (const core::Error& error) {
+  // A table that cannot be read is wrong usage: exit 1 is for tests that are undefined.
+  throw UsageError(error.what());
 }
 
 std::string number(const std::optional<double>& value) {

@@ -11,6 +11,7 @@
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
 #include "app/commands/commands.h"
+#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -93,7 +94,7 @@ void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lin
 template <typename Group, typename Fit, typename Print>
 int fit_groups(const std::vector<Group>& groups, const Options& options, const Fit& fit,
                const Print& print) {
-  bool all_ok = true;
+  bool all_ok = !groups.empty();
   Json results = Json::array();
   for (const Group& group : groups) {
     const auto result = fit(group);
@@ -120,6 +121,16 @@ int fit_groups(const std::vector<Group>& groups, const Options& options, const F
   return all_ok ? kDone : kHasProblems;
 }
 
+/// A table that cannot be read is wrong usage: exit 1 is for fits that do not exist.
+template <typename Read>
+auto read_groups(const Options& options, const Read& read) {
+  try {
+    return read(analysis::CsvTable::read(options.csv), options.group_by);
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
 int fit_weber(const Options& options) {
   if (!(options.reference > 0.0 && std::isfinite(options.reference))) {
     throw UsageError(
@@ -140,8 +151,8 @@ int fit_weber(const Options& options) {
       .num_bootstrap = options.num_bootstrap,
       .seed = options.seed};
   return fit_groups(
-      analysis::read_answer_counts(analysis::CsvTable::read(options.csv), options.group_by),
-      options, [&](const auto& group) { return analysis::fit_psychometric(group.rows, how); },
+      read_groups(options, analysis::read_answer_counts), options,
+      [&](const auto& group) { return analysis::fit_psychometric(group.rows, how); },
       [&](const auto& fit, const auto&) { print_for_people(fit, options); });
 }
 
@@ -149,8 +160,8 @@ int fit_power(const Options& options) {
   const auto method = options.power_method == "loglog" ? analysis::PowerMethod::kLogLog
                                                        : analysis::PowerMethod::kNonlinear;
   return fit_groups(
-      analysis::read_magnitudes(analysis::CsvTable::read(options.csv), options.group_by),
-      options, [&](const auto& group) { return analysis::fit_power(group.rows, method); },
+      read_groups(options, analysis::read_magnitudes), options,
+      [&](const auto& group) { return analysis::fit_power(group.rows, method); },
       [](const auto& fit, const auto& group) { print_for_people(fit, group.lines); });
 }
 

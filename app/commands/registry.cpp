@@ -4,7 +4,8 @@ namespace jnd::app {
 
 const std::vector<Registration>& registrations() {
   static const std::vector<Registration> kAll = {
-      add_demo, add_run, add_resume, add_simulate, add_results,
+      add_demo, add_validate, add_schema, add_new,     add_plan,
+      add_run,  add_simulate, add_resume, add_results,
   };
   return kAll;
 }

@@ -8,6 +8,7 @@
 #include "core/random_stream.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/event.h"
+#include "experiments/session/session.h"
 #include "experiments/session/stimulus.h"
 
 namespace jnd::experiments {
@@ -119,20 +120,17 @@ double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
       stage.content);
 }
 
-std::uint64_t session_seed(std::uint64_t study_seed, std::int64_t participant_index) noexcept {
-  return core::derived_seed(study_seed, "session", {participant_index});
-}
-
 std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanRequest& request) {
+  std::vector<Cell> cells =
+      planned_cells(study, request.completed, request.seed, request.num_earlier_sessions,
+                    static_cast<int>(request.participants.size()));
   std::vector<ParticipantPlan> plans;
-  std::int64_t participant_index = request.first_participant_index;
-  for (Cell& cell : planned_cells(study, request.completed, request.seed,
-                                  request.first_participant_index, request.num_participants)) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     ParticipantPlan plan;
-    plan.participant_index = participant_index;
-    plan.stages = stages_of(study, cell);
-    plan.cell = std::move(cell);
-    const std::uint64_t seed = session_seed(request.seed, participant_index);
+    plan.participant = request.participants[i];
+    plan.stages = stages_of(study, cells[i]);
+    plan.cell = std::move(cells[i]);
+    const std::uint64_t seed = session_seed(request.seed, plan.participant);
     for (std::size_t index = 0; index < plan.stages.size(); ++index) {
       const Stage& stage = *plan.stages[index].stage;
       plan.duration_s += expected_duration_s(stage);
@@ -146,7 +144,6 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
                              procedure.draw_next(*block, {}, stream)});
     }
     plans.push_back(std::move(plan));
-    ++participant_index;
   }
   return plans;
 }

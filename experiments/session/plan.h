@@ -34,7 +34,7 @@ struct PlannedBlock {
 
 /// What one participant will get.
 struct ParticipantPlan {
-  std::int64_t participant_index = 0;  ///< From 0.
+  std::string participant;
   Cell cell;
   std::vector<StageInstance> stages;
   std::vector<PlannedBlock> blocks;
@@ -42,15 +42,11 @@ struct ParticipantPlan {
 };
 
 struct PlanRequest {
-  int num_participants = 0;  ///< >= 1.
-  std::uint64_t seed = 0;    ///< Of the study.
-  std::int64_t first_participant_index = 0;
-  std::vector<std::string> completed;  ///< Cells of the sessions completed so far.
+  std::vector<std::string> participants;  ///< Pseudonyms, in the order in which they come.
+  std::uint64_t seed = 0;                 ///< Of the study.
+  std::int64_t num_earlier_sessions = 0;  ///< In the study folder, completed or not.
+  std::vector<std::string> completed;     ///< Cells of those completed.
 };
-
-/// Seed of everything drawn in one participant's session.
-[[nodiscard]] std::uint64_t session_seed(std::uint64_t study_seed,
-                                         std::int64_t participant_index) noexcept;
 
 /// Cells and orders exactly as the sessions will draw them, if they come in this sequence and
 /// all complete. The study must outlive the plan. Throws `Error` for a procedure that lacks

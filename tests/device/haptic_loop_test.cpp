@@ -128,6 +128,47 @@ TEST_F(HapticLoopTest, AHandOnTheSolidSurfaceIsPushedUp) {
   EXPECT_NEAR(device.received.back()[0].z(), 0.35 * 4.0, 1e-9);
 }
 
+TEST_F(HapticLoopTest, TheSolidSurfaceIsTheFluidsSurface) {
+  core::HapticCommand raised{.sequence = 1,
+                             .medium = core::solid({.stiffness_n_per_m = 1000.0})};
+  raised.immersion.origin_z_m = 0.5;
+  raised.ramp_s = 0.0;
+  commands.publish(raised);
+  for (Eigen::Vector3d& position : device.state.tip_position_m) position.z() = 0.498;
+  run(20);
+  EXPECT_NEAR(device.last_total_n().z(), 2.0, 1e-9);
+}
+
+TEST_F(HapticLoopTest, APointThatCameOffIsNoBusinessOfTheSurface) {
+  for (Eigen::Vector3d& position : device.state.tip_position_m) position.z() = -0.004;
+  device.state.attached[0] = false;
+  command(core::solid({.stiffness_n_per_m = 1000.0}), 0.050);
+  run(100);
+  EXPECT_NEAR(device.last_total_n().z(), 0.65 * 4.0, 1e-9);
+  EXPECT_EQ(telemetry().num_limited_ticks, 0U) << "nothing was left for the limiter to take";
+}
+
+TEST_F(HapticLoopTest, ASurfaceThatHardensUnderTheHandGivesBackNoMoreThanItGot) {
+  for (Eigen::Vector3d& position : device.state.tip_position_m) position.z() = 0.0;
+  command(core::solid({.stiffness_n_per_m = 200.0}));
+  device.move_all({0.0, 0.0, -0.1});
+  run(100);  // 10 mm deep: 10 mJ stored.
+  device.move_all({0.0, 0.0, 0.0});
+  command(core::solid({.stiffness_n_per_m = 1000.0}), 0.050);
+  run(100);  // It would now give back 50 mJ.
+  device.move_all({0.0, 0.0, 0.1});
+  run(150);
+  double given_back_j = 0.0;
+  for (std::size_t tick = 0; tick < device.received.size(); ++tick) {
+    const double way_m = tick < 100 ? -0.0001 : tick < 200 ? 0.0 : 0.0001;
+    for (const Eigen::Vector3d& force : device.received[tick]) {
+      given_back_j += force.z() * way_m;
+    }
+  }
+  EXPECT_LT(given_back_j, 1e-6);
+  EXPECT_GT(given_back_j, -0.002) << "and nearly all that it got";
+}
+
 TEST_F(HapticLoopTest, RecordsWhatWasMeasuredAndSentInEveryTick) {
   make_loop({}, {.first_tick = 1000});
   device.move_all({1.0, 0.0, 0.0});
@@ -302,9 +343,14 @@ TEST_P(HapticLoopFaultTest, TheDeviceReceivesZeroUntilItIsArmedAgain) {
   EXPECT_LT(max_received_n(before), 8.88 * 0.35 + 1e-9) << "and never more than before";
   EXPECT_EQ(telemetry().fault, fault.expected);
   EXPECT_EQ(telemetry().sample.fault, static_cast<std::uint8_t>(fault.expected));
-  for (const core::PlainVector& position : telemetry().sample.tip_position_m) {
-    EXPECT_TRUE(std::isfinite(position[0] + position[1] + position[2]));
-  }
+  samples.drain([](const core::Sample& sample) {
+    for (int i = 0; i < core::kNumContactPoints; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_TRUE(std::isfinite(sample.tip_position_m[i][axis] +
+                                  sample.tip_velocity_m_per_s[i][axis]));
+      }
+    }
+  });
 
   const std::vector<core::Sample> flight = loop->flight_recorder().contents();
   EXPECT_TRUE(loop->flight_recorder().is_frozen());
@@ -315,6 +361,7 @@ TEST_P(HapticLoopFaultTest, TheDeviceReceivesZeroUntilItIsArmedAgain) {
   loop->rearm();
   run(1);
   EXPECT_LT(device.last_total_n().norm(), 0.05) << "from zero";
+  EXPECT_EQ(loop->flight_recorder().contents().size(), 1U) << "and a new flight begins";
   run(600);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
   EXPECT_NEAR(device.last_total_n().x(), -8.88, 1e-9);
@@ -356,6 +403,25 @@ TEST_F(HapticLoopTest, AMomentWithoutANewMeasurementIsBridged) {
   EXPECT_NEAR(device.received[101][0].x(), -0.35 * 8.88, 1e-9);
 }
 
+TEST_F(HapticLoopTest, ADeviceThatComesBackElsewhereCanBeArmed) {
+  make_loop({{10, 10, Injection::kReadFailure}});
+  run(20);
+  EXPECT_EQ(telemetry().fault, Fault::kDeviceReadFailed);
+  for (Eigen::Vector3d& position : device.state.tip_position_m) position.x() += 0.3;
+  loop->rearm();
+  run(1);
+  EXPECT_EQ(telemetry().fault, Fault::kNone);
+}
+
+TEST_F(HapticLoopTest, ArmedAgainItBridgesAMomentAnew) {
+  make_loop({{10, 20, Injection::kStaleTime}, {31, 2, Injection::kStaleTime}});
+  run(30);
+  EXPECT_EQ(telemetry().fault, Fault::kStaleSample);
+  loop->rearm();
+  run(10);
+  EXPECT_EQ(telemetry().fault, Fault::kNone);
+}
+
 TEST_F(HapticLoopTest, AHandAtRestIsNotTakenForAFrozenSample) {
   command(core::viscous({.viscosity_pa_s = 10.0}));
   run(1000);
@@ -369,6 +435,10 @@ TEST_F(HapticLoopTest, APointThatCameOffGetsNothingAndTheOthersKeepTheirShare) {
   run(200);
   EXPECT_EQ(device.received[100][4], Eigen::Vector3d::Zero());
   EXPECT_NEAR(device.received[150][0].x(), -0.35 * 8.88, 1e-9);
+  // Dangling, it does not change what the others feel either.
+  device.state.tip_velocity_m_per_s[4] = {-2.0, 1.0, 0.0};
+  run(1);
+  EXPECT_NEAR(device.received.back()[0].x(), -0.35 * 8.88, 1e-9);
   EXPECT_EQ(telemetry().sample.attached_bits, 0b01111);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
 }

@@ -123,16 +123,18 @@ TEST(LumpedHandDevice, WhatWasFeltIsTheMediumPlusTheDevice) {
     const core::ContactSums felt = laboratory.stroke({.num_strokes = 2});
     // Slow turning points, where each tip's share fades, take a hair off the rendered force.
     EXPECT_NEAR(felt.delivered_damping_n_s_per_m(), 1.776 * viscosity, 1e-3 * viscosity);
-    EXPECT_NEAR(felt.felt_damping_n_s_per_m(), felt.delivered_damping_n_s_per_m() + 4.83, 1e-9);
+    EXPECT_NEAR(felt.felt_damping_n_s_per_m(), felt.delivered_damping_n_s_per_m() + 4.83,
+                3e-3 * viscosity);
   }
 }
 
-TEST(LumpedHandDevice, FrictionIsFeltAndIsNotRendered) {
+TEST(LumpedHandDevice, FrictionIsFeltAsAForceAndNotAsViscosity) {
   Laboratory laboratory(LumpedHandDevice::Parameters{.dry_friction_n = 0.4});
   const core::ContactSums felt = laboratory.stroke({.num_strokes = 2});
   EXPECT_EQ(felt.delivered_damping_n_s_per_m(), 0.0);
-  // 0.4 N against a sine of 0.45 m/s: <|v|> / <v^2> = (2/pi) / (1/2) / 0.45, times 0.4.
-  EXPECT_NEAR(felt.felt_damping_n_s_per_m(), 1.13, 0.1);
+  EXPECT_NEAR(felt.opposing_n / static_cast<double>(felt.num_ticks), 0.4, 0.02);
+  // Through the origin it would be 0.4 <|v|> / <v^2> = 1.13 N s/m.
+  EXPECT_LT(felt.felt_damping_n_s_per_m(), 0.15);
 }
 
 TEST(LumpedHandDevice, TheContactSumsLeaveWithTheTelemetry) {
@@ -142,6 +144,21 @@ TEST(LumpedHandDevice, TheContactSumsLeaveWithTheTelemetry) {
   EXPECT_EQ(laboratory.telemetry.value().contact_sums.num_ticks,
             laboratory.hand.contact_sums().num_ticks);
   EXPECT_GT(laboratory.telemetry.value().contact_sums.opposing_w, 0.0);
+}
+
+TEST(LumpedHandDevice, OpenedAgainItStartsAfresh) {
+  Laboratory laboratory;
+  EXPECT_TRUE(laboratory.hand.is_home());
+  laboratory.hand.begin_strokes({}, core::RandomStream(1, "stroke"));
+  EXPECT_FALSE(laboratory.hand.is_home()) << "even before the loop has heard of it";
+  for (int tick = 0; tick < 500; ++tick) laboratory.tick();
+  laboratory.hand.open();
+  EXPECT_EQ(laboratory.hand.contact_sums().num_ticks, 0);
+  EXPECT_EQ(laboratory.hand.contact_sums().speed_squared_m2_per_s2, 0.0);
+  core::HapticState state;
+  ASSERT_TRUE(laboratory.hand.read(state));
+  EXPECT_EQ(state.device_time_ns, 0);
+  EXPECT_EQ(state.tip_position_m[0].x(), 0.0);
 }
 
 TEST(LumpedHandDevice, AThickerMediumSlowsTheHandDown) {
@@ -176,6 +193,7 @@ TEST(LumpedHandDevice, CountsTheStrokesOfTheOrderInForceAlone) {
   EXPECT_EQ(laboratory.hand.strokes_finished(), 2);
   laboratory.hand.begin_strokes({.num_strokes = 1}, core::RandomStream(1, "stroke"));
   EXPECT_EQ(laboratory.hand.strokes_finished(), 0) << "even before the loop has heard of it";
+  EXPECT_FALSE(laboratory.hand.is_home());
   laboratory.tick();
   EXPECT_EQ(laboratory.hand.strokes_finished(), 0);
   while (laboratory.hand.strokes_finished() < 1) laboratory.tick();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <thread>
 
@@ -36,24 +37,34 @@ TEST(LatestValue, AReaderNeverSeesHalfAValueNorAnOlderOne) {
     std::array<std::uint64_t, 40> copies{};
   };
   LatestValue<Wide> door;
-  constexpr std::uint64_t kLast = 200'000;
-  std::thread writer([&door] {
+  std::atomic<bool> enough{false};
+  std::atomic<std::uint64_t> last_published{0};
+  std::thread writer([&] {
+    // Long enough for both to run at once, even on a busy machine.
     Wide wide;
-    for (std::uint64_t i = 1; i <= kLast; ++i) {
-      wide.copies.fill(i);
+    std::uint64_t i = 0;
+    while (!enough && i < 3'000'000) {
+      wide.copies.fill(++i);
       door.publish(wide);
     }
+    last_published = i;
   });
   std::uint64_t last = 0;
   std::uint64_t torn = 0;
+  std::uint64_t num_fetched = 0;
   std::uint64_t older = 0;
-  while (last != kLast) {
+  while (last_published == 0 || last != last_published) {
     if (!door.fetch()) {
       std::this_thread::yield();
       continue;
     }
     const Wide& wide = door.value();
-    for (const std::uint64_t copy : wide.copies) torn += copy != wide.copies[0] ? 1 : 0;
+    const std::uint64_t first_look = wide.copies[0];
+    if (++num_fetched >= 20'000) enough = true;
+    // A reader so slow that the writer overtakes it many times while it looks, on a machine
+    // with one free core, too.
+    std::this_thread::yield();
+    for (const std::uint64_t copy : wide.copies) torn += copy != first_look ? 1 : 0;
     older += wide.copies[0] <= last ? 1 : 0;
     last = wide.copies[0];
   }

@@ -48,6 +48,19 @@ TEST(PassivityController, CountsTheEnergyThatWasReallyPutIn) {
   EXPECT_NEAR(passivity.credit_j(ContactPoint::kThumb), 0.006, 1e-15);
 }
 
+TEST(PassivityController, ForgetsItsCreditWhenReset) {
+  PassivityController passivity = controller();
+  PointVectors force = five_of({-2.0, 0.0, 0.0});
+  passivity.control(five_of({0.0, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
+  passivity.sent(force);
+  passivity.control(five_of({0.003, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
+  passivity.reset();
+  EXPECT_EQ(passivity.credit_j(ContactPoint::kThumb), 0.0);
+  // Nor does it count the way from before: 1 m here.
+  passivity.control(five_of({1.0, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
+  EXPECT_EQ(passivity.credit_j(ContactPoint::kThumb), 0.0);
+}
+
 TEST(PassivityController, GivesBackNoMoreThanWasPutIn) {
   // A surface that pushes back twice as hard as it was pressed: an active one.
   PassivityController passivity = controller();
@@ -125,8 +138,6 @@ TEST(PassivityController, IsNotPoisonedByValuesThatAreNoNumbers) {
   force = five_of({-1.0, 0.0, 0.0});
   passivity.control(five_of({0.0, 0.0, 0.0}), five_of({nan, 0.0, 0.0}), force);
   passivity.sent(force);
-  EXPECT_EQ(passivity.credit_j(ContactPoint::kIndex), 0.0);
-  passivity.reset();
   EXPECT_EQ(passivity.credit_j(ContactPoint::kIndex), 0.0);
 }
 

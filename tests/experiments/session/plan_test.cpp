@@ -7,8 +7,10 @@
 #include <map>
 
 #include "core/clock.h"
+#include "experiments/session/event.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
+#include "support/temporary_folder.h"
 
 namespace jnd::experiments {
 namespace {
@@ -40,6 +42,12 @@ const std::string kStudy = R"json({
   ]
 })json";
 
+std::vector<std::string> participants(int count) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= count; ++i) names.push_back("P" + std::to_string(i));
+  return names;
+}
+
 class MemoryLog final : public EventLog {
  public:
   void append(const core::Commit& commit) override {
@@ -51,7 +59,8 @@ class MemoryLog final : public EventLog {
 TEST(Plan, FillsTheCellsEvenly) {
   const Study study = read_study_text(kStudy, "x");
   std::map<std::string, int> starts;
-  for (const auto& plan : plan_participants(study, {.num_participants = 13, .seed = 3})) {
+  for (const auto& plan :
+       plan_participants(study, {.participants = participants(13), .seed = 3})) {
     ++starts[to_string(plan.cell)];
   }
   EXPECT_EQ(starts.size(), 2u);
@@ -61,14 +70,13 @@ TEST(Plan, FillsTheCellsEvenly) {
 TEST(Plan, GoesOnWhereTheStudyFolderStands) {
   const Study study = read_study_text(kStudy, "x");
   const auto plans =
-      plan_participants(study, {.num_participants = 2,
+      plan_participants(study, {.participants = participants(2),
                                 .seed = 3,
-                                .first_participant_index = 2,
+                                .num_earlier_sessions = 2,
                                 .completed = {"method_order=estimation,comparison",
                                               "method_order=estimation,comparison"}});
   ASSERT_EQ(plans.size(), 2u);
-  EXPECT_EQ(plans[0].participant_index, 2);
-  EXPECT_EQ(plans[1].participant_index, 3);
+  EXPECT_EQ(plans[1].participant, "P2");
   for (const auto& plan : plans) {
     EXPECT_EQ(to_string(plan.cell), "method_order=comparison,estimation");
   }
@@ -76,14 +84,14 @@ TEST(Plan, GoesOnWhereTheStudyFolderStands) {
 
 TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
   const Study study = read_study_text(kStudy, "x");
-  for (const auto& plan : plan_participants(study, {.num_participants = 4, .seed = 9})) {
+  for (const auto& plan :
+       plan_participants(study, {.participants = participants(4), .seed = 9})) {
     std::vector<const Stage*> stages;
     for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
     MemoryLog log;
     const core::SimulatedClock clock;
-    Session session(
-        {.session = 1, .seed = session_seed(9, plan.participant_index), .stages = stages}, {},
-        log, clock);
+    Session session({.session = 1, .seed = session_seed(9, plan.participant), .stages = stages},
+                    {}, log, clock);
     session.start();
     std::int64_t tick = 0;
     while (session.current_stage() != nullptr) {
@@ -109,7 +117,7 @@ TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
 
 TEST(Plan, GivesEveryParticipantAnOrderOfTheirOwn) {
   const Study study = read_study_text(kStudy, "x");
-  const auto plans = plan_participants(study, {.num_participants = 2, .seed = 3});
+  const auto plans = plan_participants(study, {.participants = participants(2), .seed = 3});
   const auto order_of = [](const ParticipantPlan& plan) {
     std::vector<double> order;
     for (const PlannedBlock& block : plan.blocks) {
@@ -121,12 +129,42 @@ TEST(Plan, GivesEveryParticipantAnOrderOfTheirOwn) {
   EXPECT_NE(order_of(plans[0]), order_of(plans[1]));
 }
 
+TEST(Plan, CountsCompletedSessionsAndNeitherPilotsNorDropOuts) {
+  const test_support::TemporaryFolder folder;
+  core::StudyStore store(folder.path() / "a.study", core::StudyStore::Mode::kCreate,
+                         core::Durability::kAtClose);
+  const std::string hash = store.add_protocol("x.json", kStudy);
+  const auto add = [&](const std::string& cells, bool pilot, std::optional<bool> ended) {
+    core::SessionRow row;
+    row.participant = "P" + std::to_string(store.sessions().size());
+    row.protocol_sha256 = hash;
+    row.cells = cells;
+    row.pilot = pilot;
+    const std::int64_t session = store.add_session(row);
+    core::Commit started, stopped;
+    started.event =
+        row_from_event(session, {.sequence = 1, .time_ns = 0, .data = SessionStarted{}});
+    store.append(started);
+    if (!ended) return;
+    stopped.event = row_from_event(
+        session,
+        {.sequence = 2, .time_ns = 0, .data = SessionEnded{.completed = *ended, .reason = ""}});
+    store.append(stopped);
+  };
+  add("o=a,b", false, true);
+  add("o=b,a", false, false);
+  add("o=b,a", true, true);
+  add("o=b,a", false, std::nullopt);
+  add("o=a,b", false, true);
+  EXPECT_EQ(completed_cells(store), (std::vector<std::string>{"o=a,b", "o=a,b"}));
+}
+
 TEST(Plan, AddsUpTheExpectedDuration) {
   // 2 points of a checklist, 40 s of exploring, 9 trials of 20 s, 10 of 15 s, a break of 60 s
   // and one thing afterwards.
   const ExpectedTimes times;
   const Study study = read_study_text(kStudy, "x");
-  EXPECT_DOUBLE_EQ(plan_participants(study, {.num_participants = 1}).at(0).duration_s,
+  EXPECT_DOUBLE_EQ(plan_participants(study, {.participants = participants(1)}).at(0).duration_s,
                    2 * times.checklist_item_s + 40.0 + 9 * 20.0 + 10 * 15.0 + 60.0 +
                        times.post_experiment_item_s);
 }

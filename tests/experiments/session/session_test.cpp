@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "experiments/session/event.h"
 
@@ -230,7 +232,7 @@ TEST_F(SessionTest, TakesOnlyAnswersThatFitTheQuestion) {
   EXPECT_THROW(s.answer(1.0, 1.0, 0), core::Error) << "nothing was presented";
   present(s, "reference");
   present(s, "test");
-  for (const double wrong : {0.5, -1.0, std::nan(""), INFINITY}) {
+  for (const double wrong : {0.5, -1.0, double{NAN}, double{INFINITY}}) {
     EXPECT_THROW(s.answer(wrong, 1.0, 0), core::Error) << wrong;
   }
   s.answer(1.0, 1.0, s.state().last_tick);

@@ -30,7 +30,8 @@ TEST(ProtocolError, CarriesAndTellsEveryProblem) {
 TEST(NearestWord, FindsTheKeyThatWasMeant) {
   const std::vector<std::string> keys = {"viscosity_pa_s", "reference_viscosity_pa_s", "scale"};
   EXPECT_EQ(nearest_word("viscosty_pa_s", keys), "viscosity_pa_s");
-  EXPECT_EQ(nearest_word("sclae", keys), "scale");  // A swap of neighbours.
+  EXPECT_EQ(nearest_word("sclae", keys), "scale");
+  EXPECT_EQ(nearest_word("sya", {"say"}), "say");  // A swap of neighbours is one mistake.
   EXPECT_EQ(nearest_word("brake", {"block", "break"}), "break");
 }
 

@@ -89,6 +89,10 @@ TEST(StudyRules, TakeNoCounterbalanceInsideAnother) {
                                inner + "{\"kind\": \"break\", \"name\": \"bucket\"")),
             "x.json:11:18: /stages/0/arms/0/stages/0/kind: expected no counterbalance inside "
             "another, found one; side by side they are crossed");
+  EXPECT_EQ(
+      problems_of(broken("\"between\": [", "\"between\": [" + inner)),
+      "x.json:29:27: /stages/2/between/0/kind: expected no counterbalance inside another, "
+      "found one; side by side they are crossed");
 }
 
 TEST(StudyRules, WantOnlyForToNameAnArmThatExists) {

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "app/share.h"
+#include "core/error.h"
+#include "experiments/study/starter_study.h"
+#include "experiments/study/structure_check.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string name;
+  std::string from;
+  bool json = false;
+};
+
+/// Writes a file that is not there yet. Throws `Error` if it is, or if the disk refuses.
+void write_new_file(const fs::path& file, const std::string& text) {
+  std::FILE* stream = std::fopen(file.c_str(), "wx");
+  if (stream == nullptr) {
+    throw core::Error(file.string() + ": expected a new file, found " +
+                      (errno == EEXIST
+                           ? std::string("one of that name; nothing was overwritten")
+                           : std::string(std::strerror(errno))));
+  }
+  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+  const bool closed = std::fclose(stream) == 0;
+  if (!written || !closed) {
+    throw core::Error(file.string() + ": expected to be written, found " +
+                      std::strerror(errno));
+  }
+}
+
+int run(const Options& options) {
+  fs::path file = options.name;
+  if (file.extension() != ".json") file += ".json";
+  const std::string name = file.stem().string();
+  if (!experiments::is_name(name)) {
+    throw UsageError("NAME: expected lower-case letters, digits and _, found `" + name + "`");
+  }
+  const std::string text =
+      options.from.empty()
+          ? experiments::starter_study(name)
+          : experiments::renamed_study(
+                experiments::read_study(user_or_shipped(options.from, "protocols")).text,
+                options.from, name);
+  write_new_file(file, text);
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"file", file.string()}, {"name", name}}.dump(2));
+  } else {
+    fmt::print("{}: written; `jnd validate {}` tells its problems while you edit it\n",
+               file.string(), file.string());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_new(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("new", "Write a commented starter study");
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option("NAME", options->name,
+                   "Name of the study; NAME.json is written, never over "
+                   "another file")
+      ->required();
+  command->add_option("--from", options->from, "Study to copy, a file or a shipped one");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,282 @@
+#include "experiments/session/plan.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/commands/validate.h"
+#include "app/share.h"
+#include "core/error.h"
+#include "device/device_registry.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+  std::string file;
+  std::string folder;
+  int participants = 13;
+  std::uint64_t seed = 1;
+  std::string device;
+  double speed_m_per_s = 0.5;
+  bool json = false;
+};
+
+/// All that the command has to tell.
+struct Outcome {
+  experiments::Study study;
+  std::vector<experiments::ParticipantPlan> plans;
+  std::vector<experiments::RangeEntry> range;
+  std::vector<std::string> completed;  ///< Cells.
+  device::DeviceCapabilities device;
+  experiments::RangeLimits limits{};
+  double duration_s = 0.0;  ///< Of the longest session.
+};
+
+/// "P01", "P02" ...: pseudonyms that the study folder does not have yet.
+std::vector<std::string> next_pseudonyms(const std::vector<core::SessionRow>& sessions,
+                                         int count) {
+  std::vector<std::string> names;
+  for (int number = 1; static_cast<int>(names.size()) < count; ++number) {
+    const std::string name = fmt::format("P{:02}", number);
+    const bool known = std::any_of(sessions.begin(), sessions.end(),
+                                   [&](const auto& row) { return row.participant == name; });
+    if (!known) names.push_back(name);
+  }
+  return names;
+}
+
+bool is_unblinded(const core::StudyStore& store) {
+  for (const core::SessionRow& row : store.sessions()) {
+    for (const core::EventRow& event : store.events(row.session)) {
+      if (event.kind == "unblinded") return true;
+    }
+  }
+  return false;
+}
+
+Outcome outcome_of(const Options& options) {
+  Outcome outcome;
+  outcome.study = experiments::read_study(user_or_shipped(options.file, "protocols"));
+  experiments::PlanRequest request = {.participants = {}, .seed = options.seed};
+  std::vector<core::SessionRow> sessions;
+  bool unblinded = false;
+  if (!options.folder.empty()) {
+    const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
+    sessions = store.sessions();
+    request.num_earlier_sessions = static_cast<std::int64_t>(sessions.size());
+    request.completed = experiments::completed_cells(store);
+    unblinded = is_unblinded(store);
+  }
+  if (outcome.study.blinding == experiments::Blinding::kDouble && !unblinded) {
+    throw core::Error(options.file +
+                      ": expected a study that is not blind for the experimenter, found "
+                      "`double`; its orders are shown once its study folder is unblinded");
+  }
+  request.participants = next_pseudonyms(sessions, options.participants);
+  outcome.plans = experiments::plan_participants(outcome.study, request);
+  outcome.completed = request.completed;
+  for (const experiments::ParticipantPlan& plan : outcome.plans) {
+    outcome.duration_s = std::max(outcome.duration_s, plan.duration_s);
+  }
+  outcome.device =
+      device::device_named(options.device).make(outcome.study.device.rate_hz)->capabilities();
+  outcome.limits = {.max_force_per_point_n = outcome.device.max_force_per_point_n,
+                    .max_total_force_n = outcome.device.max_total_force_n,
+                    .expected_speed_m_per_s = options.speed_m_per_s};
+  outcome.range = experiments::planned_range(outcome.study, outcome.limits);
+  return outcome;
+}
+
+/// Cell to sessions, completed ones and with the planned ones.
+std::map<std::string, std::pair<int, int>> balance_of(const Outcome& outcome) {
+  std::map<std::string, std::pair<int, int>> balance;
+  for (const experiments::Cell& cell : experiments::cells_of(outcome.study)) {
+    balance[to_string(cell)] = {0, 0};
+  }
+  for (const std::string& cell : outcome.completed) {
+    if (const auto found = balance.find(cell); found != balance.end()) ++found->second.first;
+  }
+  for (auto& [cell, counts] : balance) counts.second = counts.first;
+  for (const auto& plan : outcome.plans) ++balance[to_string(plan.cell)].second;
+  return balance;
+}
+
+ordered_json to_json(const experiments::PlannedTrial& trial) {
+  ordered_json json = {{"repetition", trial.repetition}, {"position", trial.position}};
+  if (trial.intensity) json["intensity"] = *trial.intensity;
+  if (trial.reference_intensity) json["reference_intensity"] = *trial.reference_intensity;
+  if (trial.starting_intensity) json["starting_intensity"] = *trial.starting_intensity;
+  if (trial.target_percent) json["target_percent"] = *trial.target_percent;
+  return json;
+}
+
+ordered_json to_json(const experiments::ParticipantPlan& plan) {
+  auto order = ordered_json::array();
+  for (const experiments::PlannedBlock& block : plan.blocks) {
+    auto trials = ordered_json::array();
+    for (const experiments::PlannedTrial& trial : block.trials)
+      trials.push_back(to_json(trial));
+    const auto& content = std::get<experiments::Block>(block.stage->content);
+    order.push_back({{"block", block.stage->name},
+                     {"procedure", content.procedure},
+                     {"medium", content.medium},
+                     {"quantity", content.quantity},
+                     {"num_trials", block.num_trials},
+                     {"trials", std::move(trials)}});
+  }
+  return {{"id", plan.participant},
+          {"cells", to_string(plan.cell)},
+          {"order", std::move(order)},
+          {"duration_s", plan.duration_s}};
+}
+
+ordered_json to_json(const experiments::RangeEntry& entry) {
+  ordered_json json = {{"stage", entry.stage}, {"medium", entry.setting.medium}};
+  if (!entry.setting.quantity.empty()) json[entry.setting.quantity] = entry.setting.intensity;
+  json["total_force_n"] = entry.total_force_n;
+  json["largest_point_force_n"] = entry.largest_point_force_n;
+  json["fits"] = entry.fits;
+  json["fits_up_to_m_per_s"] =
+      entry.fits_up_to_m_per_s ? ordered_json(*entry.fits_up_to_m_per_s) : ordered_json();
+  return json;
+}
+
+ordered_json to_json(const Outcome& outcome, const Options& options) {
+  auto participants = ordered_json::array();
+  for (const auto& plan : outcome.plans) participants.push_back(to_json(plan));
+  auto balance = ordered_json::array();
+  for (const auto& [cell, counts] : balance_of(outcome)) {
+    balance.push_back(
+        {{"cells", cell}, {"num_completed", counts.first}, {"num_planned", counts.second}});
+  }
+  auto range = ordered_json::array();
+  for (const auto& entry : outcome.range) range.push_back(to_json(entry));
+  return {{"study", outcome.study.name},
+          {"seed", options.seed},
+          {"participants", std::move(participants)},
+          {"balance", std::move(balance)},
+          {"duration_s", outcome.duration_s},
+          {"device", options.device},
+          {"limits",
+           {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
+            {"max_total_force_n", outcome.limits.max_total_force_n},
+            {"expected_speed_m_per_s", outcome.limits.expected_speed_m_per_s},
+            {"expected_depth_m", outcome.limits.expected_depth_m}}},
+          {"range", std::move(range)}};
+}
+
+/// "1: 0.5 4 2", one line a repetition; production starts with its target.
+void print_order(const experiments::PlannedBlock& block) {
+  fmt::print("    {}: {} trials\n", block.stage->name, block.num_trials);
+  int repetition = 0;
+  for (const experiments::PlannedTrial& trial : block.trials) {
+    if (trial.repetition != repetition) {
+      repetition = trial.repetition;
+      fmt::print("{}      {}:", trial.position == 1 && repetition > 1 ? "\n" : "", repetition);
+      if (trial.target_percent) fmt::print(" to {:g} %, from", *trial.target_percent);
+    }
+    fmt::print(" {:g}",
+               trial.intensity ? *trial.intensity : trial.starting_intensity.value_or(0));
+  }
+  fmt::print("\n");
+}
+
+void print_range(const Outcome& outcome, const Options& options) {
+  fmt::print(
+      "\nStimuli on `{}`: at most {:g} N at a point and {:g} N in all; hand head on at {:g} "
+      "m/s, "
+      "{:g} m deep in what is solid\n",
+      options.device, outcome.limits.max_force_per_point_n, outcome.limits.max_total_force_n,
+      outcome.limits.expected_speed_m_per_s, outcome.limits.expected_depth_m);
+  for (const experiments::RangeEntry& entry : outcome.range) {
+    const std::string setting =
+        entry.setting.medium +
+        (entry.setting.quantity.empty()
+             ? ""
+             : fmt::format(" {} {:g}", entry.setting.quantity, entry.setting.intensity));
+    fmt::print("  {:<24} {:<32} {:6.2f} N in all, {:5.2f} N at a point{}{}\n", entry.stage,
+               setting, entry.total_force_n, entry.largest_point_force_n,
+               entry.fits_up_to_m_per_s
+                   ? fmt::format(", fits up to {:.2f} m/s", *entry.fits_up_to_m_per_s)
+                   : "",
+               entry.fits ? "" : "  TOO STRONG");
+  }
+}
+
+void print(const Outcome& outcome, const Options& options) {
+  fmt::print("{}: {} participants, seed {}, about {:.0f} min each\n\n", outcome.study.name,
+             outcome.plans.size(), options.seed, std::ceil(outcome.duration_s / 60.0));
+  for (const experiments::ParticipantPlan& plan : outcome.plans) {
+    fmt::print("  {} {}\n", plan.participant, to_string(plan.cell));
+    for (const experiments::PlannedBlock& block : plan.blocks) print_order(block);
+  }
+  fmt::print("\nBalance: completed sessions, and with the planned ones\n");
+  for (const auto& [cell, counts] : balance_of(outcome)) {
+    fmt::print("  {:<56} {:>3} {:>3}\n", cell.empty() ? "(one cell)" : cell, counts.first,
+               counts.second);
+  }
+  print_range(outcome, options);
+  const auto& needs = outcome.study.device;
+  if (outcome.device.num_contact_points < needs.min_contact_points) {
+    fmt::print("\n`{}` holds {} points of the hand, the study needs {}\n", options.device,
+               outcome.device.num_contact_points, needs.min_contact_points);
+  }
+}
+
+int run(const Options& options) {
+  try {
+    const Outcome outcome = outcome_of(options);
+    if (options.json) {
+      fmt::print("{}\n", to_json(outcome, options).dump(2));
+    } else {
+      print(outcome, options);
+    }
+    return kDone;
+  } catch (const experiments::ProtocolError& error) {
+    if (options.json) fmt::print("{}\n", problems_json(error.problems()).dump(2));
+    throw;
+  }
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "plan", "Orders, balance, duration and range of a study before anyone comes");
+  const auto options = std::make_shared<Options>();
+  options->device = std::string(device::devices().front().name);
+  command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
+      ->required();
+  command->add_option("--study", options->folder,
+                      "Study folder whose completed sessions count");
+  command->add_option("--participants", options->participants, "How many to plan")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of everything that is drawn")
+      ->capture_default_str();
+  command->add_option("--device", options->device, "Whose limits; see `jnd devices`")
+      ->capture_default_str();
+  command
+      ->add_option("--speed-m-per-s", options->speed_m_per_s,
+                   "Speed of the hand that forces are expected at")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,69 @@
+#include "app/commands/validate.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "app/commands/commands.h"
+#include "app/share.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+int run(const Options& options) {
+  std::vector<experiments::StudyProblem> problems;
+  for (const std::string& name : options.files) {
+    std::vector<experiments::StudyProblem> found =
+        experiments::study_problems(user_or_shipped(name, "protocols"));
+    if (!options.json && found.empty()) fmt::print("{}: no problem\n", name);
+    problems.insert(problems.end(), std::make_move_iterator(found.begin()),
+                    std::make_move_iterator(found.end()));
+  }
+  if (options.json) {
+    fmt::print("{}\n", problems_json(problems).dump(2));
+  } else {
+    for (const experiments::StudyProblem& problem : problems) {
+      fmt::print("{}\n", to_string(problem));
+    }
+  }
+  if (problems.empty()) return kDone;
+  fmt::print(stderr, "jnd: {} problem{} found\n", problems.size(),
+             problems.size() == 1 ? "" : "s");
+  return kHasProblems;
+}
+
+}  // namespace
+
+nlohmann::ordered_json problems_json(const std::vector<experiments::StudyProblem>& problems) {
+  auto list = nlohmann::ordered_json::array();
+  for (const experiments::StudyProblem& problem : problems) {
+    list.push_back({{"file", problem.file},
+                    {"line", problem.line},
+                    {"column", problem.column},
+                    {"pointer", problem.pointer},
+                    {"message", problem.message}});
+  }
+  return {{"problems", std::move(list)}};
+}
+
+void add_validate(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("validate", "Tell every problem of study files");
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "Study files, or names of shipped studies")
+      ->required();
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,47 @@
+#include "analysis/fits/normal_tail.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace jnd::analysis {
+namespace {
+
+TEST(NormalTail, AgreesWithPublishedValuesFarOutInTheTail) {
+  // scipy.stats.norm.logcdf.
+  EXPECT_NEAR(log_normal_tails(-1.0).log_lower, -1.8410216450092636, 1e-14);
+  EXPECT_NEAR(log_normal_tails(-10.0).log_lower, -53.23128515051247, 1e-12);
+  EXPECT_NEAR(log_normal_tails(-37.5).log_lower, -707.6689893175072, 1e-10);
+  EXPECT_NEAR(log_normal_tails(-100.0).log_lower, -5005.524208694205, 1e-9);
+  EXPECT_NEAR(log_normal_tails(6.0).log_lower, -9.865876455243719e-10, 1e-22);
+}
+
+TEST(NormalTail, TheTwoFormulasForTheTailMeetWhereTheyChange) {
+  const LogNormalTails near = log_normal_tails(-36.0 + 1e-9);
+  const LogNormalTails far = log_normal_tails(-36.0 - 1e-9);
+  EXPECT_NEAR(near.log_lower - far.log_lower, 2e-9 * near.mills_lower, 1e-10);
+  EXPECT_NEAR(near.mills_lower / far.mills_lower, 1.0, 1e-10);
+}
+
+TEST(NormalTail, MillsRatioIsTheDerivativeOfTheLogarithm) {
+  for (const double z : {-50.0, -12.0, -3.0, -0.4, 0.0, 0.7, 5.0}) {
+    const double step = 1e-6;
+    const double numeric =
+        (log_normal_tails(z + step).log_lower - log_normal_tails(z - step).log_lower) /
+        (2.0 * step);
+    EXPECT_NEAR(log_normal_tails(z).mills_lower, numeric, 1e-7 * (1.0 + std::fabs(z))) << z;
+  }
+}
+
+TEST(NormalTail, TheTailsMirrorEachOther) {
+  for (const double z : {0.0, 0.3, 2.0, 9.0, 45.0}) {
+    const LogNormalTails right = log_normal_tails(z), left = log_normal_tails(-z);
+    EXPECT_DOUBLE_EQ(right.log_lower, left.log_upper) << z;
+    EXPECT_DOUBLE_EQ(right.mills_upper, left.mills_lower) << z;
+    EXPECT_DOUBLE_EQ(normal_tails(z).lower, normal_tails(-z).upper) << z;
+    EXPECT_NEAR(normal_tails(z).lower + normal_tails(z).upper, 1.0, 1e-15) << z;
+  }
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,136 @@
+#include "analysis/fits/power_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<double> kScale = {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0};
+
+double sum_of_squares(const std::vector<Magnitude>& data, double k, double a) {
+  double sum = 0.0;
+  for (const Magnitude& row : data) {
+    const double residual = row.magnitude - core::PowerFunction{k, a}.magnitude(row.intensity);
+    sum += residual * residual;
+  }
+  return sum;
+}
+
+TEST(PowerFit, BothMethodsReturnALawThatTheDataFollow) {
+  for (const double k : {0.3761, 0.6663, 250.0}) {
+    for (const double a : {-0.7, 0.05, 0.6386, 1.206, 3.0}) {
+      std::vector<Magnitude> data;
+      for (const double intensity : kScale) {
+        data.push_back({intensity, core::PowerFunction{k, a}.magnitude(intensity)});
+      }
+      for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
+        const PowerFit found = fit_power(data, method);
+        ASSERT_EQ(found.status, FitStatus::kOk) << k << ' ' << a;
+        EXPECT_NEAR(*found.k / k, 1.0, 1e-10);
+        EXPECT_NEAR(*found.a, a, 1e-10);
+        EXPECT_NEAR(*found.r_squared, 1.0, 1e-10);
+      }
+    }
+  }
+}
+
+TEST(PowerFit, LineThroughTheLogarithmsIsWorkedByHand) {
+  // ln S = 0, ln 4, ln 4 at ln I = 0, ln 2, ln 4: slope ln 4 / (2 ln 2) = 1.
+  const PowerFit found = fit_power({{1, 1}, {2, 4}, {4, 4}}, PowerMethod::kLogLog);
+  EXPECT_NEAR(*found.a, 1.0, 1e-14);
+  EXPECT_NEAR(*found.k, std::exp(std::log(4.0) * 2.0 / 3.0 - std::log(2.0)), 1e-14);
+  EXPECT_NEAR(*found.r_squared, 0.75, 1e-14);
+  // Residuals (-1, 2, -1) ln(2)/3: sse = 6/9 ln^2 2, one degree of freedom, Sxx = 2 ln^2 2.
+  EXPECT_NEAR(*found.a_standard_error, std::sqrt(1.0 / 3.0), 1e-14);
+}
+
+TEST(PowerFit, TheThesisJoinsEstimationAndProductionIntoOneLaw) {
+  // Thesis sec. 4: S_ME = 0.6663 I^0.6386, S_MP = 0.3761 I^1.206, joined 0.5145 I^0.9021.
+  const PowerFit found = power_between({0.6663, 0.6386}, {0.3761, 1.206}, kScale);
+  EXPECT_NEAR(*found.k, 0.51453, 5e-6);
+  EXPECT_NEAR(*found.a, 0.90188, 5e-6);
+}
+
+TEST(PowerFit, NothingNearTheMinimumIsLower) {
+  core::RandomStream random(2, "power test");
+  for (int set = 0; set < 50; ++set) {
+    std::vector<Magnitude> data;
+    for (const double intensity : kScale) data.push_back({intensity, random.uniform(0.0, 3.0)});
+    const PowerFit found = fit_power(data);
+    if (found.status != FitStatus::kOk) continue;
+    const double lowest = sum_of_squares(data, *found.k, *found.a);
+    for (double k = 0.02; k < 6.0; k *= 1.07) {
+      for (double a = -6.0; a < 9.0; a += 0.05) {
+        ASSERT_GE(sum_of_squares(data, k, a), lowest * (1.0 - 1e-12)) << set;
+      }
+    }
+  }
+}
+
+TEST(PowerFit, TheIntensitysUnitOnlyChangesTheFactor) {
+  const std::vector<Magnitude> data = {{0, 0.1}, {1, 0.7}, {2, 1.1}, {3, 1.2}, {4, 1.7}};
+  const PowerFit plain = fit_power(data);
+  for (const double factor : {1e-30, 1000.0, 1e30}) {
+    std::vector<Magnitude> scaled = data;
+    for (Magnitude& row : scaled) row.intensity *= factor;
+    const PowerFit found = fit_power(scaled);
+    ASSERT_EQ(found.status, FitStatus::kOk);
+    EXPECT_NEAR(*found.a / *plain.a, 1.0, 1e-10);
+    EXPECT_NEAR(*found.k * std::pow(factor, *plain.a) / *plain.k, 1.0, 1e-10);
+    EXPECT_NEAR(*found.a_standard_error / *plain.a_standard_error, 1.0, 1e-9);
+  }
+}
+
+TEST(PowerFit, LogarithmsLeaveOutZerosAndSayWhichRows) {
+  const PowerFit found =
+      fit_power({{0, 0.2}, {1, 0.0}, {2, 1.0}, {4, 2.0}, {8, 4.0}}, PowerMethod::kLogLog);
+  ASSERT_EQ(found.excluded.size(), 2U);
+  EXPECT_EQ(found.excluded[0].row, 0U);
+  EXPECT_THAT(found.excluded[0].reason, HasSubstr("intensity"));
+  EXPECT_EQ(found.excluded[1].row, 1U);
+  EXPECT_THAT(found.excluded[1].reason, HasSubstr("magnitude"));
+  EXPECT_EQ(found.num_rows, 3);
+  EXPECT_NEAR(*found.a, 1.0, 1e-14);
+}
+
+TEST(PowerFit, TwoRowsHaveNoStandardErrors) {
+  for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
+    const PowerFit found = fit_power({{1, 0.5}, {4, 1.0}}, method);
+    ASSERT_EQ(found.status, FitStatus::kOk);
+    EXPECT_NEAR(*found.a, 0.5, 1e-12);
+    EXPECT_FALSE(found.k_standard_error.has_value());
+    EXPECT_FALSE(found.a_ci95.low.has_value());
+  }
+}
+
+TEST(PowerFit, SaysWhyThereIsNoLaw) {
+  const auto reason = [](const std::vector<Magnitude>& data) {
+    const PowerFit found = fit_power(data);
+    EXPECT_EQ(found.status, FitStatus::kDegenerate);
+    EXPECT_FALSE(found.k.has_value());
+    return found.reason;
+  };
+  EXPECT_THAT(reason({}), HasSubstr("too few rows"));
+  EXPECT_THAT(reason({{1, 1}}), HasSubstr("too few rows"));
+  EXPECT_THAT(reason({{0, 0}, {2, 1}, {2, 1.5}}), HasSubstr("two different intensities"));
+  EXPECT_THAT(reason({{1, 0}, {2, 0}}), HasSubstr("all magnitudes are 0"));
+  EXPECT_THAT(reason({{1, 0}, {2, 0}, {3, 1}}), HasSubstr("highest"));
+  EXPECT_THAT(reason({{1, 1}, {2, 0}, {3, 0}}), HasSubstr("lowest"));
+  EXPECT_THAT(reason({{1, -1}, {2, -2}}), HasSubstr("no k > 0"));
+}
+
+TEST(PowerFit, RefusesWhatIsNoMagnitude) {
+  EXPECT_THROW((void)fit_power({{-1, 1}}), core::Error);
+  EXPECT_THROW((void)fit_power({{1, std::nan("")}}), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,277 @@
+#include "analysis/fits/psychometric_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/psychometric_function.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr auto kLikelihood = PsychometricMethod::kMaximumLikelihood;
+constexpr auto kLeastSquares = PsychometricMethod::kLeastSquares;
+
+const std::vector<double> kGroupD = {1.093, 1.237, 1.646, 1.7495, 1.853,
+                                     2.203, 2.553, 3.185, 3.883};
+
+std::vector<AnswerCount> simulated(const core::PsychometricFunction& truth,
+                                   std::int64_t num_trials, std::uint64_t seed) {
+  core::RandomStream random(seed, "fit test");
+  std::vector<AnswerCount> data;
+  for (const double intensity : kGroupD) {
+    AnswerCount row = {intensity, 0, num_trials};
+    for (std::int64_t trial = 0; trial < num_trials; ++trial) {
+      row.num_yes += random.with_probability(truth.probability(intensity)) ? 1 : 0;
+    }
+    data.push_back(row);
+  }
+  return data;
+}
+
+PsychometricFit fit(const std::vector<AnswerCount>& data, double reference,
+                    PsychometricMethod method = kLikelihood, bool free_pse = false,
+                    bool free_lapse = false) {
+  return fit_psychometric(data, {.reference = reference,
+                                 .method = method,
+                                 .free_pse = free_pse,
+                                 .free_lapse = free_lapse});
+}
+
+TEST(PsychometricFit, OneLevelIsSolvedByHand) {
+  // 8 of 10 at twice the reference: Phi(ln 2 / ln(1+w)) = 0.8, so ln(1+w) = ln 2 / 0.8416212.
+  for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+    const PsychometricFit found = fit({{2.0, 8, 10}}, 1.0, method);
+    ASSERT_EQ(found.status, FitStatus::kOk);
+    EXPECT_NEAR(*found.weber_fraction, std::exp(std::log(2.0) / 0.8416212335729143) - 1.0,
+                1e-12);
+    EXPECT_NEAR(*found.log_likelihood, 8.0 * std::log(0.8) + 2.0 * std::log(0.2), 1e-12);
+    EXPECT_NEAR(*found.deviance, 0.0, 1e-12);
+  }
+}
+
+TEST(PsychometricFit, TwoLevelsWithTheirPseAreSolvedByHand) {
+  // Phi = 0.25 at 1 and 0.75 at 4: the pse is 2 and z = ln 2 / ln(1+w) = 0.6744898.
+  const PsychometricFit found = fit({{1.0, 2, 8}, {4.0, 6, 8}}, 1.0, kLikelihood, true);
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  EXPECT_NEAR(*found.pse, 2.0, 1e-12);
+  EXPECT_NEAR(*found.weber_fraction, std::exp(std::log(2.0) / 0.6744897501960817) - 1.0, 1e-11);
+}
+
+TEST(PsychometricFit, LikelihoodRatioIntervalOfOneLevelIsThatOfItsProportion) {
+  // With one level the curve's interval is the interval of p, carried over.
+  const PsychometricFit found = fit({{2.0, 8, 10}}, 1.0);
+  const auto likelihood_at = [](double w) {
+    const double p = core::standard_normal_cdf(std::log(2.0) / std::log1p(w));
+    return 8.0 * std::log(p) + 2.0 * std::log(1.0 - p);
+  };
+  EXPECT_NEAR(*found.log_likelihood - likelihood_at(*found.weber_fraction_ci95.low),
+              1.920729410347062, 1e-9);
+  // p = 0.5, w without bound, is only 1.93 lower: just out of reach on the far side.
+  EXPECT_NEAR(*found.log_likelihood - 10.0 * std::log(0.5), 1.9274, 1e-4);
+  ASSERT_TRUE(found.weber_fraction_ci95.high.has_value());
+  EXPECT_NEAR(*found.log_likelihood - likelihood_at(*found.weber_fraction_ci95.high),
+              1.920729410347062, 1e-9);
+}
+
+TEST(PsychometricFit, AnEndIsOpenWhereTheDataDoNotBoundTheWeberFraction) {
+  const PsychometricFit found = fit({{2.0, 7, 10}}, 1.0);
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  EXPECT_TRUE(found.weber_fraction_ci95.low.has_value());
+  EXPECT_FALSE(found.weber_fraction_ci95.high.has_value());
+}
+
+TEST(PsychometricFit, RecoversTheTruthFromManyTrials) {
+  const core::PsychometricFunction truth = {
+      .pse = 2.1, .weber_fraction = 0.4, .lapse_rate = 0.03};
+  const std::vector<AnswerCount> data = simulated(truth, 200'000, 3);
+  for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+    const PsychometricFit found = fit(data, 1.853, method, true, true);
+    ASSERT_EQ(found.status, FitStatus::kOk);
+    EXPECT_NEAR(*found.weber_fraction, 0.4, 0.02);
+    EXPECT_NEAR(*found.pse, 2.1, 0.02);
+    EXPECT_NEAR(*found.lapse_rate, 0.03, 0.01);
+  }
+}
+
+TEST(PsychometricFit, DoesNotKnowTheUnitOfTheIntensities) {
+  const std::vector<AnswerCount> data = simulated({1.9, 0.5, 0.0}, 8, 5);
+  for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+    for (const bool free_pse : {false, true}) {
+      const PsychometricFit plain = fit(data, 1.853, method, free_pse);
+      ASSERT_EQ(plain.status, FitStatus::kOk);
+      for (const double factor : {1e-200, 1e-3, 7.0, 1e200}) {
+        std::vector<AnswerCount> scaled = data;
+        for (AnswerCount& row : scaled) row.intensity *= factor;
+        const PsychometricFit found = fit(scaled, 1.853 * factor, method, free_pse);
+        ASSERT_EQ(found.status, FitStatus::kOk) << factor;
+        EXPECT_NEAR(*found.weber_fraction / *plain.weber_fraction, 1.0, 1e-9) << factor;
+        EXPECT_NEAR(*found.pse / factor / *plain.pse, 1.0, 1e-9) << factor;
+        EXPECT_NEAR(*found.weber_fraction_ci95.low / *plain.weber_fraction_ci95.low, 1.0, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(PsychometricFit, FindsAWeberFractionOfAMillionthAsWell) {
+  std::vector<AnswerCount> data;
+  for (const double step : {-2.0, -1.0, 1.0, 2.0}) {
+    data.push_back({1.0 + step * 1e-6,
+                    step < -1.5  ? 1
+                    : step < 0   ? 3
+                    : step < 1.5 ? 16
+                                 : 19,
+                    20});
+  }
+  const PsychometricFit found = fit(data, 1.0);
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  EXPECT_NEAR(*found.weber_fraction, 1.15e-6, 0.2e-6);
+}
+
+TEST(PsychometricFit, EveryIntervalHoldsItsEstimate) {
+  int num_fits = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const std::vector<AnswerCount> data = simulated({1.853, 0.6, 0.02}, 5, 100 + seed);
+    for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+      for (const bool free_pse : {false, true}) {
+        for (const bool free_lapse : {false, true}) {
+          const PsychometricFit found =
+              fit_psychometric(data, {.reference = 1.853,
+                                      .method = method,
+                                      .free_pse = free_pse,
+                                      .free_lapse = free_lapse,
+                                      .num_bootstrap = free_pse && free_lapse ? 0 : 60});
+          if (found.status != FitStatus::kOk) continue;
+          ++num_fits;
+          const double w = *found.weber_fraction;
+          EXPECT_LE(found.weber_fraction_ci95.low.value_or(0.0), w);
+          EXPECT_GE(found.weber_fraction_ci95.high.value_or(HUGE_VAL), w);
+          EXPECT_LE(found.bootstrap.ci95.low.value_or(0.0), w);
+          EXPECT_GE(found.bootstrap.ci95.high.value_or(HUGE_VAL), w);
+          if (!free_pse) continue;
+          EXPECT_LE(found.pse_ci95->low.value_or(0.0), *found.pse);
+          EXPECT_GE(found.pse_ci95->high.value_or(HUGE_VAL), *found.pse);
+        }
+      }
+    }
+  }
+  EXPECT_GT(num_fits, 350);
+}
+
+TEST(PsychometricFit, LikelihoodRatioIntervalsCoverTheTruthAsOftenAsTheySay) {
+  int num_fits = 0, num_covered = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    const PsychometricFit found = fit(simulated({1.853, 0.7, 0.0}, 5, 1000 + seed), 1.853);
+    if (found.status != FitStatus::kOk) continue;
+    ++num_fits;
+    num_covered += found.weber_fraction_ci95.low.value_or(0.0) <= 0.7 &&
+                   found.weber_fraction_ci95.high.value_or(HUGE_VAL) >= 0.7;
+  }
+  EXPECT_GT(num_fits, 1950);
+  EXPECT_NEAR(static_cast<double>(num_covered) / num_fits, 0.95, 0.015);
+}
+
+TEST(PsychometricFit, RowsOfOneIntensityAreOneLevel) {
+  const std::vector<AnswerCount> apart = {{1.2, 1, 3}, {0.8, 1, 4}, {1.2, 3, 4}, {1.5, 6, 7}};
+  const std::vector<AnswerCount> pooled = {{0.8, 1, 4}, {1.2, 4, 7}, {1.5, 6, 7}, {9.0, 0, 0}};
+  for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+    const PsychometricFit one = fit(apart, 1.0, method), other = fit(pooled, 1.0, method);
+    EXPECT_DOUBLE_EQ(*one.weber_fraction, *other.weber_fraction);
+    EXPECT_DOUBLE_EQ(*one.deviance, *other.deviance);
+    EXPECT_EQ(one.num_levels, 3);
+  }
+}
+
+TEST(PsychometricFit, TheBoundLapseZeroIsAnOptimum) {
+  const std::vector<AnswerCount> data = {{0.5, 0, 9}, {0.8, 3, 9}, {1.2, 6, 9}, {2.0, 9, 9}};
+  const PsychometricFit bounded = fit(data, 1.0, kLikelihood, false, true);
+  const PsychometricFit fixed = fit(data, 1.0);
+  ASSERT_EQ(bounded.status, FitStatus::kOk);
+  EXPECT_EQ(*bounded.lapse_rate, 0.0);
+  EXPECT_DOUBLE_EQ(*bounded.weber_fraction, *fixed.weber_fraction);
+  EXPECT_NEAR(*bounded.standard_error, *fixed.standard_error, 1e-12);
+}
+
+TEST(PsychometricFit, AllYesHasAnOptimumWhereTheLevelsReachBelowTheReference) {
+  EXPECT_EQ(fit({{0.8, 5, 5}, {1.5, 5, 5}, {2, 5, 5}}, 1.0).status, FitStatus::kOk);
+}
+
+TEST(PsychometricFit, SaysWhichWayTheDataHaveNoOptimum) {
+  const auto reason = [](const std::vector<AnswerCount>& data, bool free_pse = false,
+                         bool free_lapse = false, PsychometricMethod method = kLikelihood) {
+    const PsychometricFit found = fit(data, 1.0, method, free_pse, free_lapse);
+    EXPECT_EQ(found.status, FitStatus::kDegenerate);
+    EXPECT_FALSE(found.weber_fraction.has_value());
+    EXPECT_FALSE(found.standard_error.has_value());
+    return found.reason;
+  };
+  EXPECT_THAT(reason({}), StartsWith("no trials"));
+  EXPECT_THAT(reason({{2.0, 0, 0}}), StartsWith("no trials"));
+  EXPECT_THAT(reason({{1.0, 3, 5}}), StartsWith("all at the reference"));
+  EXPECT_THAT(reason({{0.5, 0, 5}, {2, 5, 5}}), StartsWith("separated"));
+  EXPECT_THAT(reason({{0.5, 0, 5}, {1, 3, 5}, {2, 5, 5}}), StartsWith("separated"));
+  EXPECT_THAT(reason({{0.5, 3, 6}, {2, 3, 6}}), StartsWith("flat"));
+  EXPECT_THAT(reason({{0.5, 4, 6}, {2, 2, 6}}), StartsWith("inverted"));
+  EXPECT_THAT(reason({{0, 1, 6}, {2, 5, 6}}), StartsWith("impossible"));
+  EXPECT_THAT(reason({{2, 5, 5}, {3, 5, 5}}, true), StartsWith("all alike"));
+  EXPECT_THAT(reason({{2, 3, 5}}, true), StartsWith("one intensity"));
+  EXPECT_THAT(reason({{2, 0, 5}, {3, 2, 5}, {4, 5, 5}}, true), StartsWith("separated"));
+  EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, false, true), StartsWith("too few levels"));
+  EXPECT_THAT(reason({{0.5, 0, 5}, {2, 5, 5}}, false, false, kLeastSquares),
+              StartsWith("separated"));
+  EXPECT_THAT(reason({{0.5, 4, 6}, {2, 2, 6}}, true, false, kLeastSquares),
+              StartsWith("inverted"));
+}
+
+TEST(PsychometricFit, AnAnswerRateThatHardlyRisesIsNotGivenAnInfiniteNumber) {
+  const PsychometricFit found = fit({{0.5, 49'999, 100'000}, {2, 50'001, 100'000}}, 1.0);
+  EXPECT_EQ(found.status, FitStatus::kDegenerate);
+  EXPECT_THAT(found.reason, HasSubstr("range of numbers"));
+}
+
+TEST(PsychometricFit, LeastSquaresTakesTheLowerOfTwoMinima) {
+  // Near levels answered finely, far ones coarsely: sse has a steep and a shallow minimum.
+  const std::vector<AnswerCount> data = {
+      {1.01, 19, 20}, {1.02, 20, 20}, {3.0, 13, 20}, {6.0, 14, 20}, {12.0, 15, 20}};
+  const PsychometricFit found = fit(data, 1.0, kLeastSquares);
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  const auto sse = [&](double w) {
+    double sum = 0.0;
+    for (const AnswerCount& row : data) {
+      const double p = core::standard_normal_cdf(std::log(row.intensity) / std::log1p(w));
+      const double residual = p - static_cast<double>(row.num_yes) / 20.0;
+      sum += residual * residual;
+    }
+    return sum;
+  };
+  int num_minima = 0;
+  double lowest = HUGE_VAL;
+  for (double log_w = -9.0; log_w < 6.0; log_w += 0.01) {
+    const double here = sse(std::exp(log_w));
+    lowest = std::min(lowest, here);
+    num_minima += here < sse(std::exp(log_w - 0.01)) && here < sse(std::exp(log_w + 0.01));
+  }
+  EXPECT_EQ(num_minima, 2);
+  EXPECT_LE(sse(*found.weber_fraction), lowest);
+}
+
+TEST(PsychometricFit, RefusesDataThatAreNoCounts) {
+  EXPECT_THROW((void)fit({{1.0, 2, 1}}, 1.0), core::Error);
+  EXPECT_THROW((void)fit({{1.0, -1, 1}}, 1.0), core::Error);
+  EXPECT_THROW((void)fit({{-1.0, 0, 1}}, 1.0), core::Error);
+  EXPECT_THROW((void)fit({{std::nan(""), 0, 1}}, 1.0), core::Error);
+  EXPECT_THROW((void)fit({{1.0, 0, 1}}, 0.0), core::Error);
+  EXPECT_THROW((void)fit({{1.0, 0, 1}}, std::nan("")), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,86 @@
+#include "analysis/groups/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace {
+
+TEST(Summary, IsWorkedByHand) {
+  const Summary summary = summary_of({4, 1, 3, 2});
+  EXPECT_EQ(summary.num_values, 4);
+  EXPECT_DOUBLE_EQ(*summary.mean, 2.5);
+  EXPECT_DOUBLE_EQ(*summary.standard_deviation, std::sqrt(5.0 / 3.0));
+  EXPECT_DOUBLE_EQ(*summary.median, 2.5);
+  // t(3) = 3.182446 at 97.5 %.
+  EXPECT_NEAR(*summary.mean_ci95.high, 2.5 + 3.182446305284263 * std::sqrt(5.0 / 12.0), 1e-12);
+}
+
+TEST(Summary, TooFewValuesLeaveOutWhatTheyDoNotDefine) {
+  EXPECT_FALSE(summary_of({}).mean.has_value());
+  const Summary one = summary_of({7.0});
+  EXPECT_DOUBLE_EQ(*one.mean, 7.0);
+  EXPECT_FALSE(one.standard_deviation.has_value());
+  EXPECT_FALSE(one.mean_ci95.low.has_value());
+  EXPECT_THROW((void)summary_of({1.0, std::nan("")}), core::Error);
+}
+
+TEST(Summary, PercentilesInterpolateBetweenNeighbours) {
+  const std::vector<double> values = {1, 2, 4, 8};
+  EXPECT_DOUBLE_EQ(percentile(values, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(percentile(values, 0.5), 3.0);
+  EXPECT_DOUBLE_EQ(percentile(values, 1.0), 8.0);
+  EXPECT_TRUE(std::isinf(percentile({1.0, HUGE_VAL}, 0.5)));
+}
+
+TEST(ResampleParticipants, GivesTheTIntervalOfAMeanForManyParticipants) {
+  core::RandomStream random(3, "summary test");
+  std::vector<double> values(400);
+  for (double& value : values) value = random.normal(5.0, 2.0);
+  const auto mean = [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+    double sum = 0.0;
+    for (const std::size_t participant : drawn) sum += values[participant];
+    return sum / static_cast<double>(drawn.size());
+  };
+  const ResampledInterval found = resample_participants(values.size(), 4000, 1, mean);
+  const Summary summary = summary_of(values);
+  EXPECT_NEAR(*found.ci95.low, *summary.mean_ci95.low, 0.02);
+  EXPECT_NEAR(*found.ci95.high, *summary.mean_ci95.high, 0.02);
+  const ResampledInterval again = resample_participants(values.size(), 4000, 1, mean);
+  EXPECT_EQ(*found.ci95.low, *again.ci95.low);
+}
+
+TEST(ResampleParticipants, DrawsAsManyAsThereAreAndEachAsOften) {
+  std::vector<int> times(7, 0);
+  (void)resample_participants(7, 3000, 2, [&](const std::vector<std::size_t>& drawn) {
+    EXPECT_EQ(drawn.size(), 7U);
+    for (const std::size_t participant : drawn) ++times.at(participant);
+    return std::optional<double>(1.0);
+  });
+  for (const int count : times) EXPECT_NEAR(count, 3000, 250);
+}
+
+TEST(ResampleParticipants, CountsResamplesThatAreUndefinedAndGivesUpAtHalf) {
+  int call = 0;
+  const auto some = resample_participants(3, 100, 1, [&](const std::vector<std::size_t>&) {
+    ++call;
+    return call % 4 == 0 ? std::nullopt : std::optional<double>(call);
+  });
+  EXPECT_EQ(some.num_undefined, 25);
+  EXPECT_TRUE(some.ci95.low.has_value());
+  const auto none = resample_participants(3, 100, 1, [&](const std::vector<std::size_t>&) {
+    return std::optional<double>(std::nan(""));
+  });
+  EXPECT_EQ(none.num_undefined, 100);
+  EXPECT_FALSE(none.ci95.low.has_value());
+  EXPECT_THROW((void)resample_participants(
+                   0, 1, 1, [](const auto&) { return std::optional<double>(1.0); }),
+               core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::analysis
