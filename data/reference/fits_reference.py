@@ -160,13 +160,13 @@ def profile_end(model, theta, best, place, direction, drop):
         return cost - best - drop
 
     inside, step = theta[place], 0.02
-    while step < 20:
-        outside = inside + direction * step
+    while abs(inside) < 650:
+        outside = max(-650.0, min(650.0, inside + direction * step))
         if excess(outside) > 0:
             low, high = sorted([inside, outside])
             return math.exp(optimize.brentq(excess, low, high, xtol=1e-13, rtol=1e-13))
         inside, step = outside, step * 1.6
-    return None
+    return None  # Not within the range of numbers.
 
 
 def hessian_in_w(model, theta):
