@@ -75,6 +75,7 @@ class Visit {
  public:
   Visit(const LaboratoryRun& run, const core::SessionRow& row)
       : run_(run),
+        recorded_samples_(row.recorded),
         history_(run.store.events(run.session)),
         participant_(run.laboratory, row.seed),
         recorded_(recorded_end(run.store, run.session)),
@@ -97,7 +98,7 @@ class Visit {
                    session_.current_stage()->content);
         session_.finish_stage();
       }
-      if (!session_.state().ended) session_.end(true, "");
+      if (!session_.state().ended) session_.complete();
       result.ended = true;
     } catch (const Cancelled&) {
       session_.pause("stopped by the operator");
@@ -121,7 +122,7 @@ class Visit {
     parameters.home_height_m = participant_.home_height_m();
     parameters.first_tick = std::max(recorded_.last_tick, last_tick_in(history_)) + 1;
     parameters.realtime = run_.realtime;
-    if (run_.record) parameters.recording = run_.store.recording_file(run_.session);
+    if (recorded_samples_) parameters.recording = run_.store.recording_file(run_.session);
     parameters.durability = run_.durability;
     return parameters;
   }
@@ -391,6 +392,7 @@ class Visit {
   }
 
   const LaboratoryRun& run_;
+  bool recorded_samples_;
   std::vector<core::EventRow> history_;
   SimulatedParticipant participant_;
   RecordedEnd recorded_;

@@ -18,7 +18,6 @@ struct LaboratoryRun {
   const experiments::Laboratory& laboratory;
   core::StudyStore& store;
   std::int64_t session = 0;  ///< Its row is in the store already.
-  bool record = true;        ///< Samples, besides the summaries of strokes.
   bool realtime = false;     ///< Paced by the clock; else as fast as it goes.
   core::Durability durability = core::Durability::kEveryCommit;
   /// How an interrupted session goes on: "repeat", "restart" or "end".

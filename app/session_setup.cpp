@@ -44,6 +44,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     row.laboratory = setup.laboratory.text;
     row.program_version = JND_VERSION;
     row.realtime = setup.realtime ? "real-time thread" : "simulated";
+    row.recorded = setup.record;
     row.rate_hz = setup.study.device.rate_hz;
     sessions.push_back(store.add_session(row));
   }
@@ -93,7 +94,6 @@ std::int64_t run_batch(const Batch& batch) {
                             .laboratory = batch.laboratory,
                             .store = batch.store,
                             .session = batch.sessions[i],
-                            .record = batch.record,
                             .durability = core::Durability::kAtClose,
                             .on_progress = [&, i](double done) {
                               progress[i].store(done, std::memory_order_relaxed);

@@ -21,6 +21,7 @@ struct SessionSetup {
   std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
   bool pilot = false;
   bool realtime = false;
+  bool record = true;  ///< Samples, besides the summaries of strokes.
 };
 
 /// Adds the rows of sessions for these participants, cells assigned in the order given, before
@@ -45,7 +46,6 @@ struct Batch {
   core::StudyStore& store;
   std::vector<std::int64_t> sessions;
   int jobs = 1;
-  bool record = true;
   std::function<void(double)> on_progress;  ///< 0 to 1, from several threads; may be empty.
 };
 /// Throws the first error of any session, after the others have come to an end. Returns the

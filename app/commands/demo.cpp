@@ -68,7 +68,8 @@ int run(const Options& options) {
                        {.study = study,
                         .laboratory = laboratory,
                         .study_file_name = file.filename().string(),
-                        .seed = options.seed},
+                        .seed = options.seed,
+                        .record = !options.fast},
                        next_participants(store, kParticipants));
       ProgressBar bar(name);
       simulated_s += static_cast<double>(
@@ -77,7 +78,6 @@ int run(const Options& options) {
                                     .store = store,
                                     .sessions = sessions,
                                     .jobs = options.jobs,
-                                    .record = !options.fast,
                                     .on_progress = [&bar](double done) { bar.show(done); }})) /
                      study.device.rate_hz;
     }

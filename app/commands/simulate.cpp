@@ -40,7 +40,8 @@ int run(const Options& options) {
                    {.study = study,
                     .laboratory = laboratory,
                     .study_file_name = file.filename().string(),
-                    .seed = options.seed},
+                    .seed = options.seed,
+                    .record = !options.fast},
                    participants);
   const auto start = std::chrono::steady_clock::now();
   std::int64_t num_ticks = 0;
@@ -51,7 +52,6 @@ int run(const Options& options) {
                            .store = store,
                            .sessions = sessions,
                            .jobs = options.jobs,
-                           .record = !options.fast,
                            .on_progress = [&bar](double done) { bar.show(done); }});
   }
   const double simulated_s = static_cast<double>(num_ticks) / study.device.rate_hz;

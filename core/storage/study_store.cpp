@@ -89,7 +89,7 @@ constexpr char kTrialColumns[] =
 constexpr char kAnswerColumns[] = "session, sequence, stage, item, answer";
 constexpr char kSessionColumns[] =
     "session, participant, protocol_sha256, seed, cells, pilot, simulated, device, laboratory, "
-    "program_version, realtime, rate_hz, started_time_ns";
+    "program_version, realtime, rate_hz, recorded, started_time_ns";
 
 std::string insert(const std::string& table, const std::string& columns) {
   std::string marks = "?";
@@ -207,6 +207,7 @@ std::int64_t StudyStore::add_session(SessionRow row) {
       .bind(row.program_version)
       .bind(row.realtime)
       .bind(row.rate_hz)
+      .bind(std::int64_t{row.recorded})
       .bind(row.started_time_ns)
       .run();
   transaction.commit();
@@ -334,7 +335,8 @@ std::vector<SessionRow> StudyStore::sessions() const {
     row.program_version = rows.text(9);
     row.realtime = rows.text(10);
     row.rate_hz = rows.number(11);
-    row.started_time_ns = rows.integer(12);
+    row.recorded = rows.integer(12) != 0;
+    row.started_time_ns = rows.integer(13);
     all.push_back(std::move(row));
   }
   return all;
@@ -469,11 +471,29 @@ std::vector<AnswerRow> StudyStore::answers(std::int64_t session) const {
   return all;
 }
 
+bool StudyStore::completed(std::int64_t session) const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 "SELECT 1 FROM event WHERE session = ? AND kind = 'session_completed'");
+  return rows.bind(session).step();
+}
+
 bool StudyStore::finished(std::int64_t session) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 "SELECT 1 FROM event WHERE session = ? AND kind = 'session_ended'");
+                 "SELECT 1 FROM event WHERE session = ? "
+                 "AND kind IN ('session_completed', 'session_ended_early')");
   return rows.bind(session).step();
+}
+
+std::vector<std::string> StudyStore::database_damage() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database, "PRAGMA integrity_check");
+  std::vector<std::string> damage;
+  while (rows.step()) {
+    if (rows.text(0) != "ok") damage.push_back(rows.text(0));
+  }
+  return damage;
 }
 
 }  // namespace jnd::core

@@ -97,6 +97,7 @@ struct SessionRow {
   std::string program_version;
   std::string realtime;  ///< What the loop was given: "simulated", or policy and memory lock.
   double rate_hz = 0.0;
+  bool recorded = true;  ///< Samples are kept; else only summaries of strokes.
   std::int64_t started_time_ns = 0;
 };
 
@@ -153,8 +154,12 @@ class StudyStore {
   [[nodiscard]] std::vector<PresentationRow> presentations(std::int64_t session) const;
   /// Answers that count: the last one given to each item.
   [[nodiscard]] std::vector<AnswerRow> answers(std::int64_t session) const;
-  /// Whether the session's log ends with `session_ended`.
+  /// Whether the session was completed.
+  [[nodiscard]] bool completed(std::int64_t session) const;
+  /// Whether it was completed or ended early: nothing is left to resume.
   [[nodiscard]] bool finished(std::int64_t session) const;
+  /// What SQLite's own check finds wrong with the database; empty for a sound one.
+  [[nodiscard]] std::vector<std::string> database_damage() const;
 
  private:
   struct Implementation;

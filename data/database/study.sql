@@ -22,6 +22,7 @@ CREATE TABLE session (
   program_version TEXT NOT NULL,
   realtime TEXT NOT NULL,
   rate_hz REAL NOT NULL,
+  recorded INTEGER NOT NULL,      -- samples are kept, not only summaries of strokes
   started_time_ns INTEGER NOT NULL
 );
 

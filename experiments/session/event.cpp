@@ -19,7 +19,7 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "answer_corrected",   "attempt_discarded",    "trial_excluded",
     "trial_included",     "note_added",           "paused",
     "continued",          "fault_raised",         "session_resumed",
-    "session_ended"};
+    "session_completed",  "session_ended_early"};
 
 json optional_number(const std::optional<double>& value) {
   return value ? json(*value) : json(nullptr);
@@ -138,9 +138,8 @@ struct Writer {
     row.last_tick = e.lost_last_tick;
     data = {{"choice", e.choice}};
   }
-  void operator()(const SessionEnded& e) const {
-    data = {{"completed", e.completed}, {"reason", e.reason}};
-  }
+  void operator()(const SessionCompleted&) const {}
+  void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
  private:
   void place(std::int64_t trial, std::int64_t attempt) const {
@@ -242,10 +241,8 @@ struct Reader {
     e.lost_last_tick = row.last_tick.value();
     data.at("choice").get_to(e.choice);
   }
-  void operator()(SessionEnded& e) const {
-    data.at("completed").get_to(e.completed);
-    data.at("reason").get_to(e.reason);
-  }
+  void operator()(SessionCompleted&) const {}
+  void operator()(SessionEndedEarly& e) const { data.at("reason").get_to(e.reason); }
 
  private:
   template <typename E>

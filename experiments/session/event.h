@@ -137,8 +137,11 @@ struct SessionResumed {
   std::int64_t lost_first_tick = 0, lost_last_tick = -1;  ///< Recorded, but of no answer.
 };
 
-struct SessionEnded {
-  bool completed = false;
+/// Every stage was run.
+struct SessionCompleted {};
+
+/// Ended before its last stage; not resumable.
+struct SessionEndedEarly {
   std::string reason;
 };
 
@@ -147,7 +150,7 @@ using EventData =
                  TrialsDrawn, TrialStarted, PresentationStarted, PresentationEnded,
                  IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
-                 FaultRaised, SessionResumed, SessionEnded>;
+                 FaultRaised, SessionResumed, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

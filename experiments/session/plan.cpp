@@ -151,14 +151,7 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
 std::vector<std::string> completed_cells(const core::StudyStore& store) {
   std::vector<std::string> cells;
   for (const core::SessionRow& row : store.sessions()) {
-    if (row.pilot || !store.finished(row.session)) continue;
-    const std::vector<core::EventRow> events = store.events(row.session);
-    const bool completed =
-        std::any_of(events.begin(), events.end(), [](const core::EventRow& event) {
-          if (event.kind != kind_of(SessionEnded{})) return false;
-          return std::get<SessionEnded>(event_from_row(event).data).completed;
-        });
-    if (completed) cells.push_back(row.cells);
+    if (!row.pilot && store.completed(row.session)) cells.push_back(row.cells);
   }
   return cells;
 }

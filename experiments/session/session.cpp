@@ -328,7 +328,7 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
       std::holds_alternative<Block>(current_stage()->content)) {
     restart_block("restarted after an interruption");
   }
-  if (choice == "end") return end(false, "ended after an interruption");
+  if (choice == "end") return end_early("ended after an interruption");
   // Interrupted between entering the block, or its last answer, and the draw that follows.
   if (state_.stage_open && current_stage() != nullptr &&
       std::holds_alternative<Block>(current_stage()->content) && !state_.current_trial()) {
@@ -336,9 +336,15 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
   }
 }
 
-void Session::end(bool completed, const std::string& reason) {
+void Session::complete() {
+  if (state_.ended || current_stage() != nullptr)
+    cannot("complete the session", "a last stage");
+  commit(SessionCompleted{});
+}
+
+void Session::end_early(const std::string& reason) {
   if (state_.ended) cannot("end", "a session that goes on");
-  commit(SessionEnded{completed, reason});
+  commit(SessionEndedEarly{reason});
 }
 
 void Session::commit(EventData data) { commit(std::move(data), core::Commit{}); }

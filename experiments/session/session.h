@@ -24,7 +24,8 @@ enum class Direction { kRaise, kLower };
 enum class StepSize { kCoarse, kFine };
 
 /// The seed of one participant's session, from the study's.
-[[nodiscard]] std::uint64_t session_seed(std::uint64_t study_seed, const std::string& participant);
+[[nodiscard]] std::uint64_t session_seed(std::uint64_t study_seed,
+                                         const std::string& participant);
 
 /// One visit of one participant. Every act commits its event first and moves the state on
 /// after. An act that is not possible now throws `Error` and leaves everything as it was. Not
@@ -88,7 +89,10 @@ class Session {
   void fault(const std::string& words);
   void resume(const std::string& choice, std::int64_t lost_first_tick,
               std::int64_t lost_last_tick);
-  void end(bool completed, const std::string& reason);
+  /// After the last stage.
+  void complete();
+  /// Before it; what there is stays, nothing more can be added.
+  void end_early(const std::string& reason);
 
  private:
   void commit(EventData data);

@@ -94,10 +94,11 @@ struct Fold {
     state.paused = false;
     saw_tick(e.lost_last_tick);
   }
-  void operator()(const SessionEnded& e) const {
+  void operator()(const SessionCompleted&) const {
     state.ended = true;
-    state.completed = e.completed;
+    state.completed = true;
   }
+  void operator()(const SessionEndedEarly&) const { state.ended = true; }
 
  private:
   [[nodiscard]] TrialState& of(std::int64_t trial) const {

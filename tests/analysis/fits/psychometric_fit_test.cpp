@@ -137,6 +137,19 @@ TEST(PsychometricFit, FindsAWeberFractionOfAMillionthAsWell) {
   EXPECT_NEAR(*found.weber_fraction, 1.15e-6, 0.2e-6);
 }
 
+TEST(PsychometricFit, SmallDifferencesKeepTheirAccuracyAtAnyReference) {
+  // Intensities exact in binary, so that only the fit's own rounding is seen.
+  const auto at = [](double reference) {
+    std::vector<AnswerCount> data;
+    for (const int step : {-2, -1, 1, 3}) {
+      data.push_back({reference * (1.0 + step * 0x1.0p-30), 2 + step + (step > 0 ? 1 : 0), 6});
+    }
+    return *fit(data, reference).weber_fraction;
+  };
+  EXPECT_NEAR(at(3.0) / at(1.0), 1.0, 1e-12);
+  EXPECT_NEAR(at(17.0 * 1024.0) / at(1.0), 1.0, 1e-12);
+}
+
 TEST(PsychometricFit, EveryIntervalHoldsItsEstimate) {
   int num_fits = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -226,6 +239,7 @@ TEST(PsychometricFit, SaysWhichWayTheDataHaveNoOptimum) {
   EXPECT_THAT(reason({{2, 3, 5}}, true), StartsWith("one intensity"));
   EXPECT_THAT(reason({{2, 0, 5}, {3, 2, 5}, {4, 5, 5}}, true), StartsWith("separated"));
   EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, false, true), StartsWith("too few levels"));
+  EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, true, true), StartsWith("too few levels"));
   EXPECT_THAT(reason({{0.5, 0, 5}, {2, 5, 5}}, false, false, kLeastSquares),
               StartsWith("separated"));
   EXPECT_THAT(reason({{0.5, 4, 6}, {2, 2, 6}}, true, false, kLeastSquares),

@@ -108,6 +108,24 @@ TEST(StrokeMeter, PeakSpeedIsTheMeanOverStrokesNotTheHighestOfAll) {
   EXPECT_NEAR(*found.max_speed_m_per_s, 0.5 * (2.0 + 5.0), 1e-12);
 }
 
+TEST(StrokeMeter, SpeedRightAfterATurningPointCountsForTheHalfStrokeThatBeginsThere) {
+  StrokeMeter meter({});
+  const auto go = [&](double x_m, double speed_m_per_s) {
+    meter.feed({x_m, 0, 0}, {speed_m_per_s, 0, 0}, kTickS);
+  };
+  go(0.0, 1.0);
+  go(0.2, 1.0);   // First turning point,
+  go(0.19, 8.0);  // not yet known as one.
+  go(0.1, 1.0);
+  go(-0.2, 1.0);
+  go(0.0, 1.0);
+  go(0.2, 1.0);
+  go(0.1, 1.0);
+  const StrokeSummary found = meter.finish();
+  ASSERT_EQ(found.num_strokes, 1);
+  EXPECT_DOUBLE_EQ(*found.max_speed_m_per_s, 8.0);
+}
+
 TEST(StrokeMeter, WithoutAStrokeThereIsNoWidthButAHeight) {
   StrokeMeter meter({});
   EXPECT_FALSE(meter.finish().mean_height_m.has_value());

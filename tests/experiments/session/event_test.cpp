@@ -37,7 +37,8 @@ std::vector<EventData> one_of_each() {
           Continued{},
           FaultRaised{"what"},
           SessionResumed{"repeat", 5, 6},
-          SessionEnded{true, "why"}};
+          SessionCompleted{},
+          SessionEndedEarly{"why"}};
 }
 
 TEST(Event, EveryKindComesBackFromItsRowAsItWas) {

@@ -146,9 +146,9 @@ TEST(Plan, CountsCompletedSessionsAndNeitherPilotsNorDropOuts) {
         row_from_event(session, {.sequence = 1, .time_ns = 0, .data = SessionStarted{}});
     store.append(started);
     if (!ended) return;
-    stopped.event = row_from_event(
-        session,
-        {.sequence = 2, .time_ns = 0, .data = SessionEnded{.completed = *ended, .reason = ""}});
+    const EventData end =
+        *ended ? EventData(SessionCompleted{}) : EventData(SessionEndedEarly{});
+    stopped.event = row_from_event(session, {.sequence = 2, .time_ns = 0, .data = end});
     store.append(stopped);
   };
   add("o=a,b", false, true);

@@ -1,0 +1,73 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "core/storage/integrity.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  bool json = false;
+};
+
+nlohmann::json to_json(const std::vector<core::Finding>& findings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const core::Finding& finding : findings) {
+    list.push_back({{"session", finding.session == 0 ? nlohmann::json(nullptr)
+                                                     : nlohmann::json(finding.session)},
+                    {"message", finding.message}});
+  }
+  return list;
+}
+
+void print(const char* title, const std::vector<core::Finding>& findings) {
+  for (const core::Finding& finding : findings) {
+    if (finding.session == 0) {
+      std::printf("  %s: %s\n", title, finding.message.c_str());
+    } else {
+      std::printf("  %s: session %lld: %s\n", title, static_cast<long long>(finding.session),
+                  finding.message.c_str());
+    }
+  }
+}
+
+int run(const Options& options) {
+  const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
+  const core::Integrity integrity = core::verify(store);
+  if (options.json) {
+    const nlohmann::json document = {
+        {"complete", integrity.complete},        {"problems", to_json(integrity.problems)},
+        {"remarks", to_json(integrity.remarks)}, {"num_sessions", integrity.num_sessions},
+        {"num_events", integrity.num_events},    {"num_trials", integrity.num_trials},
+        {"num_samples", integrity.num_samples}};
+    std::puts(document.dump(2).c_str());
+  } else {
+    std::printf("%s: %lld sessions, %lld events, %lld answered trials, %lld samples: %s\n",
+                options.folder.c_str(), static_cast<long long>(integrity.num_sessions),
+                static_cast<long long>(integrity.num_events),
+                static_cast<long long>(integrity.num_trials),
+                static_cast<long long>(integrity.num_samples),
+                integrity.complete ? "complete" : "NOT complete");
+    print("problem", integrity.problems);
+    print("remark", integrity.remarks);
+  }
+  return integrity.complete ? kDone : kHasProblems;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "verify", "Compares what a study should hold with what it does hold");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")->required();
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,163 @@
+#include "core/storage/integrity.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "core/storage/recording.h"
+
+namespace jnd::core {
+namespace {
+
+/// Ticks that were recorded, as ascending ranges that do not touch.
+using Ranges = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+Ranges merged(Ranges ranges) {
+  std::sort(ranges.begin(), ranges.end());
+  Ranges result;
+  for (const auto& [first, last] : ranges) {
+    if (!result.empty() && first <= result.back().second + 1) {
+      result.back().second = std::max(result.back().second, last);
+    } else {
+      result.emplace_back(first, last);
+    }
+  }
+  return result;
+}
+
+/// How many ticks of [first, last] are in none of the ranges.
+std::int64_t missing_ticks(const Ranges& ranges, std::int64_t first, std::int64_t last) {
+  std::int64_t missing = last - first + 1;
+  for (const auto& [from, to] : ranges) {
+    missing -= std::max<std::int64_t>(0, std::min(last, to) - std::max(first, from) + 1);
+  }
+  return missing;
+}
+
+std::string span(std::int64_t first, std::int64_t last) {
+  return std::to_string(first) + " to " + std::to_string(last);
+}
+
+class SessionCheck {
+ public:
+  SessionCheck(const StudyStore& store, const SessionRow& session, Integrity& integrity)
+      : store_(store), session_(session), integrity_(integrity) {}
+
+  void run() {
+    const std::vector<EventRow> events = store_.events(session_.session);
+    integrity_.num_events += static_cast<std::int64_t>(events.size());
+    check_sequence(events);
+    check_answers();
+    if (session_.recorded) check_recording(events);
+  }
+
+ private:
+  void problem(std::string message) {
+    integrity_.problems.push_back({session_.session, std::move(message)});
+  }
+  void remark(std::string message) {
+    integrity_.remarks.push_back({session_.session, std::move(message)});
+  }
+
+  void check_sequence(const std::vector<EventRow>& events) {
+    std::int64_t expected = 1;
+    for (const EventRow& event : events) {
+      if (event.sequence != expected) {
+        problem("expected event " + std::to_string(expected) + ", found " +
+                std::to_string(event.sequence) + "; events are missing");
+        expected = event.sequence;
+      }
+      ++expected;
+    }
+  }
+
+  void check_answers() {
+    const bool ended = store_.finished(session_.session);
+    std::set<std::int64_t> answered;
+    for (const TrialRow& trial : store_.trials(session_.session, /*include_excluded=*/true)) {
+      answered.insert(trial.trial);
+    }
+    integrity_.num_trials += static_cast<std::int64_t>(answered.size());
+    std::int64_t unanswered = 0;
+    for (const DesignRow& row : store_.design(session_.session)) {
+      if (!answered.contains(row.trial)) ++unanswered;
+    }
+    if (!ended) {
+      remark("the session is open; `jnd resume` goes on with it");
+    } else if (unanswered > 0) {
+      const std::string found = std::to_string(unanswered) + " drawn trials without an answer";
+      if (store_.completed(session_.session)) {
+        problem("expected an answer to every trial, found " + found);
+      } else {
+        remark("ended early, " + found);
+      }
+    }
+  }
+
+  void check_recording(const std::vector<EventRow>& events) {
+    const std::filesystem::path file = store_.recording_file(session_.session);
+    Ranges recorded;
+    try {
+      for (const RecordingChunk& chunk : RecordingReader(file).chunks()) {
+        const std::int64_t last = chunk.first_tick + chunk.num_samples - 1;
+        if (!chunk.intact) {
+          problem(file.filename().string() + ": expected the chunk of ticks " +
+                  span(chunk.first_tick, last) + " to fit its hash, found it damaged");
+          continue;
+        }
+        recorded.emplace_back(chunk.first_tick, last);
+        integrity_.num_samples += chunk.num_samples;
+      }
+    } catch (const Error& error) {
+      problem(error.what());
+      return;
+    }
+    recorded = merged(std::move(recorded));
+    check_presentations(recorded, events);
+  }
+
+  /// Every tick an event speaks of has to be there: the recording is synced before the event.
+  void check_presentations(const Ranges& recorded, const std::vector<EventRow>& events) {
+    std::int64_t presentation_first = -1;
+    for (const EventRow& event : events) {
+      if (event.kind == "presentation_started")
+        presentation_first = event.first_tick.value_or(-1);
+      std::int64_t first = -1;
+      if (event.kind == "medium_explored") first = event.first_tick.value_or(-1);
+      if (event.kind == "presentation_ended") first = presentation_first;
+      if (event.kind == "session_resumed" && event.last_tick >= event.first_tick) {
+        remark("ticks " + span(*event.first_tick, *event.last_tick) +
+               " belong to the attempt that was interrupted");
+      }
+      if (first < 0 || !event.last_tick) continue;
+      const std::int64_t missing = missing_ticks(recorded, first, *event.last_tick);
+      if (missing > 0) {
+        problem("expected ticks " + span(first, *event.last_tick) + " of " + event.kind +
+                (event.trial ? " in trial " + std::to_string(*event.trial) : "") + ", found " +
+                std::to_string(missing) + " of them missing");
+      }
+    }
+  }
+
+  const StudyStore& store_;
+  const SessionRow& session_;
+  Integrity& integrity_;
+};
+
+}  // namespace
+
+Integrity verify(const StudyStore& store) {
+  Integrity integrity;
+  for (const std::string& damage : store.database_damage()) {
+    integrity.problems.push_back({0, "study.sqlite: " + damage});
+  }
+  for (const SessionRow& session : store.sessions()) {
+    ++integrity.num_sessions;
+    SessionCheck(store, session, integrity).run();
+  }
+  integrity.complete = integrity.problems.empty();
+  return integrity;
+}
+
+}  // namespace jnd::core
