@@ -1,0 +1,56 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "core/doors/latest_value.h"
+#include "core/doors/spsc_queue.h"
+#include "core/haptic_command.h"
+#include "core/safety/emergency_stop.h"
+#include "core/telemetry.h"
+#include "device/haptic_loop.h"
+#include "device/lumped_hand_device.h"
+
+namespace jnd {
+namespace {
+
+/// One full tick with the lumped hand: read, kinematics, drag, immersion, distribution,
+/// passivity, limiter, write, sample, telemetry; the queue is drained outside of the timing.
+void full_tick(benchmark::State& state) {
+  device::LumpedHandDevice hand({});
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  core::SpscQueue<core::Sample> samples(4096);
+  device::HapticLoop loop({}, hand,
+                          {.commands = commands,
+                           .telemetry = telemetry,
+                           .emergency_stop = stop,
+                           .samples = &samples});
+  hand.open();
+  commands.publish({.sequence = 1,
+                    .medium = core::viscous({.viscosity_pa_s = 1.853}),
+                    .immersion = {.origin_z_m = 1.0}});
+  hand.begin_strokes({}, core::RandomStream(1, "bench"));
+  for (auto _ : state) {
+    loop.tick();
+    if (samples.num_free() == 0) {
+      state.PauseTiming();
+      samples.drain([](const core::Sample&) {});
+      state.ResumeTiming();
+    }
+  }
+}
+BENCHMARK(full_tick);
+
+/// The reference of the same run: the sine that a naive stroke would call in every tick.
+void reference_sine(benchmark::State& state) {
+  double x = 0.1;
+  for (auto _ : state) {
+    x = std::sin(x) + 1.0;
+    benchmark::DoNotOptimize(x);
+  }
+}
+BENCHMARK(reference_sine);
+
+}  // namespace
+}  // namespace jnd
