@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <thread>
 
@@ -19,8 +20,10 @@
 namespace jnd::app {
 namespace {
 
-// A power of two; at 1 kHz more than half a minute of a storage that is held up.
-constexpr std::size_t kQueueCapacity = 32768;
+// Powers of two. In real time: at 1 kHz more than half a minute of a storage that is held up.
+// In simulation the samples are taken after each batch, while they are still in the cache.
+constexpr std::size_t kRealtimeQueueCapacity = 32768;
+constexpr std::size_t kSimulatedQueueCapacity = 256;
 
 device::LumpedHandDevice::Parameters device_parameters(
     const Apparatus::Parameters& parameters, const experiments::Laboratory& laboratory) {
@@ -55,7 +58,7 @@ struct Apparatus::Implementation {
   Implementation(const Parameters& the_parameters, const experiments::Laboratory& laboratory)
       : parameters(the_parameters),
         device(device_parameters(parameters, laboratory)),
-        samples(kQueueCapacity),
+        samples(parameters.realtime ? kRealtimeQueueCapacity : kSimulatedQueueCapacity),
         loop(loop_parameters(parameters, laboratory), device,
              {.commands = commands,
               .telemetry = telemetry,
@@ -67,12 +70,12 @@ struct Apparatus::Implementation {
       recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
     }
     device.open();
-    storage.emplace(
-        samples, core::StorageThread::Parameters{.recording = recording ? &*recording : nullptr,
-                                                 .visit = [this](const core::Sample& sample) {
-                                                   if (metering) feed_meter(sample);
-                                                 }});
+    consumer = {.recording = recording ? &*recording : nullptr,
+                .visit = [this](const core::Sample& sample) {
+                  if (metering) feed_meter(sample);
+                }};
     if (parameters.realtime) {
+      storage.emplace(samples, consumer);
       thread.emplace(device::RealtimeThread::Parameters{});
       thread->start(loop);
     }
@@ -82,6 +85,12 @@ struct Apparatus::Implementation {
     if (thread) thread->stop();
     storage.reset();
     device.close();
+  }
+
+  /// Does `work` once every sample up to now has been taken.
+  void after_samples(std::int64_t last_tick, const std::function<void()>& work) {
+    if (storage) return storage->after(last_tick, work);
+    work();
   }
 
   void feed_meter(const core::Sample& sample) noexcept {
@@ -99,11 +108,10 @@ struct Apparatus::Implementation {
 
   void run_simulated(std::int64_t num_ticks) {
     for (std::int64_t done = 0; done < num_ticks;) {
-      // In simulation the queue blocks instead of dropping: wait until the storage has caught
-      // up.
-      while (samples.num_free() < kQueueCapacity / 2) std::this_thread::yield();
-      const auto batch = std::min<std::int64_t>(num_ticks - done, kQueueCapacity / 2);
+      const auto batch =
+          std::min<std::int64_t>(num_ticks - done, std::int64_t{kSimulatedQueueCapacity});
       for (std::int64_t i = 0; i < batch; ++i) loop.tick();
+      samples.drain([this](const core::Sample& sample) { consumer.take(sample); });
       done += batch;
     }
     simulated_clock.advance_ns(
@@ -128,6 +136,7 @@ struct Apparatus::Implementation {
   core::EmergencyStop emergency_stop;
   core::Heartbeat heartbeat;
   core::SpscQueue<core::Sample> samples;
+  core::SampleConsumer consumer;
   device::HapticLoop loop;
   std::optional<core::RecordingWriter> recording;
   analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
@@ -189,7 +198,7 @@ const core::Telemetry& Apparatus::telemetry() const noexcept {
 
 void Apparatus::meter_strokes() {
   Implementation& my = *implementation_;
-  my.storage->after(next_tick() - 1, [&my] {
+  my.after_samples(next_tick() - 1, [&my] {
     (void)my.meter.finish();
     my.metering = true;
   });
@@ -198,7 +207,7 @@ void Apparatus::meter_strokes() {
 analysis::StrokeSummary Apparatus::finish_strokes() {
   Implementation& my = *implementation_;
   analysis::StrokeSummary summary;
-  my.storage->after(next_tick() - 1, [&] {
+  my.after_samples(next_tick() - 1, [&] {
     summary = my.meter.finish();
     my.metering = false;
   });
@@ -206,7 +215,9 @@ analysis::StrokeSummary Apparatus::finish_strokes() {
 }
 
 void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
-  implementation_->storage->commit(store, commit);
+  Implementation& my = *implementation_;
+  if (my.storage) return my.storage->commit(store, commit);
+  my.consumer.commit(store, commit);
 }
 
 std::string Apparatus::realtime() const {

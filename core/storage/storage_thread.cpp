@@ -13,8 +13,8 @@ constexpr auto kPatience = 500ms;
 
 }  // namespace
 
-StorageThread::StorageThread(SpscQueue<Sample>& samples, Parameters parameters)
-    : samples_(samples), parameters_(std::move(parameters)), thread_([this] { run(); }) {}
+StorageThread::StorageThread(SpscQueue<Sample>& samples, SampleConsumer consumer)
+    : samples_(samples), consumer_(std::move(consumer)), thread_([this] { run(); }) {}
 
 StorageThread::~StorageThread() {
   {
@@ -35,17 +35,12 @@ void StorageThread::after(std::int64_t tick, const std::function<void()>& work) 
 }
 
 void StorageThread::commit(StudyStore& store, const Commit& commit) {
-  after(commit.event.last_tick.value_or(-1), [&] {
-    if (parameters_.recording != nullptr && commit.event.last_tick)
-      parameters_.recording->flush();
-    store.append(commit);
-  });
+  after(commit.event.last_tick.value_or(-1), [&] { consumer_.commit(store, commit); });
 }
 
 void StorageThread::take_samples() {
   samples_.drain([this](const Sample& sample) {
-    if (parameters_.visit) parameters_.visit(sample);
-    if (parameters_.recording != nullptr) parameters_.recording->append(sample);
+    consumer_.take(sample);
     last_taken_tick_ = sample.tick;
   });
 }

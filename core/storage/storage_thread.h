@@ -15,19 +15,30 @@
 
 namespace jnd::core {
 
+/// Where the samples of a loop go: to the recording, and to whoever watches them.
+struct SampleConsumer {
+  RecordingWriter* recording = nullptr;      ///< nullptr: nothing is kept.
+  std::function<void(const Sample&)> visit;  ///< Called for every sample; may be empty.
+
+  void take(const Sample& sample) const {
+    if (visit) visit(sample);
+    if (recording != nullptr) recording->append(sample);
+  }
+  /// The recording up to here synced, then the commit, synced.
+  void commit(StudyStore& store, const Commit& commit) const {
+    if (recording != nullptr && commit.event.last_tick) recording->flush();
+    store.append(commit);
+  }
+};
+
 /// The one thread that writes a session: it takes the loop's samples from their queue, hands
 /// them to the recording, and carries out what is asked of it in between, so that the recording
 /// is on disk before the event that speaks of it. Whatever fails in it is thrown from the next
 /// call.
 class StorageThread {
  public:
-  struct Parameters {
-    RecordingWriter* recording = nullptr;      ///< nullptr: samples are only shown to `visit`.
-    std::function<void(const Sample&)> visit;  ///< Called for every sample, on this thread.
-  };
-
-  /// `samples` and what `parameters` points to must outlive the thread.
-  StorageThread(SpscQueue<Sample>& samples, Parameters parameters);
+  /// `samples` and the consumer's recording must outlive the thread.
+  StorageThread(SpscQueue<Sample>& samples, SampleConsumer consumer);
   /// Takes what is left in the queue, then ends.
   ~StorageThread();
   StorageThread(const StorageThread&) = delete;
@@ -47,7 +58,7 @@ class StorageThread {
   void take_samples();
 
   SpscQueue<Sample>& samples_;
-  Parameters parameters_;
+  SampleConsumer consumer_;
   std::mutex mutex_;
   std::condition_variable wake_, done_;
   const std::function<void()>* work_ = nullptr;

@@ -1,0 +1,125 @@
+#include "support/program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+
+namespace jnd::test_support {
+namespace {
+
+std::vector<std::string> environment_of(const ProgramOptions& options) {
+  std::vector<std::string> all;
+  for (char** entry = ::environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    bool hidden = text.starts_with("DISPLAY=") || text.starts_with("WAYLAND_DISPLAY=") ||
+                  text.starts_with("JND_SHARE=");
+    for (const auto& [name, value] : options.environment) {
+      hidden = hidden || text.starts_with(name + "=");
+    }
+    if (!hidden) all.push_back(text);
+  }
+  for (const auto& [name, value] : options.environment) all.push_back(name + "=" + value);
+  return all;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
+                               const ProgramOptions& options) {
+  std::vector<std::string> words = {JND_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> environment = environment_of(options);
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  out_ = pipe[0];
+  err_ = ::memfd_create("stderr", MFD_CLOEXEC);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, pipe[1], 1);
+  posix_spawn_file_actions_adddup2(&actions, err_, 2);
+  if (!options.folder.empty()) {
+    posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
+  }
+  const int refused = ::posix_spawn(&pid_, JND_PROGRAM, &actions, nullptr,
+                                    pointers_to(words).data(), pointers_to(environment).data());
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(pipe[1]);
+  if (refused != 0) {
+    pid_ = -1;
+    throw std::runtime_error("cannot start " JND_PROGRAM);
+  }
+}
+
+RunningProgram::~RunningProgram() {
+  if (pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  ::close(out_);
+  ::close(err_);
+}
+
+bool RunningProgram::read_more() {
+  std::array<char, 65536> bytes;
+  ssize_t count = 0;
+  do {
+    count = ::read(out_, bytes.data(), bytes.size());
+  } while (count < 0 && errno == EINTR);
+  if (count <= 0) return false;
+  buffer_.append(bytes.data(), static_cast<std::size_t>(count));
+  return true;
+}
+
+std::optional<std::string> RunningProgram::read_line() {
+  while (true) {
+    if (const auto end = buffer_.find('\n'); end != std::string::npos) {
+      std::string line = buffer_.substr(0, end);
+      buffer_.erase(0, end + 1);
+      return line;
+    }
+    if (!read_more()) return std::nullopt;
+  }
+}
+
+void RunningProgram::send_signal(int number) const { ::kill(pid_, number); }
+
+ProgramOutcome RunningProgram::wait() {
+  while (read_more()) {
+  }
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  ProgramOutcome outcome;
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+  outcome.out = std::move(buffer_);
+  std::array<char, 4096> bytes;
+  ::lseek(err_, 0, SEEK_SET);
+  for (ssize_t count = 0; (count = ::read(err_, bytes.data(), bytes.size())) > 0;) {
+    outcome.err.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  return outcome;
+}
+
+ProgramOutcome run_program(const std::vector<std::string>& arguments,
+                           const ProgramOptions& options) {
+  return RunningProgram(arguments, options).wait();
+}
+
+}  // namespace jnd::test_support

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace jnd::test_support {
+
+/// What became of a run of the program.
+struct ProgramOutcome {
+  int exit_code = -1;  ///< -1 if a signal ended it.
+  int signal = 0;      ///< That signal, or 0.
+  std::string out;     ///< All of stdout that was not read by `read_line`.
+  std::string err;     ///< All of stderr.
+};
+
+struct ProgramOptions {
+  std::filesystem::path folder;  ///< To run in; the test's own if empty.
+  /// Added to the test's own environment, from which displays and JND_SHARE are taken out.
+  std::vector<std::pair<std::string, std::string>> environment;
+};
+
+/// The jnd program as a child of the test. Throws `std::runtime_error` if the system refuses.
+class RunningProgram {
+ public:
+  explicit RunningProgram(const std::vector<std::string>& arguments,
+                          const ProgramOptions& options = {});
+  /// Kills what still runs.
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// The next line of stdout without its end; none at the end of the stream.
+  [[nodiscard]] std::optional<std::string> read_line();
+  void send_signal(int number) const;
+  [[nodiscard]] ProgramOutcome wait();
+
+ private:
+  bool read_more();
+
+  pid_t pid_ = -1;
+  int out_ = -1;  ///< Read end of its stdout.
+  int err_ = -1;  ///< File that takes its stderr.
+  std::string buffer_;
+};
+
+/// Runs the program to its end.
+[[nodiscard]] ProgramOutcome run_program(const std::vector<std::string>& arguments,
+                                         const ProgramOptions& options = {});
+
+}  // namespace jnd::test_support
