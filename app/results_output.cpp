@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +33,11 @@ std::string text(const Interval& ci95) {
                      ci95.high ? text(ci95.high) : "open");
 }
 
+std::string p_text(const std::optional<double>& p_value) {
+  if (!p_value) return "p undefined";
+  return *p_value < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.4f}", *p_value);
+}
+
 std::string published_text(const Estimate& estimate) {
   if (!estimate.published) return "-";
   return estimate.published_sd
@@ -50,20 +54,16 @@ std::string heading(const analysis::StudyResults& results) {
   return line + "\n";
 }
 
-constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}  {}\n";
+constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}\n";
 
 std::string header() {
-  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published", "") + "  " +
-         std::string(122, '-') + "\n";
+  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published") + "  " +
+         std::string(111, '-') + "\n";
 }
 
-std::string row(const Estimate& estimate, bool simulated) {
-  const char* basis = !simulated || !estimate.published ? ""
-                      : estimate.calibrated             ? "calibrated"
-                                                        : "held out";
+std::string row(const Estimate& estimate) {
   return fmt::format(kRow, estimate.name, text(estimate.value), text(estimate.ci95),
-                     estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
-                     basis);
+                     estimate.unit == "1" ? "" : estimate.unit, published_text(estimate));
 }
 
 }  // namespace
@@ -129,18 +129,16 @@ std::string to_table(const analysis::StudyResults& results) {
   std::string table = heading(results);
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n{}", section.name, header());
-    for (const Estimate& estimate : section.estimates)
-      table += row(estimate, results.simulated);
+    for (const Estimate& estimate : section.estimates) table += row(estimate);
     for (const analysis::NamedComparison& named : section.comparisons) {
       const analysis::Comparison& c = named.comparison;
       if (c.status != analysis::FitStatus::kOk) {
         table += fmt::format("  {}: {}\n", named.name, c.reason);
         continue;
       }
-      table +=
-          fmt::format("  {}: difference {} ({}), t({:.1f}) = {:.2f}, p = {:.4f}\n", named.name,
-                      text(c.estimate), text(c.ci95), c.degrees_of_freedom.value_or(0.0),
-                      c.statistic.value_or(0.0), c.p_value.value_or(1.0));
+      table += fmt::format("  {}: difference {} ({}), t({:.1f}) = {:.2f}, {}\n", named.name,
+                           text(c.estimate), text(c.ci95), c.degrees_of_freedom.value_or(0.0),
+                           c.statistic.value_or(0.0), p_text(c.p_value));
     }
     for (const analysis::ExcludedParticipant& one : section.excluded) {
       table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
@@ -150,16 +148,22 @@ std::string to_table(const analysis::StudyResults& results) {
 }
 
 std::string to_comparison_table(const analysis::StudyResults& results) {
-  std::vector<const Estimate*> published;
-  for (const analysis::ResultsSection& section : results.sections) {
-    for (const Estimate& estimate : section.estimates) {
-      if (estimate.published) published.push_back(&estimate);
+  std::string table = heading(results) + header();
+  for (const bool calibrated : {true, false}) {
+    bool first = true;
+    for (const analysis::ResultsSection& section : results.sections) {
+      for (const Estimate& estimate : section.estimates) {
+        if (!estimate.published || estimate.calibrated != calibrated) continue;
+        if (first && results.simulated) {
+          table += calibrated
+                       ? "  calibrated: the laboratory was fitted to the published value\n"
+                       : "  held out: the laboratory knows nothing of the published value\n";
+        }
+        first = false;
+        table += row(estimate);
+      }
     }
   }
-  std::stable_partition(published.begin(), published.end(),
-                        [](const Estimate* estimate) { return estimate->calibrated; });
-  std::string table = heading(results) + header();
-  for (const Estimate* estimate : published) table += row(*estimate, results.simulated);
   for (const analysis::ResultsSection& section : results.sections) {
     for (const analysis::ExcludedParticipant& one : section.excluded) {
       table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);

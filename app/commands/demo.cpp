@@ -97,9 +97,9 @@ int run(const Options& options) {
     return kDone;
   }
   std::printf(
-      "All values are SIMULATED. \"calibrated\": the laboratory file was fitted to the "
-      "published\n"
-      "value; \"held out\": it was not. Published: Schmidt (2018).\n"
+      "All values are SIMULATED, beside those of Schmidt (2018). Intervals: 95 %%, over "
+      "resampled\n"
+      "participants; of means of the participants by Student's t.\n"
       "%d sessions, %.0f s at the device in %.1f s; every answer%s is in %s\n"
       "Next: jnd results %s/%s.study\n",
       2 * kParticipants, simulated_s, elapsed_s, options.fast ? "" : " and sample",
