@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 
 #include "analysis/fits/psychometric_fit.h"
@@ -59,35 +62,53 @@ PsychometricFit pooled_fit(const std::vector<Answers>& all,
       {.reference = all.front().reference, .method = method, .intervals = false});
 }
 
+/// The Weber fraction of a fit; where there is none, its limit: 0 if thicker was said of the
+/// thicker ones all the same (separated), else infinite (flat, inverted).
+double fraction_or_limit(const PsychometricFit& fit, const std::vector<Answers>& all,
+                         const std::vector<std::size_t>& drawn) {
+  if (fit.weber_fraction) return *fit.weber_fraction;
+  double order = 0.0;
+  for (const std::size_t index : drawn) {
+    for (const auto& [intensity, count] : all[index].levels) {
+      order +=
+          (2.0 * static_cast<double>(count.num_yes) - static_cast<double>(count.num_trials)) *
+          std::log(intensity / all[index].reference);
+    }
+  }
+  return order > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
 PsychometricFit individual_fit(const Answers& answers) {
   return fit_psychometric(rows_of(answers.levels),
                           {.reference = answers.reference, .intervals = false});
 }
 
-/// The fit with half an answer added to "yes" and to "no" at every level, which always exists
-/// but for answers against the order of the stimuli. Doubled counts leave the estimate as it
-/// is.
+/// The fit with half a "yes" and half a "no" added in all, spread over the levels (the count of
+/// Firth 1993 for one parameter): it exists for answers that separate the stimuli perfectly,
+/// and moves the others little. Counts are multiplied to stay whole, which leaves the estimate
+/// as it is.
 PsychometricFit corrected_fit(const Answers& answers) {
   std::vector<AnswerCount> rows = rows_of(answers.levels);
+  const auto factor = 2 * static_cast<std::int64_t>(rows.size());
   for (AnswerCount& row : rows) {
-    row.num_yes = 2 * row.num_yes + 1;
-    row.num_trials = 2 * row.num_trials + 2;
+    row.num_yes = factor * row.num_yes + 1;
+    row.num_trials = factor * row.num_trials + 2;
   }
   return fit_psychometric(rows, {.reference = answers.reference, .intervals = false});
 }
 
 /// Individual Weber fractions; those without one are named.
 std::map<std::string, double> individual_weber_fractions(
-    const std::vector<Answers>& all, bool correct_degenerate,
-    std::vector<ExcludedParticipant>& excluded, const std::string& block) {
+    const std::vector<Answers>& all, bool corrected, std::vector<ExcludedParticipant>& excluded,
+    const std::string& block) {
   std::map<std::string, double> fractions;
   for (const Answers& answers : all) {
-    PsychometricFit fit = individual_fit(answers);
-    if (!fit.weber_fraction && correct_degenerate) fit = corrected_fit(answers);
+    const PsychometricFit fit = corrected ? corrected_fit(answers) : individual_fit(answers);
     if (fit.weber_fraction) {
       fractions[answers.participant] = *fit.weber_fraction;
     } else {
-      excluded.push_back({answers.participant, block + ": " + fit.reason});
+      excluded.push_back(
+          {answers.participant, block + ": no Weber fraction of their own, " + fit.reason});
     }
   }
   return fractions;
@@ -99,8 +120,105 @@ std::vector<double> values_of(const std::map<std::string, double>& by_participan
   return values;
 }
 
+/// One participant's own fraction, or what stands for it in ranks: nothing above the stimuli
+/// can be told from anything else up there, so it counts as infinite, as do flat and inverted
+/// answers; perfectly separated ones count as 0.
+struct IndividualFraction {
+  double for_ranks = 0.0;
+  bool beyond_stimuli = false;
+};
+
+/// Median, quartiles and robust spread, which some fractions beyond the stimuli leave as they
+/// are.
+void add_individual(ResultsSection& section, const std::vector<Answers>& all,
+                    const BlockDesign& block, const ResultsOptions& options) {
+  std::vector<IndividualFraction> individual;
+  std::vector<double> with_fit;
+  for (const Answers& answers : all) {
+    const PsychometricFit fit = individual_fit(answers);
+    const double largest = answers.levels.rbegin()->first / answers.reference - 1.0;
+    IndividualFraction one{.for_ranks = std::numeric_limits<double>::infinity(),
+                           .beyond_stimuli = true};
+    if (fit.weber_fraction) {
+      with_fit.push_back(*fit.weber_fraction);
+      if (*fit.weber_fraction <= largest) one = {.for_ranks = *fit.weber_fraction};
+    } else {
+      section.excluded.push_back(
+          {answers.participant,
+           block.block + ": no Weber fraction of their own, " + fit.reason});
+      if (corrected_fit(answers).weber_fraction.value_or(largest) < largest) one = {};
+    }
+    individual.push_back(one);
+  }
+  const auto quantile = [&](const std::vector<std::size_t>& drawn,
+                            double probability) -> std::optional<double> {
+    std::vector<double> values;
+    for (const std::size_t i : drawn) values.push_back(individual[i].for_ranks);
+    std::sort(values.begin(), values.end());
+    const double value = percentile(values, probability);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  };
+  using Statistic = std::function<std::optional<double>(const std::vector<std::size_t>&)>;
+  std::vector<std::size_t> everyone(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) everyone[i] = i;
+  const auto add = [&](const std::string& name, const std::string& meaning,
+                       const Statistic& statistic) {
+    Estimate estimate{.name = block.block + ".individual_weber_fraction_" + name,
+                      .value = statistic(everyone),
+                      .unit = "1",
+                      .meaning = meaning,
+                      .n = static_cast<int>(all.size())};
+    if (estimate.value && all.size() > 1) {
+      estimate.ci95 =
+          resample_participants(all.size(), options.num_resamples, options.seed, statistic)
+              .ci95;
+    }
+    section.estimates.push_back(std::move(estimate));
+  };
+  add("median", "median of the participants' own fractions (the published one is a mean)",
+      [&](const std::vector<std::size_t>& drawn) { return quantile(drawn, 0.5); });
+  add("robust_sd",
+      "interquartile range / 1.349 of the participants' own fractions (the published one is a "
+      "plain standard deviation, which one flat curve can make as large as it likes)",
+      [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+        const auto low = quantile(drawn, 0.25);
+        const auto high = quantile(drawn, 0.75);
+        if (!low || !high) return std::nullopt;
+        return (*high - *low) / 1.349;
+      });
+  int num_beyond = 0;
+  for (const IndividualFraction& one : individual) num_beyond += one.beyond_stimuli ? 1 : 0;
+  const Summary summary = summary_of(with_fit);
+  const auto add_plain = [&](const std::string& name, std::optional<double> value, int n,
+                             const std::string& meaning) {
+    section.estimates.push_back({.name = block.block + ".individual_weber_fraction_" + name,
+                                 .value = value,
+                                 .unit = "1",
+                                 .meaning = meaning,
+                                 .n = n});
+  };
+  add_plain(
+      "beyond_stimuli", num_beyond, static_cast<int>(all.size()),
+      "participants whose own fraction lies beyond the largest stimulus, or is not finite");
+  add_plain("mean", summary.mean, summary.num_values,
+            "plain mean of those that exist (biased upwards at few answers)");
+  add_plain("sd", summary.standard_deviation, summary.num_values,
+            "plain standard deviation of those that exist");
+}
+
 /// Where individual Weber fractions are compared: their spread is even there.
 double log_log(double weber_fraction) { return std::log(std::log1p(weber_fraction)); }
+
+/// Student's t with pooled variance, the test that was published.
+Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
+  const Summary first = summary_of(a);
+  const Summary second = summary_of(b);
+  if (!first.standard_deviation || !second.standard_deviation) {
+    return {.status = FitStatus::kDegenerate, .reason = "fewer than two values on one side"};
+  }
+  return pooled_t_test({*first.mean, *first.standard_deviation, first.num_values},
+                       {*second.mean, *second.standard_deviation, second.num_values});
+}
 
 }  // namespace
 
@@ -114,18 +232,24 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
 
   const auto add_pooled = [&](const std::string& name, PsychometricMethod method,
                               const std::string& meaning) {
+    const PsychometricFit pooled_curve = pooled_fit(all, everyone, method);
+    if (!pooled_curve.weber_fraction) {
+      section.excluded.push_back({"everyone", block.block + "." + name +
+                                                  ": no value, the pooled " + "answers are " +
+                                                  pooled_curve.reason});
+    }
     Estimate estimate{.name = block.block + "." + name,
-                      .value = pooled_fit(all, everyone, method).weber_fraction,
+                      .value = pooled_curve.weber_fraction,
                       .unit = "1",
                       .meaning = meaning,
                       .n = static_cast<int>(all.size())};
     if (estimate.value && all.size() > 1) {
-      estimate.ci95 =
-          resample_participants(all.size(), options.num_resamples, options.seed,
-                                [&](const std::vector<std::size_t>& drawn) {
-                                  return pooled_fit(all, drawn, method).weber_fraction;
-                                })
-              .ci95;
+      estimate.ci95 = resample_participants(all.size(), options.num_resamples, options.seed,
+                                            [&](const std::vector<std::size_t>& drawn) {
+                                              return std::optional(fraction_or_limit(
+                                                  pooled_fit(all, drawn, method), all, drawn));
+                                            })
+                          .ci95;
     }
     section.estimates.push_back(std::move(estimate));
   };
@@ -134,23 +258,7 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
   add_pooled("weber_fraction_ml", PsychometricMethod::kMaximumLikelihood,
              "Weber fraction of the pooled curve, maximum likelihood");
 
-  const std::vector<double> individual =
-      values_of(individual_weber_fractions(all, false, section.excluded, block.block));
-  const Summary summary = summary_of(individual);
-  const auto add_individual = [&](const std::string& name, std::optional<double> value,
-                                  Interval ci95, const std::string& meaning) {
-    section.estimates.push_back({.name = block.block + ".individual_weber_fraction_" + name,
-                                 .value = value,
-                                 .ci95 = ci95,
-                                 .unit = "1",
-                                 .meaning = meaning,
-                                 .n = summary.num_values});
-  };
-  add_individual("median", summary.median, {}, "median of the participants' own fractions");
-  add_individual("mean", summary.mean, summary.mean_ci95,
-                 "mean of the participants' own fractions (biased upwards at few answers)");
-  add_individual("sd", summary.standard_deviation, {},
-                 "standard deviation of the participants' own fractions");
+  add_individual(section, all, block, options);
   return section;
 }
 
@@ -165,9 +273,6 @@ ResultsSection discrimination_comparison(const StudyData& data, const BlockDesig
         individual_weber_fractions(first_answers, corrected, without_fit, first.block);
     const auto b =
         individual_weber_fractions(second_answers, corrected, without_fit, second.block);
-    if (!corrected) {
-      section.excluded.insert(section.excluded.end(), without_fit.begin(), without_fit.end());
-    }
     std::vector<double> paired_a;
     std::vector<double> paired_b;
     for (const auto& [participant, fraction] : a) {
@@ -176,13 +281,19 @@ ResultsSection discrimination_comparison(const StudyData& data, const BlockDesig
       paired_a.push_back(log_log(fraction));
       paired_b.push_back(log_log(other->second));
     }
-    const std::string who =
-        corrected ? ", degenerate participants corrected by half an answer" : "";
+    // Everybody with the same small correction, so that a perfect observer has a fraction too.
+    const std::string who = corrected ? ", with degenerate participants (half an answer added)"
+                                      : ", without degenerate participants";
+    if (corrected) {
+      section.excluded.insert(section.excluded.end(), without_fit.begin(), without_fit.end());
+    }
     const std::string pair = first.block + " - " + second.block + ": ";
     section.comparisons.push_back(
         {pair + "ln ln(1 + w), paired" + who, paired_t_test(paired_a, paired_b)});
     section.comparisons.push_back(
-        {pair + "w, unpaired" + who, welch_t_test(values_of(a), values_of(b))});
+        {pair + "w, unpaired, Welch" + who, welch_t_test(values_of(a), values_of(b))});
+    section.comparisons.push_back({pair + "w, unpaired, pooled variance, as published" + who,
+                                   pooled(values_of(a), values_of(b))});
   }
   return section;
 }

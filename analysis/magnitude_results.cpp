@@ -114,64 +114,104 @@ void add_power_law(ResultsSection& section, const std::string& prefix,
 
 /// Mean and spread between participants of one number each.
 void add_mean(ResultsSection& section, const std::string& name, const std::string& meaning,
-              const std::vector<double>& values) {
+              const std::vector<double>& values, const std::string& unit = "1") {
   const Summary summary = summary_of(values);
   section.estimates.push_back({.name = name,
                                .value = summary.mean,
                                .ci95 = summary.mean_ci95,
-                               .unit = "1",
+                               .unit = unit,
                                .meaning = meaning,
                                .n = summary.num_values});
 }
 
 /// One participant's answers of one repetition, by intensity.
-std::vector<double> repetition_curve(const std::vector<core::TrialRow>& trials,
-                                     std::int64_t repetition) {
-  std::map<double, double> by_intensity;
+Means repetition_curve(const std::vector<core::TrialRow>& trials, std::int64_t repetition) {
+  Means curve;
   for (const core::TrialRow& trial : trials) {
     if (trial.repetition == repetition && trial.intensity && trial.response) {
-      by_intensity[*trial.intensity] = *trial.response;
+      curve[*trial.intensity] = *trial.response;
     }
   }
-  std::vector<double> curve;
-  for (const auto& [intensity, response] : by_intensity) curve.push_back(response);
   return curve;
+}
+
+/// Of the intensities that both repetitions have; none with fewer than three.
+std::optional<double> correlation_of(const Means& first, const Means& second) {
+  std::vector<double> a;
+  std::vector<double> b;
+  for (const auto& [intensity, response] : first) {
+    const auto other = second.find(intensity);
+    if (other == second.end()) continue;
+    a.push_back(response);
+    b.push_back(other->second);
+  }
+  if (a.size() < 3) return std::nullopt;
+  return pearson_correlation(a, b).estimate;
 }
 
 /// How well repetitions of the same estimation agree, as in table D.2 of the thesis.
 void add_trial_correlations(ResultsSection& section, const StudyData& data,
-                            const BlockDesign& block) {
+                            const BlockDesign& block, const ResultsOptions& options) {
   std::int64_t num_repetitions = 0;
   for (const ParticipantData& participant : data.participants) {
     for (const core::TrialRow& trial : participant.trials_in(block.block)) {
       num_repetitions = std::max(num_repetitions, trial.repetition);
     }
   }
-  std::vector<double> all;
+  std::vector<std::vector<double>> by_participant(data.participants.size());
   for (std::int64_t first = 1; first <= num_repetitions; ++first) {
     for (std::int64_t second = first + 1; second <= num_repetitions; ++second) {
       std::vector<double> correlations;
-      for (const ParticipantData& participant : data.participants) {
-        const std::vector<core::TrialRow> trials = participant.trials_in(block.block);
-        const std::vector<double> a = repetition_curve(trials, first);
-        const std::vector<double> b = repetition_curve(trials, second);
-        if (a.size() != b.size() || a.size() < 3) continue;
-        const Comparison r = pearson_correlation(a, b);
-        if (r.estimate) correlations.push_back(*r.estimate);
+      for (std::size_t i = 0; i < data.participants.size(); ++i) {
+        const std::vector<core::TrialRow> trials = data.participants[i].trials_in(block.block);
+        const std::optional<double> r =
+            correlation_of(repetition_curve(trials, first), repetition_curve(trials, second));
+        if (!r) continue;
+        correlations.push_back(*r);
+        by_participant[i].push_back(*r);
       }
-      all.insert(all.end(), correlations.begin(), correlations.end());
       add_mean(section,
                "trial_correlation.t" + std::to_string(first) + "_t" + std::to_string(second),
                "correlation of two repetitions, mean of the participants", correlations);
     }
   }
-  if (all.empty()) return;
-  section.estimates.push_back(
-      {.name = "trial_correlation_median",
-       .value = summary_of(all).median,
-       .unit = "1",
-       .meaning = "median of the correlations of all participants and pairs",
-       .n = static_cast<int>(data.participants.size())});
+  const auto median = [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+    std::vector<double> all;
+    for (const std::size_t i : drawn) {
+      all.insert(all.end(), by_participant[i].begin(), by_participant[i].end());
+    }
+    if (all.empty()) return std::nullopt;
+    return summary_of(all).median;
+  };
+  Estimate estimate{.name = "trial_correlation_median",
+                    .value = median(everyone(by_participant.size())),
+                    .unit = "1",
+                    .meaning = "median of the correlations of all participants and pairs",
+                    .n = static_cast<int>(data.participants.size())};
+  if (!estimate.value) return;
+  estimate.ci95 =
+      resample_participants(by_participant.size(), options.num_resamples, options.seed, median)
+          .ci95;
+  section.estimates.push_back(std::move(estimate));
+}
+
+/// Standard deviation between participants, its interval over resampled ones.
+void add_spread(ResultsSection& section, const std::string& name,
+                const std::vector<double>& values, const ResultsOptions& options) {
+  const auto spread = [&](const std::vector<std::size_t>& drawn) {
+    std::vector<double> sample;
+    for (const std::size_t i : drawn) sample.push_back(values[i]);
+    return summary_of(sample).standard_deviation;
+  };
+  Estimate estimate{.name = name,
+                    .value = summary_of(values).standard_deviation,
+                    .unit = "1",
+                    .meaning = "standard deviation between participants",
+                    .n = static_cast<int>(values.size())};
+  if (!estimate.value) return;
+  estimate.ci95 =
+      resample_participants(values.size(), options.num_resamples, options.seed, spread).ci95;
+  section.estimates.push_back(std::move(estimate));
 }
 
 }  // namespace
@@ -209,7 +249,7 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& bloc
         return fit_power(rows, PowerMethod::kLogLog);
       },
       options);
-  add_trial_correlations(section, data, block);
+  add_trial_correlations(section, data, block, options);
   return section;
 }
 
@@ -228,7 +268,8 @@ ResultsSection production_results(const StudyData& data, const BlockDesign& bloc
   }
   for (const auto& [target, values] : by_target) {
     add_mean(section, "set_intensity." + std::to_string(std::lround(target)) + "_percent",
-             "mean set value for this target", values);
+             "mean set value for this target", values,
+             block.quantity == "viscosity_pa_s" ? "Pa s" : "1");
   }
   // Ratios of successive targets, as in fig. D.13 of the thesis.
   for (auto low = by_target.begin(); low != by_target.end(); ++low) {
@@ -246,13 +287,7 @@ ResultsSection production_results(const StudyData& data, const BlockDesign& bloc
                                 std::to_string(std::lround(low->first));
     add_mean(section, "production_ratio_" + targets,
              "ratio of the set values of two targets, mean of the participants", ratios);
-    if (const Summary summary = summary_of(ratios); summary.standard_deviation) {
-      section.estimates.push_back({.name = "production_ratio_" + targets + ".sd",
-                                   .value = summary.standard_deviation,
-                                   .unit = "1",
-                                   .meaning = "its standard deviation between participants",
-                                   .n = summary.num_values});
-    }
+    add_spread(section, "production_ratio_" + targets + ".sd", ratios, options);
   }
   return section;
 }

@@ -90,6 +90,10 @@ ResultsSection movement_results(const StudyData& data) {
         a.push_back(mean);
         b.push_back(other->second);
       }
+      std::vector<double> differences;
+      for (std::size_t j = 0; j < a.size(); ++j) differences.push_back(a[j] - b[j]);
+      add(section, std::string(quantity.name) + "." + first + "_minus_" + second, quantity.unit,
+          std::string(quantity.meaning) + ", difference of the two blocks", differences);
       section.comparisons.push_back(
           {first + " - " + second + ": " + quantity.name + ", paired", paired_t_test(a, b)});
       section.comparisons.push_back(

@@ -46,6 +46,7 @@ StudyData load_study(const core::StudyStore& store) {
       const json laboratory = parsed(session.laboratory, place + ": laboratory");
       data.laboratory = laboratory.value("name", "");
       data.calibrated_on = laboratory.value("calibrated_on", std::vector<std::string>{});
+      data.implied = laboratory.value("implied", std::vector<std::string>{});
     }
     std::map<std::int64_t, std::string> block_of_trial;
     std::map<std::string, std::int64_t> num_trials;

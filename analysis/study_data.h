@@ -31,10 +31,10 @@ struct StudyData {
   std::string study;  ///< Name in its file.
   std::string protocol_sha256;
   bool simulated = false;
-  std::string laboratory;                     ///< Name; "" with persons.
-  std::vector<std::string> calibrated_on;     ///< By that laboratory.
-  std::vector<ParticipantData> participants;  ///< By pseudonym.
-  std::vector<BlockDesign> blocks;            ///< By name.
+  std::string laboratory;                           ///< Name; "" with persons.
+  std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
+  std::vector<ParticipantData> participants;        ///< By pseudonym.
+  std::vector<BlockDesign> blocks;                  ///< By name.
 };
 
 /// Reads the folder's database; nothing is computed yet. Throws `Error` for a damaged study.

@@ -15,8 +15,8 @@ std::vector<BlockDesign> blocks_of(const StudyData& data, const std::string& pro
 
 /// The laboratory names an estimate alone, or with its study before a slash where two studies
 /// share the name.
-bool is_calibrated(const StudyData& data, const std::string& name) {
-  const auto& list = data.calibrated_on;
+bool is_named(const std::vector<std::string>& list, const StudyData& data,
+              const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end() ||
          std::find(list.begin(), list.end(), data.study + "/" + name) != list.end();
 }
@@ -68,7 +68,8 @@ StudyResults results_of(const StudyData& data, const Published& published,
         estimate.published = found->second.value;
         estimate.published_sd = found->second.standard_deviation;
       }
-      estimate.calibrated = data.simulated && is_calibrated(data, estimate.name);
+      estimate.calibrated = data.simulated && is_named(data.calibrated_on, data, estimate.name);
+      estimate.implied = data.simulated && is_named(data.implied, data, estimate.name);
     }
   }
   return results;

@@ -21,6 +21,7 @@ struct Estimate {
   std::optional<double> published;
   std::optional<double> published_sd;
   bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
+  bool implied = false;     ///< It follows, nearly or wholly, from values that were.
   int n = 0;                ///< Participants it rests on.
 };
 

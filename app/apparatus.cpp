@@ -69,6 +69,7 @@ struct Apparatus::Implementation {
     if (parameters.recording) {
       recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
     }
+    simulated_clock.advance_ns(parameters.first_time_ns);
     device.open();
     consumer = {.recording = recording ? &*recording : nullptr,
                 .visit = [this](const core::Sample& sample) {
@@ -169,6 +170,10 @@ void Apparatus::begin_strokes(const device::StrokePlan& plan,
 }
 
 void Apparatus::go_home() { implementation_->device.go_home(); }
+
+std::int64_t Apparatus::strokes_finished() const noexcept {
+  return implementation_->device.strokes_finished();
+}
 
 void Apparatus::run_for(double duration_s) {
   Implementation& my = *implementation_;

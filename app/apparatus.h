@@ -24,9 +24,10 @@ class Apparatus {
     double rate_hz = 1000.0;
     double ramp_s = 0.050;
     core::Immersion immersion;
-    double home_height_m = -0.15;  ///< Of the hand at rest, workspace frame.
-    std::int64_t first_tick = 0;   ///< A resumed session counts on.
-    bool realtime = false;         ///< Paced by a real-time thread; else as fast as it goes.
+    double home_height_m = -0.15;    ///< Of the hand at rest, workspace frame.
+    std::int64_t first_tick = 0;     ///< A resumed session counts on.
+    std::int64_t first_time_ns = 0;  ///< Of the simulated clock, likewise.
+    bool realtime = false;           ///< Paced by a real-time thread; else as fast as it goes.
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.
     std::optional<std::filesystem::path> recording;
     core::Durability durability = core::Durability::kEveryCommit;
@@ -42,6 +43,8 @@ class Apparatus {
   void render(const core::MediumAmounts& medium);
   void begin_strokes(const device::StrokePlan& plan, const core::RandomStream& random);
   void go_home();
+  /// Whole strokes since the last `begin_strokes`.
+  [[nodiscard]] std::int64_t strokes_finished() const noexcept;
 
   /// Lets this much time pass. Throws `Error` if the loop latched a fault.
   void run_for(double duration_s);

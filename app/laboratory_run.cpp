@@ -121,6 +121,7 @@ class Visit {
     parameters.immersion = run_.study.device.immersion;
     parameters.home_height_m = participant_.home_height_m();
     parameters.first_tick = std::max(recorded_.last_tick, last_tick_in(history_)) + 1;
+    if (!history_.empty()) parameters.first_time_ns = history_.back().time_ns;
     parameters.realtime = run_.realtime;
     if (recorded_samples_) parameters.recording = run_.store.recording_file(run_.session);
     parameters.durability = run_.durability;
@@ -252,6 +253,18 @@ class Visit {
     return {session_.seed(), "stroke", {trial, attempt, presentation}};
   }
 
+  /// Until the strokes are done and the hand has visibly turned, or far too much time is over.
+  void run_strokes(const StrokeIntent& intent) {
+    constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
+    const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
+    double elapsed_s = 0.0;
+    while (apparatus_.strokes_finished() < intent.num_strokes && elapsed_s < limit_s) {
+      apparatus_.run_for(kGlanceS);
+      elapsed_s += kGlanceS;
+    }
+    apparatus_.run_for(0.2 + 0.1 * intent.period_s);
+  }
+
   Felt present(const Block& block, const std::string& interval) {
     const std::int64_t number = *session_.state().current_trial();
     session_.begin_presentation(interval, apparatus_.next_tick());
@@ -269,7 +282,7 @@ class Visit {
     apparatus_.run_for(run_.study.device.ramp_s);  // Felt is what comes after the ramp.
     const core::ContactSums before = apparatus_.telemetry().contact_sums;
     apparatus_.meter_strokes();
-    apparatus_.run_for(intent.duration_s);
+    run_strokes(intent);
     const core::ContactSums sums = apparatus_.telemetry().contact_sums - before;
     const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
 
@@ -284,9 +297,17 @@ class Visit {
     }
     summary.limited_ticks =
         static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks) - limited_before;
-    const Felt felt{.damping_n_s_per_m = sums.felt_damping_n_s_per_m(),
-                    .last_tick = apparatus_.next_tick() - 1,
-                    .duration_s = intent.duration_s};
+    // What was delivered and the device's own viscosity; dry friction is felt as something
+    // else.
+    const std::int64_t last_tick = apparatus_.next_tick() - 1;
+    const Felt felt{
+        .damping_n_s_per_m = sums.delivered_damping_n_s_per_m() +
+                             run_.laboratory.device.mechanical_viscosity_n_s_per_m,
+        .last_tick = last_tick,
+        .duration_s =
+            static_cast<double>(
+                last_tick - session_.state().trial(number).presentations.back().first_tick) /
+            run_.study.device.rate_hz};
     session_.end_presentation(felt.last_tick, summary);
     return felt;
   }

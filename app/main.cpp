@@ -1,12 +1,20 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "app/command.h"
+#include "app/commands/validate.h"
 #include "core/error.h"
 
 namespace {
+
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc,
+                     [](const char* word) { return std::string_view(word) == "--json"; });
+}
 
 int failed(int code, const char* sentence) {
   std::fprintf(stderr, "jnd: %s\n", sentence);
@@ -36,6 +44,7 @@ int main(int argc, char** argv) {
   } catch (const app::UsageError& error) {
     return failed(app::kWrongUsage, error.what());
   } catch (const core::Error& error) {
+    if (asks_for_json(argc, argv)) std::puts(app::error_json(error).c_str());
     return failed(app::kHasProblems, error.what());
   } catch (const std::exception& error) {
     return failed(app::kOwnFault, error.what());

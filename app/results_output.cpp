@@ -45,6 +45,20 @@ std::string published_text(const Estimate& estimate) {
              : fmt::format("{:.4f}", *estimate.published);
 }
 
+/// What the simulated value may be credited with.
+std::string basis_of(const Estimate& estimate) {
+  if (estimate.calibrated) return "calibrated";
+  return estimate.implied ? "implied" : "held out";
+}
+
+/// Whether the published value lies in our interval; nothing where there is no such interval.
+std::optional<bool> holds_published(const Estimate& estimate) {
+  const Interval& ci95 = estimate.ci95;
+  if (!estimate.published || (!ci95.low && !ci95.high)) return std::nullopt;
+  return (!ci95.low || *estimate.published >= *ci95.low) &&
+         (!ci95.high || *estimate.published <= *ci95.high);
+}
+
 std::string heading(const analysis::StudyResults& results) {
   std::string line =
       fmt::format("{}: {} participants", results.study, results.num_participants);
@@ -54,16 +68,18 @@ std::string heading(const analysis::StudyResults& results) {
   return line + "\n";
 }
 
-constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}\n";
+constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}  {}\n";
 
 std::string header() {
-  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published") + "  " +
-         std::string(111, '-') + "\n";
+  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published", "inside") + "  " +
+         std::string(119, '-') + "\n";
 }
 
 std::string row(const Estimate& estimate) {
+  const std::optional<bool> inside = holds_published(estimate);
   return fmt::format(kRow, estimate.name, text(estimate.value), text(estimate.ci95),
-                     estimate.unit == "1" ? "" : estimate.unit, published_text(estimate));
+                     estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
+                     inside ? (*inside ? "yes" : "no") : "");
 }
 
 }  // namespace
@@ -82,15 +98,20 @@ json to_json(const analysis::StudyResults& results) {
   for (const analysis::ResultsSection& section : results.sections) {
     json estimates = json::array();
     for (const Estimate& estimate : section.estimates) {
-      estimates.push_back({{"name", estimate.name},
-                           {"value", number(estimate.value)},
-                           {"ci95", interval(estimate.ci95)},
-                           {"unit", estimate.unit},
-                           {"meaning", estimate.meaning},
-                           {"published", number(estimate.published)},
-                           {"published_sd", number(estimate.published_sd)},
-                           {"calibrated", estimate.calibrated},
-                           {"n", estimate.n}});
+      const std::optional<bool> inside = holds_published(estimate);
+      estimates.push_back(
+          {{"name", estimate.name},
+           {"value", number(estimate.value)},
+           {"ci95", interval(estimate.ci95)},
+           {"unit", estimate.unit},
+           {"meaning", estimate.meaning},
+           {"published", number(estimate.published)},
+           {"published_sd", number(estimate.published_sd)},
+           {"calibrated", estimate.calibrated},
+           {"basis",
+            results.simulated && estimate.published ? json(basis_of(estimate)) : json(nullptr)},
+           {"published_inside_ci95", inside ? json(*inside) : json(nullptr)},
+           {"n", estimate.n}});
     }
     json comparisons = json::array();
     for (const analysis::NamedComparison& named : section.comparisons) {
@@ -149,16 +170,16 @@ std::string to_table(const analysis::StudyResults& results) {
 
 std::string to_comparison_table(const analysis::StudyResults& results) {
   std::string table = heading(results) + header();
-  for (const bool calibrated : {true, false}) {
+  const std::pair<const char*, const char*> kBases[] = {
+      {"calibrated", "calibrated: the laboratory was fitted to the published value"},
+      {"implied", "implied: follows from what was calibrated"},
+      {"held out", "held out: the laboratory knows nothing of the published value"}};
+  for (const auto& [basis, title] : kBases) {
     bool first = true;
     for (const analysis::ResultsSection& section : results.sections) {
       for (const Estimate& estimate : section.estimates) {
-        if (!estimate.published || estimate.calibrated != calibrated) continue;
-        if (first && results.simulated) {
-          table += calibrated
-                       ? "  calibrated: the laboratory was fitted to the published value\n"
-                       : "  held out: the laboratory knows nothing of the published value\n";
-        }
+        if (!estimate.published || basis_of(estimate) != basis) continue;
+        if (first && results.simulated) table += std::string("  ") + title + "\n";
         first = false;
         table += row(estimate);
       }

@@ -8,15 +8,25 @@
 #include <set>
 #include <thread>
 
+#include "app/command.h"
 #include "app/laboratory_run.h"
 #include "core/error.h"
 #include "core/random_stream.h"
+#include "device/device_registry.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
+
+void require_device(const std::string& name) {
+  try {
+    (void)device::device_named(name);
+  } catch (const core::Error& error) {
+    throw UsageError(std::string("--device: ") + error.what());
+  }
+}
 
 std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSetup& setup,
                                        const std::vector<std::string>& participants) {
@@ -36,7 +46,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     core::SessionRow row;
     row.participant = participants[i];
     row.protocol_sha256 = hash;
-    row.seed = experiments::session_seed(setup.seed, participants[i]);
+    row.seed = experiments::session_seed(setup.seed, setup.study.name, participants[i]);
     row.cells = to_string(cells[i]);
     row.pilot = setup.pilot;
     row.simulated = true;

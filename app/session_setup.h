@@ -24,6 +24,9 @@ struct SessionSetup {
   bool record = true;  ///< Samples, besides the summaries of strokes.
 };
 
+/// Throws `UsageError` if no device has this name.
+void require_device(const std::string& name);
+
 /// Adds the rows of sessions for these participants, cells assigned in the order given, before
 /// any of them starts: so what a session holds does not depend on how many run at once. Returns
 /// their numbers. Throws `Error` if one of the participants has a session already.

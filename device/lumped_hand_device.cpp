@@ -95,15 +95,13 @@ bool LumpedHandDevice::write(const core::PointVectors& force_on_hand_n) noexcept
                                                            parameters_.friction_speed_m_per_s);
   }
 
-  const double rendered_opposing_w = -rendered_n.dot(velocity_m_per_s_);
-  ++sums_.num_ticks;
-  sums_.rendered_opposing_w += rendered_opposing_w;
-  const double opposing_w = rendered_opposing_w + damping_n_s_per_m * squared_m2_per_s2;
   const double speed_m_per_s = std::sqrt(squared_m2_per_s2);
-  sums_.opposing_w += opposing_w;
-  sums_.opposing_n += speed_m_per_s > 0.0 ? opposing_w / speed_m_per_s : 0.0;
+  const double rendered_opposing_n =
+      speed_m_per_s > 0.0 ? -rendered_n.dot(velocity_m_per_s_) / speed_m_per_s : 0.0;
+  ++sums_.num_ticks;
+  sums_.rendered_opposing_n += rendered_opposing_n;
+  sums_.opposing_n += rendered_opposing_n + damping_n_s_per_m * speed_m_per_s;
   sums_.speed_m_per_s += speed_m_per_s;
-  sums_.speed_squared_m2_per_s2 += squared_m2_per_s2;
 
   arm_.advance();
   const Eigen::Vector3d force_n = rendered_n - damping_n_s_per_m * velocity_m_per_s_ +

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "analysis/fits/fit_json.h"
 #include "analysis/groups/comparison.h"
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -84,7 +84,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
     invocation.run = [options] {
       const Comparison result = compared(*options);
       if (options->json) {
-        fmt::print("{}\n", analysis::to_json(result).dump(2));
+        fmt::print("{}\n", json_text(analysis::to_json(result)));
       } else {
         print_for_people(result);
       }

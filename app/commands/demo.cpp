@@ -3,15 +3,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "app/progress_bar.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "core/error.h"
-#include "device/device_registry.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
@@ -40,7 +39,7 @@ fs::path fresh_folder() {
 }
 
 int run(const Options& options) {
-  (void)device::device_named(options.device);
+  require_device(options.device);
   const fs::path out = options.out.empty() ? fresh_folder() : fs::path(options.out);
   for (const char* name : kStudies) {
     const fs::path folder = out / (std::string(name) + ".study");
@@ -93,7 +92,7 @@ int run(const Options& options) {
   if (options.json) {
     document["simulated_s"] = simulated_s;
     document["elapsed_s"] = elapsed_s;
-    std::puts(document.dump(2).c_str());
+    std::puts(json_text(document).c_str());
     return kDone;
   }
   std::printf(
@@ -118,6 +117,7 @@ void add_demo(CLI::App& program, Invocation& invocation) {
                     "Same sessions and answers; recordings reduced to summaries of strokes");
   command->add_option("--out", options->out, "Folder to make; default: a fresh demo-N");
   command->add_option("--seed", options->seed, "Of everything that is drawn")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
       ->capture_default_str();

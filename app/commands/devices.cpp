@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "device/device_registry.h"
 
 namespace jnd::app {
@@ -32,7 +32,7 @@ int run(bool json) {
                     {"max_force_per_point_n", can.max_force_per_point_n},
                     {"max_total_force_n", can.max_total_force_n}});
   }
-  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"devices", list}}.dump(2));
+  if (json) fmt::print("{}\n", json_text(nlohmann::ordered_json{{"devices", list}}));
   return kDone;
 }
 

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "app/share.h"
 
 namespace jnd::app {
@@ -88,7 +88,7 @@ int run(bool as_json) {
                         {"found", finding.found},
                         {"remedy", finding.remedy}});
     }
-    std::puts(nlohmann::json{{"checks", std::move(checks)}}.dump(2).c_str());
+    std::puts(json_text(nlohmann::json{{"checks", std::move(checks)}}).c_str());
     return kDone;
   }
   for (const Finding& finding : findings) {

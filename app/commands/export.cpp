@@ -32,7 +32,9 @@ void add_export(CLI::App& program, Invocation& invocation) {
   command->add_option("FORMAT", options->format, "csv")
       ->required()
       ->check(CLI::IsMember({"csv"}));
-  command->add_option("DIR", options->folder, "Study folder, NAME.study")->required();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   command->add_option("--out", options->out, "Folder to write to: new or empty")->required();
   command->add_flag("--recordings", options->csv.recordings, "Also every sample");
   command->add_flag("--pilot", options->csv.pilot, "Also pilot sessions");

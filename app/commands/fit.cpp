@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -116,7 +116,7 @@ int fit_groups(const std::vector<Group>& groups, const Options& options, const F
   if (options.json) {
     const Json document =
         options.group_by.empty() ? results.at(0) : Json{{"groups", std::move(results)}};
-    fmt::print("{}\n", document.dump(2));
+    fmt::print("{}\n", json_text(document));
   }
   return all_ok ? kDone : kHasProblems;
 }
@@ -171,6 +171,11 @@ int fit_between(const Options& options) {
       throw UsageError(fmt::format("--k1, --k2: expected numbers > 0, found {}", k));
     }
   }
+  for (const double a : {options.a1, options.a2}) {
+    if (!std::isfinite(a)) {
+      throw UsageError(fmt::format("--a1, --a2: expected finite numbers, found {}", a));
+    }
+  }
   for (const double intensity : options.intensities) {
     if (!(intensity >= 0.0 && std::isfinite(intensity))) {
       throw UsageError(
@@ -183,7 +188,7 @@ int fit_between(const Options& options) {
     const Json all = analysis::to_json(fit);
     Json json;
     for (const char* key : {"status", "reason", "k", "a"}) json[key] = all.at(key);
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
   } else if (fit.status == FitStatus::kOk) {
     fmt::print("  S = {:.5g} I^{:.5g}, the least-squares power law through both curves\n",
                *fit.k, *fit.a);
@@ -224,7 +229,9 @@ void add_fit(CLI::App& program, Invocation& invocation) {
       .add_option("--bootstrap", options->num_bootstrap,
                   "refits for a percentile interval of the Weber fraction")
       ->check(CLI::Range(0, 10'000'000));
-  weber.add_option("--seed", options->seed, "of the bootstrap")->capture_default_str();
+  weber.add_option("--seed", options->seed, "of the bootstrap")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   weber.callback(
       [&invocation, options] { invocation.run = [options] { return fit_weber(*options); }; });
 

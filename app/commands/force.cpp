@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "core/error.h"
 #include "core/hand.h"
 #include "core/media/medium.h"
@@ -108,7 +108,7 @@ void print_json(const LawForce& force, const std::vector<Vector>& points) {
   }
   out["drag_coefficient"] = number_or_null(force.drag_coefficient);
   out["reynolds_number"] = number_or_null(force.reynolds_number);
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 void print_for_people(const Options& options, const LawForce& force,

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "app/share.h"
 #include "core/error.h"
 #include "experiments/study/starter_study.h"
@@ -59,7 +59,7 @@ int run(const Options& options) {
                 options.from, name);
   write_new_file(file, text);
   if (options.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"file", file.string()}, {"name", name}}.dump(2));
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"file", file.string()}, {"name", name}}));
   } else {
     fmt::print("{}: written; `jnd validate {}` tells its problems while you edit it\n",
                file.string(), file.string());

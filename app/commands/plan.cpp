@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/commands/commands.h"
-#include "app/commands/validate.h"
+#include "app/json_text.h"
+#include "app/session_setup.h"
 #include "app/share.h"
 #include "core/error.h"
 #include "device/device_registry.h"
@@ -237,18 +237,14 @@ void print(const Outcome& outcome, const Options& options) {
 }
 
 int run(const Options& options) {
-  try {
-    const Outcome outcome = outcome_of(options);
-    if (options.json) {
-      fmt::print("{}\n", to_json(outcome, options).dump(2));
-    } else {
-      print(outcome, options);
-    }
-    return kDone;
-  } catch (const experiments::ProtocolError& error) {
-    if (options.json) fmt::print("{}\n", problems_json(error.problems()).dump(2));
-    throw;
+  require_device(options.device);
+  const Outcome outcome = outcome_of(options);
+  if (options.json) {
+    fmt::print("{}\n", json_text(to_json(outcome, options)));
+  } else {
+    print(outcome, options);
   }
+  return kDone;
 }
 
 }  // namespace
@@ -266,6 +262,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of everything that is drawn")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--device", options->device, "Whose limits; see `jnd devices`")
       ->capture_default_str();

@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "app/results_output.h"
 
 namespace jnd::app {
@@ -18,7 +18,7 @@ struct Options {
 int run(const Options& options) {
   const analysis::StudyResults results = results_of_folder(options.folder, options.results);
   if (options.json) {
-    std::puts(to_json(results).dump(2).c_str());
+    std::puts(json_text(to_json(results)).c_str());
   } else {
     std::fputs(to_table(results).c_str(), stdout);
   }
@@ -31,13 +31,16 @@ void add_results(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "results", "Every fit and comparison that a study's design calls for");
   const auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->folder, "Study folder, NAME.study")->required();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   command
       ->add_option("--resamples", options->results.num_resamples,
                    "Resampled participants for group intervals")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   command->add_option("--seed", options->results.seed, "Of the resampling")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(

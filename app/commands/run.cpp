@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -12,7 +14,6 @@
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "core/error.h"
-#include "device/device_registry.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
@@ -85,9 +86,20 @@ void require_headless(const Options& options) {
       "no window: expected --headless with a simulated participant, for no display was found");
 }
 
+/// It stands in tables, file names and messages.
+void require_pseudonym(const std::string& participant) {
+  const bool plain = std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
+  });
+  if (plain && !participant.empty()) return;
+  throw UsageError("--participant: expected a pseudonym of letters, digits, _, - and ., found `" +
+                   participant + "`");
+}
+
 int run(const Options& options) {
   require_headless(options);
-  (void)device::device_named(options.device);
+  require_device(options.device);
+  require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
   const experiments::Laboratory laboratory =
@@ -149,7 +161,8 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--participant", options->participant, "Pseudonym, for example P01")
       ->required();
   command->add_option("--device", options->device, "See `jnd devices`")->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the study; drawn if not given");
+  command->add_option("--seed", options->seed, "Of the study; drawn if not given")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");
@@ -169,7 +182,9 @@ void add_resume(CLI::App& program, Invocation& invocation) {
       program.add_subcommand("resume", "Go on with a session that was interrupted");
   const auto options = std::make_shared<Options>();
   options->laboratory.clear();
-  command->add_option("DIR", options->folder, "Study folder, NAME.study")->required();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   command->add_option("--session", options->session, "Default: the open one");
   command
       ->add_option("--choose", options->choose,

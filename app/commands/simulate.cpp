@@ -2,13 +2,12 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "app/progress_bar.h"
 #include "app/session_setup.h"
 #include "app/share.h"
-#include "device/device_registry.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
@@ -27,7 +26,7 @@ struct Options {
 };
 
 int run(const Options& options) {
-  (void)device::device_named(options.device);
+  require_device(options.device);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
   const experiments::Laboratory laboratory =
@@ -61,7 +60,7 @@ int run(const Options& options) {
     const nlohmann::json document = {{"study", study.name},          {"folder", options.folder},
                                      {"participants", participants}, {"num_ticks", num_ticks},
                                      {"simulated_s", simulated_s},   {"elapsed_s", elapsed_s}};
-    std::puts(document.dump(2).c_str());
+    std::puts(json_text(document).c_str());
   } else {
     std::printf("%s: %d simulated sessions, %.0f s at the device in %.1f s, stored in %s\n",
                 study.name.c_str(), options.participants, simulated_s, elapsed_s,
@@ -86,6 +85,7 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
   command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of everything that is drawn")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Sessions at once")
       ->check(CLI::Range(1, 1024))

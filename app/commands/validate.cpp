@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "app/share.h"
 #include "experiments/study/study_reader.h"
 
@@ -30,7 +30,7 @@ int run(const Options& options) {
                     std::make_move_iterator(found.end()));
   }
   if (options.json) {
-    fmt::print("{}\n", problems_json(problems).dump(2));
+    fmt::print("{}\n", json_text(problems_json(problems)));
   } else {
     for (const experiments::StudyProblem& problem : problems) {
       fmt::print("{}\n", to_string(problem));
@@ -54,6 +54,13 @@ nlohmann::ordered_json problems_json(const std::vector<experiments::StudyProblem
                     {"message", problem.message}});
   }
   return {{"problems", std::move(list)}};
+}
+
+std::string error_json(const core::Error& error) {
+  if (const auto* protocol = dynamic_cast<const experiments::ProtocolError*>(&error)) {
+    return json_text(problems_json(protocol->problems()));
+  }
+  return json_text(nlohmann::ordered_json{{"error", error.what()}});
 }
 
 void add_validate(CLI::App& program, Invocation& invocation) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "experiments/study/study_problem.h"
@@ -10,5 +11,9 @@ namespace jnd::app {
 /// The contract's JSON: `{"problems": [{file, line, column, pointer, message}]}`.
 [[nodiscard]] nlohmann::ordered_json problems_json(
     const std::vector<experiments::StudyProblem>& problems);
+
+/// What exit 1 prints with `--json` where a command has nothing else: `problems` of a study
+/// file, or `{"error": sentence}`.
+[[nodiscard]] std::string error_json(const core::Error& error);
 
 }  // namespace jnd::app

@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/json_text.h"
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
@@ -35,16 +35,22 @@ void print(const char* title, const std::vector<core::Finding>& findings) {
   }
 }
 
+/// A database that cannot even be opened is a finding like any other.
+core::Integrity integrity_of(const std::string& folder) try {
+  return core::verify(core::StudyStore(folder, core::StudyStore::Mode::kReadOnly));
+} catch (const core::Error& error) {
+  return {.complete = false, .problems = {{0, error.what()}}};
+}
+
 int run(const Options& options) {
-  const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
-  const core::Integrity integrity = core::verify(store);
+  const core::Integrity integrity = integrity_of(options.folder);
   if (options.json) {
     const nlohmann::json document = {
         {"complete", integrity.complete},        {"problems", to_json(integrity.problems)},
         {"remarks", to_json(integrity.remarks)}, {"num_sessions", integrity.num_sessions},
         {"num_events", integrity.num_events},    {"num_trials", integrity.num_trials},
         {"num_samples", integrity.num_samples}};
-    std::puts(document.dump(2).c_str());
+    std::puts(json_text(document).c_str());
   } else {
     std::printf("%s: %lld sessions, %lld events, %lld answered trials, %lld samples: %s\n",
                 options.folder.c_str(), static_cast<long long>(integrity.num_sessions),
@@ -64,7 +70,9 @@ void add_verify(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "verify", "Compares what a study should hold with what it does hold");
   const auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->folder, "Study folder, NAME.study")->required();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

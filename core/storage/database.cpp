@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 namespace jnd::core {
@@ -20,6 +21,28 @@ void create_private(const std::filesystem::path& file) {
   ::close(descriptor);
 }
 
+/// Nobody can write here, and no write-ahead log is left behind: a finished study on a read-only
+/// disk or in another's folder.
+bool is_archived(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  return ::access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(file.string() + "-wal");
+}
+
+/// SQLite needs a writable folder for its shared memory unless told that nothing will change.
+std::string immutable_uri(const std::filesystem::path& file) {
+  std::string uri = "file:";
+  for (const char letter : file.string()) {
+    if (letter == '%' || letter == '?' || letter == '#') {
+      char escaped[4];
+      std::snprintf(escaped, sizeof escaped, "%%%02X", static_cast<unsigned char>(letter));
+      uri += escaped;
+    } else {
+      uri += letter;
+    }
+  }
+  return uri + "?immutable=1";
+}
+
 }  // namespace
 
 Database::Database(const std::filesystem::path& file, Mode mode, Durability durability)
@@ -30,8 +53,11 @@ Database::Database(const std::filesystem::path& file, Mode mode, Durability dura
     throw Error(file.string() + ": expected a database of jnd, found no such file");
   }
   const int flags = mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
-  if (sqlite3_open_v2(file.c_str(), &handle_, flags | SQLITE_OPEN_FULLMUTEX, nullptr) !=
-      SQLITE_OK) {
+  const bool archived = mode == Mode::kReadOnly && is_archived(file);
+  const std::string name = archived ? immutable_uri(file) : file.string();
+  if (sqlite3_open_v2(name.c_str(), &handle_,
+                      flags | SQLITE_OPEN_FULLMUTEX | (archived ? SQLITE_OPEN_URI : 0),
+                      nullptr) != SQLITE_OK) {
     const std::string reason = sqlite3_errmsg(handle_);
     sqlite3_close(handle_);
     throw Error(file.string() + ": expected to open this database, found: " + reason);
@@ -158,6 +184,11 @@ std::optional<std::int64_t> Statement::optional_integer(int column) const {
 std::optional<double> Statement::optional_number(int column) const {
   if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
   return number(column);
+}
+
+bool is_empty(Database& database) {
+  Statement tables(database, "SELECT COUNT(*) FROM sqlite_master");
+  return tables.step() && tables.integer(0) == 0;
 }
 
 Transaction::Transaction(Database& database) : database_(database) {

@@ -73,6 +73,9 @@ class Statement {
   int next_parameter_ = 1;
 };
 
+/// Whether there is no table in it yet: just made, by a program that may have died since.
+[[nodiscard]] bool is_empty(Database& database);
+
 /// The scope is the transaction: `commit` is explicit, anything else rolls back.
 class Transaction {
  public:

@@ -35,10 +35,12 @@ CREATE TABLE chunk (
 
 struct RecordingWriter::Implementation {
   Implementation(const std::filesystem::path& file, double rate_hz, Durability durability)
-      : is_new(!std::filesystem::exists(file)),
-        database(file, is_new ? Database::Mode::kCreate : Database::Mode::kReadWrite,
+      : database(file,
+                 std::filesystem::exists(file) ? Database::Mode::kReadWrite
+                                               : Database::Mode::kCreate,
                  durability) {
-    if (is_new) {
+    // A program that died while it made the file leaves one without tables.
+    if (is_empty(database)) {
       Transaction transaction(database);
       database.execute(kSchema);
       Statement(database, "INSERT INTO recording_format VALUES (?, ?, ?, ?, ?)")
@@ -68,7 +70,6 @@ struct RecordingWriter::Implementation {
     pending.clear();
   }
 
-  bool is_new;
   Database database;
   std::int64_t segment = 1;
   std::optional<Statement> insert;
@@ -99,6 +100,7 @@ void RecordingWriter::flush() { implementation_->write_chunk(); }
 struct RecordingReader::Implementation {
   explicit Implementation(const std::filesystem::path& file)
       : database(file, Database::Mode::kReadOnly, Durability::kEveryCommit) {
+    if (is_empty(database)) return;
     Statement format(database, "SELECT version, rate_hz FROM recording_format");
     if (!format.step()) {
       throw Error(file.string() + ": expected a recording of jnd, found no format in it");
@@ -123,6 +125,7 @@ RecordingReader::~RecordingReader() = default;
 double RecordingReader::rate_hz() const noexcept { return implementation_->rate_hz; }
 
 std::vector<RecordingChunk> RecordingReader::chunks() const {
+  if (is_empty(implementation_->database)) return {};
   Statement rows(implementation_->database,
                  "SELECT segment, first_tick, num_samples, sha256, data FROM chunk "
                  "ORDER BY segment, first_tick");
@@ -140,6 +143,7 @@ std::vector<RecordingChunk> RecordingReader::chunks() const {
 
 void RecordingReader::read(std::int64_t first_tick, std::int64_t last_tick,
                            const std::function<void(const Sample&)>& visit) const {
+  if (is_empty(implementation_->database)) return;
   Statement rows(implementation_->database,
                  "SELECT first_tick, num_samples, data FROM chunk "
                  "WHERE first_tick <= ? AND first_tick + num_samples > ? "

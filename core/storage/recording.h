@@ -42,7 +42,8 @@ struct RecordingChunk {
   bool intact = false;  ///< The hash fits the bytes.
 };
 
-/// Reads a recording. Throws `Error` if the file is missing or foreign. Not real time.
+/// Reads a recording. Throws `Error` if the file is missing or foreign; one that was being made
+/// when its program died holds nothing. Not real time.
 class RecordingReader {
  public:
   explicit RecordingReader(const std::filesystem::path& file);

@@ -106,9 +106,8 @@ struct StudyStore::Implementation {
       : folder(std::move(the_folder)),
         file(prepared_file(folder, mode)),
         lock(mode == Mode::kReadOnly ? nullptr : std::make_unique<WriterLock>(folder)),
-        is_new(!fs::exists(file) || fs::file_size(file) == 0),
         database(file, database_mode(mode, file), durability) {
-    if (is_new && mode == Mode::kCreate) create();
+    if (mode == Mode::kCreate && is_empty(database)) create();
     check_format();
     if (mode == Mode::kReadOnly) return;
     insert_event.emplace(database, insert("event", kEventColumns));
@@ -146,7 +145,6 @@ struct StudyStore::Implementation {
   fs::path folder;
   fs::path file;
   std::unique_ptr<WriterLock> lock;
-  bool is_new;
   mutable std::mutex mutex;
   mutable Database database;
   std::optional<Statement> insert_event, insert_design, insert_presentation, insert_trial,

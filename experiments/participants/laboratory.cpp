@@ -159,7 +159,9 @@ void read_strokes(const json& file, std::map<std::string, Laboratory::Strokes>& 
     Laboratory::Strokes& read = strokes[procedure];
     in.positive("amplitude_m", read.amplitude_m);
     in.number("amplitude_sd_ln", read.amplitude_sd_ln, 0.0, 1.0);
-    in.number("strokes_per_presentation", read.strokes_per_presentation, 0.5, 50.0);
+    double num_strokes = 1.0;
+    in.number("strokes_per_presentation", num_strokes, 1.0, 50.0);
+    read.strokes_per_presentation = static_cast<int>(std::lround(num_strokes));
     in.finish();
   }
 }
@@ -192,6 +194,32 @@ void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
   in.finish();
 }
 
+void read_answers(const json& file, Laboratory::Answers& answers,
+                  std::vector<std::string>& problems) {
+  Section in(file, "/answers", problems);
+  in.number("age_years", answers.age_years, 18.0, 100.0);
+  in.number("age_sd_years", answers.age_sd_years, 0.0, 30.0);
+  in.number("right_handed_probability", answers.right_handed_probability, 0.0, 1.0);
+  in.number("yes_probability", answers.yes_probability, 0.0, 1.0);
+  in.number("solid_probability", answers.solid_probability, 0.0, 1.0);
+  in.number("scale_step_ratio", answers.scale_step_ratio, 0.0, 1.0);
+  in.number("scale_step_sd_ratio", answers.scale_step_sd_ratio, 0.0, 1.0);
+  in.finish();
+}
+
+/// A list of names of estimates, empty if there is none.
+void read_names(const json& file, const char* key, std::vector<std::string>& names,
+                std::vector<std::string>& problems) {
+  if (!file.contains(key)) return;
+  for (const json& name : file.at(key)) {
+    if (!name.is_string()) {
+      problems.push_back(std::string("/") + key + ": expected a list of texts");
+      return;
+    }
+    names.push_back(name.get<std::string>());
+  }
+}
+
 }  // namespace
 
 const Laboratory::Strokes& Laboratory::strokes_for(const std::string& procedure) const {
@@ -207,9 +235,9 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   }
   std::vector<std::string> problems;
   Laboratory laboratory{.text = text};
-  static const std::set<std::string> kKeys = {"format",        "name",     "title", "comment",
-                                              "calibrated_on", "device",   "arm",   "movement",
-                                              "strokes",       "perceiver"};
+  static const std::set<std::string> kKeys = {
+      "format", "name",     "title",   "comment",   "calibrated_on", "device",
+      "arm",    "movement", "strokes", "perceiver", "answers",       "implied"};
   for (const auto& [key, value] : file.items()) {
     if (!kKeys.contains(key)) problems.push_back("/" + key + ": unknown key");
   }
@@ -224,20 +252,14 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
       problems.push_back(std::string("/") + key + ": expected a text");
     }
   }
-  if (file.contains("calibrated_on")) {
-    for (const json& name : file.at("calibrated_on")) {
-      if (!name.is_string()) {
-        problems.emplace_back("/calibrated_on: expected a list of texts");
-        break;
-      }
-      laboratory.calibrated_on.push_back(name.get<std::string>());
-    }
-  }
+  read_names(file, "calibrated_on", laboratory.calibrated_on, problems);
+  read_names(file, "implied", laboratory.implied, problems);
   read_device(file, laboratory.device, problems);
   read_arm(file, laboratory.arm, problems);
   read_movement(file, laboratory.movement, problems);
   read_strokes(file, laboratory.strokes, problems);
   read_perceiver(file, laboratory.perceiver, problems);
+  read_answers(file, laboratory.answers, problems);
   if (!problems.empty()) {
     std::string message = place + ": " + std::to_string(problems.size()) + " problem(s)";
     for (const std::string& problem : problems) message += "\n  " + problem;

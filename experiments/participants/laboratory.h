@@ -36,7 +36,7 @@ struct Laboratory {
   /// How persons stroke under one procedure. Spreads between persons are in ln.
   struct Strokes {
     double amplitude_m = 0.0, amplitude_sd_ln = 0.0;
-    double strokes_per_presentation = 1.0;  ///< Full cycles; fractions are allowed.
+    int strokes_per_presentation = 1;  ///< Full cycles, >= 1.
   };
   /// What strokes have in common.
   struct Movement {
@@ -73,6 +73,15 @@ struct Laboratory {
     double coarse_step_ln = 0.0;           ///< Production: beyond this, a coarse step, > 0.
   };
 
+  /// What persons say of themselves and on paper.
+  struct Answers {
+    double age_years = 0.0, age_sd_years = 0.0;
+    double right_handed_probability = 0.0;
+    double yes_probability = 0.0;    ///< To a yes/no question of a questionnaire.
+    double solid_probability = 0.0;  ///< That what was touched afterwards is called so.
+    double scale_step_ratio = 0.0, scale_step_sd_ratio = 0.0;  ///< 0 worst, 1 best.
+  };
+
   std::string name;
   std::string title;
   std::string text;  ///< The file word for word; stored with every session.
@@ -81,8 +90,11 @@ struct Laboratory {
   Movement movement;
   std::map<std::string, Strokes> strokes;  ///< By procedure; "default" for any other.
   Perceiver perceiver;
+  Answers answers;
   /// Names of estimates, as in results, that parameters were fitted to.
   std::vector<std::string> calibrated_on;
+  /// Names of estimates that follow from those, nearly or wholly.
+  std::vector<std::string> implied;
 
   [[nodiscard]] const Strokes& strokes_for(const std::string& procedure) const;
 };

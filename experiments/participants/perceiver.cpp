@@ -50,8 +50,9 @@ Person draw_person(const Laboratory& laboratory, std::uint64_t session_seed) {
   person.hand_height_m =
       (m.hand_height_ratio + m.hand_height_sd_ratio * z("hand_height")) * person.body_height_m;
   RandomStream other(session_seed, "person/other");
-  person.right_handed = other.with_probability(0.9);
-  person.age_years = 20 + static_cast<int>(other.below(20));
+  person.right_handed = other.with_probability(laboratory.answers.right_handed_probability);
+  person.age_years = static_cast<int>(std::lround(std::max(
+      18.0, other.normal(laboratory.answers.age_years, laboratory.answers.age_sd_years))));
   person.amplitude_score = z("amplitude");
   person.max_speed_m_per_s = m.max_speed_m_per_s * std::exp(m.max_speed_sd_ln * z("max_speed"));
   return person;
@@ -105,7 +106,7 @@ double Perceiver::estimate_percent(double reading_ln, const Moment& moment,
                                    std::optional<double> previous_percent) const {
   if (lapses(moment)) {
     RandomStream stream(seed_, "guess", {moment.trial, moment.attempt});
-    return rounded_percent(100.0 * std::exp(centre_ln() + stream.normal()));
+    return rounded_percent(100.0 * std::exp(centre_ln() + 0.3 * stream.normal()));
   }
   const double felt_ln = magnitude_ln(reading_ln);
   if (!std::isfinite(felt_ln)) return 0.0;

@@ -40,13 +40,15 @@ StrokeIntent SimulatedParticipant::strokes(const std::string& procedure) const {
   return {.amplitude_m = amplitude_m,
           .max_speed_m_per_s = person_.max_speed_m_per_s,
           .height_m = home_height_m(),
-          .duration_s = habit.strokes_per_presentation * period_s};
+          .num_strokes = habit.strokes_per_presentation,
+          .period_s = period_s};
 }
 
 std::string SimulatedParticipant::answer(const QuestionnaireItem& item) const {
   core::RandomStream stream(seed_, "questionnaire/" + item.name);
   if (item.name == "body_height_m") return two_decimals(person_.body_height_m);
   if (item.name == "handedness") return person_.right_handed ? "right" : "left";
+  const Laboratory::Answers& habit = laboratory_.answers;
   if (item.kind == "number") {
     double value = person_.age_years;
     if (item.minimum) value = std::max(value, *item.minimum);
@@ -54,21 +56,24 @@ std::string SimulatedParticipant::answer(const QuestionnaireItem& item) const {
     return two_decimals(value);
   }
   if (item.kind == "choice") return item.options.at(stream.below(item.options.size())).value;
-  if (item.kind == "yes_no") return stream.with_probability(0.5) ? "yes" : "no";
+  if (item.kind == "yes_no")
+    return stream.with_probability(habit.yes_probability) ? "yes" : "no";
   if (item.kind == "yes_no_which") {
-    return stream.with_probability(0.5) ? "yes: a simulated answer" : "no";
+    return stream.with_probability(habit.yes_probability) ? "yes: a simulated answer" : "no";
   }
   if (item.kind == "scale") {
-    const auto third = static_cast<std::uint64_t>(std::max(1, item.num_steps / 3));
-    const auto from_good = static_cast<int>(stream.below(third));
-    return std::to_string(item.high_is_good ? item.num_steps - from_good : 1 + from_good);
+    const double step = stream.normal(habit.scale_step_ratio, habit.scale_step_sd_ratio);
+    const auto good = static_cast<int>(std::lround(1.0 + step * (item.num_steps - 1)));
+    const int clamped = std::clamp(good, 1, item.num_steps);
+    return std::to_string(item.high_is_good ? clamped : item.num_steps + 1 - clamped);
   }
   return "a simulated answer";
 }
 
 std::string SimulatedParticipant::answer(const PostExperimentItem& item) const {
   core::RandomStream stream(seed_, "post_experiment/" + item.name);
-  if (item.answer == "yes_no") return stream.with_probability(0.88) ? "yes" : "no";
+  if (item.answer == "yes_no")
+    return stream.with_probability(laboratory_.answers.solid_probability) ? "yes" : "no";
   std::string words = "simulated";
   for (int word = 1; word < item.num_words; ++word) words += ", simulated";
   return words;

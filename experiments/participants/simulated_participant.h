@@ -16,7 +16,8 @@ struct StrokeIntent {
   double amplitude_m = 0.0;
   double max_speed_m_per_s = 0.0;
   double height_m = 0.0;  ///< Workspace frame: below the surface is negative.
-  double duration_s = 0.0;
+  int num_strokes = 1;    ///< Whole ones, before the person has felt enough.
+  double period_s = 0.0;  ///< Of one stroke.
 };
 
 /// A simulated person in a session: moves, feels, answers. Everything is a function of

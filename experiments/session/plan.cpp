@@ -130,7 +130,7 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
     plan.participant = request.participants[i];
     plan.stages = stages_of(study, cells[i]);
     plan.cell = std::move(cells[i]);
-    const std::uint64_t seed = session_seed(request.seed, plan.participant);
+    const std::uint64_t seed = session_seed(request.seed, study.name, plan.participant);
     for (std::size_t index = 0; index < plan.stages.size(); ++index) {
       const Stage& stage = *plan.stages[index].stage;
       plan.duration_s += expected_duration_s(stage);

@@ -17,8 +17,9 @@ namespace {
 
 }  // namespace
 
-std::uint64_t session_seed(std::uint64_t study_seed, const std::string& participant) {
-  return core::derived_seed(study_seed, "session/" + participant);
+std::uint64_t session_seed(std::uint64_t seed, const std::string& study,
+                           const std::string& participant) {
+  return core::derived_seed(seed, "session/" + study + "/" + participant);
 }
 
 Session::Session(Parameters parameters, const std::vector<core::EventRow>& history,

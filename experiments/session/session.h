@@ -23,8 +23,9 @@ class EventLog {
 enum class Direction { kRaise, kLower };
 enum class StepSize { kCoarse, kFine };
 
-/// The seed of one participant's session, from the study's.
-[[nodiscard]] std::uint64_t session_seed(std::uint64_t study_seed,
+/// The seed of one participant's session. The study's name is part of it: P01 of one study is
+/// another person than P01 of the next.
+[[nodiscard]] std::uint64_t session_seed(std::uint64_t seed, const std::string& study,
                                          const std::string& participant);
 
 /// One visit of one participant. Every act commits its event first and moves the state on

@@ -6,27 +6,18 @@ namespace jnd::core {
 namespace {
 
 TEST(ContactSums, TheirDifferenceIsWhatHappenedInBetween) {
-  // Two ticks between, by hand: 1.2 N at 0.1 m/s and 1.6 N at 0.3 m/s, a line 1 N + 2 N s/m v.
-  const ContactSums from{.num_ticks = 10,
-                         .opposing_w = 4.0,
-                         .rendered_opposing_w = 3.0,
-                         .speed_squared_m2_per_s2 = 1.0,
-                         .speed_m_per_s = 2.0,
-                         .opposing_n = 5.0};
-  const ContactSums until{.num_ticks = 12,
-                          .opposing_w = 4.0 + 0.12 + 0.48,
-                          .rendered_opposing_w = 3.2,
-                          .speed_squared_m2_per_s2 = 1.0 + 0.01 + 0.09,
-                          .speed_m_per_s = 2.4,
-                          .opposing_n = 7.8};
+  const ContactSums from{
+      .num_ticks = 10, .opposing_n = 5.0, .rendered_opposing_n = 3.0, .speed_m_per_s = 2.0};
+  // Two ticks more: 0.3 N and 0.5 N rendered at 0.1 and 0.3 m/s, 1 N more from the device each.
+  const ContactSums until{
+      .num_ticks = 12, .opposing_n = 7.8, .rendered_opposing_n = 3.8, .speed_m_per_s = 2.4};
   const ContactSums between = until - from;
   EXPECT_EQ(between.num_ticks, 2);
-  EXPECT_NEAR(between.felt_damping_n_s_per_m(), 2.0, 1e-9);
-  EXPECT_NEAR(between.delivered_damping_n_s_per_m(), 2.0, 1e-9);  // 0.2 W over 0.1 m2/s2
+  EXPECT_NEAR(between.opposing_n, 2.8, 1e-12);
+  EXPECT_NEAR(between.delivered_damping_n_s_per_m(), 2.0, 1e-12);  // 0.4 N at 0.2 m/s
 }
 
-TEST(ContactSums, AHandThatNeverMovedFeltNoDamping) {
-  EXPECT_EQ(ContactSums{}.felt_damping_n_s_per_m(), 0.0);
+TEST(ContactSums, AHandThatNeverMovedWasGivenNoDamping) {
   EXPECT_EQ(ContactSums{}.delivered_damping_n_s_per_m(), 0.0);
 }
 

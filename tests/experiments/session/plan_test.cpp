@@ -90,7 +90,7 @@ TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
     for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
     MemoryLog log;
     const core::SimulatedClock clock;
-    Session session({.session = 1, .seed = session_seed(9, plan.participant), .stages = stages},
+    Session session({.session = 1, .seed = session_seed(9, study.name, plan.participant), .stages = stages},
                     {}, log, clock);
     session.start();
     std::int64_t tick = 0;
