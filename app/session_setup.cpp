@@ -33,16 +33,18 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
   std::set<std::string> known;
   const std::vector<core::SessionRow> rows = store.sessions();
   for (const core::SessionRow& row : rows) known.insert(row.participant);
+  for (const std::string& participant : participants) {
+    if (!known.insert(participant).second) {
+      throw core::Error(store.folder().string() + ": expected a new participant, found that " +
+                        participant + " has a session already; choose another or resume");
+    }
+  }
   const std::string hash = store.add_protocol(setup.study_file_name, setup.study.text);
   const std::vector<experiments::Cell> cells = experiments::planned_cells(
       setup.study, experiments::completed_cells(store), setup.seed,
       static_cast<std::int64_t>(rows.size()), static_cast<int>(participants.size()));
   std::vector<std::int64_t> sessions;
   for (std::size_t i = 0; i < participants.size(); ++i) {
-    if (!known.insert(participants[i]).second) {
-      throw core::Error(store.folder().string() + ": expected a new participant, found that " +
-                        participants[i] + " has a session already; choose another or resume");
-    }
     core::SessionRow row;
     row.participant = participants[i];
     row.protocol_sha256 = hash;

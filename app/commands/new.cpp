@@ -59,7 +59,8 @@ int run(const Options& options) {
                 options.from, name);
   write_new_file(file, text);
   if (options.json) {
-    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"file", file.string()}, {"name", name}}));
+    fmt::print("{}\n",
+               json_text(nlohmann::ordered_json{{"file", file.string()}, {"name", name}}));
   } else {
     fmt::print("{}: written; `jnd validate {}` tells its problems while you edit it\n",
                file.string(), file.string());

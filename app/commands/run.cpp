@@ -92,8 +92,9 @@ void require_pseudonym(const std::string& participant) {
     return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
   });
   if (plain && !participant.empty()) return;
-  throw UsageError("--participant: expected a pseudonym of letters, digits, _, - and ., found `" +
-                   participant + "`");
+  throw UsageError(
+      "--participant: expected a pseudonym of letters, digits, _, - and ., found `" +
+      participant + "`");
 }
 
 int run(const Options& options) {

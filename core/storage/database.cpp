@@ -21,11 +21,12 @@ void create_private(const std::filesystem::path& file) {
   ::close(descriptor);
 }
 
-/// Nobody can write here, and no write-ahead log is left behind: a finished study on a read-only
-/// disk or in another's folder.
+/// Nobody can write here, and no write-ahead log is left behind: a finished study on a
+/// read-only disk or in another's folder.
 bool is_archived(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  return ::access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(file.string() + "-wal");
+  return ::access(folder.c_str(), W_OK) != 0 &&
+         !std::filesystem::exists(file.string() + "-wal");
 }
 
 /// SQLite needs a writable folder for its shared memory unless told that nothing will change.

@@ -211,6 +211,10 @@ void read_answers(const json& file, Laboratory::Answers& answers,
 void read_names(const json& file, const char* key, std::vector<std::string>& names,
                 std::vector<std::string>& problems) {
   if (!file.contains(key)) return;
+  if (!file.at(key).is_array()) {
+    problems.push_back(std::string("/") + key + ": expected a list of texts");
+    return;
+  }
   for (const json& name : file.at(key)) {
     if (!name.is_string()) {
       problems.push_back(std::string("/") + key + ": expected a list of texts");

@@ -1,0 +1,215 @@
+#include "analysis/export/csv_export.h"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <locale>
+#include <set>
+
+#include "analysis/csv_table.h"
+#include "analysis/hand_made_study.h"
+#include "core/error.h"
+#include "core/storage/recording.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CsvExportTest : public ::testing::Test {
+ protected:
+  CsvExportTest() {
+    study_.add("P01");
+    (void)study_.answer({.block = "a \"quoted\", block",
+                         .procedure = "constant_stimuli",
+                         .quantity = "viscosity_pa_s",
+                         .repetition = 1,
+                         .intensity = kAwkward,
+                         .reference_intensity = 8.0,
+                         .response = 1.0,
+                         .response_time_s = 1.5e-7});
+    study_.move({.presentation = 1,
+                 .interval = "test",
+                 .intensity = kAwkward,
+                 .stroke_width_m = 1.0 / 3.0,
+                 .num_strokes = 2});
+    study_.exclude(study_.answer({.block = "group_d",
+                                  .procedure = "constant_stimuli",
+                                  .quantity = "viscosity_pa_s",
+                                  .intensity = 2.0,
+                                  .response = 0.0}));
+    study_.add("PILOT", /*pilot=*/true);
+    study_.estimate(1.0, 100.0);
+  }
+
+  [[nodiscard]] fs::path out(const char* name = "out") const {
+    return temporary_.path() / name;
+  }
+  [[nodiscard]] CsvTable table(const char* name, const char* folder = "out") const {
+    return CsvTable::read(out(folder) / name);
+  }
+  [[nodiscard]] std::string bytes(const fs::path& file) const {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  [[nodiscard]] static std::string cell(const CsvTable& of, std::size_t row,
+                                        const char* column) {
+    return of.cell(row, of.find(column).value());
+  }
+
+  // Neither fits in fewer than 17 digits.
+  static constexpr double kAwkward = 0.1 + 0.2;
+  HandMadeStudy study_;
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.csv",
+                                   "events.csv", "answers.csv"};
+
+TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
+  export_csv(study_.store(), out(), {});
+  const CsvTable codebook = table("codebook.csv");
+  std::set<std::string> told;
+  for (std::size_t row = 0; row < codebook.num_rows(); ++row) {
+    told.insert(cell(codebook, row, "file") + ":" + cell(codebook, row, "column"));
+    EXPECT_NE(cell(codebook, row, "meaning"), "") << row;
+  }
+  EXPECT_EQ(told.size(), codebook.num_rows()) << "each once";
+  std::set<std::string> there;
+  for (const char* name : kTables) {
+    const CsvTable columns = table(name);
+    for (const std::string& column : columns.columns()) {
+      there.insert(std::string(name) + ":" + column);
+      EXPECT_EQ(column.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"),
+                std::string::npos)
+          << column;
+    }
+  }
+  EXPECT_EQ(told, there);
+}
+
+TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
+  export_csv(study_.store(), out(), {});
+  const std::string schema =
+      bytes(fs::path(JND_SOURCE_DIR) / "data" / "database" / "study.sql");
+  const std::set<std::string> kWorkedOut = {"simulated", "excluded", "completed"};
+  for (const char* name : kTables) {
+    const CsvTable columns = table(name);
+    for (const std::string& column : columns.columns()) {
+      EXPECT_TRUE(kWorkedOut.contains(column) ||
+                  schema.find("\n  " + column + " ") != std::string::npos)
+          << name << ' ' << column;
+    }
+  }
+}
+
+TEST_F(CsvExportTest, LinesEndInLfAndNumbersHaveAPoint) {
+  export_csv(study_.store(), out(), {});
+  for (const auto& entry : fs::directory_iterator(out())) {
+    const std::string text = bytes(entry.path());
+    EXPECT_EQ(text.find('\r'), std::string::npos) << entry.path();
+    EXPECT_TRUE(text.ends_with("\n")) << entry.path();
+    EXPECT_FALSE(text.starts_with("\xEF\xBB\xBF")) << entry.path();
+  }
+  EXPECT_NE(bytes(out() / "trials.csv").find("0.30000000000000004"), std::string::npos);
+}
+
+TEST_F(CsvExportTest, ValuesReadBackAsTheyWere) {
+  export_csv(study_.store(), out(), {});
+  const CsvTable trials = table("trials.csv");
+  ASSERT_EQ(trials.num_rows(), 2U);
+  const auto number = [&](const CsvTable& of, std::size_t row, const char* column) {
+    const std::string text = cell(of, row, column);
+    double value = NAN;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+  };
+  EXPECT_EQ(cell(trials, 0, "participant"), "P01");
+  EXPECT_EQ(cell(trials, 0, "block"), "a \"quoted\", block");
+  EXPECT_EQ(number(trials, 0, "intensity"), kAwkward);
+  EXPECT_EQ(number(trials, 0, "response_time_s"), 1.5e-7);
+  EXPECT_EQ(cell(trials, 0, "starting_intensity"), "") << "what there is not is empty";
+  EXPECT_EQ(number(table("presentations.csv"), 0, "stroke_width_m"), 1.0 / 3.0);
+}
+
+TEST_F(CsvExportTest, ExcludedTrialsAreThereAndMarked) {
+  export_csv(study_.store(), out(), {});
+  const CsvTable trials = table("trials.csv");
+  EXPECT_EQ(cell(trials, 0, "excluded"), "0");
+  EXPECT_EQ(cell(trials, 1, "excluded"), "1");
+}
+
+TEST_F(CsvExportTest, PilotsAreThereOnlyWhenAskedFor) {
+  export_csv(study_.store(), out(), {});
+  export_csv(study_.store(), out("with"), {.pilot = true});
+  EXPECT_EQ(table("sessions.csv").num_rows(), 1U);
+  EXPECT_EQ(table("sessions.csv", "with").num_rows(), 2U);
+  EXPECT_EQ(table("trials.csv", "with").num_rows(), 3U);
+  for (const char* name : kTables) {
+    EXPECT_EQ(bytes(out() / name).find("PILOT"), std::string::npos) << name;
+  }
+}
+
+TEST_F(CsvExportTest, TheSameStudyGivesTheSameBytes) {
+  export_csv(study_.store(), out("a"), {});
+  export_csv(study_.store(), out("b"), {});
+  for (const char* name : kTables) EXPECT_EQ(bytes(out("a") / name), bytes(out("b") / name));
+}
+
+TEST_F(CsvExportTest, RefusesAFolderThatIsNotEmptyAndTakesOneThatIs) {
+  fs::create_directory(out());
+  export_csv(study_.store(), out(), {});
+  const std::string before = bytes(out() / "trials.csv");
+  EXPECT_THROW(export_csv(study_.store(), out(), {.pilot = true}), core::Error);
+  EXPECT_EQ(bytes(out() / "trials.csv"), before);
+  std::ofstream(temporary_.path() / "file") << "precious";
+  EXPECT_THROW(export_csv(study_.store(), temporary_.path() / "file", {}), core::Error);
+  EXPECT_EQ(bytes(temporary_.path() / "file"), "precious");
+}
+
+TEST_F(CsvExportTest, ALocaleWithDecimalCommasChangesNothing) {
+  export_csv(study_.store(), out("plain"), {.pilot = true});
+  class Commas final : public std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new Commas));
+  export_csv(study_.store(), out("commas"), {.pilot = true});
+  std::locale::global(before);
+  for (const char* name : kTables) {
+    EXPECT_EQ(bytes(out("plain") / name), bytes(out("commas") / name)) << name;
+  }
+}
+
+TEST_F(CsvExportTest, RecordingsHaveARowASampleAndTheirColumnsInTheCodebook) {
+  {
+    core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                                 core::Durability::kAtClose);
+    for (std::int64_t tick = 0; tick < 100; ++tick) {
+      core::Sample sample;
+      sample.tick = tick;
+      sample.tip_position_m[0][0] = 1e-3F * static_cast<float>(tick);
+      writer.append(sample);
+    }
+  }
+  export_csv(study_.store(), out(), {.recordings = true});
+  const CsvTable samples = table("recordings/0001.csv");
+  ASSERT_EQ(samples.num_rows(), 100U);
+  EXPECT_EQ(cell(samples, 99, "tick"), "99");
+  std::set<std::string> told;
+  const CsvTable codebook = table("codebook.csv");
+  for (std::size_t row = 0; row < codebook.num_rows(); ++row) {
+    if (cell(codebook, row, "file") == "recordings/*.csv") {
+      told.insert(cell(codebook, row, "column"));
+    }
+  }
+  EXPECT_EQ(told, std::set<std::string>(samples.columns().begin(), samples.columns().end()));
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "core/storage/study_store.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::analysis {
+
+/// A study folder written row by row, so that its results can be worked out by hand.
+class HandMadeStudy {
+ public:
+  explicit HandMadeStudy(const std::string& protocol = R"({"name":"by_hand"})")
+      : store_(folder(), core::StudyStore::Mode::kCreate, core::Durability::kAtClose),
+        hash_(store_.add_protocol("by_hand.json", protocol)) {}
+
+  [[nodiscard]] std::filesystem::path folder() const { return temporary_.path() / "x.study"; }
+  [[nodiscard]] const core::StudyStore& store() const { return store_; }
+
+  std::int64_t add(const std::string& participant, bool pilot = false,
+                   const std::string& laboratory = "") {
+    trial_ = 0;
+    sequence_ = 0;
+    session_ = store_.add_session({.participant = participant,
+                                   .protocol_sha256 = hash_,
+                                   .pilot = pilot,
+                                   .simulated = !laboratory.empty(),
+                                   .laboratory = laboratory,
+                                   .rate_hz = 1000.0,
+                                   .recorded = false});
+    return session_;
+  }
+
+  /// One answered trial of the session added last. Its number.
+  std::int64_t answer(core::TrialRow row) {
+    core::Commit drawn = event("trials_drawn");
+    drawn.design.push_back({.session = session_,
+                            .trial = ++trial_,
+                            .block = row.block,
+                            .procedure = row.procedure,
+                            .quantity = row.quantity,
+                            .repetition = row.repetition,
+                            .intensity = row.intensity});
+    store_.append(drawn);
+    answer_again(std::move(row), 1);
+    return trial_;
+  }
+  /// Another attempt at the trial answered last.
+  void answer_again(core::TrialRow row, std::int64_t attempt) {
+    core::Commit answered = event("trial_answered");
+    answered.event.trial = trial_;
+    answered.event.attempt = attempt;
+    row.session = session_;
+    row.trial = trial_;
+    row.attempt = attempt;
+    row.sequence = sequence_;
+    answered.trial = std::move(row);
+    store_.append(answered);
+  }
+  void undo_last_answer() {
+    const std::int64_t answered = sequence_;
+    core::Commit undone = event("answer_undone");
+    undone.event.trial = trial_;
+    undone.event.supersedes = answered;
+    store_.append(undone);
+  }
+  void exclude(std::int64_t trial) {
+    core::Commit excluded = event("trial_excluded");
+    excluded.event.trial = trial;
+    store_.append(excluded);
+  }
+  /// How the hand moved in the trial answered last.
+  void move(core::PresentationRow row) {
+    core::Commit ended = event("presentation_ended");
+    row.session = session_;
+    row.trial = trial_;
+    row.attempt = 1;
+    row.sequence = sequence_;
+    ended.presentation = std::move(row);
+    store_.append(ended);
+  }
+
+  void estimate(double intensity, double percent, std::int64_t repetition = 1) {
+    (void)answer({.block = "estimation",
+                  .procedure = "magnitude_estimation",
+                  .quantity = "scale",
+                  .repetition = repetition,
+                  .intensity = intensity,
+                  .response = percent});
+  }
+  void produce(double target_percent, double set) {
+    (void)answer({.block = "production",
+                  .procedure = "magnitude_production",
+                  .quantity = "scale",
+                  .repetition = 1,
+                  .intensity = set,
+                  .target_percent = target_percent,
+                  .response = set});
+  }
+  void compare(const std::string& block, double intensity, double reference, bool thicker) {
+    (void)answer({.block = block,
+                  .procedure = "constant_stimuli",
+                  .quantity = "viscosity_pa_s",
+                  .repetition = 1,
+                  .intensity = intensity,
+                  .reference_intensity = reference,
+                  .response = thicker ? 1.0 : 0.0});
+  }
+  /// Ten answers at 8 / 1.5 and ten at 8 * 1.5: that many right ones at each.
+  void compare_ten(const std::string& block, int num_right) {
+    for (int answered = 0; answered < 10; ++answered) {
+      compare(block, 8.0 / 1.5, 8.0, answered >= num_right);
+      compare(block, 8.0 * 1.5, 8.0, answered < num_right);
+    }
+  }
+
+ private:
+  core::Commit event(const char* kind) {
+    core::Commit commit;
+    commit.event.session = session_;
+    commit.event.sequence = ++sequence_;
+    commit.event.kind = kind;
+    return commit;
+  }
+
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+  core::StudyStore store_;
+  std::string hash_;
+  std::int64_t session_ = 0, trial_ = 0, sequence_ = 0;
+};
+
+}  // namespace jnd::analysis

@@ -1,0 +1,70 @@
+#include "analysis/published.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::analysis {
+namespace {
+
+class PublishedTest : public ::testing::Test {
+ protected:
+  void write(const char* name, const char* text) const {
+    std::ofstream(temporary_.path() / name) << text;
+  }
+  [[nodiscard]] Published found(const char* study) const {
+    return published_for(study, temporary_.path());
+  }
+  test_support::TemporaryFolder temporary_;
+};
+
+TEST_F(PublishedTest, FindsAStudyInAnyFileOfTheFolder) {
+  write("a.json", R"json({"citation":"A (1999)","studies":{"water":{"k":{"value":1}}}})json");
+  write(
+      "b.json",
+      R"json({"citation":"B (2001)","studies":{"honey":{"w":{"value":0.3,"sd":0.1,"place":"p. 1"}}}})json");
+  write("notes.txt", "not JSON");
+  const Published honey = found("honey");
+  EXPECT_EQ(honey.citation, "B (2001)");
+  EXPECT_EQ(honey.values.at("w").value, 0.3);
+  EXPECT_EQ(honey.values.at("w").standard_deviation, 0.1);
+  EXPECT_EQ(honey.values.at("w").place, "p. 1");
+  EXPECT_FALSE(found("water").values.at("k").standard_deviation);
+}
+
+TEST_F(PublishedTest, AnUnknownStudyOrFolderHasNone) {
+  EXPECT_TRUE(found("water").values.empty());
+  EXPECT_TRUE(published_for("water", temporary_.path() / "none").values.empty());
+}
+
+TEST_F(PublishedTest, AFileThatCannotBeReadAsPublishedValuesIsNamed) {
+  for (const char* text : {"{", "[]", "{}", R"({"studies":{"water":{"k":{"value":1}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{"value":"one"}}}})"}) {
+    write("a.json", text);
+    try {
+      (void)found("water");
+      ADD_FAILURE() << "expected an error for " << text;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("a.json"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(PublishedTest, TheShippedValuesAreThoseOfTheThesis) {
+  const std::string folder = std::string(JND_SOURCE_DIR) + "/data/published";
+  const Published magnitude = published_for("magnitude_of_virtual_water", folder);
+  EXPECT_EQ(magnitude.values.at("magnitude_estimation.k").value, 0.6663);
+  EXPECT_EQ(magnitude.values.at("magnitude_production.a").value, 1.206);
+  EXPECT_EQ(magnitude.values.at("combined.k").value, 0.5145);
+  const Published discrimination = published_for("viscosity_discrimination", folder);
+  EXPECT_EQ(discrimination.values.at("group_d.weber_fraction").value, 0.697);
+  EXPECT_EQ(discrimination.values.at("group_e.weber_fraction").value, 0.2928);
+  EXPECT_NE(discrimination.citation.find("Schmidt"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace jnd::analysis

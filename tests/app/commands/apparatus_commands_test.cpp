@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "app/json_document.h"
+#include "support/program.h"
+
+namespace jnd::app {
+namespace {
+
+using test_support::ProgramOutcome;
+using test_support::run_program;
+
+TEST(LoopCommand, PrintsTheKeysOfTheContract) {
+  const ProgramOutcome outcome =
+      run_program({"loop", "--seconds", "0.1", "--rate-hz", "500", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  EXPECT_EQ(json["rate_hz"], 500.0);
+  EXPECT_GT(json["num_ticks"], 0);
+  EXPECT_GE(json["missed_ticks"], 0);
+  for (const char* key : {"lateness_us", "tick_cost_us"}) {
+    EXPECT_EQ(keys(json[key]), (std::set<std::string>{"p50", "p99", "p999", "max"})) << key;
+    EXPECT_LE(json[key]["p50"], json[key]["max"]) << key;
+  }
+  EXPECT_TRUE(json["scheduler"].is_string());
+  EXPECT_TRUE(json["memory_locked"].is_boolean());
+}
+
+TEST(LoopCommand, APersonReadsAVerdict) {
+  const ProgramOutcome outcome = run_program({"loop", "--seconds", "0.05"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("lateness"), std::string::npos);
+}
+
+TEST(DevicesCommand, ListsTheSimulatedHand) {
+  const ProgramOutcome outcome = run_program({"devices", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  const auto json = document(outcome.out);
+  ASSERT_FALSE(json["devices"].empty());
+  EXPECT_EQ(json["devices"][0]["name"], "lumped");
+  EXPECT_EQ(json["devices"][0]["simulated"], true);
+  EXPECT_NE(run_program({"devices"}).out.find("lumped"), std::string::npos);
+}
+
+TEST(DoctorCommand, SaysOfEveryLackWhatMendsIt) {
+  const ProgramOutcome outcome = run_program({"doctor", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  const auto json = document(outcome.out);
+  std::set<std::string> names;
+  for (const auto& check : json["checks"]) {
+    names.insert(check["name"]);
+    EXPECT_EQ(check["remedy"].get<std::string>().empty(), check["ok"].get<bool>()) << check;
+  }
+  EXPECT_TRUE(names.contains("display"));
+  EXPECT_TRUE(names.contains("real-time priority"));
+  const ProgramOutcome plain = run_program({"doctor"});
+  EXPECT_EQ(plain.exit_code, 0);
+  EXPECT_NE(plain.out.find("lacks display"), std::string::npos) << plain.out;
+}
+
+TEST(DoctorCommand, MissesTheShippedFilesWhereThereAreNone) {
+  const auto json = document(
+      run_program({"doctor", "--json"}, {.folder = {}, .environment = {{"JND_SHARE", "/none"}}})
+          .out);
+  bool found = false;
+  for (const auto& check : json["checks"]) {
+    if (check["name"] == "shipped studies") found = !check["ok"].get<bool>();
+  }
+  EXPECT_TRUE(found);
+}
+
+}  // namespace
+}  // namespace jnd::app

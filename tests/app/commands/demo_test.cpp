@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+
+#include "app/json_document.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOutcome;
+
+TEST(DemoCommand, RunsBothStudiesAndOverwritesNothing) {
+  const test_support::TemporaryFolder temporary(test_support::memory_folder());
+  const test_support::ProgramOptions options{.folder = temporary.path(), .environment = {}};
+  const ProgramOutcome outcome =
+      test_support::run_program({"demo", "--fast", "--json"}, options);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["studies"].size(), 2U);
+  for (const auto& study : json["studies"]) EXPECT_EQ(study["num_participants"], 13);
+  EXPECT_EQ(json["out"], "demo-1");
+  for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {
+    const fs::path folder = temporary.path() / "demo-1" / (std::string(study) + ".study");
+    EXPECT_TRUE(fs::exists(folder / "study.sqlite")) << study;
+    EXPECT_EQ(test_support::run_program({"verify", folder.string()}).exit_code, 0) << study;
+  }
+  const ProgramOutcome again =
+      test_support::run_program({"demo", "--fast", "--out", "demo-1"}, options);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("nothing is ever overwritten"), std::string::npos) << again.err;
+}
+
+}  // namespace
+}  // namespace jnd::app

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/json_document.h"
+#include "app/tiny_study.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOutcome;
+
+class ResultsCommandTest : public ::testing::Test {
+ protected:
+  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
+    return test_support::run_program(arguments,
+                                     {.folder = temporary_.path(), .environment = {}});
+  }
+  void simulate(const std::string& file, const std::string& study, int participants,
+                const std::string& laboratory = "thesis") {
+    const ProgramOutcome outcome =
+        jnd({"simulate", file, "--participants", std::to_string(participants), "--study", study,
+             "--fast", "--laboratory", laboratory});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  static std::set<std::string> names_in(const nlohmann::json& results) {
+    std::set<std::string> names;
+    for (const auto& section : results["sections"]) {
+      for (const auto& estimate : section["estimates"]) names.insert(estimate["name"]);
+    }
+    return names;
+  }
+  /// No number anywhere is anything but finite or null.
+  static void expect_finite(const nlohmann::json& value) {
+    if (value.is_number_float()) {
+      EXPECT_TRUE(std::isfinite(value.get<double>()));
+    }
+    if (value.is_structured()) {
+      for (const auto& part : value) expect_finite(part);
+    }
+  }
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(ResultsCommandTest, PrintsTheKeysOfTheContractForTheMagnitudeStudy) {
+  simulate("magnitude_of_virtual_water", "m.study", 2);
+  const ProgramOutcome outcome = jnd({"results", "m.study", "--resamples", "100", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = document(outcome.out);
+  expect_finite(json);
+  EXPECT_EQ(json["study"], "magnitude_of_virtual_water");
+  EXPECT_EQ(json["simulated"], true);
+  for (const auto& section : json["sections"]) {
+    for (const char* key : {"name", "estimates", "excluded"}) {
+      EXPECT_TRUE(section.contains(key)) << section["name"] << key;
+    }
+    for (const auto& estimate : section["estimates"]) {
+      for (const char* key :
+           {"name", "value", "ci95", "unit", "published", "calibrated", "n"}) {
+        EXPECT_TRUE(estimate.contains(key)) << estimate["name"] << key;
+      }
+      EXPECT_EQ(estimate["ci95"].size(), 2U) << estimate["name"];
+    }
+  }
+  const std::set<std::string> names = names_in(json);
+  for (const char* name :
+       {"magnitude_estimation.k", "magnitude_estimation.a", "magnitude_production.k",
+        "magnitude_production.a", "combined.k", "combined.a", "stroke_width_m"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  for (const auto& section : json["sections"]) {
+    for (const auto& estimate : section["estimates"]) {
+      if (estimate["name"] != "magnitude_estimation.k") continue;
+      EXPECT_EQ(estimate["published"], 0.6663);
+      EXPECT_EQ(estimate["calibrated"], true);
+      EXPECT_EQ(estimate["n"], 2);
+    }
+  }
+}
+
+TEST_F(ResultsCommandTest, PrintsTheNamesOfTheContractForTheDiscriminationStudy) {
+  simulate("viscosity_discrimination", "v.study", 2);
+  const auto json = document(jnd({"results", "v.study", "--resamples", "100", "--json"}).out);
+  expect_finite(json);
+  const std::set<std::string> names = names_in(json);
+  for (const char* name : {"group_d.weber_fraction", "group_e.weber_fraction", "stroke_width_m",
+                           "max_speed_m_per_s.group_d", "max_speed_m_per_s.group_e"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  bool compared = false;
+  for (const auto& section : json["sections"]) {
+    for (const auto& comparison : section["comparisons"]) {
+      compared = compared || comparison["name"].get<std::string>().find(
+                                 "ln ln(1 + w), paired") != std::string::npos;
+    }
+  }
+  EXPECT_TRUE(compared);
+}
+
+TEST_F(ResultsCommandTest, TheTableSaysThatItIsSimulatedAndShowsNoNan) {
+  simulate("viscosity_discrimination", "v.study", 3);
+  const ProgramOutcome outcome = jnd({"results", "v.study", "--resamples", "100"});
+  ASSERT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("SIMULATED"), std::string::npos);
+  EXPECT_NE(outcome.out.find("group_d.weber_fraction"), std::string::npos);
+  EXPECT_EQ(outcome.out.find("nan"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("inf "), std::string::npos) << outcome.out;
+}
+
+TEST_F(ResultsCommandTest, AForceLimiterAtFiveNewtonsMovesTheWeberFractionOfGroupE) {
+  // Group E feels 16 Pa s, far above 5 N; group D feels 8, mostly below.
+  nlohmann::json laboratory = nlohmann::json::parse(
+      read_file(fs::path(JND_SOURCE_DIR) / "data" / "laboratories" / "thesis.json"));
+  laboratory["device"]["max_total_force_n"] = 5.0;
+  write_file(temporary_.path() / "limited.json", laboratory.dump());
+  simulate("viscosity_discrimination", "free.study", 4);
+  simulate("viscosity_discrimination", "limited.study", 4, "limited.json");
+  const auto weber = [&](const char* study, const char* group) {
+    const auto json = document(jnd({"results", study, "--resamples", "100", "--json"}).out);
+    for (const auto& section : json["sections"]) {
+      for (const auto& estimate : section["estimates"]) {
+        if (estimate["name"] == std::string(group) + ".weber_fraction" &&
+            estimate["value"].is_number()) {
+          return estimate["value"].get<double>();
+        }
+      }
+    }
+    // No slope left at all is a larger fraction than any.
+    return std::numeric_limits<double>::infinity();
+  };
+  EXPECT_GT(weber("limited.study", "group_e"), 1.5 * weber("free.study", "group_e"));
+  EXPECT_LT(weber("free.study", "group_e"), weber("free.study", "group_d"));
+}
+
+TEST_F(ResultsCommandTest, NoNumberIsEverNotFiniteHoweverFewAnswersThereAre) {
+  write_file(temporary_.path() / "tiny.json", kTinyStudy);
+  simulate("tiny.json", "t.study", 1);
+  const ProgramOutcome outcome = jnd({"results", "t.study", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_finite(document(outcome.out));
+  const ProgramOutcome table = jnd({"results", "t.study"});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_EQ(table.out.find("nan"), std::string::npos) << table.out;
+}
+
+TEST_F(ResultsCommandTest, AnotherLaboratoryMovesTheNumbers) {
+  write_file(temporary_.path() / "tiny.json", kTinyStudy);
+  simulate("tiny.json", "a.study", 2);
+  simulate("tiny.json", "b.study", 2, "misspecified");
+  EXPECT_NE(jnd({"results", "a.study", "--json"}).out,
+            jnd({"results", "b.study", "--json"}).out);
+}
+
+}  // namespace
+}  // namespace jnd::app

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include "app/json_document.h"
+#include "app/tiny_study.h"
+#include "core/storage/study_store.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOutcome;
+
+class StudyFileCommandsTest : public ::testing::Test {
+ protected:
+  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
+    return test_support::run_program(arguments,
+                                     {.folder = temporary_.path(), .environment = {}});
+  }
+  [[nodiscard]] fs::path file(const char* name) const { return temporary_.path() / name; }
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(StudyFileCommandsTest, ValidateTellsEveryProblemWithItsPlace) {
+  std::string text = replaced(kTinyStudy, "\"repetitions\": 2", "\"repititions\": 2");
+  text = replaced(text, "\"name\": \"tiny\"", "\"name\": 7");
+  write_file(file("wrong.json"), text);
+  const ProgramOutcome outcome = jnd({"validate", "wrong.json", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const auto json = document(outcome.out);
+  EXPECT_EQ(keys(json), std::set<std::string>{"problems"});
+  ASSERT_GE(json["problems"].size(), 2U);
+  std::set<std::string> pointers;
+  for (const auto& problem : json["problems"]) {
+    EXPECT_EQ(keys(problem),
+              (std::set<std::string>{"file", "line", "column", "pointer", "message"}));
+    EXPECT_EQ(problem["file"], "wrong.json");
+    EXPECT_GT(problem["line"], 0);
+    EXPECT_GT(problem["column"], 0);
+    pointers.insert(problem["pointer"]);
+  }
+  EXPECT_TRUE(pointers.contains("/name"));
+  EXPECT_TRUE(pointers.contains("/stages/3/repititions"));
+  const ProgramOutcome plain = jnd({"validate", "wrong.json"});
+  EXPECT_EQ(plain.exit_code, 1);
+  EXPECT_TRUE(plain.out.starts_with("wrong.json:3:")) << plain.out;
+  EXPECT_NE(plain.out.find(": /name: expected"), std::string::npos) << plain.out;
+}
+
+TEST_F(StudyFileCommandsTest, ValidateFindsNothingInWhatIsShipped) {
+  const ProgramOutcome outcome =
+      jnd({"validate", "short_tour", "protocols/magnitude_of_virtual_water.json",
+           "viscosity_discrimination", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_TRUE(document(outcome.out)["problems"].empty());
+}
+
+TEST_F(StudyFileCommandsTest, ValidateTellsTheProblemsOfAllFiles) {
+  write_file(file("a.json"), "[]");
+  write_file(file("b.json"), "{");
+  const auto json = document(jnd({"validate", "a.json", "b.json", "--json"}).out);
+  std::set<std::string> files;
+  for (const auto& problem : json["problems"]) files.insert(problem["file"]);
+  EXPECT_EQ(files, (std::set<std::string>{"a.json", "b.json"}));
+}
+
+TEST_F(StudyFileCommandsTest, SchemaIsOneDraft7Document) {
+  const ProgramOutcome outcome = jnd({"schema"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  const auto json = document(outcome.out);
+  EXPECT_NE(json["$schema"].get<std::string>().find("draft-07"), std::string::npos);
+  EXPECT_EQ(json["additionalProperties"], false);
+  EXPECT_EQ(jnd({"schema", "--json"}).out, outcome.out);
+}
+
+TEST_F(StudyFileCommandsTest, ANewStudyValidatesPlansAndRuns) {
+  const ProgramOutcome outcome = jnd({"new", "honey", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(document(outcome.out)["file"], "honey.json");
+  EXPECT_EQ(jnd({"validate", "honey.json"}).exit_code, 0);
+  EXPECT_EQ(jnd({"plan", "honey.json"}).exit_code, 0);
+  EXPECT_EQ(
+      jnd({"simulate", "honey.json", "--participants", "2", "--study", "honey.study", "--fast"})
+          .exit_code,
+      0);
+  EXPECT_EQ(jnd({"results", "honey.study"}).exit_code, 0);
+}
+
+TEST_F(StudyFileCommandsTest, NewCopiesAShippedStudyUnderItsOwnName) {
+  EXPECT_EQ(jnd({"new", "mine", "--from", "short_tour"}).exit_code, 0);
+  EXPECT_EQ(jnd({"validate", "mine.json"}).exit_code, 0);
+  EXPECT_NE(read_file(file("mine.json")).find("\"name\": \"mine\""), std::string::npos);
+}
+
+TEST_F(StudyFileCommandsTest, NewWritesOverNothing) {
+  write_file(file("mine.json"), "precious");
+  const ProgramOutcome outcome = jnd({"new", "mine"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("nothing was overwritten"), std::string::npos);
+  EXPECT_EQ(read_file(file("mine.json")), "precious");
+}
+
+TEST_F(StudyFileCommandsTest, PlanPrintsTheKeysOfTheContract) {
+  write_file(file("tiny.json"), kTinyStudy);
+  const ProgramOutcome outcome =
+      jnd({"plan", "tiny.json", "--participants", "3", "--seed", "5", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["participants"].size(), 3U);
+  for (const auto& participant : json["participants"]) {
+    for (const char* key : {"id", "cells", "order"}) EXPECT_TRUE(participant.contains(key));
+    int num_trials = 0;
+    for (const auto& block : participant["order"]) {
+      num_trials += static_cast<int>(block["trials"].size());
+    }
+    EXPECT_EQ(num_trials, kTinyTrials);
+  }
+  EXPECT_GT(json["duration_s"], 60.0);
+  EXPECT_FALSE(json["range"].empty());
+  for (const auto& entry : json["range"]) EXPECT_TRUE(entry["fits"].is_boolean());
+}
+
+TEST_F(StudyFileCommandsTest, SessionsDrawTheOrdersThatWerePlanned) {
+  write_file(file("tiny.json"), kTinyStudy);
+  const auto plan =
+      document(jnd({"plan", "tiny.json", "--participants", "2", "--seed", "5", "--json"}).out);
+  ASSERT_EQ(jnd({"simulate", "tiny.json", "--participants", "2", "--seed", "5", "--study",
+                 "tiny.study", "--fast"})
+                .exit_code,
+            0);
+  const core::StudyStore store(file("tiny.study"), core::StudyStore::Mode::kReadOnly);
+  for (std::int64_t session = 1; session <= 2; ++session) {
+    std::vector<double> planned;
+    for (const auto& block : plan["participants"][session - 1]["order"]) {
+      for (const auto& trial : block["trials"]) {
+        planned.push_back(trial.value("intensity", trial.value("starting_intensity", -1.0)));
+      }
+    }
+    std::vector<double> drawn;
+    for (const core::DesignRow& row : store.design(session)) {
+      drawn.push_back(row.intensity.value_or(row.starting_intensity.value_or(-1.0)));
+    }
+    EXPECT_EQ(drawn, planned);
+  }
+}
+
+TEST_F(StudyFileCommandsTest, PlanFillsTheCellsThatAStudyFolderLacks) {
+  ASSERT_EQ(jnd({"simulate", "viscosity_discrimination", "--participants", "1", "--study",
+                 "v.study", "--fast"})
+                .exit_code,
+            0);
+  const auto json = document(jnd({"plan", "viscosity_discrimination", "--study", "v.study",
+                                  "--participants", "1", "--json"})
+                                 .out);
+  EXPECT_EQ(json["participants"][0]["id"], "P02");
+  int completed = 0;
+  for (const auto& cell : json["balance"]) completed += cell["num_completed"].get<int>();
+  EXPECT_EQ(completed, 1);
+  for (const auto& cell : json["balance"]) EXPECT_LE(cell["num_planned"], 1) << cell;
+}
+
+}  // namespace
+}  // namespace jnd::app

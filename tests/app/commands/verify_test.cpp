@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "app/json_document.h"
+#include "app/tiny_study.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOutcome;
+
+class VerifyCommandTest : public ::testing::Test {
+ protected:
+  VerifyCommandTest() {
+    write_file(temporary_.path() / "tiny.json", kTinyStudy);
+    EXPECT_EQ(
+        jnd({"simulate", "tiny.json", "--participants", "2", "--study", "a.study"}).exit_code,
+        0);
+  }
+  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
+    return test_support::run_program(arguments,
+                                     {.folder = temporary_.path(), .environment = {}});
+  }
+  nlohmann::json verified(int exit_code) {
+    const ProgramOutcome outcome = jnd({"verify", "a.study", "--json"});
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out;
+    return document(outcome.out);
+  }
+  /// Overwrites one byte in the middle, and every `stride` bytes from there.
+  static void damage(const fs::path& file) {
+    std::string bytes = read_file(file);
+    for (std::size_t at = bytes.size() / 2; at < bytes.size(); at += 512) bytes[at] ^= '\x55';
+    write_file(file, bytes);
+  }
+  [[nodiscard]] fs::path in_study(const char* name) const {
+    return temporary_.path() / "a.study" / name;
+  }
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(VerifyCommandTest, AWholeStudyIsComplete) {
+  const auto json = verified(0);
+  EXPECT_EQ(json["complete"], true);
+  EXPECT_TRUE(json["problems"].empty());
+  EXPECT_EQ(json["num_sessions"], 2);
+  EXPECT_EQ(json["num_trials"], 2 * kTinyTrials);
+  EXPECT_NE(jnd({"verify", "a.study"}).out.find(": complete"), std::string::npos);
+}
+
+TEST_F(VerifyCommandTest, ADamagedRecordingIsNamedWithItsSession) {
+  damage(in_study("recordings/0002.sqlite"));
+  const auto json = verified(1);
+  EXPECT_EQ(json["complete"], false);
+  ASSERT_FALSE(json["problems"].empty());
+  for (const auto& problem : json["problems"]) EXPECT_EQ(problem["session"], 2) << problem;
+  const ProgramOutcome plain = jnd({"verify", "a.study"});
+  EXPECT_EQ(plain.exit_code, 1);
+  EXPECT_NE(plain.out.find("NOT complete"), std::string::npos);
+  EXPECT_NE(plain.out.find("problem: session 2: "), std::string::npos) << plain.out;
+}
+
+TEST_F(VerifyCommandTest, ADeletedRecordingIsNamedWithItsSession) {
+  fs::remove(in_study("recordings/0001.sqlite"));
+  const auto json = verified(1);
+  ASSERT_EQ(json["problems"].size(), 1U);
+  EXPECT_EQ(json["problems"][0]["session"], 1);
+}
+
+TEST_F(VerifyCommandTest, ADamagedDatabaseIsAFindingNotAFault) {
+  damage(in_study("study.sqlite"));
+  const auto json = verified(1);
+  EXPECT_EQ(json["complete"], false);
+  EXPECT_FALSE(json["problems"].empty());
+  write_file(in_study("study.sqlite"), "nothing like a database at all");
+  EXPECT_EQ(verified(1)["complete"], false);
+  fs::remove(in_study("study.sqlite"));
+  EXPECT_EQ(verified(1)["complete"], false);
+}
+
+TEST_F(VerifyCommandTest, ChangesNothing) {
+  const std::string database = read_file(in_study("study.sqlite"));
+  const std::string recording = read_file(in_study("recordings/0001.sqlite"));
+  (void)verified(0);
+  EXPECT_EQ(read_file(in_study("study.sqlite")), database);
+  EXPECT_EQ(read_file(in_study("recordings/0001.sqlite")), recording);
+}
+
+}  // namespace
+}  // namespace jnd::app

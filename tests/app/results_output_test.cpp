@@ -1,0 +1,80 @@
+#include "app/results_output.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace jnd::app {
+namespace {
+
+analysis::StudyResults some_results() {
+  analysis::StudyResults results{
+      .study = "honey", .simulated = true, .laboratory = "lab", .num_participants = 2};
+  analysis::ResultsSection section{.name = "group_d"};
+  section.estimates.push_back({.name = "group_d.held",
+                               .value = 0.5,
+                               .ci95 = {.low = 0.4, .high = std::nullopt},
+                               .unit = "m",
+                               .published = 0.6,
+                               .n = 2});
+  section.estimates.push_back({.name = "group_d.fitted",
+                               .value = 1.25,
+                               .ci95 = {.low = 1.0, .high = 1.5},
+                               .unit = "1",
+                               .published = 1.3,
+                               .published_sd = 0.1,
+                               .calibrated = true,
+                               .n = 2});
+  section.estimates.push_back({.name = "group_d.unpublished", .value = 7.0, .unit = "1"});
+  section.estimates.push_back(
+      {.name = "group_d.broken", .value = std::numeric_limits<double>::quiet_NaN()});
+  section.comparisons.push_back({.name = "a - b", .comparison = {}});
+  section.comparisons.back().comparison.status = analysis::FitStatus::kDegenerate;
+  section.comparisons.back().comparison.reason = "one pair only";
+  section.excluded.push_back({"P03", "no answers in group_d"});
+  results.sections.push_back(section);
+  return results;
+}
+
+TEST(ResultsOutput, JsonHasTheKeysOfTheContractAndNullForWhatIsNot) {
+  const nlohmann::json json = to_json(some_results());
+  EXPECT_EQ(json["study"], "honey");
+  EXPECT_EQ(json["simulated"], true);
+  const nlohmann::json& section = json["sections"][0];
+  EXPECT_EQ(section["name"], "group_d");
+  EXPECT_EQ(
+      section["excluded"],
+      nlohmann::json::parse(R"([{"participant":"P03","reason":"no answers in group_d"}])"));
+  const nlohmann::json& held = section["estimates"][0];
+  EXPECT_EQ(held["value"], 0.5);
+  EXPECT_EQ(held["ci95"], nlohmann::json::parse("[0.4, null]"));
+  EXPECT_EQ(held["published"], 0.6);
+  EXPECT_EQ(held["calibrated"], false);
+  EXPECT_EQ(held["unit"], "m");
+  EXPECT_EQ(held["n"], 2);
+  EXPECT_TRUE(section["estimates"][3]["value"].is_null()) << "never NaN";
+  EXPECT_TRUE(section["comparisons"][0]["p_value"].is_null());
+}
+
+TEST(ResultsOutput, TheTableHasEveryEstimateAndNoNan) {
+  const std::string table = to_table(some_results());
+  for (const char* words : {"SIMULATED", "\"lab\"", "group_d.held", "group_d.fitted",
+                            "group_d.unpublished", "one pair only", "P03", "open"}) {
+    EXPECT_NE(table.find(words), std::string::npos) << words << '\n' << table;
+  }
+  EXPECT_EQ(table.find("nan"), std::string::npos) << table;
+}
+
+TEST(ResultsOutput, TheComparisonTellsWhatWasCalibratedFromWhatWasHeldOut) {
+  const std::string table = to_comparison_table(some_results());
+  EXPECT_NE(table.find("calibrated"), std::string::npos) << table;
+  EXPECT_NE(table.find("held out"), std::string::npos) << table;
+  EXPECT_LT(table.find("group_d.fitted"), table.find("group_d.held")) << table;
+  EXPECT_EQ(table.find("group_d.unpublished"), std::string::npos) << table;
+  EXPECT_NE(table.find("1.3000 (sd 0.1000)"), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace jnd::app

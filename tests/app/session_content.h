@@ -1,0 +1,156 @@
+#pragma once
+
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "core/storage/recording.h"
+#include "core/storage/study_store.h"
+
+namespace jnd::app {
+
+/// Prints rows with every digit, so that equal texts mean equal rows.
+class RowText {
+ public:
+  RowText() { stream_.precision(17); }
+  template <typename T>
+  RowText& operator<<(const T& value) {
+    stream_ << value << '|';
+    return *this;
+  }
+  template <typename T>
+  RowText& operator<<(const std::optional<T>& value) {
+    if (value) return *this << *value;
+    stream_ << "-|";
+    return *this;
+  }
+  RowText& end() {
+    stream_ << '\n';
+    return *this;
+  }
+  [[nodiscard]] std::string text() const { return stream_.str(); }
+
+ private:
+  std::ostringstream stream_;
+};
+
+/// "" for equal texts, else the first line in which they differ, of both. (EXPECT_EQ itself
+/// looks for the shortest edit, which for a recording takes all memory there is.)
+inline std::string difference(const std::string& a, const std::string& b) {
+  if (a == b) return "";
+  std::istringstream lines_a(a);
+  std::istringstream lines_b(b);
+  std::string line_a;
+  std::string line_b;
+  do {
+    line_a = line_b = "(end)";
+    std::getline(lines_a, line_a);
+    std::getline(lines_b, line_b);
+  } while (line_a == line_b && lines_a && lines_b);
+  return line_a + "\n" + line_b;
+}
+
+inline std::string design_text(const core::StudyStore& store, std::int64_t session) {
+  RowText text;
+  for (const core::DesignRow& r : store.design(session)) {
+    text << r.trial << r.stage << r.block << r.procedure << r.medium << r.quantity
+         << r.repetition << r.position << r.intensity << r.reference_intensity
+         << r.starting_intensity << r.target_percent;
+    text.end();
+  }
+  return text.text();
+}
+
+inline std::string trials_text(const core::StudyStore& store, std::int64_t session) {
+  RowText text;
+  for (const core::TrialRow& r : store.trials(session, /*include_excluded=*/true)) {
+    text << r.trial << r.attempt << r.sequence << r.block << r.procedure << r.medium
+         << r.quantity << r.repetition << r.position << r.intensity << r.reference_intensity
+         << r.starting_intensity << r.target_percent << r.response << r.response_time_s
+         << r.num_presentations << r.num_steps << r.first_tick << r.last_tick;
+    text.end();
+  }
+  return text.text();
+}
+
+inline std::string presentations_text(const core::StudyStore& store, std::int64_t session) {
+  RowText text;
+  for (const core::PresentationRow& r : store.presentations(session)) {
+    text << r.trial << r.attempt << r.presentation << r.sequence << r.interval << r.intensity
+         << r.first_tick << r.last_tick << r.stroke_width_m << r.max_speed_m_per_s
+         << r.mean_height_m << r.num_strokes << r.delivered_damping_n_s_per_m
+         << r.commanded_damping_n_s_per_m << r.limited_ticks;
+    text.end();
+  }
+  return text.text();
+}
+
+inline std::string events_text(const core::StudyStore& store, std::int64_t session) {
+  RowText text;
+  for (const core::EventRow& r : store.events(session)) {
+    text << r.sequence << r.kind << r.version << r.time_ns << r.stage << r.trial << r.attempt
+         << r.first_tick << r.last_tick << r.intensity << r.supersedes << r.data;
+    text.end();
+  }
+  return text.text();
+}
+
+inline std::string answers_text(const core::StudyStore& store, std::int64_t session) {
+  RowText text;
+  for (const core::AnswerRow& r : store.answers(session)) {
+    text << r.sequence << r.stage << r.item << r.answer;
+    text.end();
+  }
+  return text.text();
+}
+
+/// Samples of the recording, or "" without one.
+inline std::string samples_text(const core::StudyStore& store, std::int64_t session) {
+  if (!std::filesystem::exists(store.recording_file(session))) return "";
+  RowText text;
+  const core::RecordingReader reader(store.recording_file(session));
+  reader.read(0, INT64_MAX, [&](const core::Sample& sample) {
+    text << sample.tick << sample.tip_position_m[0][0] << sample.tip_velocity_m_per_s[0][1]
+         << sample.tip_force_n[4][1];
+    text.end();
+  });
+  return text.text();
+}
+
+/// Every table of a session but the samples.
+inline std::string tables_text(const core::StudyStore& store, std::int64_t session) {
+  std::string text;
+  for (const core::SessionRow& r : store.sessions()) {
+    if (r.session != session) continue;
+    text += r.participant + "|" + std::to_string(r.seed) + "|" + r.cells + "\n";
+  }
+  return text + design_text(store, session) + trials_text(store, session) +
+         presentations_text(store, session) + events_text(store, session) +
+         answers_text(store, session);
+}
+
+/// What was presented in each trial: in production what the steps began with, for where they
+/// lead is the participant's; in the others every intensity that came up, with its interval.
+inline std::string stimuli_text(const core::StudyStore& store, std::int64_t session) {
+  RowText text;
+  std::int64_t trial = 0;
+  std::string seen;
+  for (const core::TrialRow& r : store.trials(session, true)) {
+    text << r.trial << r.starting_intensity;
+    seen.clear();
+    for (const core::PresentationRow& p : store.presentations(session)) {
+      if (p.trial != r.trial) continue;
+      RowText one;
+      one << p.interval << p.intensity;
+      if (p.presentation > 1 && r.starting_intensity) continue;
+      if (seen.find(one.text()) == std::string::npos) seen += one.text();
+    }
+    text << seen;
+    text.end();
+    trial = r.trial;
+  }
+  text << trial;
+  return text.text();
+}
+
+}  // namespace jnd::app

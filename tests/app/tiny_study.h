@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace jnd::app {
+
+/// All three procedures and a stage of most kinds in ten trials: under a second to run.
+inline const std::string kTinyStudy = R"json({
+  "format": 1,
+  "name": "tiny",
+  "languages": ["en"],
+  "title": {"en": "Tiny"},
+  "authors": ["A. Author"],
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+  "stages": [
+    {"kind": "checklist", "name": "before", "items": [{"text": {"en": "Power on."}}]},
+    {"kind": "consent", "name": "consent", "paragraphs": [{"en": "You may stop."}],
+     "agreement": {"en": "I agree."}},
+    {"kind": "explore", "name": "free", "instruction": {"en": "Move."},
+     "media": [{"medium": "free_space", "duration_s": 0.5}]},
+    {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation",
+     "medium": "water", "scale": [0.5, 2], "repetitions": 2, "free_space_between_s": 0,
+     "instruction": {"en": "Say."}, "question": {"en": "How strong?"}, "expected_trial_s": 5},
+    {"kind": "block", "name": "production", "procedure": "magnitude_production",
+     "medium": "water", "scale": [1, 2], "target_percent": [100],
+     "coarse_step_scale": 0.5, "fine_step_scale": 0.25, "free_space_between_s": 0,
+     "instruction": {"en": "Set."}, "question": {"en": "So?"}, "expected_trial_s": 5},
+    {"kind": "break", "name": "rest", "instruction": {"en": "Rest."}, "duration_s": 60},
+    {"kind": "block", "name": "comparison", "procedure": "constant_stimuli",
+     "medium": "viscous", "viscosity_pa_s": [4, 16], "reference_viscosity_pa_s": 8,
+     "repetitions": 2, "free_space_between_s": 0, "instruction": {"en": "Compare."},
+     "question": {"en": "Thicker?"}, "expected_trial_s": 5},
+    {"kind": "questionnaire", "name": "about_you", "instruction": {"en": "You."}, "items": [
+      {"name": "body_height_m", "kind": "number", "unit": "m", "minimum": 1, "maximum": 2.5,
+       "question": {"en": "Height?"}}]}
+  ]
+})json";
+inline constexpr int kTinyTrials = 10;
+
+inline std::filesystem::path write_file(const std::filesystem::path& file,
+                                        const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
+  return file;
+}
+
+inline std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error("cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The text with the first `from` turned into `to`; throws if there is none.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("not in the text: " + from);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,125 @@
+#include "experiments/participants/laboratory.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace jnd::experiments {
+namespace {
+
+std::string shipped(const char* name) {
+  std::ifstream stream(std::string(JND_SOURCE_DIR) + "/data/laboratories/" + name);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+nlohmann::json thesis() { return nlohmann::json::parse(shipped("thesis.json")); }
+
+std::string problems_of(const nlohmann::json& file) {
+  try {
+    (void)parse_laboratory(file.dump(), "x.json");
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Laboratory, EveryShippedOneIsReadWithItsText) {
+  for (const char* name : {"thesis.json", "misspecified.json"}) {
+    const std::string text = shipped(name);
+    const Laboratory laboratory = parse_laboratory(text, name);
+    EXPECT_EQ(laboratory.text, text);
+    EXPECT_EQ(laboratory.name + ".json", name);
+    EXPECT_GT(laboratory.device.mass_kg, 0.0);
+    EXPECT_GT(laboratory.perceiver.weber_fraction, 0.0);
+    EXPECT_GT(laboratory.movement.max_speed_m_per_s, 0.0);
+    EXPECT_TRUE(laboratory.strokes.contains("default"));
+  }
+}
+
+TEST(Laboratory, ANumberStandsAloneOrWithItsBasis) {
+  nlohmann::json file = thesis();
+  file["device"]["mass_kg"] = 3.5;
+  EXPECT_EQ(parse_laboratory(file.dump(), "x.json").device.mass_kg, 3.5);
+  file["device"]["mass_kg"] = {{"value", 4.5}, {"basis", "assumption"}};
+  EXPECT_EQ(parse_laboratory(file.dump(), "x.json").device.mass_kg, 4.5);
+  file["device"]["mass_kg"] = {{"value", 4.5}, {"basis", "hearsay"}};
+  EXPECT_NE(problems_of(file).find("/device/mass_kg/basis: expected thesis"),
+            std::string::npos);
+}
+
+TEST(Laboratory, TellsEveryProblemAtOnce) {
+  nlohmann::json file = thesis();
+  file["device"].erase("dry_friction_n");
+  file["device"]["mass_kg"] = "heavy";
+  file["perceiver"]["lapse_rate"] = 0.7;
+  file["perceiver"]["noise"] = "loud";
+  file["perceiver"]["wisdom"] = 1;
+  file["extra"] = 1;
+  file["format"] = 2;
+  const std::string problems = problems_of(file);
+  for (const char* expected :
+       {"x.json: 7 problem(s)",
+        "/device/dry_friction_n: expected a number from 0 to 1e+09, found none",
+        "/device/mass_kg: expected a number", "found \"heavy\"",
+        "/perceiver/lapse_rate: expected a number from 0 to 0.499, found 0.7",
+        "/perceiver/noise: expected one of normal, weibull, found \"loud\"",
+        "/perceiver/wisdom: unknown key", "/extra: unknown key", "/format: expected 1"}) {
+    EXPECT_NE(problems.find(expected), std::string::npos) << expected << "\nin " << problems;
+  }
+}
+
+TEST(Laboratory, EveryNumberIsNeededAndMustBeOne) {
+  const nlohmann::json file = thesis();
+  for (const char* section : {"device", "arm", "movement", "perceiver"}) {
+    for (const auto& [key, value] : file[section].items()) {
+      if (key == "comment") continue;
+      nlohmann::json without = file;
+      without[section].erase(key);
+      const std::string place = std::string("/") + section + "/" + key + ": expected";
+      EXPECT_NE(problems_of(without).find(place), std::string::npos) << place;
+      nlohmann::json text = file;
+      text[section][key] = "x";
+      EXPECT_NE(problems_of(text).find(place), std::string::npos) << place;
+    }
+    nlohmann::json gone = file;
+    gone.erase(section);
+    EXPECT_NE(problems_of(gone).find(std::string("/") + section + ": expected an object"),
+              std::string::npos);
+  }
+}
+
+TEST(Laboratory, WhatIsNoObjectIsToldSo) {
+  for (const char* text : {"", "[]", "{", "7", "\xff"}) {
+    EXPECT_THROW((void)parse_laboratory(text, "x.json"), core::Error) << text;
+  }
+  EXPECT_THROW((void)read_laboratory("/none/there.json"), core::Error);
+}
+
+TEST(Laboratory, APartOfAnotherTypeIsAProblemAndNoFault) {
+  for (const char* key : {"name", "title", "calibrated_on", "device", "arm", "movement",
+                          "strokes", "perceiver"}) {
+    for (const nlohmann::json& wrong :
+         {nlohmann::json(7), nlohmann::json("x"), nlohmann::json::array({1, 2}),
+          nlohmann::json(nullptr)}) {
+      nlohmann::json file = thesis();
+      if (wrong.is_string() && (std::string(key) == "name" || std::string(key) == "title"))
+        continue;
+      file[key] = wrong;
+      EXPECT_THROW((void)parse_laboratory(file.dump(), "x.json"), core::Error) << key << wrong;
+    }
+  }
+}
+
+TEST(Laboratory, AProcedureWithoutStrokesOfItsOwnHasTheDefault) {
+  const Laboratory laboratory = parse_laboratory(shipped("thesis.json"), "thesis.json");
+  EXPECT_EQ(&laboratory.strokes_for("staircase"), &laboratory.strokes.at("default"));
+  EXPECT_EQ(&laboratory.strokes_for("constant_stimuli"),
+            &laboratory.strokes.at("constant_stimuli"));
+}
+
+}  // namespace
+}  // namespace jnd::experiments
