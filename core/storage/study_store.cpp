@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
 
 #include "core/storage/database.h"
 #include "core/storage/sha256.h"
+#include "core/storage/study_rows.h"
 #include "core/storage/study_schema.h"
 
 namespace jnd::core {
@@ -68,37 +68,6 @@ fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
   return folder / "study.sqlite";
 }
 
-constexpr char kEventColumns[] =
-    "session, sequence, kind, version, time_ns, stage, trial, attempt, first_tick, last_tick, "
-    "intensity, supersedes, data";
-constexpr char kDesignColumns[] =
-    "session, trial, stage, block, procedure, medium, quantity, repetition, position, "
-    "intensity, "
-    "reference_intensity, starting_intensity, target_percent";
-constexpr char kPresentationColumns[] =
-    "session, trial, attempt, presentation, sequence, interval, intensity, first_tick, "
-    "last_tick, "
-    "stroke_width_m, max_speed_m_per_s, mean_height_m, num_strokes, "
-    "delivered_damping_n_s_per_m, "
-    "commanded_damping_n_s_per_m, limited_ticks";
-constexpr char kTrialColumns[] =
-    "session, trial, attempt, sequence, block, procedure, medium, quantity, repetition, "
-    "position, "
-    "intensity, reference_intensity, starting_intensity, target_percent, response, "
-    "response_time_s, num_presentations, num_steps, first_tick, last_tick";
-constexpr char kAnswerColumns[] = "session, sequence, stage, item, answer";
-constexpr char kSessionColumns[] =
-    "session, participant, protocol_sha256, seed, cells, pilot, simulated, device, laboratory, "
-    "program_version, realtime, rate_hz, recorded, started_time_ns";
-
-std::string insert(const std::string& table, const std::string& columns) {
-  std::string marks = "?";
-  for (const char letter : columns) {
-    if (letter == ',') marks += ", ?";
-  }
-  return "INSERT INTO " + table + " (" + columns + ") VALUES (" + marks + ")";
-}
-
 }  // namespace
 
 struct StudyStore::Implementation {
@@ -110,11 +79,11 @@ struct StudyStore::Implementation {
     if (mode == Mode::kCreate && is_empty(database)) create();
     check_format();
     if (mode == Mode::kReadOnly) return;
-    insert_event.emplace(database, insert("event", kEventColumns));
-    insert_design.emplace(database, insert("design", kDesignColumns));
-    insert_presentation.emplace(database, insert("presentation", kPresentationColumns));
-    insert_trial.emplace(database, insert("trial", kTrialColumns));
-    insert_answer.emplace(database, insert("answer", kAnswerColumns));
+    insert_event.emplace(database, insert_into("event", kEventColumns));
+    insert_design.emplace(database, insert_into("design", kDesignColumns));
+    insert_presentation.emplace(database, insert_into("presentation", kPresentationColumns));
+    insert_trial.emplace(database, insert_into("trial", kTrialColumns));
+    insert_answer.emplace(database, insert_into("answer", kAnswerColumns));
     last_sequence.emplace(database,
                           "SELECT COALESCE(MAX(sequence), 0) FROM event WHERE session = ?");
   }
@@ -192,22 +161,8 @@ std::int64_t StudyStore::add_session(SessionRow row) {
     Statement next(database, "SELECT COALESCE(MAX(session), 0) + 1 FROM session");
     if (next.step()) row.session = next.integer(0);
   }
-  Statement statement(database, insert("session", kSessionColumns));
-  statement.bind(row.session)
-      .bind(row.participant)
-      .bind(row.protocol_sha256)
-      .bind(std::to_string(row.seed))
-      .bind(row.cells)
-      .bind(std::int64_t{row.pilot})
-      .bind(std::int64_t{row.simulated})
-      .bind(row.device)
-      .bind(row.laboratory)
-      .bind(row.program_version)
-      .bind(row.realtime)
-      .bind(row.rate_hz)
-      .bind(std::int64_t{row.recorded})
-      .bind(row.started_time_ns)
-      .run();
+  Statement statement(database, insert_into("session", kSessionColumns));
+  bind(row, statement);
   transaction.commit();
   return row.session;
 }
@@ -228,87 +183,18 @@ void StudyStore::append(const Commit& commit) {
                 ": expected event " + std::to_string(last + 1) + ", found " +
                 std::to_string(event.sequence) + "; another program wrote to this session");
   }
-  my.insert_event->bind(event.session)
-      .bind(event.sequence)
-      .bind(event.kind)
-      .bind(std::int64_t{event.version})
-      .bind(event.time_ns)
-      .bind(event.stage)
-      .bind(event.trial)
-      .bind(event.attempt)
-      .bind(event.first_tick)
-      .bind(event.last_tick)
-      .bind(event.intensity)
-      .bind(event.supersedes)
-      .bind(event.data)
-      .run();
+  bind(event, *my.insert_event);
   for (const DesignRow& row : commit.design) {
-    my.insert_design->bind(row.session)
-        .bind(row.trial)
-        .bind(row.stage)
-        .bind(row.block)
-        .bind(row.procedure)
-        .bind(row.medium)
-        .bind(row.quantity)
-        .bind(row.repetition)
-        .bind(row.position)
-        .bind(row.intensity)
-        .bind(row.reference_intensity)
-        .bind(row.starting_intensity)
-        .bind(row.target_percent)
-        .run();
+    bind(row, *my.insert_design);
   }
   if (commit.presentation) {
-    const PresentationRow& row = *commit.presentation;
-    my.insert_presentation->bind(row.session)
-        .bind(row.trial)
-        .bind(row.attempt)
-        .bind(row.presentation)
-        .bind(row.sequence)
-        .bind(row.interval)
-        .bind(row.intensity)
-        .bind(row.first_tick)
-        .bind(row.last_tick)
-        .bind(row.stroke_width_m)
-        .bind(row.max_speed_m_per_s)
-        .bind(row.mean_height_m)
-        .bind(row.num_strokes)
-        .bind(row.delivered_damping_n_s_per_m)
-        .bind(row.commanded_damping_n_s_per_m)
-        .bind(row.limited_ticks)
-        .run();
+    bind(*commit.presentation, *my.insert_presentation);
   }
   if (commit.trial) {
-    const TrialRow& row = *commit.trial;
-    my.insert_trial->bind(row.session)
-        .bind(row.trial)
-        .bind(row.attempt)
-        .bind(row.sequence)
-        .bind(row.block)
-        .bind(row.procedure)
-        .bind(row.medium)
-        .bind(row.quantity)
-        .bind(row.repetition)
-        .bind(row.position)
-        .bind(row.intensity)
-        .bind(row.reference_intensity)
-        .bind(row.starting_intensity)
-        .bind(row.target_percent)
-        .bind(row.response)
-        .bind(row.response_time_s)
-        .bind(row.num_presentations)
-        .bind(row.num_steps)
-        .bind(row.first_tick)
-        .bind(row.last_tick)
-        .run();
+    bind(*commit.trial, *my.insert_trial);
   }
   for (const AnswerRow& row : commit.answers) {
-    my.insert_answer->bind(row.session)
-        .bind(row.sequence)
-        .bind(row.stage)
-        .bind(row.item)
-        .bind(row.answer)
-        .run();
+    bind(row, *my.insert_answer);
   }
   transaction.commit();
 }
@@ -319,23 +205,7 @@ std::vector<SessionRow> StudyStore::sessions() const {
                  std::string("SELECT ") + kSessionColumns + " FROM session ORDER BY session");
   std::vector<SessionRow> all;
   while (rows.step()) {
-    SessionRow row;
-    row.session = rows.integer(0);
-    row.participant = rows.text(1);
-    row.protocol_sha256 = rows.text(2);
-    const std::string seed = rows.text(3);
-    std::from_chars(seed.data(), seed.data() + seed.size(), row.seed);
-    row.cells = rows.text(4);
-    row.pilot = rows.integer(5) != 0;
-    row.simulated = rows.integer(6) != 0;
-    row.device = rows.text(7);
-    row.laboratory = rows.text(8);
-    row.program_version = rows.text(9);
-    row.realtime = rows.text(10);
-    row.rate_hz = rows.number(11);
-    row.recorded = rows.integer(12) != 0;
-    row.started_time_ns = rows.integer(13);
-    all.push_back(std::move(row));
+    all.push_back(session_row(rows));
   }
   return all;
 }
@@ -348,19 +218,7 @@ std::vector<EventRow> StudyStore::events(std::int64_t session) const {
   rows.bind(session);
   std::vector<EventRow> all;
   while (rows.step()) {
-    all.push_back({.session = rows.integer(0),
-                   .sequence = rows.integer(1),
-                   .kind = rows.text(2),
-                   .version = static_cast<int>(rows.integer(3)),
-                   .time_ns = rows.integer(4),
-                   .stage = rows.optional_integer(5),
-                   .trial = rows.optional_integer(6),
-                   .attempt = rows.optional_integer(7),
-                   .first_tick = rows.optional_integer(8),
-                   .last_tick = rows.optional_integer(9),
-                   .intensity = rows.optional_number(10),
-                   .supersedes = rows.optional_integer(11),
-                   .data = rows.text(12)});
+    all.push_back(event_row(rows));
   }
   return all;
 }
@@ -373,19 +231,7 @@ std::vector<DesignRow> StudyStore::design(std::int64_t session) const {
   rows.bind(session);
   std::vector<DesignRow> all;
   while (rows.step()) {
-    all.push_back({.session = rows.integer(0),
-                   .trial = rows.integer(1),
-                   .stage = rows.integer(2),
-                   .block = rows.text(3),
-                   .procedure = rows.text(4),
-                   .medium = rows.text(5),
-                   .quantity = rows.text(6),
-                   .repetition = rows.integer(7),
-                   .position = rows.integer(8),
-                   .intensity = rows.optional_number(9),
-                   .reference_intensity = rows.optional_number(10),
-                   .starting_intensity = rows.optional_number(11),
-                   .target_percent = rows.optional_number(12)});
+    all.push_back(design_row(rows));
   }
   return all;
 }
@@ -399,26 +245,7 @@ std::vector<TrialRow> StudyStore::trials(std::int64_t session, bool include_excl
   rows.bind(session);
   std::vector<TrialRow> all;
   while (rows.step()) {
-    all.push_back({.session = rows.integer(0),
-                   .trial = rows.integer(1),
-                   .attempt = rows.integer(2),
-                   .sequence = rows.integer(3),
-                   .block = rows.text(4),
-                   .procedure = rows.text(5),
-                   .medium = rows.text(6),
-                   .quantity = rows.text(7),
-                   .repetition = rows.integer(8),
-                   .position = rows.integer(9),
-                   .intensity = rows.optional_number(10),
-                   .reference_intensity = rows.optional_number(11),
-                   .starting_intensity = rows.optional_number(12),
-                   .target_percent = rows.optional_number(13),
-                   .response = rows.optional_number(14),
-                   .response_time_s = rows.optional_number(15),
-                   .num_presentations = rows.integer(16),
-                   .num_steps = rows.integer(17),
-                   .first_tick = rows.integer(18),
-                   .last_tick = rows.integer(19)});
+    all.push_back(trial_row(rows));
   }
   return all;
 }
@@ -432,22 +259,7 @@ std::vector<PresentationRow> StudyStore::presentations(std::int64_t session) con
   rows.bind(session);
   std::vector<PresentationRow> all;
   while (rows.step()) {
-    all.push_back({.session = rows.integer(0),
-                   .trial = rows.integer(1),
-                   .attempt = rows.integer(2),
-                   .presentation = rows.integer(3),
-                   .sequence = rows.integer(4),
-                   .interval = rows.text(5),
-                   .intensity = rows.number(6),
-                   .first_tick = rows.integer(7),
-                   .last_tick = rows.integer(8),
-                   .stroke_width_m = rows.optional_number(9),
-                   .max_speed_m_per_s = rows.optional_number(10),
-                   .mean_height_m = rows.optional_number(11),
-                   .num_strokes = rows.integer(12),
-                   .delivered_damping_n_s_per_m = rows.optional_number(13),
-                   .commanded_damping_n_s_per_m = rows.optional_number(14),
-                   .limited_ticks = rows.integer(15)});
+    all.push_back(presentation_row(rows));
   }
   return all;
 }
@@ -460,11 +272,7 @@ std::vector<AnswerRow> StudyStore::answers(std::int64_t session) const {
   rows.bind(session);
   std::vector<AnswerRow> all;
   while (rows.step()) {
-    all.push_back({.session = rows.integer(0),
-                   .sequence = rows.integer(1),
-                   .stage = rows.text(2),
-                   .item = rows.text(3),
-                   .answer = rows.text(4)});
+    all.push_back(answer_row(rows));
   }
   return all;
 }
