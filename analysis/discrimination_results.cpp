@@ -200,10 +200,13 @@ void add_individual(ResultsSection& section, const std::vector<Answers>& all,
   add_plain(
       "beyond_stimuli", num_beyond, static_cast<int>(all.size()),
       "participants whose own fraction lies beyond the largest stimulus, or is not finite");
-  add_plain("mean", summary.mean, summary.num_values,
-            "plain mean of those that exist (biased upwards at few answers)");
-  add_plain("sd", summary.standard_deviation, summary.num_values,
-            "plain standard deviation of those that exist");
+  // One fraction beyond the stimuli, which they cannot tell from any other, makes both
+  // meaningless.
+  const bool all_within = num_beyond == 0 && with_fit.size() == all.size();
+  add_plain("mean", all_within ? summary.mean : std::nullopt, summary.num_values,
+            "plain mean, where all lie within the stimuli (biased upwards at few answers)");
+  add_plain("sd", all_within ? summary.standard_deviation : std::nullopt, summary.num_values,
+            "plain standard deviation, where all lie within the stimuli");
 }
 
 /// Where individual Weber fractions are compared: their spread is even there.

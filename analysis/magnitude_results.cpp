@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "analysis/fits/power_fit.h"
@@ -124,6 +125,34 @@ void add_mean(ResultsSection& section, const std::string& name, const std::strin
                                .n = summary.num_values});
 }
 
+/// Interval of something about one value a participant, over resampled participants.
+Interval resampled(const std::vector<double>& values, const ResultsOptions& options,
+                   const std::function<std::optional<double>(const Summary&)>& statistic) {
+  if (values.empty()) return {};
+  return resample_participants(values.size(), options.num_resamples, options.seed,
+                               [&](const std::vector<std::size_t>& drawn) {
+                                 std::vector<double> sample;
+                                 for (const std::size_t i : drawn) sample.push_back(values[i]);
+                                 return statistic(summary_of(sample));
+                               })
+      .ci95;
+}
+
+/// Standard deviation between participants.
+void add_spread(ResultsSection& section, const std::string& name,
+                const std::vector<double>& values, const ResultsOptions& options) {
+  const Summary summary = summary_of(values);
+  if (!summary.standard_deviation) return;
+  section.estimates.push_back(
+      {.name = name,
+       .value = summary.standard_deviation,
+       .ci95 = resampled(values, options,
+                         [](const Summary& sample) { return sample.standard_deviation; }),
+       .unit = "1",
+       .meaning = "standard deviation between participants",
+       .n = summary.num_values});
+}
+
 /// One participant's answers of one repetition, by intensity.
 Means repetition_curve(const std::vector<core::TrialRow>& trials, std::int64_t repetition) {
   Means curve;
@@ -170,9 +199,17 @@ void add_trial_correlations(ResultsSection& section, const StudyData& data,
         correlations.push_back(*r);
         by_participant[i].push_back(*r);
       }
-      add_mean(section,
+      const Summary summary = summary_of(correlations);
+      section.estimates.push_back(
+          {.name =
                "trial_correlation.t" + std::to_string(first) + "_t" + std::to_string(second),
-               "correlation of two repetitions, mean of the participants", correlations);
+           .value = summary.mean,
+           // Over resampled participants: Student's t would leave [-1, 1].
+           .ci95 = resampled(correlations, options,
+                             [](const Summary& sample) { return sample.mean; }),
+           .unit = "1",
+           .meaning = "correlation of two repetitions, mean of the participants",
+           .n = summary.num_values});
     }
   }
   const auto median = [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
@@ -192,25 +229,6 @@ void add_trial_correlations(ResultsSection& section, const StudyData& data,
   estimate.ci95 =
       resample_participants(by_participant.size(), options.num_resamples, options.seed, median)
           .ci95;
-  section.estimates.push_back(std::move(estimate));
-}
-
-/// Standard deviation between participants, its interval over resampled ones.
-void add_spread(ResultsSection& section, const std::string& name,
-                const std::vector<double>& values, const ResultsOptions& options) {
-  const auto spread = [&](const std::vector<std::size_t>& drawn) {
-    std::vector<double> sample;
-    for (const std::size_t i : drawn) sample.push_back(values[i]);
-    return summary_of(sample).standard_deviation;
-  };
-  Estimate estimate{.name = name,
-                    .value = summary_of(values).standard_deviation,
-                    .unit = "1",
-                    .meaning = "standard deviation between participants",
-                    .n = static_cast<int>(values.size())};
-  if (!estimate.value) return;
-  estimate.ci95 =
-      resample_participants(values.size(), options.num_resamples, options.seed, spread).ci95;
   section.estimates.push_back(std::move(estimate));
 }
 

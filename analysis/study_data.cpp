@@ -44,6 +44,7 @@ StudyData load_study(const core::StudyStore& store) {
     data.simulated = data.simulated || session.simulated;
     if (!session.laboratory.empty()) {
       const json laboratory = parsed(session.laboratory, place + ": laboratory");
+      data.laboratory_text = session.laboratory;
       data.laboratory = laboratory.value("name", "");
       data.calibrated_on = laboratory.value("calibrated_on", std::vector<std::string>{});
       data.implied = laboratory.value("implied", std::vector<std::string>{});

@@ -49,6 +49,7 @@ struct StudyResults {
   std::string study;
   bool simulated = false;
   std::string laboratory;
+  bool laboratory_changed = false;  ///< It is not the shipped one of that name.
   std::string citation;  ///< Of the published values; "" without any.
   int num_participants = 0;
   std::vector<ResultsSection> sections;

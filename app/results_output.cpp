@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/share.h"
@@ -45,6 +47,13 @@ std::string published_text(const Estimate& estimate) {
              : fmt::format("{:.4f}", *estimate.published);
 }
 
+/// Text of the shipped laboratory of this name; "" if there is none.
+std::string shipped(const std::string& name) {
+  std::ifstream file(share_folder() / "data" / "laboratories" / (name + ".json"),
+                     std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 /// What the simulated value may be credited with.
 std::string basis_of(const Estimate& estimate) {
   if (estimate.calibrated) return "calibrated";
@@ -63,7 +72,8 @@ std::string heading(const analysis::StudyResults& results) {
   std::string line =
       fmt::format("{}: {} participants", results.study, results.num_participants);
   if (results.simulated) {
-    line += fmt::format(", SIMULATED (laboratory \"{}\")", results.laboratory);
+    line += fmt::format(", SIMULATED (laboratory \"{}\"{})", results.laboratory,
+                        results.laboratory_changed ? ", CHANGED from the shipped one" : "");
   }
   return line + "\n";
 }
@@ -82,15 +92,28 @@ std::string row(const Estimate& estimate) {
                      inside ? (*inside ? "yes" : "no") : "");
 }
 
+/// A row of `jnd results`: what the number is, and what was published if anything was.
+std::string explained_row(const Estimate& estimate) {
+  std::string line =
+      fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name,
+                  text(estimate.value), text(estimate.ci95),
+                  estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
+  if (estimate.published) line += "; published " + published_text(estimate);
+  return line + "\n";
+}
+
 }  // namespace
 
 analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   const analysis::StudyData data = analysis::load_study(store);
-  return analysis::results_of(
+  analysis::StudyResults results = analysis::results_of(
       data, analysis::published_for(data.study, share_folder() / "data" / "published"),
       options);
+  results.laboratory_changed =
+      data.simulated && data.laboratory_text != shipped(data.laboratory);
+  return results;
 }
 
 json to_json(const analysis::StudyResults& results) {
@@ -138,19 +161,18 @@ json to_json(const analysis::StudyResults& results) {
                         {"comparisons", std::move(comparisons)},
                         {"excluded", std::move(excluded)}});
   }
-  return {{"study", results.study},
-          {"simulated", results.simulated},
-          {"laboratory", results.laboratory},
-          {"citation", results.citation},
-          {"num_participants", results.num_participants},
-          {"sections", std::move(sections)}};
+  return {
+      {"study", results.study},           {"simulated", results.simulated},
+      {"laboratory", results.laboratory}, {"laboratory_changed", results.laboratory_changed},
+      {"citation", results.citation},     {"num_participants", results.num_participants},
+      {"sections", std::move(sections)}};
 }
 
 std::string to_table(const analysis::StudyResults& results) {
   std::string table = heading(results);
   for (const analysis::ResultsSection& section : results.sections) {
-    table += fmt::format("\n{}\n{}", section.name, header());
-    for (const Estimate& estimate : section.estimates) table += row(estimate);
+    table += fmt::format("\n{}\n", section.name);
+    for (const Estimate& estimate : section.estimates) table += explained_row(estimate);
     for (const analysis::NamedComparison& named : section.comparisons) {
       const analysis::Comparison& c = named.comparison;
       if (c.status != analysis::FitStatus::kOk) {
@@ -179,7 +201,10 @@ std::string to_comparison_table(const analysis::StudyResults& results) {
     for (const analysis::ResultsSection& section : results.sections) {
       for (const Estimate& estimate : section.estimates) {
         if (!estimate.published || basis_of(estimate) != basis) continue;
-        if (first && results.simulated) table += std::string("  ") + title + "\n";
+        if (first && results.simulated) {
+          table += std::string("  ") + title +
+                   (results.laboratory_changed ? ", before it was changed\n" : "\n");
+        }
         first = false;
         table += row(estimate);
       }

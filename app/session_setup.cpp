@@ -12,6 +12,7 @@
 #include "app/laboratory_run.h"
 #include "core/error.h"
 #include "core/random_stream.h"
+#include "core/storage/sha256.h"
 #include "device/device_registry.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/session/plan.h"
@@ -28,6 +29,26 @@ void require_device(const std::string& name) {
   }
 }
 
+/// One folder is one study and, simulated, one laboratory: pooling two would be no result at
+/// all.
+static void refuse_other_study(const core::StudyStore& store, const SessionSetup& setup,
+                               const std::vector<core::SessionRow>& rows) {
+  const std::string hash = core::sha256(setup.study.text);
+  for (const core::SessionRow& row : rows) {
+    if (row.protocol_sha256 != hash) {
+      throw core::Error(
+          store.folder().string() + ": expected the study file that it was begun with (" +
+          row.protocol_sha256.substr(0, 12) + "), found another or a changed one (" +
+          hash.substr(0, 12) + "); use a new folder for it");
+    }
+    if (row.laboratory != setup.laboratory.text) {
+      throw core::Error(store.folder().string() +
+                        ": expected the laboratory that its sessions were simulated in, found "
+                        "another or a changed one; use a new folder for it");
+    }
+  }
+}
+
 std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSetup& setup,
                                        const std::vector<std::string>& participants) {
   std::set<std::string> known;
@@ -39,6 +60,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
                         participant + " has a session already; choose another or resume");
     }
   }
+  refuse_other_study(store, setup, rows);
   const std::string hash = store.add_protocol(setup.study_file_name, setup.study.text);
   const std::vector<experiments::Cell> cells = experiments::planned_cells(
       setup.study, experiments::completed_cells(store), setup.seed,

@@ -11,6 +11,9 @@
 namespace jnd::analysis {
 namespace {
 
+/// Fewer draw too few different resamples: two persons give three.
+constexpr std::size_t kFewestParticipants = 5;
+
 /// The tail that gives a bootstrap of n values the reach of Student's t: plain percentiles are
 /// too narrow by sqrt((n-1)/n) and by the normal's shorter tails (Hesterberg 2015, expanded
 /// percentiles).
@@ -67,6 +70,7 @@ ResampledInterval resample_participants(
   core::RandomStream random(seed, "bootstrap over participants");
   ResampledInterval result;
   result.num_resamples = num_resamples;
+  if (num_participants < kFewestParticipants) return result;
   std::vector<std::size_t> drawn(num_participants);
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(num_resamples));

@@ -33,7 +33,8 @@ struct ResampledInterval {
 /// which is counted and left out, and infinity where it is beyond any bound, which opens an end
 /// of the interval. The percentiles are expanded (Hesterberg 2015): for 13 participants at 1.2
 /// and 98.8 %, since plain ones are too narrow for few. The same seed gives the same interval.
-/// At most half the resamples may be undefined, or both ends are open.
+/// At most half the resamples may be undefined, or both ends are open; so they are for fewer
+/// than five participants.
 [[nodiscard]] ResampledInterval resample_participants(
     std::size_t num_participants, int num_resamples, std::uint64_t seed,
     const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic);

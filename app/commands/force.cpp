@@ -159,16 +159,27 @@ void add_force(CLI::App& program, Invocation& invocation) {
   command->add_option("law", options->law, "free, water, viscous or viscous-stokes")
       ->required()
       ->check(CLI::IsMember({"free", "water", "viscous", "viscous-stokes"}));
-  command->add_option("--viscosity-pa-s", options->viscosity_pa_s,
-                      "Viscosity of a viscous fluid (default 1)");
-  command->add_option("--scale", options->scale, "Factor on the force of water (default 1)");
+  CLI::Option* viscosity = command->add_option("--viscosity-pa-s", options->viscosity_pa_s,
+                                               "Viscosity of a viscous fluid (default 1)");
+  CLI::Option* scale = command->add_option("--scale", options->scale,
+                                           "Factor on the force of water (default 1)");
   command->add_option("--velocity-m-per-s", options->velocity_m_per_s,
                       "Of the hand, moving as one: x,y,z (default 1,0,0)");
   command->add_option("--angle-of-attack-rad", options->angle_of_attack_rad,
                       "Between hand plane and motion (default pi/2, head on)");
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->callback(
-      [options, &invocation] { invocation.run = [options] { return run(*options); }; });
+  command->callback([options, &invocation, viscosity, scale] {
+    const bool is_water = options->law == "water";
+    const bool is_viscous = options->law.starts_with("viscous");
+    if (scale->count() > 0 && !is_water) {
+      throw UsageError("--scale: expected only with water, found with " + options->law);
+    }
+    if (viscosity->count() > 0 && !is_viscous) {
+      throw UsageError("--viscosity-pa-s: expected only with a viscous law, found with " +
+                       options->law);
+    }
+    invocation.run = [options] { return run(*options); };
+  });
 }
 
 }  // namespace jnd::app

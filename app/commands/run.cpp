@@ -83,7 +83,9 @@ int run_session(const Options& options, core::StudyStore& store,
 void require_headless(const Options& options) {
   if (options.headless) return;
   throw EnvironmentError(
-      "no window: expected --headless with a simulated participant, for no display was found");
+      "no window: expected --headless with a simulated participant; sessions with a person in "
+      "front "
+      "of a window are still being built");
 }
 
 /// It stands in tables, file names and messages.

@@ -64,15 +64,23 @@ TEST(ResampleParticipants, DrawsAsManyAsThereAreAndEachAsOften) {
   for (const int count : times) EXPECT_NEAR(count, 3000, 250);
 }
 
+TEST(ResampleParticipants, GivesNoIntervalForFewerThanFive) {
+  const auto first = [](const std::vector<std::size_t>& drawn) {
+    return std::optional<double>(static_cast<double>(drawn[0]));
+  };
+  EXPECT_FALSE(resample_participants(4, 100, 1, first).ci95.low.has_value());
+  EXPECT_TRUE(resample_participants(5, 100, 1, first).ci95.low.has_value());
+}
+
 TEST(ResampleParticipants, CountsResamplesThatAreUndefinedAndGivesUpAtHalf) {
   int call = 0;
-  const auto some = resample_participants(3, 100, 1, [&](const std::vector<std::size_t>&) {
+  const auto some = resample_participants(7, 100, 1, [&](const std::vector<std::size_t>&) {
     ++call;
     return call % 4 == 0 ? std::nullopt : std::optional<double>(call);
   });
   EXPECT_EQ(some.num_undefined, 25);
   EXPECT_TRUE(some.ci95.low.has_value());
-  const auto none = resample_participants(3, 100, 1, [&](const std::vector<std::size_t>&) {
+  const auto none = resample_participants(7, 100, 1, [&](const std::vector<std::size_t>&) {
     return std::optional<double>(std::nan(""));
   });
   EXPECT_EQ(none.num_undefined, 100);

@@ -70,5 +70,12 @@ TEST(ForceCommand, ArgumentsWithoutAFiniteForceAreWrongUsage) {
   }
 }
 
+TEST(ForceCommand, RefusesAnOptionThatTheLawHasNoUseFor) {
+  const test_support::ProgramOutcome outcome =
+      test_support::run_program({"force", "viscous", "--scale", "3"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("--scale: expected only with water"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace jnd::app

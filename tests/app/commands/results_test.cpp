@@ -156,5 +156,19 @@ TEST_F(ResultsCommandTest, AnotherLaboratoryMovesTheNumbers) {
             jnd({"results", "b.study", "--json"}).out);
 }
 
+TEST_F(ResultsCommandTest, AChangedLaboratoryIsNotPassedOffAsTheShippedOne) {
+  write_file(temporary_.path() / "tiny.json", kTinyStudy);
+  const std::string shipped =
+      read_file(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json");
+  write_file(temporary_.path() / "mine.json",
+             replaced(shipped, "\"dry_friction_n\": {\"value\": 0.4",
+                      "\"dry_friction_n\": {\"value\": 0.5"));
+  simulate("tiny.json", "a.study", 2);
+  simulate("tiny.json", "b.study", 2, "mine.json");
+  EXPECT_EQ(jnd({"results", "a.study"}).out.find("CHANGED"), std::string::npos);
+  EXPECT_NE(jnd({"results", "b.study"}).out.find("\"thesis\", CHANGED from the shipped one"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace jnd::app

@@ -110,6 +110,24 @@ TEST_F(RunCommandTest, ASecondSessionOfAParticipantIsRefusedInOneSentence) {
   EXPECT_EQ(opened("a.study").sessions().size(), 1U);
 }
 
+TEST_F(RunCommandTest, AChangedStudyOrLaboratoryIsNotMixedIntoTheSameFolder) {
+  ASSERT_EQ(jnd(run_words("a.study")).exit_code, 0);
+  const auto folder = temporary_.path();
+  write_file(folder / "changed.json", replaced(kTinyStudy, "[4, 16]", "[5, 15]"));
+  const ProgramOutcome study =
+      jnd({"run", "changed.json", "--study", "a.study", "--participant", "P02", "--headless"});
+  EXPECT_EQ(study.exit_code, 1);
+  EXPECT_NE(study.err.find("expected the study file that it was begun with"), std::string::npos)
+      << study.err;
+  const ProgramOutcome laboratory =
+      jnd({"run", "tiny.json", "--study", "a.study", "--participant", "P02", "--headless",
+           "--laboratory", "misspecified"});
+  EXPECT_EQ(laboratory.exit_code, 1);
+  EXPECT_NE(laboratory.err.find("expected the laboratory"), std::string::npos)
+      << laboratory.err;
+  EXPECT_EQ(opened("a.study").sessions().size(), 1U);
+}
+
 TEST_F(RunCommandTest, AnotherWriterIsRefusedAndDisturbsNothing) {
   RunningProgram first(run_words("a.study", "magnitude_of_virtual_water"), options_);
   ASSERT_TRUE(first.read_line());
