@@ -135,7 +135,10 @@ void add_individual(ResultsSection& section, const std::vector<Answers>& all,
   std::vector<IndividualFraction> individual;
   std::vector<double> with_fit;
   for (const Answers& answers : all) {
-    const PsychometricFit fit = individual_fit(answers);
+    const PsychometricFit fit =
+        fit_psychometric(rows_of(answers.levels), {.reference = answers.reference});
+    section.participants.push_back({answers.participant, block.block + ".weber_fraction",
+                                    fit.weber_fraction, fit.weber_fraction_ci95, fit.reason});
     const double largest = answers.levels.rbegin()->first / answers.reference - 1.0;
     IndividualFraction one{.for_ranks = std::numeric_limits<double>::infinity(),
                            .beyond_stimuli = true};

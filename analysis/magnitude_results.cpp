@@ -89,6 +89,18 @@ PowerFit production_fit(const BlockMeans& block, const std::vector<std::size_t>&
   return fit_power(rows);
 }
 
+/// Every participant's own power law.
+void add_individual(ResultsSection& section, const std::string& prefix, const BlockMeans& block,
+                    const std::function<PowerFit(std::size_t)>& fit) {
+  for (std::size_t i = 0; i < block.participants.size(); ++i) {
+    const PowerFit own = fit(i);
+    section.participants.push_back(
+        {block.names[i], prefix + ".k", own.k, own.k_ci95, own.reason});
+    section.participants.push_back(
+        {block.names[i], prefix + ".a", own.a, own.a_ci95, own.reason});
+  }
+}
+
 using Fit = std::function<PowerFit(const std::vector<std::size_t>&)>;
 
 /// k and a of a fit, each with its interval over resampled participants.
@@ -267,6 +279,8 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& bloc
         return fit_power(rows, PowerMethod::kLogLog);
       },
       options);
+  add_individual(section, block.block, means,
+                 [&](std::size_t index) { return estimation_fit(means, {index}); });
   add_trial_correlations(section, data, block, options);
   return section;
 }
@@ -280,6 +294,8 @@ ResultsSection production_results(const StudyData& data, const BlockDesign& bloc
       section, block.block, "power law through the mean set values", means.participants.size(),
       [&](const std::vector<std::size_t>& drawn) { return production_fit(means, drawn); },
       options);
+  add_individual(section, block.block, means,
+                 [&](std::size_t index) { return production_fit(means, {index}); });
   std::map<double, std::vector<double>> by_target;
   for (const Means& participant : means.participants) {
     for (const auto& [target, set] : participant) by_target[target].push_back(set);

@@ -31,7 +31,7 @@ struct StudyData {
   std::string study;  ///< Name in its file.
   std::string protocol_sha256;
   bool simulated = false;
-  std::string laboratory_text;  ///< The whole file; "" with persons.
+  std::string laboratory_text;                      ///< The whole file; "" with persons.
   std::string laboratory;                           ///< Name; "" with persons.
   std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
   std::vector<ParticipantData> participants;        ///< By pseudonym.

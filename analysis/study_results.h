@@ -30,6 +30,15 @@ struct ExcludedParticipant {
   std::string reason;
 };
 
+/// One participant's own number, or why there is none.
+struct ParticipantEstimate {
+  std::string participant;
+  std::string name;  ///< "group_d.weber_fraction"
+  std::optional<double> value;
+  Interval ci95;       ///< Of this participant's answers alone.
+  std::string reason;  ///< Why there is no value; "" if there is one.
+};
+
 /// A test between two conditions.
 struct NamedComparison {
   std::string name;  ///< "group_d - group_e: ln ln(1 + w), paired"
@@ -39,6 +48,7 @@ struct NamedComparison {
 struct ResultsSection {
   std::string name;  ///< "magnitude_estimation", "group_d", "movement" ...
   std::vector<Estimate> estimates;
+  std::vector<ParticipantEstimate> participants;
   std::vector<NamedComparison> comparisons;
   std::vector<ExcludedParticipant> excluded;
 };
@@ -50,7 +60,7 @@ struct StudyResults {
   bool simulated = false;
   std::string laboratory;
   bool laboratory_changed = false;  ///< It is not the shipped one of that name.
-  std::string citation;  ///< Of the published values; "" without any.
+  std::string citation;             ///< Of the published values; "" without any.
   int num_participants = 0;
   std::vector<ResultsSection> sections;
 

@@ -152,12 +152,21 @@ json to_json(const analysis::StudyResults& results) {
                              {"n_a", c.num_a},
                              {"n_b", c.num_b}});
     }
+    json participants = json::array();
+    for (const analysis::ParticipantEstimate& own : section.participants) {
+      participants.push_back({{"participant", own.participant},
+                              {"name", own.name},
+                              {"value", number(own.value)},
+                              {"ci95", interval(own.ci95)},
+                              {"reason", own.reason}});
+    }
     json excluded = json::array();
     for (const analysis::ExcludedParticipant& one : section.excluded) {
       excluded.push_back({{"participant", one.participant}, {"reason", one.reason}});
     }
     sections.push_back({{"name", section.name},
                         {"estimates", std::move(estimates)},
+                        {"participants", std::move(participants)},
                         {"comparisons", std::move(comparisons)},
                         {"excluded", std::move(excluded)}});
   }
@@ -173,6 +182,10 @@ std::string to_table(const analysis::StudyResults& results) {
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n", section.name);
     for (const Estimate& estimate : section.estimates) table += explained_row(estimate);
+    for (const analysis::ParticipantEstimate& own : section.participants) {
+      table += fmt::format("  {:<46} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
+                           text(own.value), text(own.ci95), own.reason);
+    }
     for (const analysis::NamedComparison& named : section.comparisons) {
       const analysis::Comparison& c = named.comparison;
       if (c.status != analysis::FitStatus::kOk) {

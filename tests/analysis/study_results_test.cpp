@@ -70,6 +70,13 @@ TEST(StudyResults, EstimationIsThePowerLawThroughTheGroupMeans) {
   const Estimate& k = *of.find("estimation.k");
   EXPECT_EQ(k.n, 2);
   EXPECT_FALSE(k.ci95.low.has_value()) << "two participants say nothing of others";
+  // Each one's own: 2 sqrt(I) and 4 sqrt(I).
+  const std::vector<ParticipantEstimate>& own = section(of, "estimation").participants;
+  ASSERT_EQ(own.size(), 4U);
+  EXPECT_EQ(own[0].participant, "P01");
+  EXPECT_EQ(own[0].name, "estimation.k");
+  EXPECT_NEAR(own[0].value.value(), 2.0, 1e-6);
+  EXPECT_NEAR(own[2].value.value(), 4.0, 1e-6);
 }
 
 TEST(StudyResults, GroupIntervalsLieAmongWhatParticipantsCanGive) {
