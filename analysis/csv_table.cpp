@@ -1,10 +1,14 @@
 #include "analysis/csv_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -20,7 +24,31 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::string in_quotes(std::string_view cell) { return '"' + std::string(cell) + '"'; }
+/// Delete, or one of the controls U+0080 to U+009F, which JSON may hold as they are.
+bool has_high_control(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (text[i] == '\x7F' || (text[i] == '\xC2' && next < 0xA0)) return true;
+  }
+  return false;
+}
+
+/// A cell as a message shows it: in quotes, short, control characters as JSON writes them, and
+/// UTF-8 whatever its bytes are.
+std::string in_quotes(std::string_view cell, std::size_t most_bytes = 60) {
+  for (std::size_t kept = std::min(cell.size(), most_bytes);; kept /= 2) {
+    // Not in the middle of a UTF-8 character.
+    while (kept > 0 && kept < cell.size() &&
+           (static_cast<unsigned char>(cell[kept]) & 0xC0) == 0x80) {
+      --kept;
+    }
+    const std::string part =
+        std::string(cell.substr(0, kept)) + (kept < cell.size() ? "..." : "");
+    const std::string shown = nlohmann::json(part).dump(
+        -1, ' ', has_high_control(part), nlohmann::json::error_handler_t::replace);
+    if (shown.size() <= most_bytes + 20) return shown;
+  }
+}
 
 [[noreturn]] void throw_all(const std::vector<std::string>& problems) {
   std::string text;
@@ -42,15 +70,18 @@ class Scanner {
   [[nodiscard]] bool at_end() const noexcept { return rest_.empty(); }
   [[nodiscard]] int line() const noexcept { return line_; }
 
-  /// The cells of the next row; nothing for an empty line. `closed` tells of an open quote.
-  std::vector<std::string> row(bool& closed) {
-    closed = true;
+  /// The cells of the next row; nothing for an empty line. `problem` tells what is wrong with
+  /// its quotes, "" for nothing.
+  std::vector<std::string> row(std::string& problem) {
+    problem.clear();
     std::vector<std::string> cells;
     std::string cell;
     bool was_quoted = false;
     while (true) {
       if (!at_end() && rest_.front() == '"' && trimmed(cell).empty() && !was_quoted) {
+        bool closed = true;
         cell = quoted_text(closed);
+        if (!closed) problem = "expected a closing quote, found the end of the file";
         was_quoted = true;
         continue;
       }
@@ -65,8 +96,11 @@ class Scanner {
         }
         cell.clear();
         was_quoted = false;
-      } else if (!was_quoted || (rest_.front() != ' ' && rest_.front() != '\t')) {
+      } else if (!was_quoted) {
         cell += rest_.front();
+      } else if (rest_.front() != ' ' && rest_.front() != '\t') {
+        problem = "expected a comma or a line end after the closing quote of " +
+                  in_quotes(cell) + ", found " + in_quotes(rest_.substr(0, 1));
       }
       rest_.remove_prefix(1);
     }
@@ -107,11 +141,44 @@ class Scanner {
 
 /// A number with a point for the decimals, whatever the locale; NaN if the text is none.
 double parsed_number(std::string_view text) noexcept {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = error == std::errc() && end == text.data() + text.size();
   return whole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Letters to insert, delete or replace to make one word of the other, ignoring case.
+std::size_t edit_distance(std::string_view one, std::string_view other) {
+  std::vector<std::size_t> row(other.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (const char letter : one) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t place = 0; place < other.size(); ++place) {
+      const bool same = std::tolower(static_cast<unsigned char>(letter)) ==
+                        std::tolower(static_cast<unsigned char>(other[place]));
+      const std::size_t changed = diagonal + (same ? 0 : 1);
+      diagonal = row[place + 1];
+      row[place + 1] = std::min({changed, row[place] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// The column that `name` may have meant: one that holds most of it, or is spelled nearly so;
+/// "" if there is none.
+std::string nearest_column(std::string_view name, const std::vector<std::string>& columns) {
+  std::string nearest;
+  std::size_t least = name.size() / 2 + 1;
+  for (const std::string& column : columns) {
+    if (column.size() > 80) continue;
+    const std::size_t distance = edit_distance(name, column);
+    if (distance < least && distance < column.size()) {
+      least = distance;
+      nearest = column;
+    }
+  }
+  return nearest;
 }
 
 bool has_decimal_comma(std::string text) {
@@ -127,7 +194,10 @@ CsvTable CsvTable::read(const std::filesystem::path& file) {
   std::ostringstream text;
   if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
   if (!in.is_open() || in.bad() || std::filesystem::is_directory(file)) {
-    throw core::Error(file.string() + ": expected a CSV file, found nothing that can be read");
+    const char* found = std::filesystem::is_directory(file) ? "a folder"
+                        : std::filesystem::exists(file)     ? "nothing that can be read"
+                                                            : "no such file";
+    throw core::Error(file.string() + ": expected a CSV file, found " + found);
   }
   return parse(text.str(), file.string());
 }
@@ -140,12 +210,19 @@ CsvTable CsvTable::parse(std::string_view text, std::string name) {
   const auto report = [&](int line, const std::string& what) {
     problems.push_back(table.name_ + ':' + std::to_string(line) + ": " + what);
   };
+  if (text.find('\0') != std::string_view::npos) {
+    report(1, "expected text, found a binary file; save the table as CSV");
+    throw_all(problems);
+  }
   Scanner scanner(text);
   while (!scanner.at_end()) {
     const int line = scanner.line();
-    bool closed = true;
-    std::vector<std::string> cells = scanner.row(closed);
-    if (!closed) report(line, "expected a closing quote, found the end of the file");
+    std::string problem;
+    std::vector<std::string> cells = scanner.row(problem);
+    if (!problem.empty()) {
+      report(line, problem);
+      if (!table.columns_.empty()) continue;  // Its cells say nothing.
+    }
     if (cells.empty()) continue;
     if (!table.columns_.empty()) {
       if (cells.size() != table.columns_.size()) {
@@ -165,11 +242,10 @@ CsvTable CsvTable::parse(std::string_view text, std::string name) {
                        "; decimals need a point");
       break;
     }
-    for (std::size_t column = 0; column < cells.size(); ++column) {
-      if (std::count(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(column),
-                     cells[column]) > 0) {
-        report(line,
-               "expected every column once, found " + in_quotes(cells[column]) + " again");
+    std::set<std::string_view> seen;
+    for (const std::string& column : cells) {
+      if (!seen.insert(column).second) {
+        report(line, "expected every column once, found " + in_quotes(column) + " again");
       }
     }
     table.columns_ = std::move(cells);
@@ -190,13 +266,22 @@ std::optional<std::size_t> CsvTable::find(std::string_view column) const {
 std::optional<std::size_t> CsvReader::column(std::string_view name) {
   const std::optional<std::size_t> found = table_.find(name);
   if (found) return found;
+  constexpr std::size_t kLongest = 100;
   std::string columns;
   for (const std::string& column : table_.columns()) {
-    columns += (columns.empty() ? "" : ", ") + column;
+    if (!columns.empty()) columns += ", ";
+    if (columns.size() > kLongest) {
+      columns += "... (" + std::to_string(table_.columns().size()) + " columns)";
+      break;
+    }
+    const std::string quoted = in_quotes(column, 30);
+    columns += std::string_view(quoted).substr(1, quoted.size() - 2);
   }
-  problems_.emplace_back(1, table_.name() + ":1: " + std::string(name) +
-                                ": expected a column of this name, found the columns " +
-                                columns);
+  const std::string nearest = nearest_column(name, table_.columns());
+  problems_.emplace_back(
+      1, table_.name() + ":1: " + std::string(name) +
+             ": expected a column of this name, found the columns " + columns +
+             (nearest.empty() ? "" : "; rename " + in_quotes(nearest) + " if that is meant"));
   return std::nullopt;
 }
 

@@ -47,7 +47,8 @@ std::vector<Answers> answers_in(const StudyData& data, const BlockDesign& block,
 }
 
 PsychometricFit pooled_fit(const std::vector<Answers>& all,
-                           const std::vector<std::size_t>& drawn, PsychometricMethod method) {
+                           const std::vector<std::size_t>& drawn, PsychometricMethod method,
+                           Solver solver) {
   std::map<double, AnswerCount> pooled;
   for (const std::size_t index : drawn) {
     for (const auto& [intensity, count] : all[index].levels) {
@@ -57,9 +58,10 @@ PsychometricFit pooled_fit(const std::vector<Answers>& all,
       sum.num_trials += count.num_trials;
     }
   }
-  return fit_psychometric(
-      rows_of(pooled),
-      {.reference = all.front().reference, .method = method, .intervals = false});
+  return fit_psychometric(rows_of(pooled), {.reference = all.front().reference,
+                                            .method = method,
+                                            .intervals = false,
+                                            .solver = solver});
 }
 
 /// The Weber fraction of a fit; where there is none, its limit: 0 if thicker was said of the
@@ -238,7 +240,7 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
 
   const auto add_pooled = [&](const std::string& name, PsychometricMethod method,
                               const std::string& meaning) {
-    const PsychometricFit pooled_curve = pooled_fit(all, everyone, method);
+    const PsychometricFit pooled_curve = pooled_fit(all, everyone, method, Solver::kCeres);
     if (!pooled_curve.weber_fraction) {
       section.excluded.push_back({"everyone", block.block + "." + name +
                                                   ": no value, the pooled " + "answers are " +
@@ -250,12 +252,14 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
                       .meaning = meaning,
                       .n = static_cast<int>(all.size())};
     if (estimate.value && all.size() > 1) {
-      estimate.ci95 = resample_participants(all.size(), options.num_resamples, options.seed,
-                                            [&](const std::vector<std::size_t>& drawn) {
-                                              return std::optional(fraction_or_limit(
-                                                  pooled_fit(all, drawn, method), all, drawn));
-                                            })
-                          .ci95;
+      estimate.ci95 =
+          resample_participants(all.size(), options.num_resamples, options.seed,
+                                [&](const std::vector<std::size_t>& drawn) {
+                                  const PsychometricFit fit =
+                                      pooled_fit(all, drawn, method, Solver::kNewton);
+                                  return std::optional(fraction_or_limit(fit, all, drawn));
+                                })
+              .ci95;
     }
     section.estimates.push_back(std::move(estimate));
   };

@@ -72,21 +72,23 @@ std::vector<std::size_t> everyone(std::size_t num_participants) {
 }
 
 /// Estimation: x is the intensity, the mean is the magnitude.
-PowerFit estimation_fit(const BlockMeans& block, const std::vector<std::size_t>& drawn) {
+PowerFit estimation_fit(const BlockMeans& block, const std::vector<std::size_t>& drawn,
+                        Solver solver) {
   std::vector<Magnitude> rows;
   for (const auto& [intensity, magnitude] : group_means(block.participants, drawn)) {
     rows.push_back({intensity, magnitude});
   }
-  return fit_power(rows);
+  return fit_power(rows, PowerMethod::kNonlinear, solver);
 }
 
 /// Production: x is the target in percent, the mean is the intensity that was set.
-PowerFit production_fit(const BlockMeans& block, const std::vector<std::size_t>& drawn) {
+PowerFit production_fit(const BlockMeans& block, const std::vector<std::size_t>& drawn,
+                        Solver solver) {
   std::vector<Magnitude> rows;
   for (const auto& [target_percent, intensity] : group_means(block.participants, drawn)) {
     rows.push_back({intensity, target_percent / 100.0});
   }
-  return fit_power(rows);
+  return fit_power(rows, PowerMethod::kNonlinear, solver);
 }
 
 /// Every participant's own power law.
@@ -101,17 +103,18 @@ void add_individual(ResultsSection& section, const std::string& prefix, const Bl
   }
 }
 
-using Fit = std::function<PowerFit(const std::vector<std::size_t>&)>;
+using Fit = std::function<PowerFit(const std::vector<std::size_t>&, Solver)>;
 
 /// k and a of a fit, each with its interval over resampled participants.
 void add_power_law(ResultsSection& section, const std::string& prefix,
                    const std::string& meaning, std::size_t num_participants, const Fit& fit,
                    const ResultsOptions& options) {
-  const PowerFit whole = fit(everyone(num_participants));
+  const PowerFit whole = fit(everyone(num_participants), Solver::kCeres);
   const auto interval = [&](std::optional<double> PowerFit::*value) {
-    return resample_participants(
-               num_participants, options.num_resamples, options.seed,
-               [&](const std::vector<std::size_t>& drawn) { return fit(drawn).*value; })
+    return resample_participants(num_participants, options.num_resamples, options.seed,
+                                 [&](const std::vector<std::size_t>& drawn) {
+                                   return fit(drawn, Solver::kNewton).*value;
+                                 })
         .ci95;
   };
   for (const auto& [letter, value] : {std::pair{"k", &PowerFit::k}, {"a", &PowerFit::a}}) {
@@ -253,25 +256,27 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& bloc
   if (means.participants.empty()) return section;
   add_power_law(
       section, block.block, "power law through the group means", means.participants.size(),
-      [&](const std::vector<std::size_t>& drawn) { return estimation_fit(means, drawn); },
+      [&](const std::vector<std::size_t>& drawn, Solver solver) {
+        return estimation_fit(means, drawn, solver);
+      },
       options);
   add_power_law(
       section, block.block + ".data_points", "power law through the participants' means",
       means.participants.size(),
-      [&](const std::vector<std::size_t>& drawn) {
+      [&](const std::vector<std::size_t>& drawn, Solver solver) {
         std::vector<Magnitude> rows;
         for (const std::size_t index : drawn) {
           for (const auto& [intensity, magnitude] : means.participants[index]) {
             rows.push_back({intensity, magnitude});
           }
         }
-        return fit_power(rows);
+        return fit_power(rows, PowerMethod::kNonlinear, solver);
       },
       options);
   add_power_law(
       section, block.block + ".log_log", "line through the logarithms of the group means",
       means.participants.size(),
-      [&](const std::vector<std::size_t>& drawn) {
+      [&](const std::vector<std::size_t>& drawn, Solver) {
         std::vector<Magnitude> rows;
         for (const auto& [x, mean] : group_means(means.participants, drawn)) {
           rows.push_back({x, mean});
@@ -279,8 +284,9 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& bloc
         return fit_power(rows, PowerMethod::kLogLog);
       },
       options);
-  add_individual(section, block.block, means,
-                 [&](std::size_t index) { return estimation_fit(means, {index}); });
+  add_individual(section, block.block, means, [&](std::size_t index) {
+    return estimation_fit(means, {index}, Solver::kCeres);
+  });
   add_trial_correlations(section, data, block, options);
   return section;
 }
@@ -292,10 +298,13 @@ ResultsSection production_results(const StudyData& data, const BlockDesign& bloc
   if (means.participants.empty()) return section;
   add_power_law(
       section, block.block, "power law through the mean set values", means.participants.size(),
-      [&](const std::vector<std::size_t>& drawn) { return production_fit(means, drawn); },
+      [&](const std::vector<std::size_t>& drawn, Solver solver) {
+        return production_fit(means, drawn, solver);
+      },
       options);
-  add_individual(section, block.block, means,
-                 [&](std::size_t index) { return production_fit(means, {index}); });
+  add_individual(section, block.block, means, [&](std::size_t index) {
+    return production_fit(means, {index}, Solver::kCeres);
+  });
   std::map<double, std::vector<double>> by_target;
   for (const Means& participant : means.participants) {
     for (const auto& [target, set] : participant) by_target[target].push_back(set);
@@ -356,11 +365,11 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
   add_power_law(
       section, "combined", "power law between estimation and production",
       estimated.participants.size(),
-      [&](const std::vector<std::size_t>& drawn) -> PowerFit {
-        const PowerFit first = estimation_fit(estimated, drawn);
-        const PowerFit second = production_fit(produced, drawn);
+      [&](const std::vector<std::size_t>& drawn, Solver solver) -> PowerFit {
+        const PowerFit first = estimation_fit(estimated, drawn, solver);
+        const PowerFit second = production_fit(produced, drawn, solver);
         if (!first.k || !first.a || !second.k || !second.a) return {};
-        return power_between({*first.k, *first.a}, {*second.k, *second.a}, intensities);
+        return power_between({*first.k, *first.a}, {*second.k, *second.a}, intensities, solver);
       },
       options);
   return section;

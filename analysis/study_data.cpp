@@ -71,7 +71,7 @@ StudyData load_study(const core::StudyStore& store) {
     throw core::Error(place + ": expected sessions with participants, found none to analyse");
   }
   data.study =
-      parsed(store.protocol_text(data.protocol_sha256), place + ": protocol").value("name", "");
+      parsed(store.protocol(data.protocol_sha256).text, place + ": protocol").value("name", "");
   std::sort(data.participants.begin(), data.participants.end(),
             [](const ParticipantData& a, const ParticipantData& b) {
               return a.participant < b.participant;

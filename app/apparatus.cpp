@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "core/doors/latest_value.h"
 #include "core/doors/spsc_queue.h"
@@ -55,8 +56,8 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
 }  // namespace
 
 struct Apparatus::Implementation {
-  Implementation(const Parameters& the_parameters, const experiments::Laboratory& laboratory)
-      : parameters(the_parameters),
+  Implementation(Parameters the_parameters, const experiments::Laboratory& laboratory)
+      : parameters(std::move(the_parameters)),
         device(device_parameters(parameters, laboratory)),
         samples(parameters.realtime ? kRealtimeQueueCapacity : kSimulatedQueueCapacity),
         loop(loop_parameters(parameters, laboratory), device,
@@ -70,7 +71,6 @@ struct Apparatus::Implementation {
       recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
     }
     simulated_clock.advance_ns(parameters.first_time_ns);
-    device.open();
     consumer = {.recording = recording ? &*recording : nullptr,
                 .visit = [this](const core::Sample& sample) {
                   if (metering) feed_meter(sample);
@@ -78,7 +78,9 @@ struct Apparatus::Implementation {
     if (parameters.realtime) {
       storage.emplace(samples, consumer);
       thread.emplace(device::RealtimeThread::Parameters{});
-      thread->start(loop);
+      device::start_haptics(device, loop, *thread, /*allow_no_realtime=*/false);
+    } else {
+      device.open();
     }
   }
 
@@ -223,6 +225,10 @@ void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
   Implementation& my = *implementation_;
   if (my.storage) return my.storage->commit(store, commit);
   my.consumer.commit(store, commit);
+}
+
+const device::RealtimeThread* Apparatus::realtime_thread() const noexcept {
+  return implementation_->thread ? &*implementation_->thread : nullptr;
 }
 
 std::string Apparatus::realtime() const {

@@ -11,6 +11,7 @@
 #include "core/storage/storage_thread.h"
 #include "core/storage/study_store.h"
 #include "core/telemetry.h"
+#include "device/realtime_thread.h"
 #include "device/stroking_arm.h"
 #include "experiments/participants/laboratory.h"
 
@@ -58,6 +59,8 @@ class Apparatus {
   /// The recording up to the commit's last tick is on disk before the commit is, and both are
   /// when this returns.
   void commit(core::StudyStore& store, const core::Commit& commit);
+  /// What the real-time thread was given and how punctual it has been; none if simulated.
+  [[nodiscard]] const device::RealtimeThread* realtime_thread() const noexcept;
   /// "simulated", or the real-time policy and memory lock that were obtained.
   [[nodiscard]] std::string realtime() const;
   [[nodiscard]] const core::Clock& clock() const noexcept;

@@ -1,27 +1,21 @@
 #include "app/laboratory_run.h"
 
 #include <algorithm>
-#include <cmath>
-#include <exception>
 #include <vector>
 
 #include "app/apparatus.h"
+#include "app/session_setup.h"
+#include "app/trial_player.h"
 #include "core/error.h"
-#include "core/random_stream.h"
+#include "core/safety/fault.h"
 #include "core/storage/recording.h"
-#include "experiments/order/counterbalance.h"
 #include "experiments/participants/simulated_participant.h"
-#include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/session.h"
-#include "experiments/session/stimulus.h"
 
 namespace jnd::app {
 namespace {
 
 using namespace experiments;
-
-/// Thrown out of the middle of a session that was asked to stop.
-struct Cancelled {};
 
 core::SessionRow session_row(const core::StudyStore& store, std::int64_t session) {
   for (const core::SessionRow& row : store.sessions()) {
@@ -29,14 +23,6 @@ core::SessionRow session_row(const core::StudyStore& store, std::int64_t session
   }
   throw core::Error(store.folder().string() + ": expected session " + std::to_string(session) +
                     ", found none of that number");
-}
-
-std::vector<const Stage*> stages_for(const Study& study, const std::string& cells) {
-  std::vector<const Stage*> stages;
-  for (const StageInstance& instance : stages_of(study, cell_from_text(study, cells))) {
-    stages.push_back(instance.stage);
-  }
-  return stages;
 }
 
 /// The recorded tick after which a resumed session goes on, and how many no event knows of.
@@ -83,8 +69,9 @@ class Visit {
         log_(run, apparatus_),
         session_({.session = run.session,
                   .seed = row.seed,
-                  .stages = stages_for(run.study, row.cells)},
-                 history_, log_, apparatus_.clock()) {}
+                  .stages = stages_of_session(run.study, row.cells)},
+                 history_, log_, apparatus_.clock()),
+        player_(run, apparatus_, session_, participant_) {}
 
   LaboratoryRunResult play() {
     LaboratoryRunResult result;
@@ -97,22 +84,27 @@ class Visit {
         std::visit([this](const auto& content) { run_stage(content); },
                    session_.current_stage()->content);
         session_.finish_stage();
+        keep_timing();
       }
       if (!session_.state().ended) session_.complete();
       result.ended = true;
     } catch (const Cancelled&) {
+      keep_timing();
       session_.pause("stopped by the operator");
+    } catch (const core::Error&) {
+      keep_fault();
+      throw;
     }
     result.num_ticks = apparatus_.next_tick();
     return result;
   }
 
  private:
-  struct Felt {
-    double damping_n_s_per_m = 0.0;
-    std::int64_t last_tick = 0;
-    double duration_s = 0.0;
-  };
+  /// A fault of the loop is an event of the session, whatever else it ends.
+  void keep_fault() {
+    const core::Fault fault = apparatus_.telemetry().fault;
+    if (fault != core::Fault::kNone) session_.fault(std::string(words(fault)));
+  }
 
   Apparatus::Parameters apparatus_parameters() const {
     Apparatus::Parameters parameters;
@@ -137,6 +129,41 @@ class Visit {
   }
 
   void begin() {
+    begin_session();
+    const device::RealtimeThread* thread = apparatus_.realtime_thread();
+    if (thread == nullptr || session_.state().ended) return;
+    const device::RealtimeReport& given = thread->report();
+    session_.loop_started({.scheduler = given.scheduler,
+                           .memory_locked = given.memory_locked,
+                           .cpus = given.cpus,
+                           .first_tick = apparatus_.next_tick()});
+  }
+
+  /// Cumulative since the loop was started; after every stage, so that a crash costs one.
+  void keep_timing() {
+    const device::RealtimeThread* thread = apparatus_.realtime_thread();
+    if (thread == nullptr) return;
+    const device::LoopTimingSummary timing = device::summary_of(thread->timing());
+    session_.loop_measured({.num_ticks = timing.num_ticks,
+                            .missed_ticks = timing.missed_ticks,
+                            .num_dropped_samples = static_cast<std::int64_t>(
+                                apparatus_.telemetry().num_dropped_samples),
+                            .max_lateness_ns = timing.lateness.max_ns,
+                            .max_tick_cost_ns = timing.tick_cost.max_ns,
+                            .lateness = buckets_of(timing.lateness),
+                            .tick_cost = buckets_of(timing.tick_cost)});
+  }
+
+  static std::vector<DurationBucket> buckets_of(const device::DurationSummary& durations) {
+    std::vector<DurationBucket> buckets;
+    for (const device::DurationSummary::Bucket& bucket : durations.buckets) {
+      buckets.push_back(
+          {.up_to_ns = bucket.end_ns, .count = static_cast<std::int64_t>(bucket.count)});
+    }
+    return buckets;
+  }
+
+  void begin_session() {
     if (!session_.state().started) return session_.start();
     const std::int64_t last_known = session_.state().last_tick;
     session_.resume(run_.choice, last_known + 1, std::max(recorded_.last_tick, last_known));
@@ -159,10 +186,6 @@ class Visit {
                      static_cast<double>(session_.stages().size()));
   }
 
-  void stop_if_cancelled() const {
-    if (run_.is_cancelled && run_.is_cancelled()) throw Cancelled{};
-  }
-
   // The stages, one overload a kind. Forms and breaks take no simulated time.
 
   void run_stage(const Checklist& checklist) {
@@ -181,7 +204,8 @@ class Visit {
 
   void run_stage(const PostExperiment& post) {
     for (const PostExperimentItem& item : post.items) {
-      explore_one({.setting = item.setting, .duration_s = 5.0});
+      if (is_answered(item.name)) continue;
+      player_.explore({.setting = item.setting, .duration_s = 5.0});
       answer_item(item.name, participant_.answer(item));
     }
   }
@@ -197,219 +221,29 @@ class Visit {
   }
 
   void run_stage(const Block& block) {
-    while (const std::optional<std::int64_t> trial = session_.state().current_trial()) {
-      stop_if_cancelled();
-      rest(block.free_space_between_s);
-      session_.start_trial(apparatus_.next_tick());
-      run_trial(block, *trial);
+    while (session_.state().current_trial()) {
+      player_.run_trial(block);
       trial_progress();
     }
   }
 
   void answer_item(const std::string& item, const std::string& answer) {
-    stop_if_cancelled();
+    stop_if_cancelled(run_);
     // A resumed stage goes on after the items that are answered.
-    if (session_.state().answers.contains({session_.state().stage, item})) return;
-    session_.answer_item(item, answer);
+    if (!is_answered(item)) session_.answer_item(item, answer);
   }
 
+  [[nodiscard]] bool is_answered(const std::string& item) const {
+    return session_.state().answers.contains({session_.state().stage, item});
+  }
+
+  /// A resumed stage goes on after the media that were explored.
   void explore_media(const std::vector<Exploration>& media) {
-    for (const Exploration& exploration : media) explore_one(exploration);
-  }
-
-  void explore_one(const Exploration& exploration) {
-    stop_if_cancelled();
-    const std::int64_t first_tick = apparatus_.next_tick();
-    apparatus_.render(amounts_of(exploration.setting));
-    StrokeIntent intent = participant_.strokes("");
-    if (exploration.setting.medium == "solid") intent.height_m = -0.005;
-    apparatus_.begin_strokes(plan_of(intent),
-                             stroke_stream(session_.state().last_sequence, 0, 0));
-    apparatus_.run_for(exploration.duration_s);
-    session_.explored(exploration.setting.medium, exploration.setting.intensity, first_tick,
-                      apparatus_.next_tick() - 1);
-  }
-
-  /// Free space, hand at rest at home.
-  void rest(double duration_s) {
-    apparatus_.render(core::free_space());
-    apparatus_.go_home();
-    apparatus_.run_for(std::max(duration_s, 2.0 * run_.laboratory.arm.home_s));
-  }
-
-  device::StrokePlan plan_of(const StrokeIntent& intent) const {
-    const Laboratory::Movement& habit = run_.laboratory.movement;
-    return {.amplitude_m = intent.amplitude_m,
-            .max_speed_m_per_s = intent.max_speed_m_per_s,
-            .height_m = intent.height_m,
-            .lift_m = habit.lift_m,
-            .amplitude_sd_ratio = habit.stroke_amplitude_sd_ratio,
-            .speed_sd_ratio = habit.stroke_speed_sd_ratio,
-            .height_sd_m = habit.stroke_height_sd_m};
-  }
-
-  core::RandomStream stroke_stream(std::int64_t trial, std::int64_t attempt,
-                                   std::int64_t presentation) const {
-    return {session_.seed(), "stroke", {trial, attempt, presentation}};
-  }
-
-  /// Until the strokes are done and the hand has visibly turned, or far too much time is over.
-  void run_strokes(const StrokeIntent& intent) {
-    constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
-    const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
-    double elapsed_s = 0.0;
-    while (apparatus_.strokes_finished() < intent.num_strokes && elapsed_s < limit_s) {
-      apparatus_.run_for(kGlanceS);
-      elapsed_s += kGlanceS;
+    const auto begin =
+        std::min(static_cast<std::size_t>(session_.state().num_explored), media.size());
+    for (std::size_t medium = begin; medium < media.size(); ++medium) {
+      player_.explore(media[medium]);
     }
-    apparatus_.run_for(0.2 + 0.1 * intent.period_s);
-  }
-
-  Felt present(const Block& block, const std::string& interval) {
-    const std::int64_t number = *session_.state().current_trial();
-    session_.begin_presentation(interval, apparatus_.next_tick());
-    const TrialState& trial = session_.state().trial(number);
-    const core::MediumAmounts amounts =
-        amounts_of(interval == "free_space" ? "free_space" : block.medium,
-                   trial.presentations.back().intensity);
-    const StrokeIntent intent = participant_.strokes(block.procedure);
-    const std::int64_t limited_before =
-        static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
-    apparatus_.render(amounts);
-    apparatus_.begin_strokes(
-        plan_of(intent), stroke_stream(number, trial.attempt,
-                                       static_cast<std::int64_t>(trial.presentations.size())));
-    apparatus_.run_for(run_.study.device.ramp_s);  // Felt is what comes after the ramp.
-    const core::ContactSums before = apparatus_.telemetry().contact_sums;
-    apparatus_.meter_strokes();
-    run_strokes(intent);
-    const core::ContactSums sums = apparatus_.telemetry().contact_sums - before;
-    const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
-
-    PresentationSummary summary;
-    summary.stroke_width_m = strokes.stroke_width_m;
-    summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
-    summary.mean_height_m = strokes.mean_height_m;
-    summary.num_strokes = strokes.num_strokes;
-    summary.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
-    if (amounts.quadratic_kg_per_m == 0.0) {
-      summary.commanded_damping_n_s_per_m = amounts.damping_n_s_per_m;
-    }
-    summary.limited_ticks =
-        static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks) - limited_before;
-    // What was delivered and the device's own viscosity; dry friction is felt as something
-    // else.
-    const std::int64_t last_tick = apparatus_.next_tick() - 1;
-    const Felt felt{
-        .damping_n_s_per_m = sums.delivered_damping_n_s_per_m() +
-                             run_.laboratory.device.mechanical_viscosity_n_s_per_m,
-        .last_tick = last_tick,
-        .duration_s =
-            static_cast<double>(
-                last_tick - session_.state().trial(number).presentations.back().first_tick) /
-            run_.study.device.rate_hz};
-    session_.end_presentation(felt.last_tick, summary);
-    return felt;
-  }
-
-  Moment moment(const Block& block) const {
-    const std::int64_t number = *session_.state().current_trial();
-    const TrialState& trial = session_.state().trial(number);
-    const auto per_repetition = static_cast<std::int64_t>(block.intensities.size());
-    return {.trial = number,
-            .attempt = trial.attempt,
-            .presentation = static_cast<std::int64_t>(trial.presentations.size()),
-            .trial_in_block =
-                (trial.planned.repetition - 1) * per_repetition + trial.planned.position};
-  }
-
-  double read(const Felt& felt, const Block& block) const {
-    return participant_.perceiver().reading_ln(felt.damping_n_s_per_m, moment(block));
-  }
-
-  void run_trial(const Block& block, std::int64_t trial) {
-    const TrialForm form = procedure_named(block.procedure).form();
-    if (form.adjustable) return produce(block, trial);
-    if (form.answer == AnswerKind::kYesNo) return compare(block);
-    estimate(block, trial);
-  }
-
-  void estimate(const Block& block, std::int64_t trial) {
-    double sum_ln = 0.0;
-    int looks = 0;
-    Felt felt;
-    do {
-      felt = present(block, "test");
-      sum_ln += read(felt, block);
-      ++looks;
-    } while (participant_.perceiver().looks_again(moment(block)));
-    std::optional<double> previous;
-    if (trial > 1) {
-      const TrialState& before = session_.state().trial(trial - 1);
-      if (before.stage == session_.state().stage) previous = before.response;
-    }
-    session_.answer(
-        participant_.perceiver().estimate_percent(sum_ln / looks, moment(block), previous),
-        felt.duration_s, felt.last_tick);
-  }
-
-  void compare(const Block& block) {
-    double reference_ln = 0.0;
-    double test_ln = 0.0;
-    int looks = 0;
-    Felt felt;
-    do {
-      felt = present(block, "reference");
-      reference_ln += read(felt, block);
-      felt = present(block, "test");
-      test_ln += read(felt, block);
-      ++looks;
-    } while (participant_.perceiver().looks_again(moment(block)));
-    const bool thicker = participant_.perceiver().says_thicker(
-        test_ln / looks, reference_ln / looks, moment(block));
-    session_.answer(thicker ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
-  }
-
-  void produce(const Block& block, std::int64_t trial) {
-    constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
-    const double target_percent = session_.state().trial(trial).planned.target_percent.value();
-    // What is felt now, with the noise of all looks at this trial averaged: who steps on and on
-    // knows better where they are than who felt it once.
-    double noise_ln = 0.0;
-    int looks = 0;
-    double duration_s = 0.0;
-    Felt felt;
-    const auto look = [&] {
-      felt = present(block, "test");
-      duration_s += felt.duration_s;
-      const double felt_ln = std::log(std::max(felt.damping_n_s_per_m, 1e-6));
-      noise_ln += read(felt, block) - felt_ln;
-      ++looks;
-      return felt_ln + noise_ln / looks;
-    };
-    double reading_ln = look();
-    const double first_ln = reading_ln;
-    using Wish = Perceiver::Wish;
-    Wish last_wish = Wish::kMatches;
-    for (int step = 0; step < kMaxSteps; ++step) {
-      const Wish wish =
-          participant_.perceiver().wish(reading_ln, first_ln, target_percent, moment(block));
-      if (wish == Wish::kMatches) break;
-      // Back and forth over the target by the smallest step: it does not get closer than this.
-      if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
-          (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
-        break;
-      }
-      last_wish = wish;
-      const bool raise = wish == Wish::kRaiseFine || wish == Wish::kRaiseCoarse;
-      const bool coarse = wish == Wish::kRaiseCoarse || wish == Wish::kLowerCoarse;
-      if (!session_.adjust(raise ? Direction::kRaise : Direction::kLower,
-                           coarse ? StepSize::kCoarse : StepSize::kFine)) {
-        break;
-      }
-      reading_ln = look();
-    }
-    session_.answer(0.0, duration_s, felt.last_tick);
   }
 
   const LaboratoryRun& run_;
@@ -420,6 +254,7 @@ class Visit {
   Apparatus apparatus_;
   StoredLog log_;
   Session session_;
+  TrialPlayer player_;
 };
 
 }  // namespace

@@ -1,12 +1,18 @@
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "app/command.h"
 #include "app/commands/validate.h"
+#include "app/usage_message.h"
 #include "core/error.h"
 
 namespace {
@@ -21,9 +27,23 @@ int failed(int code, const char* sentence) {
   return code;
 }
 
-}  // namespace
+/// Whoever read our output has closed it, like `head` that has seen enough.
+bool reader_is_gone() {
+  pollfd out{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
+  return ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
 
-int main(int argc, char** argv) {
+/// A result that could not be printed is none, unless nobody wants it any more.
+int printed(int code) {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (written || code != jnd::app::kDone || reader_is_gone()) return code;
+  return failed(
+      jnd::app::kEnvironmentLacks,
+      "stdout: expected to be written in full, found that it was not; make room where "
+      "it leads to and run it again");
+}
+
+int invoke(int argc, char** argv) {
   using namespace jnd;
   CLI::App program("jnd - a haptic psychophysics laboratory", "jnd");
   program.set_version_flag("--version", JND_VERSION);
@@ -38,7 +58,8 @@ int main(int argc, char** argv) {
         "no display was found for the window; `jnd --help` lists what works without one");
   } catch (const CLI::ParseError& error) {
     // CLI11 has codes of its own: asking for help is 0, everything else is wrong usage.
-    return program.exit(error) == 0 ? app::kDone : app::kWrongUsage;
+    if (error.get_exit_code() == 0) return program.exit(error);
+    return failed(app::kWrongUsage, app::usage_message(program, error).c_str());
   } catch (const app::EnvironmentError& error) {
     return failed(app::kEnvironmentLacks, error.what());
   } catch (const app::UsageError& error) {
@@ -46,7 +67,22 @@ int main(int argc, char** argv) {
   } catch (const core::Error& error) {
     if (asks_for_json(argc, argv)) std::puts(app::error_json(error).c_str());
     return failed(app::kHasProblems, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    const core::Error told(
+        error.path1().string().substr(0, 200) +
+        ": expected a path that the system takes, found: " + error.code().message());
+    if (asks_for_json(argc, argv)) std::puts(app::error_json(told).c_str());
+    return failed(app::kHasProblems, told.what());
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return app::kDone;  // `printed` tells.
     return failed(app::kOwnFault, error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A reader of ours that goes away must not take a session with it.
+  std::signal(SIGPIPE, SIG_IGN);
+  return printed(invoke(argc, argv));
 }

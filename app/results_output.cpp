@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "app/session_setup.h"
 #include "app/share.h"
 #include "core/storage/study_store.h"
 
@@ -107,6 +108,7 @@ std::string explained_row(const Estimate& estimate) {
 analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
   const analysis::StudyData data = analysis::load_study(store);
   analysis::StudyResults results = analysis::results_of(
       data, analysis::published_for(data.study, share_folder() / "data" / "published"),

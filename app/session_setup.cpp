@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -54,6 +56,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
   std::set<std::string> known;
   const std::vector<core::SessionRow> rows = store.sessions();
   for (const core::SessionRow& row : rows) known.insert(row.participant);
+  for (const core::WithdrawalRow& gone : store.withdrawals()) known.insert(gone.participant);
   for (const std::string& participant : participants) {
     if (!known.insert(participant).second) {
       throw core::Error(store.folder().string() + ": expected a new participant, found that " +
@@ -61,7 +64,10 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     }
   }
   refuse_other_study(store, setup, rows);
-  const std::string hash = store.add_protocol(setup.study_file_name, setup.study.text);
+  std::error_code error;
+  const std::string hash = store.add_protocol(
+      setup.study_file.filename().string(), setup.study.text,
+      std::filesystem::relative(setup.study_file, store.folder(), error).generic_string());
   const std::vector<experiments::Cell> cells = experiments::planned_cells(
       setup.study, experiments::completed_cells(store), setup.seed,
       static_cast<std::int64_t>(rows.size()), static_cast<int>(participants.size()));
@@ -88,6 +94,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
 std::vector<std::string> next_participants(const core::StudyStore& store, int count) {
   std::set<std::string> known;
   for (const core::SessionRow& row : store.sessions()) known.insert(row.participant);
+  for (const core::WithdrawalRow& gone : store.withdrawals()) known.insert(gone.participant);
   std::vector<std::string> names;
   for (int number = 1; static_cast<int>(names.size()) < count; ++number) {
     char name[16];
@@ -100,11 +107,49 @@ std::vector<std::string> next_participants(const core::StudyStore& store, int co
 experiments::Study stored_study(const core::StudyStore& store, std::int64_t session) {
   for (const core::SessionRow& row : store.sessions()) {
     if (row.session != session) continue;
-    return experiments::read_study_text(store.protocol_text(row.protocol_sha256),
+    return experiments::read_study_text(store.protocol(row.protocol_sha256).text,
                                         store.folder().string() + ": stored protocol");
   }
   throw core::Error(store.folder().string() + ": expected session " + std::to_string(session) +
                     ", found none of that number");
+}
+
+std::vector<const experiments::Stage*> stages_of_session(const experiments::Study& study,
+                                                         const std::string& cells) {
+  std::vector<const experiments::Stage*> stages;
+  for (const experiments::StageInstance& instance :
+       experiments::stages_of(study, experiments::cell_from_text(study, cells))) {
+    stages.push_back(instance.stage);
+  }
+  return stages;
+}
+
+std::string changed_study_remark(const core::StudyStore& store,
+                                 const core::SessionRow& session) {
+  const core::ProtocolRow protocol = store.protocol(session.protocol_sha256);
+  if (protocol.relative_path.empty()) return "";
+  const std::filesystem::path file = store.folder() / protocol.relative_path;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return "";
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string hash = core::sha256(text);
+  if (hash == protocol.sha256) return "";
+  return file.lexically_normal().string() + ": expected the text that session " +
+         std::to_string(session.session) + " was begun with (" + protocol.sha256.substr(0, 12) +
+         "), found a changed one (" + hash.substr(0, 12) +
+         "); the session goes on with the text it was begun with";
+}
+
+void require_unblinded(const core::StudyStore& store) {
+  if (store.unblinded()) return;
+  std::set<std::string> seen;
+  for (const core::SessionRow& row : store.sessions()) {
+    if (!seen.insert(row.protocol_sha256).second) continue;
+    if (stored_study(store, row.session).blinding != experiments::Blinding::kDouble) continue;
+    throw core::Error(store.folder().string() +
+                      ": expected a study whose levels may be seen, found a double-blind one "
+                      "that nobody has unblinded; `jnd unblind` does, and leaves a record");
+  }
 }
 
 std::int64_t run_batch(const Batch& batch) {

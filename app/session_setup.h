@@ -17,7 +17,7 @@ namespace jnd::app {
 struct SessionSetup {
   const experiments::Study& study;
   const experiments::Laboratory& laboratory;
-  std::string study_file_name;
+  std::filesystem::path study_file;
   std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
   bool pilot = false;
   bool realtime = false;
@@ -41,6 +41,18 @@ void require_device(const std::string& name);
 /// The study as it was when the session began, from the store; its text may have changed since.
 [[nodiscard]] experiments::Study stored_study(const core::StudyStore& store,
                                               std::int64_t session);
+
+/// The stages of a session with these cells, counterbalance resolved. They point into `study`.
+[[nodiscard]] std::vector<const experiments::Stage*> stages_of_session(
+    const experiments::Study& study, const std::string& cells);
+
+/// A sentence if the study file that a session was begun with holds another text by now; ""
+/// otherwise. The session goes on with the text it was begun with.
+[[nodiscard]] std::string changed_study_remark(const core::StudyStore& store,
+                                               const core::SessionRow& session);
+
+/// Throws `Error` if a session's study is double-blind and nobody has unblinded the folder.
+void require_unblinded(const core::StudyStore& store);
 
 /// Runs sessions that were added, up to `jobs` at once, with progress on the terminal.
 struct Batch {

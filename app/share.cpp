@@ -19,7 +19,7 @@ fs::path share_folder() {
   if (const char* named = std::getenv("JND_SHARE"); named != nullptr) return named;
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "jnd";
+  fs::path installed = program.parent_path().parent_path() / "share" / "jnd";
   if (is_share(installed)) return installed;
   return JND_SOURCE_SHARE;
 }

@@ -8,7 +8,7 @@ namespace jnd::core {
 void require(bool holds, std::string_view field, std::string_view rule, double value) {
   if (holds) return;
   char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   throw Error(std::string(field) + ": expected " + std::string(rule) + ", found " +
               std::string(digits, end));
 }

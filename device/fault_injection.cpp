@@ -2,8 +2,11 @@
 
 #include <chrono>
 #include <limits>
+#include <string>
 #include <thread>
 #include <utility>
+
+#include "core/error.h"
 
 namespace jnd::device {
 
@@ -13,6 +16,13 @@ FaultInjectingDevice::FaultInjectingDevice(HapticDevice& inner,
 
 void FaultInjectingDevice::open() {
   tick_ = -1;
+  ++num_openings_;
+  for (const ScheduledFault& fault : faults_) {
+    if (fault.injection != Injection::kOpenFailure || num_openings_ > fault.num_ticks) continue;
+    throw core::Error(std::string(name()) +
+                      ": expected the device to start, found an injected failure; take it out "
+                      "of the list of faults");
+  }
   inner_.open();
 }
 
@@ -57,6 +67,7 @@ bool FaultInjectingDevice::read(core::HapticState& state) noexcept {
         break;
       case Injection::kWriteFailure:
       case Injection::kForceSpike:
+      case Injection::kOpenFailure:
         break;
     }
   }

@@ -20,6 +20,7 @@ enum class Injection {
   kVelocitySpike,  ///< The point's velocity is off by `magnitude`, in m/s, along +x.
   kForceSpike,     ///< The device adds `magnitude`, in newtons, along +x, whatever it was told.
   kStall,          ///< Each read takes `magnitude` seconds of the wall clock.
+  kOpenFailure,    ///< `open` throws, the first `num_ticks` times.
 };
 
 /// One fault, over a range of ticks.
@@ -42,6 +43,7 @@ class FaultInjectingDevice final : public HapticDevice {
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
     return inner_.capabilities();
   }
+  /// Ticks are counted from here.
   void open() override;
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
@@ -57,6 +59,7 @@ class FaultInjectingDevice final : public HapticDevice {
 
   HapticDevice& inner_;
   std::vector<ScheduledFault> faults_;
+  std::int64_t num_openings_ = 0;
   std::int64_t tick_ = -1;
   core::HapticState last_good_;
 };

@@ -50,4 +50,25 @@ std::int64_t DurationHistogram::percentile_ns(double ratio) const noexcept {
   return max_ns();
 }
 
+DurationSummary DurationHistogram::summary() const {
+  DurationSummary summary;
+  for (int bucket = 0; bucket < kNumBuckets; ++bucket) {
+    const std::uint64_t count =
+        buckets_[static_cast<std::size_t>(bucket)].load(std::memory_order_relaxed);
+    if (count > 0) summary.buckets.push_back({bucket_end_ns(bucket), count});
+  }
+  summary.max_ns = max_ns();
+  return summary;
+}
+
+LoopTimingSummary summary_of(const LoopTiming& timing) {
+  LoopTimingSummary summary{.missed_ticks = timing.missed_ticks(),
+                            .lateness = timing.lateness().summary(),
+                            .tick_cost = timing.tick_cost().summary()};
+  for (const DurationSummary::Bucket& bucket : summary.lateness.buckets) {
+    summary.num_ticks += static_cast<std::int64_t>(bucket.count);
+  }
+  return summary;
+}
+
 }  // namespace jnd::device

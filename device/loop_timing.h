@@ -3,8 +3,19 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 namespace jnd::device {
+
+/// A histogram as it is stored.
+struct DurationSummary {
+  struct Bucket {
+    std::int64_t end_ns = 0;  ///< Its longest duration; the last there can be holds longer too.
+    std::uint64_t count = 0;  ///< > 0: empty buckets are left out.
+  };
+  std::vector<Bucket> buckets;  ///< Ascending.
+  std::int64_t max_ns = 0;      ///< Of all, exact; 0 if there were none.
+};
 
 /// Durations in fixed buckets: each power of two in 16 equal parts, so that a percentile is
 /// known to 1/16 of its value, from 1 ns to 17 s. One thread records; any thread may read at
@@ -23,6 +34,8 @@ class DurationHistogram {
   [[nodiscard]] std::uint64_t count() const noexcept {
     return count_.load(std::memory_order_relaxed);
   }
+  /// As it is now; each bucket is one moment's, whatever is recorded meanwhile. Not real time.
+  [[nodiscard]] DurationSummary summary() const;
 
  private:
   static constexpr int kNumBuckets = 16 * 32;
@@ -62,5 +75,16 @@ class LoopTiming {
   DurationHistogram tick_cost_;
   std::atomic<std::int64_t> missed_ticks_{0};
 };
+
+/// How punctual a loop was, for keeping.
+struct LoopTimingSummary {
+  std::int64_t num_ticks = 0;  ///< Exactly those in `lateness`.
+  std::int64_t missed_ticks = 0;
+  DurationSummary lateness;   ///< From when a tick was due until its force was written.
+  DurationSummary tick_cost;  ///< Of whole ticks; of a running loop it may be one tick apart.
+};
+
+/// Up to now, also while the loop runs. Any thread. Not real time.
+[[nodiscard]] LoopTimingSummary summary_of(const LoopTiming& timing);
 
 }  // namespace jnd::device

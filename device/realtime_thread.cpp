@@ -1,17 +1,16 @@
 #include "device/realtime_thread.h"
 
-#include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
-#include <time.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
+#include <ctime>
+#include <string>
 
 #include "core/error.h"
 #include "core/require.h"
+#include "device/adaptive_spin.h"
 
 namespace jnd::device {
 namespace {
@@ -32,15 +31,11 @@ void sleep_until(std::int64_t time_ns) noexcept {
   }
 }
 
-/// Touches the stack that the loop may need, so that no page is missing later.
-void prefault_stack() noexcept {
-  volatile unsigned char pages[256 * 1024];
-  for (std::size_t i = 0; i < sizeof pages; i += 1024) pages[i] = 0;
-}
-
-void add_lack(std::string& lacks, const std::string& sentence) {
-  if (!lacks.empty()) lacks += "; ";
-  lacks += sentence;
+/// Without the pause instruction: under a hypervisor too many of them give the CPU away.
+std::int64_t spin_until(std::int64_t time_ns) noexcept {
+  std::int64_t now_ns = monotonic_ns();
+  while (now_ns < time_ns) now_ns = monotonic_ns();
+  return now_ns;
 }
 
 }  // namespace
@@ -50,8 +45,8 @@ RealtimeThread::RealtimeThread(const Parameters& parameters) : parameters_(param
                 "a number in [0, 99]", parameters.priority);
   core::require(parameters.cpu >= -1 && parameters.cpu < CPU_SETSIZE, "cpu",
                 "the number of a CPU, or -1", parameters.cpu);
-  core::require(parameters.spin_s >= 0.0 && std::isfinite(parameters.spin_s), "spin_s",
-                "a finite number >= 0", parameters.spin_s);
+  core::require(parameters.max_spin_s >= 0.0 && parameters.max_spin_s <= 1.0, "max_spin_s",
+                "a number in [0, 1]", parameters.max_spin_s);
   thread_ = std::thread([this] {
     prepare();
     prepared_.release();
@@ -74,56 +69,33 @@ void RealtimeThread::stop() noexcept {
   stop_.store(true, std::memory_order_release);
   if (loop_ == nullptr) go_.release();
   thread_.join();
+  awake_cpus_.release();
   if (report_.memory_locked) munlockall();
 }
 
 void RealtimeThread::prepare() noexcept {
-  report_.scheduler = "SCHED_OTHER";
-  if (parameters_.priority > 0) {
-    sched_param priority{};
-    priority.sched_priority = parameters_.priority;
-    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
-    if (error == 0) {
-      report_.realtime_scheduler = true;
-      report_.scheduler = "SCHED_FIFO " + std::to_string(parameters_.priority);
-    } else {
-      add_lack(report_.lacks, "the real-time scheduler was refused (" +
-                                  std::string(std::strerror(error)) +
-                                  "): allow rtprio in /etc/security/limits.d");
-    }
-  }
-  if (parameters_.lock_memory) {
-    report_.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-    if (!report_.memory_locked) {
-      add_lack(report_.lacks, "memory could not be locked (" +
-                                  std::string(std::strerror(errno)) +
-                                  "): allow memlock in /etc/security/limits.d");
-    }
-  }
-  if (parameters_.cpu >= 0) {
-    cpu_set_t cpus;
-    CPU_ZERO(&cpus);
-    CPU_SET(parameters_.cpu, &cpus);
-    const int error = pthread_setaffinity_np(pthread_self(), sizeof cpus, &cpus);
-    report_.pinned = error == 0;
-    if (!report_.pinned) {
-      add_lack(report_.lacks, "CPU " + std::to_string(parameters_.cpu) + " could not be had (" +
-                                  std::strerror(error) + ")");
-    }
-  }
+  obtain_scheduler(parameters_.priority, report_);
+  if (parameters_.lock_memory) obtain_locked_memory(report_);
+  obtain_cpu(parameters_.cpu, report_);
+  if (parameters_.keep_cpus_awake) awake_cpus_.obtain(report_);
   prefault_stack();
+  // The page of the kernel's clock is missing until it is read: locking leaves it out.
+  (void)monotonic_ns();
 }
 
 void RealtimeThread::run() noexcept {
+  const ThreadUse at_start = thread_use();
   const std::int64_t period_ns =
       std::max<std::int64_t>(1, std::llround(1e9 * loop_->period_s()));
-  const std::int64_t spin_ns = std::llround(1e9 * parameters_.spin_s);
+  AdaptiveSpin spin(std::llround(1e9 * parameters_.max_spin_s), period_ns);
   std::int64_t due_ns = monotonic_ns() + period_ns;
   while (!stop_.load(std::memory_order_relaxed)) {
-    if (due_ns - spin_ns > monotonic_ns()) sleep_until(due_ns - spin_ns);
-    std::int64_t started_ns = monotonic_ns();
-    while (started_ns < due_ns) started_ns = monotonic_ns();
-
+    const std::int64_t wake_up_ns = due_ns - spin.length_ns();
+    if (wake_up_ns > monotonic_ns()) {
+      sleep_until(wake_up_ns);
+      spin.woke_up_late_by(monotonic_ns() - wake_up_ns);
+    }
+    const std::int64_t started_ns = spin_until(due_ns);
     loop_->render();
     const std::int64_t written_ns = monotonic_ns();
     loop_->report();
@@ -137,6 +109,9 @@ void RealtimeThread::run() noexcept {
       due_ns += num_missed * period_ns;
     }
   }
+  const ThreadUse at_end = thread_use();
+  use_ = {.num_page_faults = at_end.num_page_faults - at_start.num_page_faults,
+          .cpu_time_s = at_end.cpu_time_s - at_start.cpu_time_s};
 }
 
 void require_realtime(const HapticDevice& device, const RealtimeReport& report,
@@ -149,6 +124,19 @@ void require_realtime(const HapticDevice& device, const RealtimeReport& report,
                     report.scheduler +
                     (report.memory_locked ? ", memory locked" : ", memory not locked") +
                     "; allow it with --allow-no-realtime, which is stored with the session");
+}
+
+void start_haptics(HapticDevice& device, HapticLoop& loop, RealtimeThread& thread,
+                   bool allow_no_realtime) {
+  require_realtime(device, thread.report(), allow_no_realtime);
+  try {
+    device.open();
+  } catch (...) {
+    // It may have come half way.
+    device.close();
+    throw;
+  }
+  thread.start(loop);
 }
 
 }  // namespace jnd::device

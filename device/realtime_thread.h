@@ -2,36 +2,30 @@
 
 #include <atomic>
 #include <semaphore>
-#include <string>
 #include <thread>
 
 #include "device/haptic_loop.h"
 #include "device/loop_timing.h"
+#include "device/realtime_report.h"
 
 namespace jnd::device {
 
-/// What the thread was really given.
-struct RealtimeReport {
-  bool realtime_scheduler = false;  ///< SCHED_FIFO at the priority asked for.
-  std::string scheduler;            ///< "SCHED_FIFO 80" or "SCHED_OTHER".
-  bool memory_locked = false;
-  bool pinned = false;  ///< To the CPU asked for; false if none was.
-  std::string lacks;    ///< What was asked for and not given, and how to get it; else empty.
-};
-
 /// Drives a `HapticLoop` by absolute time: sleeps until shortly before each tick is due and
-/// spins the rest. A tick that comes too late by whole periods is counted as missed ticks and
-/// the grid is kept; the loop never runs several ticks at once to catch up.
+/// spins the rest, see `AdaptiveSpin`. A tick that comes too late by whole periods is counted
+/// as missed ticks and the grid is kept; the loop never runs several ticks at once to catch up.
 ///
-/// The thread is prepared in the constructor, before anything moves: look at `report()`, decide
-/// with `require_realtime`, open the device, then `start`.
+/// The thread is prepared in the constructor, before anything moves: look at `report()`, then
+/// `start_haptics`.
 class RealtimeThread {
  public:
   struct Parameters {
     int priority = 80;        ///< Of SCHED_FIFO, [1, 99]; 0 does not ask for it.
     bool lock_memory = true;  ///< Of the whole process.
     int cpu = -1;             ///< To pin to; -1: any.
-    double spin_s = 50e-6;    ///< Spun before each tick instead of slept, >= 0.
+    /// Spun before each tick instead of slept, at most, >= 0; 0: sleep only. Never more than
+    /// half a period.
+    double max_spin_s = 200e-6;
+    bool keep_cpus_awake = true;  ///< Where it is allowed, until `stop`: see `AwakeCpus`.
   };
 
   /// Throws `core::Error` for a parameter out of range. Not real time.
@@ -45,10 +39,13 @@ class RealtimeThread {
 
   /// Ticks until `stop`; `loop` has to live until then. Once only.
   void start(HapticLoop& loop) noexcept;
-  /// Returns when the last tick is over and the thread has ended. May be called twice.
+  /// Returns when the last tick is over and the thread has ended. May be called twice, and
+  /// without `start`.
   void stop() noexcept;
 
   [[nodiscard]] const LoopTiming& timing() const noexcept { return timing_; }
+  /// Of the ticking alone. After `stop`.
+  [[nodiscard]] const ThreadUse& use() const noexcept { return use_; }
 
  private:
   void prepare() noexcept;
@@ -56,7 +53,9 @@ class RealtimeThread {
 
   Parameters parameters_;
   RealtimeReport report_;
+  AwakeCpus awake_cpus_;
   LoopTiming timing_;
+  ThreadUse use_;
   HapticLoop* loop_ = nullptr;
   std::atomic<bool> stop_{false};
   std::binary_semaphore prepared_{0};
@@ -68,5 +67,11 @@ class RealtimeThread {
 /// locked memory, unless `allow_no_realtime`. Call it before `HapticDevice::open`.
 void require_realtime(const HapticDevice& device, const RealtimeReport& report,
                       bool allow_no_realtime);
+
+/// The one order that is safe: `require_realtime`, then motors, then ticks. Throws
+/// `core::Error` of the first that fails; then the device is closed and not one tick was run.
+/// Not real time.
+void start_haptics(HapticDevice& device, HapticLoop& loop, RealtimeThread& thread,
+                   bool allow_no_realtime);
 
 }  // namespace jnd::device

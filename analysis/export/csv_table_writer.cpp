@@ -40,7 +40,7 @@ CsvTableWriter& CsvTableWriter::cell(double number) {
     return *this;
   }
   char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+  char* const end = std::to_chars(digits, digits + sizeof digits, number).ptr;
   put(std::string(digits, end));
   return *this;
 }

@@ -50,20 +50,22 @@ struct PowerFit {
   int num_rows = 0;  ///< Rows that were fitted.
 };
 
-/// Fits Stevens' power law S = k I^a, k > 0, with 0^a = 0. nls is solved over the exponent
-/// alone, since the best k for each is known, from a grid of starts: the minimum is global.
+/// Fits Stevens' power law S = k I^a, k > 0, with 0^a = 0. nls starts wherever a grid of
+/// exponents, for each of which the best k is known, has a minimum: what is found is global.
 ///
 /// `degenerate` where no k > 0 and finite a is best: fewer than two different intensities > 0,
 /// magnitudes all 0, or data that only one intensity's magnitude carries, where the best
 /// exponent is infinite. Throws `core::Error` for an intensity not finite and >= 0 or a
 /// magnitude that is not finite. Not real time.
 [[nodiscard]] PowerFit fit_power(const std::vector<Magnitude>& data,
-                                 PowerMethod method = PowerMethod::kNonlinear);
+                                 PowerMethod method = PowerMethod::kNonlinear,
+                                 Solver solver = Solver::kCeres);
 
 /// The least-squares power law through two curves at once, both evaluated at `intensities`: how
 /// the thesis joins estimation and production (sec. 4) into one unbiased law.
 [[nodiscard]] PowerFit power_between(const core::PowerFunction& first,
                                      const core::PowerFunction& second,
-                                     const std::vector<double>& intensities);
+                                     const std::vector<double>& intensities,
+                                     Solver solver = Solver::kCeres);
 
 }  // namespace jnd::analysis

@@ -71,7 +71,7 @@ BootstrapInterval bootstrapped_weber_fraction(const PsychometricSearch& search,
       redrawn.num_yes[level] = tables[level].draw(random);
     }
     redrawn.zero_yes = at_zero.draw(random);
-    const PsychometricSearchResult found = search.find(redrawn, &fitted);
+    const PsychometricSearchResult found = search.find(redrawn, minimised_by_newton, &fitted);
     if (found.supremum == PsychometricSupremum::kAttained) {
       values.push_back(found.optimum.curve.weber_fraction(levels));
       continue;

@@ -1,6 +1,7 @@
 #include "analysis/fits/psychometric_fit.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 
@@ -42,6 +43,10 @@ double sum_about_mean(const PsychometricLevels& levels) {
     proportions.push_back(levels.proportion(level));
   }
   if (levels.zero_trials > 0.0) proportions.push_back(levels.zero_yes / levels.zero_trials);
+  if (std::all_of(proportions.begin(), proportions.end(),
+                  [&](double proportion) { return proportion == proportions[0]; })) {
+    return 0.0;  // Whatever rounding makes of their mean.
+  }
   double mean = 0.0;
   for (const double proportion : proportions) mean += proportion;
   mean /= static_cast<double>(proportions.size());
@@ -105,7 +110,8 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   for (const AnswerCount& row : data) fit.num_trials += row.num_trials;
 
   const PsychometricSearch search(levels, options.method, options.free_pse, options.free_lapse);
-  const PsychometricSearchResult found = search.find(levels);
+  const PsychometricSearchResult found = search.find(
+      levels, options.solver == Solver::kCeres ? minimised_by_ceres : minimised_by_newton);
   if (found.supremum == PsychometricSupremum::kNotConverged) {
     fit.status = FitStatus::kNotConverged;
     fit.reason = "the search for the optimum did not come to rest";

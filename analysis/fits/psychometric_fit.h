@@ -33,6 +33,7 @@ struct PsychometricOptions {
   int num_bootstrap = 0;   ///< Refits of the bootstrap; 0 leaves it out.
   std::uint64_t seed = 1;  ///< Of the bootstrap: the same seed gives the same interval.
   bool intervals = true;   ///< False leaves out the profile intervals, where only w is wanted.
+  Solver solver = Solver::kCeres;
 };
 
 /// Percentile interval of the Weber fraction over data redrawn from the fitted curve.

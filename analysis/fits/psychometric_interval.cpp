@@ -53,11 +53,12 @@ class SlopeProfile {
     const double slope = std::exp(log_slope);
     const PsychometricCurve start = {slope, last_.offset * (slope / last_.slope), last_.lapse};
     if (!free_[1] && !free_[2]) return psychometric_cost(levels_, method_, start).value;
-    PsychometricOptimum best = minimised(levels_, method_, free_, start);
+    PsychometricOptimum best = minimised_by_newton(levels_, method_, free_, start);
     if (free_[2]) {
       PsychometricCurve with_lapses = start;
       with_lapses.lapse = 0.05;
-      const PsychometricOptimum other = minimised(levels_, method_, free_, with_lapses);
+      const PsychometricOptimum other =
+          minimised_by_newton(levels_, method_, free_, with_lapses);
       if (other.cost.value < best.cost.value) best = other;
     }
     last_ = best.curve;
@@ -89,7 +90,7 @@ class PseProfile {
     // The best slope may be 0 or infinite here, though it is not at the optimum.
     double best = std::min(flat_limit_cost(shifted_, method_, false, free_[2]),
                            step_limit_cost(shifted_, method_, false, free_[2]));
-    const PsychometricOptimum found = minimised(shifted_, method_, free_, last_);
+    const PsychometricOptimum found = minimised_by_newton(shifted_, method_, free_, last_);
     if (found.cost.value < best) {
       best = found.cost.value;
       last_ = found.curve;

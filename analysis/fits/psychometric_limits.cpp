@@ -12,19 +12,21 @@ constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
 /// Levels that share one probability f, as a weighted count: answers for maximum likelihood,
 /// levels for least squares.
 struct Pool {
-  double yes = 0.0, total = 0.0, yes_squared = 0.0;
+  double yes = 0.0, total = 0.0;
+  double squares = 0.0;  ///< Of the levels' shares about their mean: nothing cancels.
 
   void add(double num_yes, double num_trials, PsychometricMethod method) noexcept {
     const double weight = method == kMaximumLikelihood ? 1.0 : 1.0 / num_trials;
     const double share = num_yes * weight;
+    const double distance = share - mean();
+    if (total > 0.0) squares += distance * distance * total / (total + 1.0);
     yes += share;
     total += num_trials * weight;
-    yes_squared += share * share;
   }
   /// Cost if all of them had probability f.
   [[nodiscard]] double cost(double f, PsychometricMethod method) const noexcept {
     if (method == PsychometricMethod::kLeastSquares) {
-      return std::max(0.0, yes_squared - 2.0 * f * yes + f * f * total);
+      return squares + total * (mean() - f) * (mean() - f);
     }
     double value = 0.0;
     if (yes > 0.0) value -= yes * std::log(f);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/fits/psychometric_search.h"
+#include "analysis/fits/psychometric_descent.h"
 
 namespace jnd::analysis {
 namespace {
@@ -44,7 +44,7 @@ ScaledCost scaled(const PsychometricCurve& curve, const PsychometricCost& cost,
 Eigen::Vector3d trusted_step(const ScaledCost& here, double radius) noexcept {
   const Eigen::LLT<Eigen::Matrix3d> cholesky(here.hessian);
   if (cholesky.info() == Eigen::Success) {
-    const Eigen::Vector3d step = -cholesky.solve(here.gradient);
+    Eigen::Vector3d step = -cholesky.solve(here.gradient);
     if (step.norm() <= radius) return step;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(here.hessian);
@@ -74,9 +74,9 @@ double feasible_fraction(double step_of_slope) noexcept {
 
 }  // namespace
 
-PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMethod method,
-                              const FreeParameters& free,
-                              const PsychometricCurve& start) noexcept {
+PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
+                                        PsychometricMethod method, const FreeParameters& free,
+                                        const PsychometricCurve& start) noexcept {
   PsychometricOptimum best{start, psychometric_cost(levels, method, start), false};
   double radius = 2.0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -110,8 +110,10 @@ PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMeth
     const double gain = best.cost.value - cost.value;
     const double expected =
         -(change.dot(best.cost.gradient) + 0.5 * change.dot(best.cost.hessian * change));
-    // Rounding of the cost must not stop the last, small steps.
-    const double rounding = 1e-14 * std::fabs(best.cost.value) + 1e-30;
+    // Rounding of the cost must not stop the last, small steps; the root is for that of small
+    // residuals, which are differences of numbers near 1.
+    const double here_cost = std::fabs(best.cost.value);
+    const double rounding = 1e-14 * here_cost + 1e-15 * std::sqrt(here_cost) + 1e-30;
     const bool small = step.norm() <= kSmallStep * (1.0 + std::fabs(curve.offset)) &&
                        std::fabs(step(0)) <= kSmallStep;
     if (gain > 0.0 || (gain >= -rounding && std::fabs(expected) <= rounding) ||

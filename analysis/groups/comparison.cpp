@@ -29,6 +29,35 @@ void require_pairs(const std::vector<double>& a, const std::vector<double>& b) {
                 static_cast<double>(b.size()));
 }
 
+/// Exponent of the power of two that brings values as large as `largest` to about 1. Dividing
+/// by it is exact, and keeps squares within the range of numbers.
+int exponent_of(double largest) { return largest > 0.0 ? std::ilogb(largest) : 0; }
+
+std::vector<double> shrunk(const std::vector<double>& values, int exponent) {
+  std::vector<double> result;
+  for (const double value : values) result.push_back(std::ldexp(value, -exponent));
+  return result;
+}
+
+std::vector<double> shrunk_differences(const std::vector<double>& a,
+                                       const std::vector<double>& b, int exponent) {
+  std::vector<double> result = shrunk(a, exponent);
+  for (std::size_t pair = 0; pair < a.size(); ++pair) {
+    result[pair] -= std::ldexp(b[pair], -exponent);
+  }
+  return result;
+}
+
+/// Back to the unit of the values, absent where that is past the range of numbers.
+std::optional<double> grown(const std::optional<double>& value, int exponent) {
+  const double number = std::ldexp(value.value_or(0.0), exponent);
+  return value && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+Interval grown(const Interval& interval, int exponent) {
+  return {.low = grown(interval.low, exponent), .high = grown(interval.high, exponent)};
+}
+
 Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
                    std::size_t num_b) {
   Comparison result;
@@ -77,22 +106,25 @@ void fill_welch(Comparison& result, const PublishedGroup& a, const PublishedGrou
 Comparison paired_t_test(const std::vector<double>& a, const std::vector<double>& b) {
   require_pairs(a, b);
   Comparison result = started(Comparison::Kind::kPaired, "paired t", a.size(), b.size());
-  std::vector<double> difference(a.size());
-  for (std::size_t pair = 0; pair < a.size(); ++pair) difference[pair] = a[pair] - b[pair];
-  const Summary summary = summary_of(difference);
-  result.estimate = summary.mean;
-  if (difference.size() < 2) {
+  const double largest = largest_magnitude(a, b);
+  const int exponent = exponent_of(largest);
+  const Summary summary = summary_of(shrunk_differences(a, b, exponent));
+  result.estimate = grown(summary.mean, exponent);
+  if (a.size() < 2) {
     result.reason = "too few pairs: a t test needs two";
     return result;
   }
   const double deviation = *summary.standard_deviation;
-  if (!(deviation > rounding(largest_magnitude(a, b)))) {
+  if (!(deviation > rounding(std::ldexp(largest, -exponent)))) {
     result.reason = "all differences are alike: t is undefined";
     return result;
   }
-  const double n = static_cast<double>(difference.size());
+  const double n = static_cast<double>(a.size());
+  result.estimate = summary.mean;
   fill_t(result, deviation / std::sqrt(n), n - 1.0);
   result.cohen_dz = *summary.mean / deviation;
+  result.estimate = grown(result.estimate, exponent);
+  result.ci95 = grown(result.ci95, exponent);
   return result;
 }
 
@@ -100,19 +132,26 @@ Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>&
   require_finite(a, "a");
   require_finite(b, "b");
   Comparison result = started(Comparison::Kind::kWelch, "Welch's t", a.size(), b.size());
-  const Summary of_a = summary_of(a), of_b = summary_of(b);
-  if (of_a.mean && of_b.mean) result.estimate = *of_a.mean - *of_b.mean;
+  const double largest = largest_magnitude(a, b);
+  const int exponent = exponent_of(largest);
+  const Summary of_a = summary_of(shrunk(a, exponent)), of_b = summary_of(shrunk(b, exponent));
+  std::optional<double> difference;
+  if (of_a.mean && of_b.mean) difference = *of_a.mean - *of_b.mean;
+  result.estimate = grown(difference, exponent);
   if (a.size() < 2 || b.size() < 2) {
     result.reason = "too few values: Welch's t needs two in each group";
     return result;
   }
   const double spread = std::max(*of_a.standard_deviation, *of_b.standard_deviation);
-  if (!(spread > rounding(largest_magnitude(a, b)))) {
+  if (!(spread > rounding(std::ldexp(largest, -exponent)))) {
     result.reason = "all values of each group are alike: t is undefined";
     return result;
   }
+  result.estimate = difference;
   fill_welch(result, {*of_a.mean, *of_a.standard_deviation, result.num_a},
              {*of_b.mean, *of_b.standard_deviation, result.num_b});
+  result.estimate = grown(result.estimate, exponent);
+  result.ci95 = grown(result.ci95, exponent);
   return result;
 }
 
@@ -148,9 +187,12 @@ Comparison pearson_correlation(const std::vector<double>& a, const std::vector<d
     result.reason = "too few pairs: a correlation needs three";
     return result;
   }
-  const Summary of_a = summary_of(a), of_b = summary_of(b);
-  if (!(*of_a.standard_deviation > rounding(largest_magnitude(a, {}))) ||
-      !(*of_b.standard_deviation > rounding(largest_magnitude(b, {})))) {
+  // Each column in a unit of its own, which leaves r as it is.
+  const std::vector<double> own_a = shrunk(a, exponent_of(largest_magnitude(a, {})));
+  const std::vector<double> own_b = shrunk(b, exponent_of(largest_magnitude(b, {})));
+  const Summary of_a = summary_of(own_a), of_b = summary_of(own_b);
+  if (!(*of_a.standard_deviation > rounding(largest_magnitude(own_a, {}))) ||
+      !(*of_b.standard_deviation > rounding(largest_magnitude(own_b, {})))) {
     result.reason = "a column is constant: the correlation is undefined";
     return result;
   }
@@ -158,8 +200,8 @@ Comparison pearson_correlation(const std::vector<double>& a, const std::vector<d
   const double n = static_cast<double>(a.size());
   double difference = 0.0, sum = 0.0, product = 0.0;
   for (std::size_t pair = 0; pair < a.size(); ++pair) {
-    const double x = (a[pair] - *of_a.mean) / *of_a.standard_deviation;
-    const double y = (b[pair] - *of_b.mean) / *of_b.standard_deviation;
+    const double x = (own_a[pair] - *of_a.mean) / *of_a.standard_deviation;
+    const double y = (own_b[pair] - *of_b.mean) / *of_b.standard_deviation;
     product += x * y;
     difference += (x - y) * (x - y);
     sum += (x + y) * (x + y);
@@ -195,9 +237,9 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
     result.reason = "no pairs";
     return result;
   }
-  std::vector<double> difference(a.size());
-  for (std::size_t pair = 0; pair < a.size(); ++pair) difference[pair] = a[pair] - b[pair];
-  result.estimate = summary_of(difference).mean;
+  const int exponent = exponent_of(largest_magnitude(a, b));
+  const std::vector<double> difference = shrunk_differences(a, b, exponent);
+  result.estimate = grown(summary_of(difference).mean, exponent);
   const SignedRanks ranks = signed_ranks(difference);
   if (ranks.num_nonzero == 0) {
     result.reason = "all differences are 0: there is nothing to rank";
@@ -206,8 +248,8 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
   result.statistic = std::min(ranks.positive_sum, ranks.negative_sum);
   result.p_value = ranks.p_value;
   result.method += ranks.exact ? ", exact" : ", normal approximation corrected for ties";
-  result.median_difference = ranks.median;
-  result.median_difference_ci95 = ranks.median_ci95;
+  result.median_difference = grown(ranks.median, exponent);
+  result.median_difference_ci95 = grown(ranks.median_ci95, exponent);
   result.status = FitStatus::kOk;
   return result;
 }

@@ -10,7 +10,6 @@
 #include "analysis/groups/comparison.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
-#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -23,7 +22,8 @@ struct Options {
 };
 
 /// Both columns as the test needs them: pairs, or for Welch two columns of their own lengths.
-Comparison compared(const Options& options) try {
+/// Throws `core::Error` where the table has problems.
+Comparison compared(const Options& options) {
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
   analysis::CsvReader reader(table);
   const bool welch = options.test == "welch";
@@ -34,9 +34,6 @@ Comparison compared(const Options& options) try {
   if (options.test == "pearson") return analysis::pearson_correlation(a, b);
   if (options.test == "wilcoxon") return analysis::wilcoxon_test(a, b);
   return analysis::paired_t_test(a, b);
-} catch (const core::Error& error) {
-  // A table that cannot be read is wrong usage: exit 1 is for tests that are undefined.
-  throw UsageError(error.what());
 }
 
 std::string number(const std::optional<double>& value) {
@@ -73,9 +70,7 @@ void print_for_people(const Comparison& result) {
 void add_compare(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<Options>();
   CLI::App& compare = *program.add_subcommand("compare", "Compare two columns of a table");
-  compare.add_option("--csv", options->csv, "table with the columns a,b")
-      ->required()
-      ->check(CLI::ExistingFile);
+  compare.add_option("--csv", options->csv, "table with the columns a,b")->required();
   compare.add_option("--test", options->test, "paired, welch, pearson or wilcoxon")
       ->required()
       ->check(CLI::IsMember({"paired", "welch", "pearson", "wilcoxon"}));
@@ -88,7 +83,10 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       } else {
         print_for_people(result);
       }
-      return result.status == analysis::FitStatus::kOk ? kDone : kHasProblems;
+      if (result.status == analysis::FitStatus::kOk) return kDone;
+      fmt::print(stderr, "jnd: {}: expected columns that can be compared, found: {}\n",
+                 options->csv, result.reason);
+      return kHasProblems;
     };
   });
 }

@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
 #include "app/progress_bar.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
@@ -66,7 +67,7 @@ int run(const Options& options) {
           add_sessions(store,
                        {.study = study,
                         .laboratory = laboratory,
-                        .study_file_name = file.filename().string(),
+                        .study_file = file,
                         .seed = options.seed,
                         .record = !options.fast},
                        next_participants(store, kParticipants));
@@ -119,12 +120,12 @@ void add_demo(CLI::App& program, Invocation& invocation) {
                     "Same sessions and answers; recordings reduced to summaries of strokes");
   command->add_option("--out", options->out, "Folder to make; default: a fresh demo-N");
   command->add_option("--seed", options->seed, "Of everything that is drawn")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_number())
       ->capture_default_str();
   command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Sessions at once")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--device", options->device, "Simulated device")->capture_default_str();
   command->add_flag("--json", options->json, "One JSON document on stdout");

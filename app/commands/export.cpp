@@ -4,6 +4,7 @@
 
 #include "analysis/export/csv_export.h"
 #include "app/commands/commands.h"
+#include "app/session_setup.h"
 
 namespace jnd::app {
 namespace {
@@ -17,6 +18,7 @@ struct Options {
 
 int run(const Options& options) {
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
   analysis::export_csv(store, options.out, options.csv);
   std::printf("%s: tables and codebook.csv written to %s\n", options.folder.c_str(),
               options.out.c_str());

@@ -11,7 +11,6 @@
 #include "analysis/fits/fit_json.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
-#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -89,16 +88,31 @@ void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lin
   fmt::print("  R squared  {}\n", number(fit.r_squared));
 }
 
+/// What stderr is told of fits without a value: one sentence, whatever stdout shows.
+void print_lacking(const Options& options, const char* what, std::size_t num_lacking,
+                   std::size_t num_groups, const std::string& reason) {
+  if (num_groups == 0) {
+    fmt::print(stderr, "jnd: {}: expected rows below the header, found none\n", options.csv);
+  } else if (num_groups == 1) {
+    fmt::print(stderr, "jnd: {}: expected answers that have a {}, found none: {}\n",
+               options.csv, what, reason);
+  } else if (num_lacking > 0) {
+    fmt::print(stderr, "jnd: {}: expected a {} in every group, found none in {} of {}: {}\n",
+               options.csv, what, num_lacking, num_groups, reason);
+  }
+}
+
 /// Fits every group, prints them all, and says whether each has a value. `fit` makes a result
 /// of a group, `print` shows it to people.
 template <typename Group, typename Fit, typename Print>
-int fit_groups(const std::vector<Group>& groups, const Options& options, const Fit& fit,
-               const Print& print) {
-  bool all_ok = !groups.empty();
+int fit_groups(const std::vector<Group>& groups, const Options& options, const char* what,
+               const Fit& fit, const Print& print) {
+  std::size_t num_lacking = 0;
+  std::string reason;  // Of the first that has no value.
   Json results = Json::array();
   for (const Group& group : groups) {
     const auto result = fit(group);
-    all_ok = all_ok && result.status == FitStatus::kOk;
+    if (result.status != FitStatus::kOk && num_lacking++ == 0) reason = result.reason;
     if (options.json) {
       Json json;
       for (const auto& [column, value] : group.key) json["group"][column] = value;
@@ -118,17 +132,15 @@ int fit_groups(const std::vector<Group>& groups, const Options& options, const F
         options.group_by.empty() ? results.at(0) : Json{{"groups", std::move(results)}};
     fmt::print("{}\n", json_text(document));
   }
-  return all_ok ? kDone : kHasProblems;
+  if (num_lacking == 0 && !groups.empty()) return kDone;
+  print_lacking(options, what, num_lacking, groups.size(), reason);
+  return kHasProblems;
 }
 
-/// A table that cannot be read is wrong usage: exit 1 is for fits that do not exist.
+/// The rows of the file. What is wrong with it is a `core::Error`: the data have problems.
 template <typename Read>
 auto read_groups(const Options& options, const Read& read) {
-  try {
-    return read(analysis::CsvTable::read(options.csv), options.group_by);
-  } catch (const core::Error& error) {
-    throw UsageError(error.what());
-  }
+  return read(analysis::CsvTable::read(options.csv), options.group_by);
 }
 
 int fit_weber(const Options& options) {
@@ -151,7 +163,7 @@ int fit_weber(const Options& options) {
       .num_bootstrap = options.num_bootstrap,
       .seed = options.seed};
   return fit_groups(
-      read_groups(options, analysis::read_answer_counts), options,
+      read_groups(options, analysis::read_answer_counts), options, "Weber fraction",
       [&](const auto& group) { return analysis::fit_psychometric(group.rows, how); },
       [&](const auto& fit, const auto&) { print_for_people(fit, options); });
 }
@@ -160,7 +172,7 @@ int fit_power(const Options& options) {
   const auto method = options.power_method == "loglog" ? analysis::PowerMethod::kLogLog
                                                        : analysis::PowerMethod::kNonlinear;
   return fit_groups(
-      read_groups(options, analysis::read_magnitudes), options,
+      read_groups(options, analysis::read_magnitudes), options, "power law",
       [&](const auto& group) { return analysis::fit_power(group.rows, method); },
       [](const auto& fit, const auto& group) { print_for_people(fit, group.lines); });
 }
@@ -195,13 +207,16 @@ int fit_between(const Options& options) {
   } else {
     fmt::print("  no power law: {}\n", fit.reason);
   }
-  return fit.status == FitStatus::kOk ? kDone : kHasProblems;
+  if (fit.status == FitStatus::kOk) return kDone;
+  fmt::print(stderr,
+             "jnd: --intensities: expected some that have a power law, found none: {}\n",
+             fit.reason);
+  return kHasProblems;
 }
 
 void add_table_options(CLI::App& command, Options& options, const char* columns) {
   command.add_option("--csv", options.csv, std::string("table with the columns ") + columns)
-      ->required()
-      ->check(CLI::ExistingFile);
+      ->required();
   command
       .add_option("--group-by", options.group_by, "columns; one fit for each of their values")
       ->delimiter(',')

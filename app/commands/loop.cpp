@@ -10,6 +10,7 @@
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 #include "core/error.h"
+#include "core/storage/storage_thread.h"
 #include "device/device_registry.h"
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
@@ -46,47 +47,70 @@ void print_line(const char* what, const Percentiles& us) {
              us.p999, us.max);
 }
 
-std::string verdict(const Options& options, const device::LoopTiming& timing,
-                    const device::RealtimeReport& report) {
-  if (timing.missed_ticks() > 0) {
+/// All there is to say about a run.
+struct Outcome {
+  const Options& options;
+  const device::LoopTiming& timing;
+  const device::RealtimeReport& report;
+  const device::ThreadUse& use;
+  std::uint64_t num_dropped_samples = 0;
+
+  [[nodiscard]] double cpu_time_ratio() const { return use.cpu_time_s / options.seconds; }
+};
+
+std::string verdict(const Outcome& outcome) {
+  if (outcome.timing.missed_ticks() > 0) {
     return fmt::format(
         "Not fit for a person: {} ticks were missed. Close other programs, or give "
         "the loop a CPU of its own (--cpu).",
-        timing.missed_ticks());
+        outcome.timing.missed_ticks());
   }
-  if (!report.realtime_scheduler || !report.memory_locked) {
-    return "Fit for simulated devices alone: " + report.lacks + ".";
+  if (outcome.num_dropped_samples > 0) {
+    return fmt::format("Not fit for a person: {} samples were lost. Close other programs.",
+                       outcome.num_dropped_samples);
   }
-  const double period_us = 1e6 / options.rate_hz;
-  if (percentiles_us(timing.lateness()).p999 > 0.2 * period_us) {
+  if (!outcome.report.realtime_scheduler || !outcome.report.memory_locked) {
+    return "Fit for simulated devices alone: " + outcome.report.lacks + ".";
+  }
+  const double period_us = 1e6 / outcome.options.rate_hz;
+  if (percentiles_us(outcome.timing.lateness()).p999 > 0.2 * period_us) {
     return "Usable, but one tick in a thousand came later than a fifth of its period.";
   }
   return "Fit for a person: no tick was missed and every force came in time.";
 }
 
-void print_for_people(const Options& options, const device::LoopTiming& timing,
-                      const device::RealtimeReport& report) {
-  fmt::print("{} ticks at {:g} Hz on {}, {} missed\n", timing.num_ticks(), options.rate_hz,
-             options.device, timing.missed_ticks());
-  fmt::print("{}, memory {}\n\n", report.scheduler,
-             report.memory_locked ? "locked" : "not locked");
+void print_for_people(const Outcome& outcome) {
+  const device::RealtimeReport& report = outcome.report;
+  fmt::print("{} ticks at {:g} Hz on {}, {} missed; {} samples lost\n",
+             outcome.timing.num_ticks(), outcome.options.rate_hz, outcome.options.device,
+             outcome.timing.missed_ticks(), outcome.num_dropped_samples);
+  fmt::print(
+      "{} on CPU {}, memory {}, {} page faults, {:.0f} % of a CPU used, idle CPUs {}\n\n",
+      report.scheduler, fmt::join(report.cpus, " or "),
+      report.memory_locked ? "locked" : "not locked", outcome.use.num_page_faults,
+      100.0 * outcome.cpu_time_ratio(), report.cpus_kept_awake ? "kept awake" : "may sleep");
   fmt::print("  {:<12} {:>10} {:>10} {:>10} {:>10}\n", "us", "p50", "p99", "p99.9", "max");
-  print_line("lateness", percentiles_us(timing.lateness()));
-  print_line("tick cost", percentiles_us(timing.tick_cost()));
-  fmt::print("\n{}\n", verdict(options, timing, report));
+  print_line("lateness", percentiles_us(outcome.timing.lateness()));
+  print_line("tick cost", percentiles_us(outcome.timing.tick_cost()));
+  fmt::print("\n{}\n", verdict(outcome));
 }
 
-void print_json(const Options& options, const device::LoopTiming& timing,
-                const device::RealtimeReport& report) {
+void print_json(const Outcome& outcome) {
   nlohmann::ordered_json out;
-  out["rate_hz"] = options.rate_hz;
-  out["num_ticks"] = timing.num_ticks();
-  out["missed_ticks"] = timing.missed_ticks();
-  out["lateness_us"] = json_of(percentiles_us(timing.lateness()));
-  out["tick_cost_us"] = json_of(percentiles_us(timing.tick_cost()));
-  out["scheduler"] = report.scheduler;
-  out["memory_locked"] = report.memory_locked;
-  out["device"] = options.device;
+  out["rate_hz"] = outcome.options.rate_hz;
+  out["num_ticks"] = outcome.timing.num_ticks();
+  out["missed_ticks"] = outcome.timing.missed_ticks();
+  out["lateness_us"] = json_of(percentiles_us(outcome.timing.lateness()));
+  out["tick_cost_us"] = json_of(percentiles_us(outcome.timing.tick_cost()));
+  out["scheduler"] = outcome.report.scheduler;
+  out["memory_locked"] = outcome.report.memory_locked;
+  out["priority"] = outcome.report.priority;
+  out["cpus"] = outcome.report.cpus;
+  out["cpus_kept_awake"] = outcome.report.cpus_kept_awake;
+  out["cpu_time_ratio"] = outcome.cpu_time_ratio();
+  out["num_page_faults"] = outcome.use.num_page_faults;
+  out["num_dropped_samples"] = outcome.num_dropped_samples;
+  out["device"] = outcome.options.device;
   fmt::print("{}\n", json_text(out));
 }
 
@@ -94,7 +118,8 @@ void print_json(const Options& options, const device::LoopTiming& timing,
 struct Setup {
   explicit Setup(const Options& options) try
       : device(device::device_named(options.device).make(options.rate_hz)),
-        loop({.rate_hz = options.rate_hz}, *device, {commands, telemetry, emergency_stop}),
+        loop({.rate_hz = options.rate_hz}, *device,
+             {commands, telemetry, emergency_stop, &samples}),
         thread({.cpu = options.cpu}) {
   } catch (const core::Error& error) {
     throw UsageError(error.what());
@@ -103,6 +128,8 @@ struct Setup {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop emergency_stop;
+  /// As large as a session's, and emptied like it.
+  core::SpscQueue<core::Sample> samples{32768};
   std::unique_ptr<device::HapticDevice> device;
   device::HapticLoop loop;
   device::RealtimeThread thread;
@@ -120,27 +147,29 @@ int run(const Options& options) {
   Setup setup(options);
   const device::RealtimeReport& report = setup.thread.report();
   if (options.cpu >= 0 && !report.pinned) throw EnvironmentError(report.lacks);
-  try {
-    device::require_realtime(*setup.device, report, false);
-  } catch (const core::Error& error) {
-    throw EnvironmentError(error.what());
+  {
+    core::StorageThread storage(setup.samples, {});
+    try {
+      device::start_haptics(*setup.device, setup.loop, setup.thread, false);
+    } catch (const core::Error& error) {
+      throw EnvironmentError(error.what());
+    }
+    // A hand that strokes through water: a tick with everything in it.
+    setup.commands.publish({.sequence = 1, .medium = core::water({})});
+    if (auto* hand = dynamic_cast<device::LumpedHandDevice*>(setup.device.get())) {
+      hand->begin_strokes({}, core::RandomStream(1, "loop"));
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));
+    setup.thread.stop();
   }
-
-  setup.device->open();
-  // A hand that strokes through water: a tick with everything in it.
-  setup.commands.publish({.sequence = 1, .medium = core::water({})});
-  if (auto* hand = dynamic_cast<device::LumpedHandDevice*>(setup.device.get())) {
-    hand->begin_strokes({}, core::RandomStream(1, "loop"));
-  }
-  setup.thread.start(setup.loop);
-  std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));
-  setup.thread.stop();
   setup.device->close();
 
+  const Outcome outcome{options, setup.thread.timing(), report, setup.thread.use(),
+                        setup.samples.num_dropped()};
   if (options.json) {
-    print_json(options, setup.thread.timing(), report);
+    print_json(outcome);
   } else {
-    print_for_people(options, setup.thread.timing(), report);
+    print_for_people(outcome);
   }
   setup.telemetry.fetch();
   const core::Fault fault = setup.telemetry.value().fault;

@@ -11,6 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 #include "app/share.h"
+#include "app/usage_message.h"
 #include "core/error.h"
 #include "experiments/study/starter_study.h"
 #include "experiments/study/structure_check.h"
@@ -34,13 +35,16 @@ void write_new_file(const fs::path& file, const std::string& text) {
     throw core::Error(file.string() + ": expected a new file, found " +
                       (errno == EEXIST
                            ? std::string("one of that name; nothing was overwritten")
-                           : std::string(std::strerror(errno))));
+                           : "that it cannot be made: " + std::string(std::strerror(errno))));
   }
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   const bool closed = std::fclose(stream) == 0;
   if (!written || !closed) {
-    throw core::Error(file.string() + ": expected to be written, found " +
-                      std::strerror(errno));
+    const std::string reason = std::strerror(errno);
+    std::error_code ignored;
+    fs::remove(file, ignored);  // Half a study is none.
+    throw core::Error(file.string() +
+                      ": expected to be written, found that it cannot be: " + reason);
   }
 }
 
@@ -49,7 +53,8 @@ int run(const Options& options) {
   if (file.extension() != ".json") file += ".json";
   const std::string name = file.stem().string();
   if (!experiments::is_name(name)) {
-    throw UsageError("NAME: expected lower-case letters, digits and _, found `" + name + "`");
+    throw UsageError("NAME: expected lower-case letters, digits and _, found `" +
+                     one_line(name) + "`");
   }
   const std::string text =
       options.from.empty()

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "core/error.h"
@@ -58,15 +60,6 @@ std::vector<std::string> next_pseudonyms(const std::vector<core::SessionRow>& se
   return names;
 }
 
-bool is_unblinded(const core::StudyStore& store) {
-  for (const core::SessionRow& row : store.sessions()) {
-    for (const core::EventRow& event : store.events(row.session)) {
-      if (event.kind == "unblinded") return true;
-    }
-  }
-  return false;
-}
-
 Outcome outcome_of(const Options& options) {
   Outcome outcome;
   outcome.study = experiments::read_study(user_or_shipped(options.file, "protocols"));
@@ -78,7 +71,7 @@ Outcome outcome_of(const Options& options) {
     sessions = store.sessions();
     request.num_earlier_sessions = static_cast<std::int64_t>(sessions.size());
     request.completed = experiments::completed_cells(store);
-    unblinded = is_unblinded(store);
+    unblinded = store.unblinded();
   }
   if (outcome.study.blinding == experiments::Blinding::kDouble && !unblinded) {
     throw core::Error(options.file +
@@ -229,22 +222,44 @@ void print(const Outcome& outcome, const Options& options) {
                counts.second);
   }
   print_range(outcome, options);
-  const auto& needs = outcome.study.device;
-  if (outcome.device.num_contact_points < needs.min_contact_points) {
-    fmt::print("\n`{}` holds {} points of the hand, the study needs {}\n", options.device,
-               outcome.device.num_contact_points, needs.min_contact_points);
+}
+
+/// What speaks against running the study on this device, a sentence each.
+std::vector<std::string> problems_of(const Outcome& outcome, const Options& options) {
+  std::vector<std::string> problems;
+  const auto too_strong = std::count_if(outcome.range.begin(), outcome.range.end(),
+                                        [](const auto& entry) { return !entry.fits; });
+  if (too_strong > 0) {
+    problems.push_back(fmt::format(
+        "{}: expected stimuli that `{}` can render at {:g} m/s, found {} of {} too strong; "
+        "weaken them or plan for another device",
+        options.file, options.device, outcome.limits.expected_speed_m_per_s, too_strong,
+        outcome.range.size()));
   }
+  const int needed = outcome.study.device.min_contact_points;
+  if (outcome.device.num_contact_points < needed) {
+    problems.push_back(fmt::format(
+        "{}: expected a device that holds {} points of the hand, found that `{}` holds {}; "
+        "choose another --device",
+        options.file, needed, options.device, outcome.device.num_contact_points));
+  }
+  return problems;
 }
 
 int run(const Options& options) {
   require_device(options.device);
   const Outcome outcome = outcome_of(options);
+  const std::vector<std::string> problems = problems_of(outcome, options);
   if (options.json) {
-    fmt::print("{}\n", json_text(to_json(outcome, options)));
+    ordered_json json = to_json(outcome, options);
+    json["problems"] = problems;
+    fmt::print("{}\n", json_text(json));
   } else {
     print(outcome, options);
   }
-  return kDone;
+  std::fflush(stdout);  // The sentences come after the table that they speak of.
+  for (const std::string& problem : problems) fmt::print(stderr, "jnd: {}\n", problem);
+  return problems.empty() ? kDone : kHasProblems;
 }
 
 }  // namespace
@@ -259,17 +274,17 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command->add_option("--study", options->folder,
                       "Study folder whose completed sessions count");
   command->add_option("--participants", options->participants, "How many to plan")
-      ->check(CLI::Range(1, 100000))
+      ->check(whole_number(1, 100000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of everything that is drawn")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_number())
       ->capture_default_str();
   command->add_option("--device", options->device, "Whose limits; see `jnd devices`")
       ->capture_default_str();
   command
       ->add_option("--speed-m-per-s", options->speed_m_per_s,
                    "Speed of the hand that forces are expected at")
-      ->check(CLI::Range(0.001, 10.0))
+      ->check(number_between(0.001, 10.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(

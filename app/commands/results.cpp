@@ -4,6 +4,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
 #include "app/results_output.h"
 
 namespace jnd::app {
@@ -37,10 +38,10 @@ void add_results(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--resamples", options->results.num_resamples,
                    "Resampled participants for group intervals")
-      ->check(CLI::Range(100, 1000000))
+      ->check(whole_number(100, 1000000))
       ->capture_default_str();
   command->add_option("--seed", options->results.seed, "Of the resampling")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_number())
       ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(

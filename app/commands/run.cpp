@@ -4,15 +4,18 @@
 #include <cctype>
 #include <csignal>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "app/commands/commands.h"
 #include "app/laboratory_run.h"
+#include "app/option_checks.h"
 #include "app/progress_bar.h"
 #include "app/session_setup.h"
 #include "app/share.h"
+#include "app/usage_message.h"
 #include "core/error.h"
 #include "experiments/study/study_reader.h"
 
@@ -23,6 +26,15 @@ std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
 void request_stop(int) { stop_requested = true; }
+
+/// Stop with what is on disk, rather than die with it.
+void stop_on_signals() {
+  stop_requested = false;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  // The terminal was closed; under nohup that is no reason to stop.
+  if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+}
 
 struct Options {
   std::string file;
@@ -40,38 +52,62 @@ struct Options {
   std::optional<std::int64_t> session;
 };
 
+/// Tells of commits, `EVENT SEQUENCE KIND`, until nobody listens any more.
+class Acknowledgements {
+ public:
+  explicit Acknowledgements(bool wanted) : wanted_(wanted) {}
+
+  void tell(const core::EventRow& event) {
+    if (!wanted_ || unheard_) return;
+    unheard_ = std::printf("EVENT %lld %s\n", static_cast<long long>(event.sequence),
+                           event.kind.c_str()) < 0 ||
+               std::fflush(stdout) != 0;
+  }
+  /// A line could not be delivered: whoever relies on them must not be left behind.
+  [[nodiscard]] bool unheard() const noexcept { return unheard_; }
+
+ private:
+  bool wanted_;
+  bool unheard_ = false;
+};
+
+std::string how_to_go_on(const Options& options) {
+  return "`jnd resume " + options.folder + " --headless` goes on from there";
+}
+
 int run_session(const Options& options, core::StudyStore& store,
                 const experiments::Study& study, const experiments::Laboratory& laboratory,
                 std::int64_t session) {
-  stop_requested = false;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  stop_on_signals();
+  Acknowledgements acknowledgements(options.acknowledge);
   LaboratoryRunResult result;
-  {
+  try {
     ProgressBar bar(study.name);
-    result = run_laboratory({.study = study,
-                             .laboratory = laboratory,
-                             .store = store,
-                             .session = session,
-                             .realtime = options.realtime,
-                             .choice = options.choose,
-                             .on_event =
-                                 [&](const core::EventRow& event) {
-                                   if (!options.acknowledge) return;
-                                   std::printf("EVENT %lld %s\n",
-                                               static_cast<long long>(event.sequence),
-                                               event.kind.c_str());
-                                   std::fflush(stdout);
-                                 },
-                             .on_progress = [&](double done) { bar.show(done); },
-                             .is_cancelled = [] { return stop_requested.load(); }});
+    result = run_laboratory(
+        {.study = study,
+         .laboratory = laboratory,
+         .store = store,
+         .session = session,
+         .realtime = options.realtime,
+         .choice = options.choose,
+         .on_event = [&](const core::EventRow& event) { acknowledgements.tell(event); },
+         .on_progress = [&](double done) { bar.show(done); },
+         .is_cancelled = [&] { return stop_requested.load() || acknowledgements.unheard(); }});
+  } catch (const core::Error& error) {
+    throw core::Error(std::string(error.what()) + "; " + how_to_go_on(options));
   }
+  const std::string unheard =
+      "stdout: expected a reader of --acknowledge, found that it takes no more lines; ";
   if (!result.ended) {
-    std::fprintf(stderr,
-                 "jnd: stopped; every answer so far is on disk, and `jnd resume %s --headless` "
-                 "goes on from there\n",
-                 options.folder.c_str());
-    return kDone;
+    std::fprintf(stderr, "jnd: %s%s\n",
+                 acknowledgements.unheard() ? unheard.c_str()
+                                            : "stopped; every answer so far is on disk, and ",
+                 how_to_go_on(options).c_str());
+    return acknowledgements.unheard() ? kEnvironmentLacks : kDone;
+  }
+  if (acknowledgements.unheard()) {
+    std::fprintf(stderr, "jnd: %sthe session is finished and on disk\n", unheard.c_str());
+    return kEnvironmentLacks;
   }
   std::fprintf(options.acknowledge ? stderr : stdout,
                "session %lld: finished, %lld samples, loop %s\n",
@@ -93,10 +129,11 @@ void require_pseudonym(const std::string& participant) {
   const bool plain = std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
     return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
   });
-  if (plain && !participant.empty()) return;
+  constexpr std::size_t kMostLetters = 64;
+  if (plain && !participant.empty() && participant.size() <= kMostLetters) return;
   throw UsageError(
-      "--participant: expected a pseudonym of letters, digits, _, - and ., found `" +
-      participant + "`");
+      "--participant: expected a pseudonym of at most 64 letters, digits, _, - and ., found `" +
+      one_line(participant.substr(0, kMostLetters)) + "`");
 }
 
 int run(const Options& options) {
@@ -112,7 +149,7 @@ int run(const Options& options) {
       add_sessions(store,
                    {.study = study,
                     .laboratory = laboratory,
-                    .study_file_name = file.filename().string(),
+                    .study_file = file,
                     .seed = options.seed.value_or(std::random_device{}()),
                     .pilot = options.pilot,
                     .realtime = options.realtime},
@@ -139,11 +176,16 @@ int resume(const Options& options) {
   core::StudyStore store(options.folder, core::StudyStore::Mode::kReadWrite);
   const std::optional<core::SessionRow> row = session_to_resume(store, options);
   if (!row || store.finished(row->session)) {
-    std::printf("%s: nothing to resume, every session is finished\n", options.folder.c_str());
+    // Whoever reads acknowledgements reads nothing else.
+    std::fprintf(options.acknowledge ? stderr : stdout,
+                 "%s: nothing to resume, every session is finished\n", options.folder.c_str());
     return kDone;
   }
   require_headless(options);
   const experiments::Study study = stored_study(store, row->session);
+  if (const std::string remark = changed_study_remark(store, *row); !remark.empty()) {
+    std::fprintf(stderr, "jnd: %s\n", remark.c_str());
+  }
   const experiments::Laboratory laboratory =
       options.laboratory.empty()
           ? experiments::parse_laboratory(row->laboratory, options.folder + ": laboratory")
@@ -165,7 +207,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->required();
   command->add_option("--device", options->device, "See `jnd devices`")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the study; drawn if not given")
-      ->check(CLI::NonNegativeNumber);
+      ->check(seed_number());
   command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");
@@ -188,7 +230,8 @@ void add_resume(CLI::App& program, Invocation& invocation) {
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("--session", options->session, "Default: the open one");
+  command->add_option("--session", options->session, "Default: the open one")
+      ->check(whole_number(1, std::numeric_limits<std::int64_t>::max()));
   command
       ->add_option("--choose", options->choose,
                    "repeat the interrupted trial, restart its block, or end the session")

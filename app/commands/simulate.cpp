@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
 #include "app/progress_bar.h"
 #include "app/session_setup.h"
 #include "app/share.h"
@@ -38,7 +39,7 @@ int run(const Options& options) {
       add_sessions(store,
                    {.study = study,
                     .laboratory = laboratory,
-                    .study_file_name = file.filename().string(),
+                    .study_file = file,
                     .seed = options.seed,
                     .record = !options.fast},
                    participants);
@@ -79,16 +80,16 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
       ->required();
   command->add_option("--participants", options->participants, "How many")
       ->required()
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_number(1, 100000));
   command->add_option("--study", options->folder, "Study folder to store in, made if absent")
       ->required();
   command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of everything that is drawn")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_number())
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Sessions at once")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--device", options->device, "Simulated device")->capture_default_str();
   command->add_flag("--fast", options->fast, "Keep summaries of strokes instead of samples");

@@ -1,25 +1,14 @@
 #include "core/storage/database.h"
 
-#include <fcntl.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
+
+#include "core/storage/files.h"
 
 namespace jnd::core {
 namespace {
-
-/// SQLite would create the file with the umask's rights; answers are for their owner only.
-void create_private(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor < 0) {
-    throw Error(file.string() +
-                ": expected to create this file, found: " + std::strerror(errno));
-  }
-  ::close(descriptor);
-}
 
 /// Nobody can write here, and no write-ahead log is left behind: a finished study on a
 /// read-only disk or in another's folder.
@@ -44,14 +33,24 @@ std::string immutable_uri(const std::filesystem::path& file) {
   return uri + "?immutable=1";
 }
 
+void require_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_regular_file(status)) return;
+  const bool exists = std::filesystem::exists(status);
+  throw Error(file.string() + ": expected a database of jnd, found " +
+              (exists ? "something that is no file" : "no such file"));
+}
+
 }  // namespace
 
 Database::Database(const std::filesystem::path& file, Mode mode, Durability durability)
     : file_(file) {
   if (mode == Mode::kCreate) {
-    create_private(file);
-  } else if (!std::filesystem::exists(file)) {
-    throw Error(file.string() + ": expected a database of jnd, found no such file");
+    // SQLite would create it with the umask's rights; answers are for their owner only.
+    make_private_file(file);
+  } else {
+    require_file(file);
   }
   const int flags = mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   const bool archived = mode == Mode::kReadOnly && is_archived(file);
@@ -59,9 +58,12 @@ Database::Database(const std::filesystem::path& file, Mode mode, Durability dura
   if (sqlite3_open_v2(name.c_str(), &handle_,
                       flags | SQLITE_OPEN_FULLMUTEX | (archived ? SQLITE_OPEN_URI : 0),
                       nullptr) != SQLITE_OK) {
-    const std::string reason = sqlite3_errmsg(handle_);
-    sqlite3_close(handle_);
-    throw Error(file.string() + ": expected to open this database, found: " + reason);
+    try {
+      fail("open");
+    } catch (...) {
+      sqlite3_close(handle_);
+      throw;
+    }
   }
   try {
     sqlite3_busy_timeout(handle_, 5000);
@@ -78,6 +80,14 @@ Database::Database(const std::filesystem::path& file, Mode mode, Durability dura
   }
 }
 
+Database::Database() : file_("a database in memory") {
+  if (sqlite3_open_v2(":memory:", &handle_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX,
+                      nullptr) != SQLITE_OK) {
+    sqlite3_close(handle_);
+    throw Error("expected memory for a database, found none");
+  }
+}
+
 Database::~Database() { sqlite3_close_v2(handle_); }
 
 void Database::execute(const std::string& sql) {
@@ -86,8 +96,50 @@ void Database::execute(const std::string& sql) {
 
 void Database::fail(const std::string& doing) const {
   const std::string reason = sqlite3_errmsg(handle_);
-  throw Error(file_.string() + ": expected SQLite to carry out \"" + doing.substr(0, 60) +
-              "\", found: " + reason);
+  const std::string place = file_.string() + ": expected ";
+  switch (sqlite3_errcode(handle_) & 0xff) {
+    case SQLITE_FULL:
+      throw Error(place +
+                  "room to write, found the disk full; nothing acknowledged is lost: "
+                  "make room, then go on");
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw Error(place +
+                  "to be let in within five seconds, found the database locked by "
+                  "another program; close it, then go on");
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      throw Error(place + "a database that can be written, found it read-only");
+    case SQLITE_NOTADB:
+      throw Error(place + "a database of jnd, found another kind of file");
+    case SQLITE_CORRUPT:
+      throw Error(place + "a sound database, found it damaged (" + reason +
+                  "); keep it as it is and go on with a backup");
+    case SQLITE_CANTOPEN:
+    case SQLITE_IOERR:
+      throw Error(place + "to read and write this file, found that the system refuses (" +
+                  reason + "); look at its rights and its disk");
+    default:
+      throw Error(place + "SQLite to carry out \"" + doing.substr(0, 60) +
+                  "\", found: " + reason);
+  }
+}
+
+void Database::copy_to(Database& target) const {
+  sqlite3_backup* copy = sqlite3_backup_init(target.handle_, "main", handle_, "main");
+  if (copy == nullptr) target.fail("copy a database");
+  // All pages in one step: one state of the database, whatever is written meanwhile.
+  constexpr int kMostTries = 500;
+  int result = SQLITE_BUSY;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    result = sqlite3_backup_step(copy, -1);
+    if (result != SQLITE_BUSY && result != SQLITE_LOCKED) break;
+    sqlite3_sleep(10);
+  }
+  const int finished = sqlite3_backup_finish(copy);
+  if (finished != SQLITE_OK) target.fail("copy a database");
+  if (result != SQLITE_DONE) fail("copy a database");
 }
 
 Statement::Statement(Database& database, const std::string& sql) : database_(database) {

@@ -22,13 +22,19 @@ class Database {
   enum class Mode { kReadOnly, kReadWrite, kCreate };
 
   Database(const std::filesystem::path& file, Mode mode, Durability durability);
+  /// An empty one in memory.
+  Database();
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
   void execute(const std::string& sql);
+  /// Replaces the content of `target` by this one's, as it is at one moment, whoever
+  /// writes to it meanwhile.
+  void copy_to(Database& target) const;
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }
+  /// Throws what SQLite found wrong, in words for a person where it is the disk or the file.
   [[noreturn]] void fail(const std::string& doing) const;
 
  private:

@@ -171,6 +171,16 @@ Integrity verify(const StudyStore& store) {
     }
   });
   check(0, [&] {
+    for (const WithdrawalRow& withdrawn : store.withdrawals()) {
+      integrity.remarks.push_back({withdrawn.session, withdrawn.participant + " withdrew"});
+      if (!std::filesystem::exists(store.recording_file(withdrawn.session))) continue;
+      integrity.problems.push_back(
+          {withdrawn.session, "expected the recording of " + withdrawn.participant +
+                                  ", who withdrew, to be gone, found it; run `jnd withdraw` "
+                                  "again"});
+    }
+  });
+  check(0, [&] {
     for (const SessionRow& session : store.sessions()) {
       ++integrity.num_sessions;
       check(session.session, [&] { SessionCheck(store, session, integrity).run(); });

@@ -1,71 +1,56 @@
 #include "core/storage/study_store.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <mutex>
 
 #include "core/storage/database.h"
+#include "core/storage/files.h"
 #include "core/storage/sha256.h"
+#include "core/storage/study_format.h"
 #include "core/storage/study_rows.h"
-#include "core/storage/study_schema.h"
+#include "core/storage/writer_lock.h"
 
 namespace jnd::core {
 namespace {
 
-constexpr std::int64_t kFormat = 1;
-
 namespace fs = std::filesystem;
-
-/// Held by the one process that may write to a study folder; freed by the system when it dies.
-class WriterLock {
- public:
-  explicit WriterLock(const fs::path& folder) {
-    const fs::path file = folder / "writer.lock";
-    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-    if (descriptor_ < 0) {
-      throw Error(file.string() +
-                  ": expected a folder that can be written, found: " + std::strerror(errno));
-    }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(descriptor_);
-      throw Error(folder.string() +
-                  ": expected to be the only program that writes to this study, found another "
-                  "one at work; close it first");
-    }
-  }
-  ~WriterLock() { ::close(descriptor_); }
-  WriterLock(const WriterLock&) = delete;
-  WriterLock& operator=(const WriterLock&) = delete;
-
- private:
-  int descriptor_ = -1;
-};
-
-Database::Mode database_mode(StudyStore::Mode mode, const fs::path& file) {
-  if (mode == StudyStore::Mode::kReadOnly) return Database::Mode::kReadOnly;
-  if (mode == StudyStore::Mode::kCreate && !fs::exists(file)) return Database::Mode::kCreate;
-  return Database::Mode::kReadWrite;
-}
 
 /// Makes the folders if asked to; returns the database file.
 fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
   if (mode == StudyStore::Mode::kCreate) {
-    std::error_code error;
-    fs::create_directories(folder / "recordings", error);
-    if (error) {
-      throw Error(folder.string() +
-                  ": expected to make this folder, found: " + error.message());
-    }
+    make_private_folders(folder / "recordings");
   } else if (!fs::exists(folder / "study.sqlite")) {
     throw Error(folder.string() +
                 ": expected a study folder of jnd, found no study.sqlite in it");
   }
   return folder / "study.sqlite";
+}
+
+[[noreturn]] void refuse_empty(const fs::path& file) {
+  throw Error(file.string() + ": expected a study of jnd, found an empty database");
+}
+
+/// The database, of this program's layout. An older one that is only to be read stays as it is:
+/// a copy in memory is brought up to date instead.
+std::unique_ptr<Database> opened(const fs::path& file, StudyStore::Mode mode,
+                                 Durability durability) {
+  if (mode == StudyStore::Mode::kReadOnly) {
+    auto database = std::make_unique<Database>(file, Database::Mode::kReadOnly, durability);
+    const std::int64_t format = study_format_of(*database);
+    if (format == 0) refuse_empty(file);
+    if (format == current_study_format()) return database;
+    auto copy = std::make_unique<Database>();
+    database->copy_to(*copy);
+    bring_up_to_date(*copy);
+    return copy;
+  }
+  const bool create = mode == StudyStore::Mode::kCreate;
+  auto database = std::make_unique<Database>(
+      file, create && !fs::exists(file) ? Database::Mode::kCreate : Database::Mode::kReadWrite,
+      durability);
+  if (!create && is_empty(*database)) refuse_empty(file);
+  bring_up_to_date(*database);
+  return database;
 }
 
 }  // namespace
@@ -75,9 +60,8 @@ struct StudyStore::Implementation {
       : folder(std::move(the_folder)),
         file(prepared_file(folder, mode)),
         lock(mode == Mode::kReadOnly ? nullptr : std::make_unique<WriterLock>(folder)),
-        database(file, database_mode(mode, file), durability) {
-    if (mode == Mode::kCreate && is_empty(database)) create();
-    check_format();
+        owner(opened(file, mode, durability)),
+        database(*owner) {
     if (mode == Mode::kReadOnly) return;
     insert_event.emplace(database, insert_into("event", kEventColumns));
     insert_design.emplace(database, insert_into("design", kDesignColumns));
@@ -88,34 +72,12 @@ struct StudyStore::Implementation {
                           "SELECT COALESCE(MAX(sequence), 0) FROM event WHERE session = ?");
   }
 
-  void create() {
-    Transaction transaction(database);
-    database.execute(kStudySchema);
-    database.execute("INSERT INTO study_format VALUES (" + std::to_string(kFormat) +
-                     ", 'jnd')");
-    database.execute("PRAGMA application_id = 0x6a6e6431");  // "jnd1"
-    transaction.commit();
-  }
-
-  void check_format() {
-    Statement application(database, "PRAGMA application_id");
-    if (!application.step() || application.integer(0) != 0x6a6e6431) {
-      throw Error(file.string() + ": expected a study of jnd, found another kind of database");
-    }
-    Statement format(database, "SELECT MAX(version) FROM study_format");
-    if (!format.step()) throw Error(file.string() + ": expected a format number, found none");
-    if (format.integer(0) > kFormat) {
-      throw Error(file.string() + ": expected format " + std::to_string(kFormat) +
-                  " or older, found " + std::to_string(format.integer(0)) +
-                  "; open it with a newer jnd");
-    }
-  }
-
   fs::path folder;
   fs::path file;
   std::unique_ptr<WriterLock> lock;
   mutable std::mutex mutex;
-  mutable Database database;
+  std::unique_ptr<Database> owner;
+  Database& database;
   std::optional<Statement> insert_event, insert_design, insert_presentation, insert_trial,
       insert_answer, last_sequence;
 };
@@ -133,24 +95,29 @@ fs::path StudyStore::recording_file(std::int64_t session) const {
   return folder() / "recordings" / name;
 }
 
-std::string StudyStore::add_protocol(const std::string& file_name, const std::string& text) {
+std::string StudyStore::add_protocol(const std::string& file_name, const std::string& text,
+                                     const std::string& relative_path) {
   const std::lock_guard guard(implementation_->mutex);
-  const std::string hash = sha256(text);
-  Statement statement(
-      implementation_->database,
-      "INSERT OR IGNORE INTO protocol (sha256, file_name, text) VALUES (?, ?, ?)");
-  statement.bind(hash).bind(file_name).bind(text).run();
+  std::string hash = sha256(text);
+  Statement statement(implementation_->database,
+                      "INSERT OR IGNORE INTO protocol (sha256, file_name, text, relative_path)"
+                      " VALUES (?, ?, ?, ?)");
+  statement.bind(hash).bind(file_name).bind(text).bind(relative_path).run();
   return hash;
 }
 
-std::string StudyStore::protocol_text(const std::string& hash) const {
+ProtocolRow StudyStore::protocol(const std::string& hash) const {
   const std::lock_guard guard(implementation_->mutex);
-  Statement statement(implementation_->database, "SELECT text FROM protocol WHERE sha256 = ?");
+  Statement statement(implementation_->database,
+                      "SELECT file_name, text, relative_path FROM protocol WHERE sha256 = ?");
   if (!statement.bind(hash).step()) {
     throw Error(implementation_->file.string() + ": expected the protocol " +
                 hash.substr(0, 12) + ", found none of that hash");
   }
-  return statement.text(0);
+  return {.sha256 = hash,
+          .file_name = statement.text(0),
+          .text = statement.text(1),
+          .relative_path = statement.text(2)};
 }
 
 std::int64_t StudyStore::add_session(SessionRow row) {
@@ -158,7 +125,10 @@ std::int64_t StudyStore::add_session(SessionRow row) {
   Database& database = implementation_->database;
   Transaction transaction(database);
   if (row.session == 0) {
-    Statement next(database, "SELECT COALESCE(MAX(session), 0) + 1 FROM session");
+    // The number of a session that was withdrawn is never given again.
+    Statement next(database,
+                   "SELECT COALESCE(MAX(session), 0) + 1 FROM"
+                   " (SELECT session FROM session UNION SELECT session FROM withdrawal)");
     if (next.step()) row.session = next.integer(0);
   }
   Statement statement(database, insert_into("session", kSessionColumns));
@@ -290,6 +260,30 @@ bool StudyStore::finished(std::int64_t session) const {
                  "SELECT 1 FROM event WHERE session = ? "
                  "AND kind IN ('session_completed', 'session_ended_early')");
   return rows.bind(session).step();
+}
+
+bool StudyStore::unblinded() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database, "SELECT 1 FROM event WHERE kind = 'unblinded'");
+  return rows.step();
+}
+
+std::string StudyStore::study_id() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database, "SELECT study_id FROM study_identity");
+  return rows.step() ? rows.text(0) : "";
+}
+
+std::vector<WithdrawalRow> StudyStore::withdrawals() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 "SELECT session, participant, time_ns FROM withdrawal ORDER BY session");
+  std::vector<WithdrawalRow> all;
+  while (rows.step()) {
+    all.push_back(
+        {.session = rows.integer(0), .participant = rows.text(1), .time_ns = rows.integer(2)});
+  }
+  return all;
 }
 
 std::vector<std::string> StudyStore::database_damage() const {

@@ -101,6 +101,21 @@ struct SessionRow {
   std::int64_t started_time_ns = 0;
 };
 
+/// A study file as it was when a session began.
+struct ProtocolRow {
+  std::string sha256;
+  std::string file_name;
+  std::string text;
+  std::string relative_path;  ///< Seen from the study folder; "" if nobody knows.
+};
+
+/// What is left of the session of a participant who withdrew.
+struct WithdrawalRow {
+  std::int64_t session = 0;
+  std::string participant;
+  std::int64_t time_ns = 0;
+};
+
 /// Everything that one act appends. All of it in one transaction, or none.
 struct Commit {
   EventRow event;
@@ -123,7 +138,8 @@ class StudyStore {
  public:
   enum class Mode { kReadOnly, kReadWrite, kCreate };
 
-  /// Throws `Error`: folder missing or foreign, format newer than this program, another writer.
+  /// Throws `Error`: folder missing or foreign, layout newer than this program, another writer.
+  /// An older layout is brought up to date; read-only, in a copy in memory.
   StudyStore(std::filesystem::path folder, Mode mode,
              Durability durability = Durability::kEveryCommit);
   ~StudyStore();
@@ -134,9 +150,10 @@ class StudyStore {
   /// Where the recording of a session lies: recordings/0001.sqlite.
   [[nodiscard]] std::filesystem::path recording_file(std::int64_t session) const;
 
-  /// Keeps the text once, under its hash; returns the hash. The file name is for people.
-  std::string add_protocol(const std::string& file_name, const std::string& text);
-  [[nodiscard]] std::string protocol_text(const std::string& sha256) const;
+  /// Keeps the text once, under its hash; returns the hash. Name and path are for people.
+  std::string add_protocol(const std::string& file_name, const std::string& text,
+                           const std::string& relative_path = "");
+  [[nodiscard]] ProtocolRow protocol(const std::string& hash) const;
 
   /// Adds a session with the next free number unless `row.session` names one; returns its
   /// number.
@@ -158,6 +175,11 @@ class StudyStore {
   [[nodiscard]] bool completed(std::int64_t session) const;
   /// Whether it was completed or ended early: nothing is left to resume.
   [[nodiscard]] bool finished(std::int64_t session) const;
+  /// Whether somebody asked to see what a double-blind study hides.
+  [[nodiscard]] bool unblinded() const;
+  /// The same in every backup of a study, and in no other study.
+  [[nodiscard]] std::string study_id() const;
+  [[nodiscard]] std::vector<WithdrawalRow> withdrawals() const;
   /// What SQLite's own check finds wrong with the database; empty for a sound one.
   [[nodiscard]] std::vector<std::string> database_damage() const;
 

@@ -14,8 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Reads one object key by key and collects what is wrong with it.
 class Section {
  public:

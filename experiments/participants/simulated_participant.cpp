@@ -13,7 +13,7 @@ namespace {
 /// Fixed notation with two decimals, whatever the locale.
 std::string two_decimals(double value) {
   char digits[32];
-  const auto end =
+  char* const end =
       std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 2).ptr;
   return {digits, end};
 }

@@ -1,10 +1,13 @@
 #include "experiments/session/event.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/error.h"
+#include "experiments/study/shown_text.h"
 
 namespace jnd::experiments {
 namespace {
@@ -19,7 +22,11 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "answer_corrected",   "attempt_discarded",    "trial_excluded",
     "trial_included",     "note_added",           "paused",
     "continued",          "fault_raised",         "session_resumed",
+    "loop_started",       "loop_measured",        "unblinded",
     "session_completed",  "session_ended_early"};
+
+/// Of the layout of `data`, for every kind.
+constexpr int kVersion = 1;
 
 json optional_number(const std::optional<double>& value) {
   return value ? json(*value) : json(nullptr);
@@ -29,6 +36,37 @@ std::optional<double> optional_number(const json& data, const char* key) {
   const json& value = data.at(key);
   if (value.is_null()) return std::nullopt;
   return value.get<double>();
+}
+
+constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;  ///< What JSON and SQL agree on.
+
+/// A whole number of the data. The library would cut 1.5 to 1 and 2^40 to an int.
+template <typename Whole = std::int64_t>
+Whole whole_number(const json& value, const char* key) {
+  constexpr std::int64_t kLargest =
+      std::min<std::int64_t>(kLargestWhole, std::numeric_limits<Whole>::max());
+  const bool fits = value.is_number_unsigned()
+                        ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(kLargest)
+                        : value.is_number_integer() && value.get<std::int64_t>() >= -kLargest;
+  if (fits) return value.get<Whole>();
+  throw core::Error(std::string(key) + ": expected a whole number up to " +
+                    std::to_string(kLargest) + ", found " + shown_text(value.dump()));
+}
+
+/// A column that this kind of event has, of a size that the fold can count with.
+template <typename Number>
+Number column(const std::optional<Number>& value, const char* name) {
+  constexpr auto kLargest = static_cast<Number>(kLargestWhole);
+  if (value && *value >= -kLargest && *value <= kLargest) return *value;
+  throw core::Error(std::string(name) +
+                    ": expected a number up to 2^53 in this column, found " +
+                    (value ? std::to_string(*value) : "none"));
+}
+
+const json& list_at(const json& data, const char* key) {
+  const json& list = data.at(key);
+  if (list.is_array()) return list;
+  throw core::Error(std::string(key) + ": expected a list, found " + list.type_name());
 }
 
 json planned_to_json(const PlannedTrial& trial) {
@@ -41,12 +79,27 @@ json planned_to_json(const PlannedTrial& trial) {
 }
 
 PlannedTrial planned_from_json(const json& data) {
-  return {.repetition = data.at("repetition").get<int>(),
-          .position = data.at("position").get<int>(),
+  return {.repetition = whole_number<int>(data.at("repetition"), "repetition"),
+          .position = whole_number<int>(data.at("position"), "position"),
           .intensity = optional_number(data, "intensity"),
           .reference_intensity = optional_number(data, "reference_intensity"),
           .starting_intensity = optional_number(data, "starting_intensity"),
           .target_percent = optional_number(data, "target_percent")};
+}
+
+json buckets_to_json(const std::vector<DurationBucket>& buckets) {
+  json list = json::array();
+  for (const DurationBucket& bucket : buckets) list.push_back({bucket.up_to_ns, bucket.count});
+  return list;
+}
+
+std::vector<DurationBucket> buckets_from_json(const json& list) {
+  std::vector<DurationBucket> buckets;
+  for (const json& bucket : list) {
+    buckets.push_back(
+        {whole_number(bucket.at(0), "up_to_ns"), whole_number(bucket.at(1), "count")});
+  }
+  return buckets;
 }
 
 /// One overload an event: what stands in columns goes to the row, the rest to `data`.
@@ -138,6 +191,20 @@ struct Writer {
     row.last_tick = e.lost_last_tick;
     data = {{"choice", e.choice}};
   }
+  void operator()(const LoopStarted& e) const {
+    row.first_tick = e.first_tick;
+    data = {{"scheduler", e.scheduler}, {"memory_locked", e.memory_locked}, {"cpus", e.cpus}};
+  }
+  void operator()(const LoopMeasured& e) const {
+    data = {{"num_ticks", e.num_ticks},
+            {"missed_ticks", e.missed_ticks},
+            {"num_dropped_samples", e.num_dropped_samples},
+            {"max_lateness_ns", e.max_lateness_ns},
+            {"max_tick_cost_ns", e.max_tick_cost_ns},
+            {"lateness_ns", buckets_to_json(e.lateness)},
+            {"tick_cost_ns", buckets_to_json(e.tick_cost)}};
+  }
+  void operator()(const Unblinded& e) const { data = {{"reason", e.reason}}; }
   void operator()(const SessionCompleted&) const {}
   void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
@@ -154,69 +221,70 @@ struct Reader {
   const json& data;
 
   void operator()(SessionStarted&) const {}
-  void operator()(StageEntered& e) const { e.stage = row.stage.value(); }
+  void operator()(StageEntered& e) const { e.stage = column(row.stage, "stage"); }
   void operator()(ItemAnswered& e) const {
-    e.stage = row.stage.value();
+    e.stage = column(row.stage, "stage");
     data.at("stage_name").get_to(e.stage_name);
     data.at("item").get_to(e.item);
     data.at("answer").get_to(e.answer);
   }
   void operator()(MediumExplored& e) const {
-    e.stage = row.stage.value();
-    e.intensity = row.intensity.value();
-    e.first_tick = row.first_tick.value();
-    e.last_tick = row.last_tick.value();
+    e.stage = column(row.stage, "stage");
+    e.intensity = column(row.intensity, "intensity");
+    e.first_tick = column(row.first_tick, "first_tick");
+    e.last_tick = column(row.last_tick, "last_tick");
     data.at("medium").get_to(e.medium);
   }
-  void operator()(StageFinished& e) const { e.stage = row.stage.value(); }
+  void operator()(StageFinished& e) const { e.stage = column(row.stage, "stage"); }
   void operator()(TrialsDrawn& e) const {
-    e.stage = row.stage.value();
-    e.first_trial = row.trial.value();
-    for (const json& trial : data.at("trials")) e.trials.push_back(planned_from_json(trial));
+    e.stage = column(row.stage, "stage");
+    e.first_trial = column(row.trial, "trial");
+    for (const json& trial : list_at(data, "trials"))
+      e.trials.push_back(planned_from_json(trial));
   }
   void operator()(TrialStarted& e) const {
     place(e);
-    e.first_tick = row.first_tick.value();
+    e.first_tick = column(row.first_tick, "first_tick");
   }
   void operator()(PresentationStarted& e) const {
     place(e);
-    e.intensity = row.intensity.value();
-    e.first_tick = row.first_tick.value();
-    data.at("presentation").get_to(e.presentation);
+    e.intensity = column(row.intensity, "intensity");
+    e.first_tick = column(row.first_tick, "first_tick");
+    e.presentation = whole_number(data.at("presentation"), "presentation");
     data.at("interval").get_to(e.interval);
   }
   void operator()(PresentationEnded& e) const {
     place(e);
-    e.last_tick = row.last_tick.value();
-    data.at("presentation").get_to(e.presentation);
+    e.last_tick = column(row.last_tick, "last_tick");
+    e.presentation = whole_number(data.at("presentation"), "presentation");
     PresentationSummary& s = e.summary;
     s.stroke_width_m = optional_number(data, "stroke_width_m");
     s.max_speed_m_per_s = optional_number(data, "max_speed_m_per_s");
     s.mean_height_m = optional_number(data, "mean_height_m");
-    data.at("num_strokes").get_to(s.num_strokes);
+    s.num_strokes = whole_number(data.at("num_strokes"), "num_strokes");
     s.delivered_damping_n_s_per_m = optional_number(data, "delivered_damping_n_s_per_m");
     s.commanded_damping_n_s_per_m = optional_number(data, "commanded_damping_n_s_per_m");
-    data.at("limited_ticks").get_to(s.limited_ticks);
+    s.limited_ticks = whole_number(data.at("limited_ticks"), "limited_ticks");
   }
   void operator()(IntensityAdjusted& e) const {
     place(e);
-    e.to_intensity = row.intensity.value();
+    e.to_intensity = column(row.intensity, "intensity");
     data.at("from_intensity").get_to(e.from_intensity);
   }
   void operator()(TrialAnswered& e) const {
     place(e);
-    e.last_tick = row.last_tick.value();
+    e.last_tick = column(row.last_tick, "last_tick");
     data.at("response").get_to(e.response);
     data.at("response_time_s").get_to(e.response_time_s);
   }
   void operator()(AnswerUndone& e) const {
     place(e);
-    e.answer_sequence = row.supersedes.value();
+    e.answer_sequence = column(row.supersedes, "supersedes");
     data.at("reason").get_to(e.reason);
   }
   void operator()(AnswerCorrected& e) const {
     place(e);
-    e.answer_sequence = row.supersedes.value();
+    e.answer_sequence = column(row.supersedes, "supersedes");
     data.at("response").get_to(e.response);
     data.at("reason").get_to(e.reason);
   }
@@ -225,11 +293,11 @@ struct Reader {
     data.at("reason").get_to(e.reason);
   }
   void operator()(TrialExcluded& e) const {
-    e.trial = row.trial.value();
+    e.trial = column(row.trial, "trial");
     data.at("reason").get_to(e.reason);
   }
   void operator()(TrialIncluded& e) const {
-    e.trial = row.trial.value();
+    e.trial = column(row.trial, "trial");
     data.at("reason").get_to(e.reason);
   }
   void operator()(NoteAdded& e) const { data.at("text").get_to(e.text); }
@@ -237,18 +305,36 @@ struct Reader {
   void operator()(Continued&) const {}
   void operator()(FaultRaised& e) const { data.at("fault").get_to(e.fault); }
   void operator()(SessionResumed& e) const {
-    e.lost_first_tick = row.first_tick.value();
-    e.lost_last_tick = row.last_tick.value();
+    e.lost_first_tick = column(row.first_tick, "first_tick");
+    e.lost_last_tick = column(row.last_tick, "last_tick");
     data.at("choice").get_to(e.choice);
   }
+  void operator()(LoopStarted& e) const {
+    e.first_tick = column(row.first_tick, "first_tick");
+    data.at("scheduler").get_to(e.scheduler);
+    data.at("memory_locked").get_to(e.memory_locked);
+    for (const json& cpu : list_at(data, "cpus")) {
+      e.cpus.push_back(whole_number<int>(cpu, "cpus"));
+    }
+  }
+  void operator()(LoopMeasured& e) const {
+    e.num_ticks = whole_number(data.at("num_ticks"), "num_ticks");
+    e.missed_ticks = whole_number(data.at("missed_ticks"), "missed_ticks");
+    e.num_dropped_samples = whole_number(data.at("num_dropped_samples"), "num_dropped_samples");
+    e.max_lateness_ns = whole_number(data.at("max_lateness_ns"), "max_lateness_ns");
+    e.max_tick_cost_ns = whole_number(data.at("max_tick_cost_ns"), "max_tick_cost_ns");
+    e.lateness = buckets_from_json(list_at(data, "lateness_ns"));
+    e.tick_cost = buckets_from_json(list_at(data, "tick_cost_ns"));
+  }
+  void operator()(Unblinded& e) const { data.at("reason").get_to(e.reason); }
   void operator()(SessionCompleted&) const {}
   void operator()(SessionEndedEarly& e) const { data.at("reason").get_to(e.reason); }
 
  private:
   template <typename E>
   void place(E& e) const {
-    e.trial = row.trial.value();
-    e.attempt = row.attempt.value();
+    e.trial = column(row.trial, "trial");
+    e.attempt = column(row.attempt, "attempt");
   }
 };
 
@@ -268,6 +354,7 @@ core::EventRow row_from_event(std::int64_t session, const Event& event) {
   core::EventRow row{.session = session,
                      .sequence = event.sequence,
                      .kind = kind_of(event.data),
+                     .version = kVersion,
                      .time_ns = event.time_ns};
   json data = json::object();
   std::visit(Writer{row, data}, event.data);
@@ -280,20 +367,33 @@ Event event_from_row(const core::EventRow& row) {
                             std::to_string(row.sequence) + ": ";
   for (std::size_t index = 0; index < kKinds.size(); ++index) {
     if (row.kind != kKinds[index]) continue;
+    // The place to bring the data of an older version up to date, once there is one.
+    if (row.version > kVersion) {
+      throw core::Error(place + "expected version " + std::to_string(kVersion) + " of " +
+                        row.kind + " or older, found " + std::to_string(row.version) +
+                        "; open it with a newer jnd");
+    }
     Event event{.sequence = row.sequence,
                 .time_ns = row.time_ns,
                 .data = empty_event(index, std::make_index_sequence<kKinds.size()>{})};
+    // The library takes a zero byte for the end of the text.
+    const bool is_text = row.data.find('\0') == std::string::npos;
+    const json data =
+        is_text ? json::parse(row.data, nullptr, /*allow_exceptions=*/false) : json();
+    if (!data.is_object()) {
+      throw core::Error(place + "expected the data of " + row.kind +
+                        " as a JSON object, found `" + shown_text(row.data) + '`');
+    }
     try {
-      const json data = json::parse(row.data);
       std::visit(Reader{row, data}, event.data);
     } catch (const std::exception& error) {
       throw core::Error(place + "expected the data of " + row.kind +
-                        ", found: " + error.what());
+                        ", found: " + shown_text(error.what(), 150));
     }
     return event;
   }
-  throw core::Error(place + "expected a known kind of event, found " + row.kind +
-                    "; open it with a newer jnd");
+  throw core::Error(place + "expected a known kind of event, found `" + shown_text(row.kind) +
+                    "`; open it with a newer jnd");
 }
 
 }  // namespace jnd::experiments

@@ -137,6 +137,31 @@ struct SessionResumed {
   std::int64_t lost_first_tick = 0, lost_last_tick = -1;  ///< Recorded, but of no answer.
 };
 
+/// The real-time loop began to run, and what the system gave it.
+struct LoopStarted {
+  std::string scheduler;  ///< "SCHED_FIFO 80"
+  bool memory_locked = false;
+  std::vector<int> cpus;  ///< That it may run on, ascending.
+  std::int64_t first_tick = 0;
+};
+
+/// How many durations were up to `up_to_ns` long, and longer than the bucket before.
+struct DurationBucket {
+  std::int64_t up_to_ns = 0, count = 0;
+};
+
+/// How punctual the loop has been since it was started.
+struct LoopMeasured {
+  std::int64_t num_ticks = 0, missed_ticks = 0, num_dropped_samples = 0;
+  std::int64_t max_lateness_ns = 0, max_tick_cost_ns = 0;
+  std::vector<DurationBucket> lateness, tick_cost;  ///< Buckets that are not empty, ascending.
+};
+
+/// Somebody asked to see what a double-blind study hides.
+struct Unblinded {
+  std::string reason;
+};
+
 /// Every stage was run.
 struct SessionCompleted {};
 
@@ -150,7 +175,8 @@ using EventData =
                  TrialsDrawn, TrialStarted, PresentationStarted, PresentationEnded,
                  IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
-                 FaultRaised, SessionResumed, SessionCompleted, SessionEndedEarly>;
+                 FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
+                 SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

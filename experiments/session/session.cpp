@@ -337,6 +337,12 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
   }
 }
 
+void Session::loop_started(const LoopStarted& given) { commit(given); }
+
+void Session::loop_measured(const LoopMeasured& timing) { commit(timing); }
+
+void Session::unblind(const std::string& reason) { commit(Unblinded{reason}); }
+
 void Session::complete() {
   if (state_.ended || current_stage() != nullptr)
     cannot("complete the session", "a last stage");

@@ -90,6 +90,9 @@ class Session {
   void fault(const std::string& words);
   void resume(const std::string& choice, std::int64_t lost_first_tick,
               std::int64_t lost_last_tick);
+  void loop_started(const LoopStarted& given);
+  void loop_measured(const LoopMeasured& timing);
+  void unblind(const std::string& reason);
   /// After the last stage.
   void complete();
   /// Before it; what there is stays, nothing more can be added.

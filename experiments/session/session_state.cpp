@@ -15,9 +15,13 @@ struct Fold {
   void operator()(const StageEntered& e) const {
     state.stage = e.stage;
     state.stage_open = true;
+    state.num_explored = 0;
   }
   void operator()(const ItemAnswered& e) const { state.answers[{e.stage, e.item}] = e.answer; }
-  void operator()(const MediumExplored& e) const { saw_tick(e.last_tick); }
+  void operator()(const MediumExplored& e) const {
+    ++state.num_explored;
+    saw_tick(e.last_tick);
+  }
   void operator()(const StageFinished& e) const {
     state.stage = e.stage + 1;
     state.stage_open = false;
@@ -94,6 +98,9 @@ struct Fold {
     state.paused = false;
     saw_tick(e.lost_last_tick);
   }
+  void operator()(const LoopStarted&) const {}
+  void operator()(const LoopMeasured&) const {}
+  void operator()(const Unblinded&) const {}
   void operator()(const SessionCompleted&) const {
     state.ended = true;
     state.completed = true;

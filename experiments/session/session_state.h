@@ -42,6 +42,7 @@ struct SessionState {
   bool paused = false;
   std::int64_t stage = 0;          ///< The stage under way, or the next one.
   bool stage_open = false;         ///< Entered and not finished.
+  std::int64_t num_explored = 0;   ///< Media explored in this stage.
   std::vector<TrialState> trials;  ///< Trial number n is at n - 1.
   /// Last answer to (stage, item).
   std::map<std::pair<std::int64_t, std::string>, std::string> answers;

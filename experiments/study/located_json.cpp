@@ -1,8 +1,12 @@
 #include "experiments/study/located_json.h"
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <set>
 #include <utility>
+
+#include "experiments/study/shown_text.h"
 
 namespace jnd::experiments {
 namespace {
@@ -34,11 +38,9 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 /// The run of characters around a byte that a person would call a word: `NaN`, `'none'`, `//`.
 std::string_view word_at(std::string_view text, std::size_t& byte) {
   constexpr std::string_view kEnds = " \t\r\n,:[]{}\"";
-  constexpr std::size_t kLongest = 30;
   byte = std::min(byte, text.size());
   while (byte > 0 && kEnds.find(text[byte - 1]) == kEnds.npos) --byte;
-  const std::size_t end = std::min(text.find_first_of(kEnds, byte), text.size());
-  return text.substr(byte, std::min(end - byte, kLongest));
+  return text.substr(byte, std::min(text.find_first_of(kEnds, byte), text.size()) - byte);
 }
 
 /// One of the library's words for a token, in ours.
@@ -60,9 +62,12 @@ std::string token_words(const std::string& token) {
 
 /// What the library says went wrong, in the words of this program. `byte` is moved to where the
 /// author has to look.
-std::string worded(const std::string& what, std::string_view text, std::size_t& byte) {
+std::string worded(std::string what, std::string_view text, std::size_t& byte) {
+  const std::string_view not_utf8 =
+      "expected UTF-8, found a byte that is not; save the file as UTF-8";
+  what.erase(std::min(what.find("; last read: '"), what.size()));  // The author's own words.
   if (what.find("ill-formed UTF-8") != std::string::npos) {
-    return "expected UTF-8, found a byte that is not; save the file as UTF-8";
+    return std::string(not_utf8);
   }
   const std::size_t unexpected = what.find("unexpected ");
   const std::size_t expected = what.find("; expected ");
@@ -82,13 +87,14 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
   if (what.find("invalid string") != std::string::npos) {
     const std::size_t reason = what.find("invalid string: ") + 16;
     return "expected a text in quotes that is whole, found an error in it: " +
-           what.substr(reason, what.find("; last read") - reason);
+           what.substr(reason);
   }
-  const std::string_view word = word_at(text, byte);
+  const std::string word = shown_text(word_at(text, byte), 30);
   if (what.find(".406]") != std::string::npos) {
-    return "expected a number that fits a double, found " + std::string(word);
+    return "expected a number that fits a double, found " + word;
   }
-  return "expected a value or a text in double quotes, found `" + std::string(word) + "`";
+  if (word.starts_with("\\x")) return std::string(not_utf8);
+  return "expected a value or a text in double quotes, found `" + word + "`";
 }
 
 /// The byte of the first bracket or brace that opens one level too many; none: npos.
@@ -175,19 +181,24 @@ class ErrorListener final : public nlohmann::json_sax<json> {
   std::vector<Level> levels_;
 };
 
+}  // namespace
+
 /// Walks a text already known to be JSON of limited depth, noting where everything stands.
 class PositionPass {
  public:
-  PositionPass(std::string_view text, std::map<std::string, TextPosition>& values,
-               std::map<std::string, TextPosition>& keys)
-      : text_(text), values_(values), keys_(keys) {
+  PositionPass(std::string_view text, LocatedJson::Place& root) : text_(text) {
     if (text_.starts_with("\xEF\xBB\xBF")) here_.byte = 3;
-    value("");
+    skip_space();
+    root.key = here_;
+    value(root);
   }
 
+  /// Pointers of keys that stand a second time, no more than are told.
   std::vector<std::pair<std::string, TextPosition>> duplicates;
 
  private:
+  using Place = LocatedJson::Place;
+
   void step() {
     if (text_[here_.byte] == '\n') {
       ++here_.line;
@@ -214,13 +225,12 @@ class PositionPass {
     return text_.substr(begin, here_.byte - begin);
   }
 
-  void value(const std::string& pointer) {
-    skip_space();
-    values_[pointer] = here_;
+  void value(Place& place) {
+    place.value = here_;
     if (text_[here_.byte] == '{') {
-      object(pointer);
+      object(place);
     } else if (text_[here_.byte] == '[') {
-      array(pointer);
+      list(place);
     } else if (text_[here_.byte] == '"') {
       string_token();
     } else {
@@ -231,48 +241,52 @@ class PositionPass {
     }
     skip_space();
   }
-  void object(const std::string& pointer) {
+  void object(Place& place) {
+    open_.push_back(&place);
     std::set<std::string> seen;
     for (step(), skip_space(); text_[here_.byte] != '}'; skip_space()) {
-      const TextPosition key_position = here_;
-      const auto key = json::parse(string_token()).get<std::string>();
-      const std::string child = pointer + '/' + pointer_token(key);
-      if (!seen.insert(key).second) duplicates.emplace_back(child, key_position);
-      keys_[child] = key_position;
+      Place& child = place.inner.emplace_back();
+      child.key = here_;
+      child.token = pointer_token(json::parse(string_token()).get<std::string>());
+      if (!seen.insert(child.token).second && duplicates.size() <= kMostProblems) {
+        duplicates.emplace_back(pointer(), child.key);
+      }
       skip_space();
       step();  // The colon.
+      skip_space();
       value(child);
       if (text_[here_.byte] == ',') step();
     }
     step();
+    open_.pop_back();
   }
-  void array(const std::string& pointer) {
-    std::size_t index = 0;
+  void list(Place& place) {
+    open_.push_back(&place);
+    place.is_list = true;
     for (step(), skip_space(); text_[here_.byte] != ']'; skip_space()) {
-      value(pointer + '/' + std::to_string(index++));
+      Place& child = place.inner.emplace_back();
+      child.key = here_;
+      value(child);
       if (text_[here_.byte] == ',') step();
     }
     step();
+    open_.pop_back();
+  }
+  /// Of the last value of the innermost object or list. Only made where it is needed: a pointer
+  /// for every value would take the square of the text's memory.
+  [[nodiscard]] std::string pointer() const {
+    std::string pointer;
+    for (const Place* place : open_) {
+      pointer += '/' + (place->is_list ? std::to_string(place->inner.size() - 1)
+                                       : place->inner.back().token);
+    }
+    return pointer;
   }
 
   std::string_view text_;
-  std::map<std::string, TextPosition>& values_;
-  std::map<std::string, TextPosition>& keys_;
   TextPosition here_;
+  std::vector<const Place*> open_;  ///< From the root to the innermost object or list.
 };
-
-TextPosition found_or_enclosing(const std::map<std::string, TextPosition>& positions,
-                                std::string pointer) {
-  while (true) {
-    if (const auto found = positions.find(pointer); found != positions.end()) {
-      return found->second;
-    }
-    if (pointer.empty()) return {};
-    pointer.erase(pointer.rfind('/'));
-  }
-}
-
-}  // namespace
 
 LocatedJson::LocatedJson(std::string_view text, std::string file,
                          std::vector<StudyProblem>& problems)
@@ -283,10 +297,14 @@ LocatedJson::LocatedJson(std::string_view text, std::string file,
 void LocatedJson::parse(std::string_view text, std::vector<StudyProblem>& problems) {
   const auto refuse = [&](std::size_t byte, std::string pointer, std::string message) {
     const TextPosition position = position_of(text, byte);
-    problems.push_back(
-        {file_, position.line, position.column, std::move(pointer), std::move(message)});
+    add_problem(problems, {file_, position.line, position.column, std::move(pointer),
+                           std::move(message)});
   };
-  // First of all: nothing below has to cope with more levels than this.
+  // The parser takes a zero byte for the end of the text and does not look at what follows.
+  if (const std::size_t byte = text.find('\0'); byte != text.npos) {
+    return refuse(byte, "", "expected text, found a zero byte; save the file as UTF-8");
+  }
+  // Then of all: nothing below has to cope with more levels than this.
   if (const std::size_t byte = too_deep_at(text); byte != text.npos) {
     return refuse(byte, "",
                   "expected at most " + std::to_string(kMaxDepth) +
@@ -297,21 +315,46 @@ void LocatedJson::parse(std::string_view text, std::vector<StudyProblem>& proble
     return refuse(listener.error_byte, listener.pointer(), listener.message);
   }
   root_ = json::parse(text);
-  const PositionPass pass(text, values_, keys_);
+  const PositionPass pass(text, places_);
   for (const auto& [pointer, position] : pass.duplicates) {
-    problems.push_back({file_, position.line, position.column, pointer,
-                        "expected each key once, found this one a second time"});
+    add_problem(problems, {file_, position.line, position.column, pointer,
+                           "expected each key once, found this one a second time"});
   }
   usable_ = true;
 }
 
+const LocatedJson::Place* LocatedJson::find(std::string_view pointer, bool exact) const {
+  const Place* place = &places_;
+  while (!pointer.empty()) {
+    pointer.remove_prefix(1);
+    const std::string_view token = pointer.substr(0, pointer.find('/'));
+    pointer.remove_prefix(token.size());
+    const Place* child = nullptr;
+    if (place->is_list) {
+      std::size_t index = 0;
+      const auto [end, error] = std::from_chars(token.begin(), token.end(), index);
+      if (error == std::errc() && end == token.end() && index < place->inner.size()) {
+        child = &place->inner[index];
+      }
+    } else {
+      // The last of those that stand twice is the one that counts.
+      const auto found = std::find_if(place->inner.rbegin(), place->inner.rend(),
+                                      [&](const Place& one) { return one.token == token; });
+      if (found != place->inner.rend()) child = &*found;
+    }
+    if (child == nullptr) return exact ? nullptr : place;
+    place = child;
+  }
+  return place;
+}
+
 TextPosition LocatedJson::value_position(const std::string& pointer) const {
-  return found_or_enclosing(values_, pointer);
+  return find(pointer, false)->value;
 }
 
 TextPosition LocatedJson::key_position(const std::string& pointer) const {
-  const auto found = keys_.find(pointer);
-  return found == keys_.end() ? value_position(pointer) : found->second;
+  const Place* place = find(pointer, true);
+  return place == nullptr ? value_position(pointer) : place->key;
 }
 
 std::string pointer_token(std::string_view key) {

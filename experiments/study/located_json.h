@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -20,8 +19,9 @@ struct TextPosition {
 /// A JSON text in which every value and every key knows where it stands. Parsed by
 /// nlohmann::json; the places come from a second pass of our own, for the library keeps none.
 ///
-/// Syntax errors, bytes that are not UTF-8, numbers too large for a double, keys that appear
-/// twice in one object and nesting deeper than `kMaxDepth` are problems. Not real time.
+/// Syntax errors, zero bytes, bytes that are not UTF-8, numbers too large for a double, keys
+/// that appear twice in one object and nesting deeper than `kMaxDepth` are problems. Takes
+/// memory in proportion to the text, whatever is in it. Not real time.
 class LocatedJson {
  public:
   static constexpr int kMaxDepth = 32;
@@ -40,12 +40,25 @@ class LocatedJson {
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
 
  private:
+  friend class PositionPass;
+
+  /// Where a value stands, and all in it.
+  struct Place {
+    TextPosition value;
+    TextPosition key;   ///< `value` for what has no key.
+    std::string token;  ///< Its key as in a pointer; "" in a list.
+    bool is_list = false;
+    std::vector<Place> inner;
+  };
+
   void parse(std::string_view text, std::vector<StudyProblem>& problems);
+  /// The place at this pointer or, `exact` being false, the nearest that encloses it.
+  [[nodiscard]] const Place* find(std::string_view pointer, bool exact) const;
 
   std::string file_;
   nlohmann::json root_;
   bool usable_ = false;
-  std::map<std::string, TextPosition> values_, keys_;
+  Place places_;
 };
 
 /// A key as it stands in a JSON pointer (RFC 6901): ~ and / are escaped.

@@ -258,7 +258,7 @@ std::string expectation(const Parameter& parameter) {
     case ValueKind::kString:
       return parameter.allowed.empty() ? "a text in quotes" : one_of_words(parameter.allowed);
     case ValueKind::kName:
-      return "a name of lower-case letters, digits and _";
+      return "a name of at most 64 lower-case letters, digits and _";
     case ValueKind::kText:
       return R"(an object of languages such as {"en": "..."})";
     case ValueKind::kNumber:

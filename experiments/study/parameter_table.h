@@ -10,7 +10,7 @@ namespace jnd::experiments {
 /// What a value of the study file is.
 enum class ValueKind {
   kString,  ///< Words for people or one of `allowed`; never empty.
-  kName,    ///< [a-z0-9_]+
+  kName,    ///< [a-z0-9_], 1 to 64 of them.
   kText,    ///< Words in every language of the study: {"en": "...", "de": "..."}.
   kNumber,
   kInteger,

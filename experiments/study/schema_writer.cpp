@@ -14,7 +14,7 @@ namespace {
 // Ordered, so that keys stand in the order of the tables.
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kNamePattern = "^[a-z0-9_]+$";
+constexpr const char* kNamePattern = "^[a-z0-9_]{1,64}$";
 
 Json reference(const std::string& definition) {
   return {{"$ref", "#/definitions/" + definition}};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "experiments/study/shown_text.h"
+
 namespace jnd::experiments {
 namespace {
 
@@ -44,7 +46,7 @@ std::string misplaced(const Parameter& parameter, const json& object) {
       found += " and ";
     }
     wanted += '`' + condition.key + "` is " + one_of_words(condition.values);
-    found += '`' + condition.key + "` is `" + value->get<std::string>() + '`';
+    found += '`' + condition.key + "` is `" + shown_text(value->get<std::string>()) + '`';
   }
   return "expected this key only where " + wanted + ", found it where " + found;
 }
@@ -67,14 +69,8 @@ bool is_blank(const std::string& text) {
 
 std::string found_words(const json& value) {
   if (value.is_string()) {
-    std::string text = value.get<std::string>();
-    constexpr std::size_t kLongest = 40;
-    if (text.size() > kLongest) {
-      std::size_t end = kLongest;  // Not in the middle of a UTF-8 character.
-      while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-      text = text.substr(0, end) + "...";
-    }
-    return text.empty() ? "an empty text" : "the text " + json(text).dump();
+    const auto text = value.get<std::string>();
+    return text.empty() ? "an empty text" : "the text \"" + shown_text(text) + '"';
   }
   if (value.is_array()) {
     return value.empty() ? "an empty list" : "a list of " + std::to_string(value.size());
@@ -84,9 +80,11 @@ std::string found_words(const json& value) {
 }
 
 bool is_name(std::string_view text) noexcept {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  });
+  constexpr std::size_t kLongest = 64;
+  return !text.empty() && text.size() <= kLongest &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+         });
 }
 
 StructureCheck::StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems)
@@ -102,6 +100,7 @@ void StructureCheck::read_languages() {
   if (!root.is_object()) return;
   const auto found = root.find("languages");
   if (found == root.end() || !found->is_array()) return;
+  if (found->size() > study_table().find("languages")->max_items) return;
   std::vector<std::string> languages;
   for (std::size_t i = 0; i < found->size(); ++i) {
     const json& code = (*found)[i];
@@ -155,12 +154,13 @@ void StructureCheck::check_keys(const json& object, const std::string& pointer,
     }
   }
   for (const auto& [key, value] : object.items()) {
+    if (problems_.size() > kMostProblems) return;
     const std::string child = pointer + '/' + pointer_token(key);
     if (key == "comment") {
       check_value(value, child, comment_parameter());
     } else if (table.find(key) == nullptr) {
       report_key(child, "expected a key of `" + table.name + "`, found the unknown key `" +
-                            key + "`" + did_you_mean(key, candidates));
+                            shown_text(key) + "`" + did_you_mean(key, candidates));
     }
   }
 }
@@ -211,7 +211,8 @@ void StructureCheck::check_string(const json& value, const std::string& pointer,
       allowed.empty() || std::find(allowed.begin(), allowed.end(), text) != allowed.end();
   const bool is_well_named = parameter.kind != ValueKind::kName || is_name(text);
   if (is_text && is_allowed && is_well_named) return;
-  const std::string found = is_text && !allowed.empty() ? '`' + text + '`' : found_words(value);
+  const std::string found =
+      is_text && !allowed.empty() ? '`' + shown_text(text) + '`' : found_words(value);
   report(pointer, "expected " + expectation(parameter) + ", found " + found +
                       (is_text ? did_you_mean(text, allowed) : ""));
 }
@@ -228,10 +229,9 @@ void StructureCheck::check_number(const json& value, const std::string& pointer,
 void StructureCheck::check_text(const json& value, const std::string& pointer) {
   if (!value.is_object()) {
     const std::string language = languages_.empty() ? "en" : languages_.front();
-    const std::string shown = value.is_string() ? value.dump() : "\"...\"";
-    report(pointer, "expected an object of languages such as {\"" + language +
-                        "\": " + (shown.size() < 40 ? shown : "\"...\"") + "}, found " +
-                        found_words(value));
+    const std::string shown = value.is_string() ? shown_text(value.get<std::string>()) : "...";
+    report(pointer, "expected an object of languages such as {\"" + language + "\": \"" +
+                        shown + "\"}, found " + found_words(value));
     return;
   }
   for (const auto& [language, words] : value.items()) {
@@ -239,7 +239,8 @@ void StructureCheck::check_text(const json& value, const std::string& pointer) {
     if (language == "comment") {
       check_value(words, child, comment_parameter());
     } else if (!is_language(language)) {
-      report_key(child, "expected a language code such as `en`, found `" + language + "`");
+      report_key(child,
+                 "expected a language code such as `en`, found `" + shown_text(language) + "`");
     } else if (!words.is_string() || is_blank(words.get<std::string>())) {
       report(child, "expected a text in quotes, found " + found_words(words));
     } else if (!languages_.empty() &&
@@ -316,14 +317,14 @@ void StructureCheck::check_arms(const json& arms, const std::string& pointer) {
 
 void StructureCheck::report(const std::string& pointer, std::string message) {
   const TextPosition position = file_.value_position(pointer);
-  problems_.push_back(
-      {file_.file(), position.line, position.column, pointer, std::move(message)});
+  add_problem(problems_,
+              {file_.file(), position.line, position.column, pointer, std::move(message)});
 }
 
 void StructureCheck::report_key(const std::string& pointer, std::string message) {
   const TextPosition position = file_.key_position(pointer);
-  problems_.push_back(
-      {file_.file(), position.line, position.column, pointer, std::move(message)});
+  add_problem(problems_,
+              {file_.file(), position.line, position.column, pointer, std::move(message)});
 }
 
 }  // namespace jnd::experiments

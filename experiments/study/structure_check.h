@@ -47,7 +47,7 @@ class StructureCheck {
 /// A value as it is told to the author: "-1.5", "the text "x"", "a list of 3", "an object".
 [[nodiscard]] std::string found_words(const nlohmann::json& value);
 
-/// [a-z0-9_]+
+/// [a-z0-9_], 1 to 64 of them: a name is also that of a folder and stands in every row.
 [[nodiscard]] bool is_name(std::string_view text) noexcept;
 
 }  // namespace jnd::experiments

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "experiments/study/shown_text.h"
+
 namespace jnd::experiments {
 namespace {
 
@@ -35,11 +37,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+void add_problem(std::vector<StudyProblem>& problems, StudyProblem problem) {
+  if (problems.size() > kMostProblems) return;
+  problem.pointer = shortened_pointer(problem.pointer);
+  problems.push_back(std::move(problem));
+}
+
 std::string to_string(const StudyProblem& problem) {
   if (problem.line == 0) return problem.file + ": " + problem.message;
   return problem.file + ':' + std::to_string(problem.line) + ':' +
          std::to_string(problem.column) + ": " +
-         (problem.pointer.empty() ? "/" : problem.pointer) + ": " + problem.message;
+         (problem.pointer.empty() ? "/" : shown_text(problem.pointer, 1000)) + ": " +
+         problem.message;
 }
 
 ProtocolError::ProtocolError(std::vector<StudyProblem> problems)
@@ -64,7 +73,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? "" : "; did you mean `" + nearest + "`?";
+  return nearest.empty() ? "" : "; did you mean `" + shown_text(nearest) + "`?";
 }
 
 }  // namespace jnd::experiments

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,14 @@ struct StudyProblem {
   std::string message;  ///< "expected a number > 0 (Pa s), found -1.5"
 };
 
+/// More are not told: whoever has so many makes one mistake many times.
+inline constexpr std::size_t kMostProblems = 1000;
+
+/// Adds a problem, its pointer shortened; nothing once there is one more than `kMostProblems`.
+void add_problem(std::vector<StudyProblem>& problems, StudyProblem problem);
+
 /// `FILE:LINE:COLUMN: /json/pointer: message`, or `FILE: message` where there is no place. The
-/// whole document is written `/`.
+/// whole document is written `/`. One line, whatever keys the file has.
 [[nodiscard]] std::string to_string(const StudyProblem& problem);
 
 /// Thrown once the whole file has been read: it carries every problem found, not the first one.

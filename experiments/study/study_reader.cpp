@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// The whole file, or a problem in words.
 std::optional<std::string> file_text(const fs::path& file,
                                      std::vector<StudyProblem>& problems) {
-  constexpr std::uintmax_t kLargestStudy = 16 * 1024 * 1024;
+  constexpr std::uintmax_t kLargestStudy = 4 * 1024 * 1024;
   const auto refuse = [&](const std::string& found) -> std::optional<std::string> {
     problems.push_back(
         {file.string(), 0, 0, "", "expected a study file that can be read, found " + found});
@@ -33,7 +33,7 @@ std::optional<std::string> file_text(const fs::path& file,
   if (!fs::exists(status)) return refuse("no such file");
   if (fs::is_directory(status)) return refuse("a folder");
   if (fs::is_regular_file(status) && fs::file_size(file, error) > kLargestStudy) {
-    return refuse("a file of more than 16 MiB");
+    return refuse("a file of more than 4 MiB");
   }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
@@ -54,6 +54,13 @@ LocatedJson checked(const std::string& text, const std::string& file_name,
                    [](const StudyProblem& a, const StudyProblem& b) {
                      return std::tie(a.line, a.column) < std::tie(b.line, b.column);
                    });
+  if (problems.size() > kMostProblems) {
+    const StudyProblem last = problems[kMostProblems];
+    problems.resize(kMostProblems);
+    problems.push_back({file_name, last.line, last.column, "",
+                        "expected no more than " + std::to_string(kMostProblems) +
+                            " problems, found more; mend these first"});
+  }
   return file;
 }
 

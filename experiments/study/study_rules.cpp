@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "experiments/study/parameter_table.h"
+#include "experiments/study/shown_text.h"
 #include "experiments/study/structure_check.h"
 
 namespace jnd::experiments {
@@ -22,6 +23,16 @@ std::string word(const json& object, const std::string& key) {
 const json* number(const json& object, const std::string& key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? &*found : nullptr;
+}
+
+/// Names as a message lists them: short, and not all of very many.
+std::string names_words(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) {
+    shown.push_back(shown_text(names[i], 30));
+  }
+  return one_of_words(shown) + (names.size() > kMost ? " ..." : "");
 }
 
 /// The list at `key`, or an empty one.
@@ -42,13 +53,14 @@ class Rules {
     collect_arms(stages);
     check_stages(stages, "/stages", false);
     check_num_cells();
+    check_num_trials();
   }
 
  private:
   void report(const std::string& pointer, std::string message) {
     const TextPosition position = file_.value_position(pointer);
-    problems_.push_back(
-        {file_.file(), position.line, position.column, pointer, std::move(message)});
+    add_problem(problems_,
+                {file_.file(), position.line, position.column, pointer, std::move(message)});
   }
 
   /// Reports a word that stands at another pointer of the same namespace already.
@@ -57,7 +69,8 @@ class Rules {
     if (name.empty()) return;
     const auto [first, is_new] = known.emplace(name, pointer);
     if (!is_new) {
-      report(pointer, "expected a name of its own, found `" + name + "`, the name of " +
+      report(pointer, "expected a name of its own, found `" + shown_text(name) +
+                          "`, the name of " +
                           first->second.substr(0, first->second.rfind('/')) + " already");
     }
   }
@@ -86,6 +99,16 @@ class Rules {
       report("/stages", "expected counterbalances that cross to at most " +
                             plain_number(kMostCells) + " cells, found " +
                             plain_number(num_cells_));
+    }
+  }
+
+  /// Far more than a person can do. A plan draws all of them, so there has to be an end.
+  void check_num_trials() {
+    constexpr double kMostTrials = 50000.0;
+    if (num_trials_ > kMostTrials) {
+      report("/stages", "expected at most " + plain_number(kMostTrials) +
+                            " trials in all blocks together, found " +
+                            plain_number(num_trials_));
     }
   }
 
@@ -141,12 +164,14 @@ class Rules {
         std::vector<std::string> names;
         for (const auto& [name, arms] : one_of_arms_) names.push_back(name);
         report(child, "expected the name of a `one_of` counterbalance, found `" +
-                          counterbalance + "`" + did_you_mean(counterbalance, names));
+                          shown_text(counterbalance) + "`" +
+                          did_you_mean(counterbalance, names));
       } else if (std::find(known->second.begin(), known->second.end(), arm) ==
                  known->second.end()) {
-        report(child, "expected an arm of `" + counterbalance + "`: " +
-                          one_of_words(known->second) + ", found `" + arm.get<std::string>() +
-                          "`" + did_you_mean(arm.get<std::string>(), known->second));
+        report(child, "expected an arm of `" + shown_text(counterbalance) +
+                          "`: " + names_words(known->second) + ", found `" +
+                          shown_text(arm.get<std::string>()) + "`" +
+                          did_you_mean(arm.get<std::string>(), known->second));
       }
     }
   }
@@ -195,6 +220,10 @@ class Rules {
                          values[i].dump());
       }
     }
+    const json* repetitions = number(block, "repetitions");
+    num_trials_ += static_cast<double>(values.size()) *
+                   (repetitions == nullptr ? 1.0 : std::max(1.0, repetitions->get<double>())) *
+                   std::max(1.0, static_cast<double>(list(block, "target_percent").size()));
     if (seen.empty()) return;
     if (procedure == "constant_stimuli") check_reference(block, at, quantity, seen);
     if (procedure == "magnitude_production") check_steps(block, at, quantity, seen);
@@ -237,6 +266,7 @@ class Rules {
   std::map<std::string, std::string> stage_names_, item_names_;  ///< Name to pointer.
   std::map<std::string, std::vector<std::string>> one_of_arms_;
   double num_cells_ = 1.0;
+  double num_trials_ = 0.0;
 };
 
 }  // namespace

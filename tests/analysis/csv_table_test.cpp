@@ -66,6 +66,36 @@ TEST(CsvTable, TellsWhatIsWrongWithItsForm) {
             "t.csv:2: expected a closing quote, found the end of the file");
 }
 
+TEST(CsvTable, RefusesWhatStandsBehindAClosingQuote) {
+  EXPECT_EQ(refusal("a,b\n\"1\"5,2\n"),
+            "t.csv:2: expected a comma or a line end after the closing quote of \"1\", found "
+            "\"5\"");
+  EXPECT_EQ(refusal("a,b\n\"1\" , 2\n"), "nothing was thrown");
+}
+
+TEST(CsvTable, ShowsCellsShortAndInUtf8WhateverTheyAre) {
+  EXPECT_THAT(refusal("a\x1B[2J\xFF,a\x1B[2J\xFF\n"),
+              HasSubstr("found \"a\\u001b[2J\xEF\xBF\xBD\" again"));
+  EXPECT_THAT(refusal("\xC2\x9B\x7F,\xC2\x9B\x7F\n"), HasSubstr("found \"\\u009b\\u007f\""));
+  EXPECT_THAT(refusal("\xC2\xB5,\xC2\xB5\n"), HasSubstr("found \"\xC2\xB5\" again"));
+  const std::string long_name(1000000, 'x');
+  EXPECT_LT(refusal(long_name + ',' + long_name + '\n').size(), 300U);
+  const std::string zeros(1000000, '\0');
+  EXPECT_LT(refusal(zeros + ',' + zeros + '\n').size(), 300U);
+}
+
+TEST(CsvTable, ReadsAHeaderOfVeryManyColumnsInReasonableTime) {
+  std::string header = "a0";
+  for (int i = 1; i < 200000; ++i) header += ",a" + std::to_string(i);
+  const CsvTable table = CsvTable::parse(header + '\n', "t.csv");
+  CsvReader reader(table);
+  EXPECT_TRUE(reader.numbers("intensity").empty());
+  const std::string message = message_of([&] { reader.throw_problems(); });
+  EXPECT_LT(message.size(), 300U);
+  EXPECT_THAT(message, HasSubstr("a1, a2,"));
+  EXPECT_THAT(message, HasSubstr("... (200000 columns)"));
+}
+
 TEST(CsvTable, NamesTheFileItCannotRead) {
   EXPECT_THAT(message_of([] { (void)CsvTable::read("/nowhere/t.csv"); }),
               HasSubstr("/nowhere/t.csv: expected a CSV file"));
@@ -80,7 +110,8 @@ TEST(CsvReader, CollectsEveryCellThatIsNoNumberInTheOrderOfTheFile) {
       "nan,3\n"
       "4,inf\n"
       "5 %,1e999\n"
-      ",0x1p3\n",
+      ",0x1p3\n"
+      "+-5,\"\"\n",
       "t.csv");
   CsvReader reader(table);
   EXPECT_TRUE(std::isnan(reader.numbers("x")[2]));
@@ -93,7 +124,9 @@ TEST(CsvReader, CollectsEveryCellThatIsNoNumberInTheOrderOfTheFile) {
             "t.csv:6: x: expected a finite number, found \"5 %\"\n"
             "t.csv:6: y: expected a finite number, found \"1e999\"\n"
             "t.csv:7: x: expected a finite number, found an empty cell\n"
-            "t.csv:7: y: expected a finite number, found \"0x1p3\"");
+            "t.csv:7: y: expected a finite number, found \"0x1p3\"\n"
+            "t.csv:8: x: expected a finite number, found \"+-5\"\n"
+            "t.csv:8: y: expected a finite number, found an empty cell");
 }
 
 TEST(CsvReader, NamesTheColumnsThereAreWhereOneIsMissing) {

@@ -31,7 +31,7 @@ class LaboratoryRunTest : public ::testing::Test {
     EXPECT_EQ(add_sessions(*store,
                            {.study = study_,
                             .laboratory = laboratory_,
-                            .study_file_name = "tiny.json",
+                            .study_file = "tiny.json",
                             .seed = 5,
                             .record = record},
                            {"P01"}),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/json_document.h"
+#include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -14,12 +15,6 @@ namespace {
 
 using test_support::ProgramOutcome;
 using test_support::run_program;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text = "jnd";
-  for (const std::string& word : words) text += " " + word;
-  return text;
-}
 
 class MainTest : public ::testing::Test {
  protected:
@@ -55,76 +50,6 @@ TEST_F(MainTest, ListsEverySubcommandInItsHelp) {
     EXPECT_NE(help.find("\n  " + std::string(name) + " "), std::string::npos) << name;
     EXPECT_EQ(jnd({name, "--help"}).exit_code, 0) << name;
   }
-}
-
-TEST_F(MainTest, WrongUsageIsExit2WithASentenceOnStderrAlone) {
-  const std::vector<std::vector<std::string>> kWrong = {
-      {"nonsense"},
-      {"--json"},
-      {"--nonsense"},
-      {"run", "short_tour", "--participant", "P01", "--headless"},
-      {"run", "short_tour", "--study", "s.study", "--headless"},
-      {"run", "--study", "s.study", "--participant", "P01", "--headless"},
-      {"run", "short_tour", "--study", "s.study", "--participant", "P01", "--headless",
-       "--nonsense"},
-      {"run", "short_tour", "--study", "s.study", "--participant", "", "--headless"},
-      {"run", "short_tour", "--study", "s.study", "--participant", "a\nb", "--headless"},
-      {"run", "short_tour", "--study", "s.study", "--participant", "P01", "--headless",
-       "--device", "nonsense"},
-      {"run", "short_tour", "--study", "s.study", "--participant", "P01", "--headless",
-       "--seed", "-1"},
-      {"simulate", "short_tour", "--participants", "0", "--study", "s.study"},
-      {"simulate", "short_tour", "--participants", "two", "--study", "s.study"},
-      {"simulate", "short_tour", "--participants", "1", "--study", "s.study", "--jobs", "0"},
-      {"simulate", "short_tour", "--participants", "1", "--study", "s.study", "--seed", "-1"},
-      {"simulate", "short_tour", "--participants", "1", "--study", "s.study", "--seed", "1.5"},
-      {"simulate", "short_tour", "--participants", "1", "--study", "s.study", "--device",
-       "nonsense"},
-      {"resume"},
-      {"resume", "missing.study"},
-      {"resume", ".", "--choose", "nonsense"},
-      {"verify"},
-      {"verify", "missing.study"},
-      {"verify", "missing.study", "--json"},
-      {"results"},
-      {"results", "missing.study"},
-      {"export", "csv", "missing.study", "--out", "x"},
-      {"export", "csv", "."},
-      {"export", "xlsx", ".", "--out", "x"},
-      {"plan"},
-      {"plan", "short_tour", "--participants", "0"},
-      {"plan", "short_tour", "--device", "nonsense"},
-      {"plan", "short_tour", "--speed-m-per-s", "-1"},
-      {"validate"},
-      {"new"},
-      {"new", "Not-A-Name"},
-      {"schema", "extra"},
-      {"fit"},
-      {"fit", "nonsense"},
-      {"fit", "weber", "--csv", "missing.csv", "--reference", "1"},
-      {"fit", "power"},
-      {"fit", "between", "--k1", "1", "--a1", "1", "--k2", "1", "--intensities", "1,2"},
-      {"compare", "--csv", "missing.csv", "--test", "paired"},
-      {"force"},
-      {"force", "honey"},
-      {"force", "water", "--velocity-m-per-s", "1,2"},
-      {"force", "water", "--scale", "-1"},
-      {"loop", "--device", "nonsense"},
-      {"loop", "--seconds", "0"},
-      {"loop", "--rate-hz", "nan"},
-      {"devices", "extra"},
-      {"doctor", "--nonsense"},
-      {"demo", "--device", "nonsense"},
-      {"demo", "--jobs", "0"},
-      {"demo", "--seed", "-5"},
-  };
-  for (const std::vector<std::string>& words : kWrong) {
-    const ProgramOutcome outcome = jnd(words);
-    EXPECT_EQ(outcome.exit_code, 2) << joined(words) << '\n' << outcome.err;
-    EXPECT_EQ(outcome.out, "") << joined(words);
-    EXPECT_NE(outcome.err, "") << joined(words);
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(temporary_.path())) << "wrong usage leaves no files";
 }
 
 TEST_F(MainTest, WithoutADisplayASessionNeedsToBeHeadless) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 class SessionSetupTest : public ::testing::Test {
  protected:
   SessionSetup setup() {
-    return {.study = study_, .laboratory = laboratory_, .study_file_name = "t.json", .seed = 3};
+    return {.study = study_, .laboratory = laboratory_, .study_file = "t.json", .seed = 3};
   }
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
@@ -37,7 +37,7 @@ TEST_F(SessionSetupTest, EverySessionHasASeedOfItsOwnAndEverythingNeededToRepeat
     EXPECT_TRUE(row.simulated);
     EXPECT_FALSE(row.pilot);
     EXPECT_EQ(row.laboratory, laboratory_.text);
-    EXPECT_EQ(store_.protocol_text(row.protocol_sha256), kTinyStudy);
+    EXPECT_EQ(store_.protocol(row.protocol_sha256).text, kTinyStudy);
     EXPECT_EQ(row.rate_hz, 1000.0);
     EXPECT_NE(row.program_version, "");
   }

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
 
 namespace jnd::analysis {
@@ -25,6 +26,29 @@ void weber_fit_least_squares(benchmark::State& state) {
 }
 BENCHMARK(weber_fit_least_squares);
 
+/// Everything free: the widest search.
+void weber_fit_free_pse_and_lapse(benchmark::State& state) {
+  const auto method = static_cast<PsychometricMethod>(state.range(0));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_psychometric(kNineLevels, {.reference = 1.9,
+                                                            .method = method,
+                                                            .free_pse = true,
+                                                            .free_lapse = true,
+                                                            .intervals = false}));
+  }
+}
+BENCHMARK(weber_fit_free_pse_and_lapse)->Arg(0)->Arg(1);
+
+void power_fit(benchmark::State& state) {
+  const auto solver = static_cast<Solver>(state.range(0));
+  const std::vector<Magnitude> data = {{0.5, 0.38}, {1.0, 0.7}, {1.5, 0.84}, {2.0, 1.1},
+                                       {2.5, 1.15}, {3.0, 1.4}, {3.5, 1.44}, {4.0, 1.6}};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_power(data, PowerMethod::kNonlinear, solver));
+  }
+}
+BENCHMARK(power_fit)->Arg(0)->Arg(1);
+
 /// 1000 bootstrap refits of nine levels.
 void bootstrap_1000(benchmark::State& state) {
   for (auto _ : state) {
@@ -33,6 +57,14 @@ void bootstrap_1000(benchmark::State& state) {
   }
 }
 BENCHMARK(bootstrap_1000)->Unit(benchmark::kMillisecond);
+
+void bootstrap_1000_free_lapse(benchmark::State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_psychometric(
+        kNineLevels, {.reference = 1.9, .free_lapse = true, .num_bootstrap = 1000}));
+  }
+}
+BENCHMARK(bootstrap_1000_free_lapse)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace jnd::analysis

@@ -2,11 +2,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/storage/sample_codec.h"
 #include "core/storage/study_store.h"
+#include "device/haptic_loop.h"
+#include "device/lumped_hand_device.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::core {
@@ -42,23 +44,26 @@ void reference_fdatasync(benchmark::State& state) {
 }
 BENCHMARK(reference_fdatasync)->Unit(benchmark::kMicrosecond);
 
-/// A chunk of a sweep, with bytes a sample.
+/// A chunk of what the loop records of the simulated hand stroking through water, with bytes a
+/// sample.
 void encode_chunk(benchmark::State& state) {
-  std::vector<Sample> samples(4096);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double t = 0.001 * static_cast<double>(i);
-    samples[i].tick = static_cast<std::int64_t>(i);
-    for (int point = 0; point < kNumContactPoints; ++point) {
-      samples[i].tip_position_m[point] = {0.13 * std::sin(3.4 * t), 0.0,
-                                          0.02 * std::cos(3.4 * t)};
-      samples[i].tip_velocity_m_per_s[point] = {0.44 * std::cos(3.4 * t), 0.0, 0.0};
-      samples[i].tip_force_n[point] = {-1.2 * std::cos(3.4 * t), 0.0, 0.0};
-    }
-  }
+  device::LumpedHandDevice hand({});
+  LatestValue<HapticCommand> commands;
+  LatestValue<Telemetry> telemetry;
+  EmergencyStop stop;
+  SpscQueue<Sample> queue(4096);
+  device::HapticLoop loop({}, hand, {commands, telemetry, stop, &queue});
+  hand.open();
+  commands.publish({.sequence = 1, .medium = water({})});
+  hand.begin_strokes({}, RandomStream(1, "bench"));
+  for (int i = 0; i < 4096; ++i) loop.tick();
+  std::vector<Sample> samples;
+  queue.drain([&samples](const Sample& sample) { samples.push_back(sample); });
   std::size_t num_bytes = 0;
   for (auto _ : state) num_bytes = encode_samples(samples).size();
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
-  state.counters["bytes_per_sample"] = static_cast<double>(num_bytes) / 4096.0;
+  state.counters["bytes_per_sample"] =
+      static_cast<double>(num_bytes) / static_cast<double>(samples.size());
 }
 BENCHMARK(encode_chunk)->Unit(benchmark::kMicrosecond);
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "scripted_device.h"
 
 namespace jnd::device {
@@ -73,6 +74,17 @@ TEST(FaultInjection, AFailedWriteDoesNotReachTheDevice) {
   (void)read_from(device);
   EXPECT_FALSE(device.write(core::zero_vectors()));
   EXPECT_TRUE(inner.received.empty());
+}
+
+TEST(FaultInjection, AnOpeningFailsAsOftenAsItWasTold) {
+  ScriptedDevice inner;
+  FaultInjectingDevice device(inner, {{.num_ticks = 2, .injection = Injection::kOpenFailure}});
+  EXPECT_THROW(device.open(), core::Error);
+  EXPECT_THROW(device.open(), core::Error);
+  EXPECT_EQ(inner.num_opened, 0) << "the motors stay off";
+  device.open();
+  EXPECT_EQ(inner.num_opened, 1);
+  EXPECT_EQ(read_from(device).tip_position_m[0], inner.state.tip_position_m[0]);
 }
 
 }  // namespace

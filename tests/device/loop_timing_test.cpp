@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "core/random_stream.h"
@@ -65,6 +66,55 @@ TEST(LoopTiming, CountsTicksAndMissedTicksApart) {
   EXPECT_EQ(timing.missed_ticks(), 2);
   EXPECT_EQ(timing.lateness().max_ns(), 3'000);
   EXPECT_EQ(timing.tick_cost().max_ns(), 300);
+}
+
+TEST(LoopTimingSummary, HoldsEveryDurationInItsBucket) {
+  LoopTiming timing;
+  timing.record_tick(3, 200);
+  timing.record_tick(3, 200);
+  timing.record_tick(1'000, 300);
+  timing.record_missed(2);
+  const LoopTimingSummary summary = summary_of(timing);
+  EXPECT_EQ(summary.num_ticks, 3);
+  EXPECT_EQ(summary.missed_ticks, 2);
+  ASSERT_EQ(summary.lateness.buckets.size(), 2U);
+  EXPECT_EQ(summary.lateness.buckets[0].end_ns, 3);
+  EXPECT_EQ(summary.lateness.buckets[0].count, 2U);
+  // 1000 lies in [992, 1024): the power of two from 512 in 16 parts of 32.
+  EXPECT_EQ(summary.lateness.buckets[1].end_ns, 1023);
+  EXPECT_EQ(summary.lateness.buckets[1].count, 1U);
+  EXPECT_EQ(summary.lateness.max_ns, 1'000);
+  EXPECT_EQ(summary.tick_cost.max_ns, 300);
+  EXPECT_EQ(summary.tick_cost.buckets.size(), 2U);
+}
+
+TEST(LoopTimingSummary, IsEmptyBeforeTheFirstTick) {
+  const LoopTimingSummary summary = summary_of(LoopTiming{});
+  EXPECT_EQ(summary.num_ticks, 0);
+  EXPECT_TRUE(summary.lateness.buckets.empty());
+  EXPECT_EQ(summary.lateness.max_ns, 0);
+}
+
+TEST(LoopTimingSummary, CanBeTakenWhileTheLoopRuns) {
+  LoopTiming timing;
+  constexpr std::int64_t kNumTicks = 200'000;
+  std::thread loop([&timing] {
+    for (std::int64_t i = 0; i < kNumTicks; ++i) timing.record_tick(i, i / 2);
+  });
+  std::int64_t last = 0;
+  while (last < kNumTicks) {
+    const LoopTimingSummary summary = summary_of(timing);
+    ASSERT_GE(summary.num_ticks, last);
+    last = summary.num_ticks;
+    std::int64_t sum = 0;
+    for (const DurationSummary::Bucket& bucket : summary.lateness.buckets) {
+      ASSERT_GT(bucket.count, 0U);
+      sum += static_cast<std::int64_t>(bucket.count);
+    }
+    ASSERT_EQ(sum, summary.num_ticks);
+  }
+  loop.join();
+  EXPECT_EQ(summary_of(timing).lateness.max_ns, kNumTicks - 1);
 }
 
 TEST(LoopTiming, IsSafeToUseOnTheHapticThread) {

@@ -1,9 +1,17 @@
 #include "device/realtime_thread.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
 
-#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "device/fault_injection.h"
@@ -15,7 +23,7 @@ namespace {
 
 /// Ticks at whatever the machine gives, which a test must not depend on.
 constexpr RealtimeThread::Parameters kModest = {
-    .priority = 0, .lock_memory = false, .spin_s = 0.0};
+    .priority = 0, .lock_memory = false, .max_spin_s = 0.0, .keep_cpus_awake = false};
 
 struct Doors {
   core::LatestValue<core::HapticCommand> commands;
@@ -61,10 +69,85 @@ TEST(RealtimeThread, TicksUntilItIsStoppedAndEveryTickIsTimed) {
   EXPECT_GT(thread.timing().tick_cost().max_ns(), 0);
 }
 
+TEST(RealtimeThread, ReportsTheCpusItMayRunOn) {
+  const RealtimeThread anywhere(kModest);
+  cpu_set_t mine;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof mine, &mine), 0);
+  const std::vector<int>& cpus = anywhere.report().cpus;
+  ASSERT_EQ(static_cast<int>(cpus.size()), CPU_COUNT(&mine));
+  EXPECT_FALSE(anywhere.report().pinned);
+
+  RealtimeThread::Parameters pinned = kModest;
+  pinned.cpu = cpus.back();
+  const RealtimeThread there(pinned);
+  EXPECT_TRUE(there.report().pinned);
+  EXPECT_EQ(there.report().cpus, std::vector<int>{cpus.back()});
+  ASSERT_EQ(::sched_getaffinity(0, sizeof mine, &mine), 0);
+  EXPECT_EQ(static_cast<int>(cpus.size()), CPU_COUNT(&mine)) << "this thread stays free";
+}
+
+TEST(RealtimeThread, ReportsThePriorityThatIsInForce) {
+  const RealtimeThread thread({.priority = 42, .lock_memory = false});
+  if (!thread.report().realtime_scheduler) {
+    EXPECT_EQ(thread.report().priority, 0);
+    GTEST_SKIP() << thread.report().lacks;
+  }
+  EXPECT_EQ(thread.report().priority, 42);
+  EXPECT_EQ(thread.report().scheduler, "SCHED_FIFO 42");
+}
+
+/// The lowest limit of latency that anybody asks for now, in us; nothing if it cannot be read.
+std::optional<std::int32_t> latency_asked_for_us() {
+  const int file = ::open("/dev/cpu_dma_latency", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return std::nullopt;
+  std::int32_t latency_us = -1;
+  const bool read = ::read(file, &latency_us, sizeof latency_us) == sizeof latency_us;
+  ::close(file);
+  return read ? std::optional(latency_us) : std::nullopt;
+}
+
+TEST(RealtimeThread, KeepsTheCpusAwakeWhereItMay) {
+  RealtimeThread::Parameters awake = kModest;
+  awake.keep_cpus_awake = true;
+  RealtimeThread thread(awake);
+  EXPECT_EQ(thread.report().lacks, "") << "a wish, and no lack";
+  EXPECT_EQ(thread.report().cpus_kept_awake, ::access("/dev/cpu_dma_latency", W_OK) == 0);
+  if (!thread.report().cpus_kept_awake) GTEST_SKIP() << "not allowed here";
+  EXPECT_EQ(latency_asked_for_us(), 0);
+}
+
+TEST(RealtimeThread, KnowsWhatItUsedUp) {
+  ScriptedDevice device;
+  Doors doors;
+  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  RealtimeThread thread(kModest);
+  thread.start(loop);
+  while (thread.timing().num_ticks() < 50) std::this_thread::yield();
+  thread.stop();
+  EXPECT_GT(thread.use().cpu_time_s, 0.0);
+  EXPECT_GE(thread.use().num_page_faults, 0);
+}
+
 TEST(RealtimeThread, EndsCleanlyWithoutEverHavingBeenStarted) {
   RealtimeThread thread(kModest);
   thread.stop();
   EXPECT_EQ(thread.timing().num_ticks(), 0);
+}
+
+TEST(RealtimeThread, MayGoWithoutEverHavingBeenStartedOrStopped) {
+  const RealtimeThread thread(kModest);
+  EXPECT_EQ(thread.use().cpu_time_s, 0.0);
+}
+
+TEST(RealtimeThread, StoppedBeforeItsStartItNeverTicks) {
+  ScriptedDevice device;
+  Doors doors;
+  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  RealtimeThread thread(kModest);
+  thread.stop();
+  thread.start(loop);
+  thread.stop();
+  EXPECT_TRUE(device.received.empty());
 }
 
 TEST(RealtimeThread, ATickThatTakesTooLongIsCountedAsMissedTicks) {
@@ -104,7 +187,8 @@ TEST(RealtimeThread, TheArmTakesItsOrdersFromAnotherThread) {
 TEST(RealtimeThread, NamesTheParameterItRejects) {
   EXPECT_THROW(RealtimeThread({.priority = 100}), core::Error);
   EXPECT_THROW(RealtimeThread({.cpu = -2}), core::Error);
-  EXPECT_THROW(RealtimeThread({.spin_s = -1.0}), core::Error);
+  EXPECT_THROW(RealtimeThread({.max_spin_s = -1.0}), core::Error);
+  EXPECT_THROW(RealtimeThread({.max_spin_s = std::nan("")}), core::Error);
 }
 
 TEST(RequireRealtime, ARealDeviceIsRefusedWithoutRealTimeUnlessAllowed) {
@@ -119,6 +203,45 @@ TEST(RequireRealtime, ARealDeviceIsRefusedWithoutRealTimeUnlessAllowed) {
   EXPECT_NO_THROW(require_realtime(device, nothing, true));
   device.device_capabilities.simulated = true;
   EXPECT_NO_THROW(require_realtime(device, nothing, false));
+}
+
+TEST(StartHaptics, ADeviceThatDoesNotStartIsToldAndNothingTicks) {
+  ScriptedDevice inner;
+  inner.device_capabilities.simulated = true;
+  FaultInjectingDevice device(inner, {{.injection = Injection::kOpenFailure}});
+  Doors doors;
+  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  {
+    RealtimeThread thread(kModest);
+    try {
+      start_haptics(device, loop, thread, false);
+      FAIL() << "it has not been told";
+    } catch (const core::Error& error) {
+      EXPECT_EQ(std::string(error.what()).find("scripted: expected the device to start"), 0U)
+          << error.what();
+    }
+    EXPECT_EQ(inner.num_closed, 1) << "it may have come half way";
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_EQ(thread.timing().num_ticks(), 0);
+  }
+  EXPECT_EQ(inner.num_opened, 0);
+  EXPECT_TRUE(inner.received.empty());
+
+  RealtimeThread second(kModest);
+  EXPECT_NO_THROW(start_haptics(device, loop, second, false)) << "at the second attempt";
+  while (second.timing().num_ticks() < 3) std::this_thread::yield();
+  second.stop();
+  EXPECT_EQ(inner.num_opened, 1);
+}
+
+TEST(StartHaptics, WithoutRealTimeTheMotorsOfARealDeviceStayOff) {
+  ScriptedDevice device;
+  Doors doors;
+  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  RealtimeThread thread(kModest);
+  EXPECT_THROW(start_haptics(device, loop, thread, false), core::Error);
+  EXPECT_EQ(device.num_opened, 0);
+  EXPECT_EQ(thread.timing().num_ticks(), 0);
 }
 
 }  // namespace

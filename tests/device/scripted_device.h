@@ -21,7 +21,7 @@ class ScriptedDevice final : public HapticDevice {
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
     return device_capabilities;
   }
-  void open() override {}
+  void open() override { ++num_opened; }
   [[nodiscard]] bool read(core::HapticState& measured) noexcept override {
     measured = state;
     return true;
@@ -34,7 +34,7 @@ class ScriptedDevice final : public HapticDevice {
     }
     return true;
   }
-  void close() noexcept override {}
+  void close() noexcept override { ++num_closed; }
 
   void move_all(const Eigen::Vector3d& velocity_m_per_s) {
     state.tip_velocity_m_per_s.fill(velocity_m_per_s);
@@ -48,6 +48,8 @@ class ScriptedDevice final : public HapticDevice {
   core::HapticState state;
   DeviceCapabilities device_capabilities;
   std::vector<core::PointVectors> received;
+  int num_opened = 0;
+  int num_closed = 0;
 };
 
 }  // namespace jnd::device

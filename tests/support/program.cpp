@@ -40,7 +40,8 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
                                const ProgramOptions& options) {
-  std::vector<std::string> words = {JND_PROGRAM};
+  std::vector<std::string> words = options.wrapper;
+  words.emplace_back(JND_PROGRAM);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> environment = environment_of(options);
   std::array<int, 2> pipe{};
@@ -50,18 +51,32 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, pipe[1], 1);
+  if (options.out_file.empty()) {
+    posix_spawn_file_actions_adddup2(&actions, pipe[1], 1);
+  } else {
+    posix_spawn_file_actions_addopen(&actions, 1, options.out_file.c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0600);
+  }
   posix_spawn_file_actions_adddup2(&actions, err_, 2);
   if (!options.folder.empty()) {
     posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   }
-  const int refused = ::posix_spawn(&pid_, JND_PROGRAM, &actions, nullptr,
-                                    pointers_to(words).data(), pointers_to(environment).data());
+  // Whoever runs the tests may ignore some, a shell those of the keyboard for one.
+  sigset_t every;
+  ::sigfillset(&every);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &every);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int refused =
+      ::posix_spawnp(&pid_, words.front().c_str(), &actions, &attributes,
+                     pointers_to(words).data(), pointers_to(environment).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   ::close(pipe[1]);
   if (refused != 0) {
     pid_ = -1;
-    throw std::runtime_error("cannot start " JND_PROGRAM);
+    throw std::runtime_error("cannot start " + words.front());
   }
 }
 
@@ -70,11 +85,17 @@ RunningProgram::~RunningProgram() {
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, nullptr, 0);
   }
-  ::close(out_);
+  stop_reading();
   ::close(err_);
 }
 
+void RunningProgram::stop_reading() {
+  if (out_ >= 0) ::close(out_);
+  out_ = -1;
+}
+
 bool RunningProgram::read_more() {
+  if (out_ < 0) return false;
   std::array<char, 65536> bytes;
   ssize_t count = 0;
   do {

@@ -22,9 +22,12 @@ struct ProgramOptions {
   std::filesystem::path folder;  ///< To run in; the test's own if empty.
   /// Added to the test's own environment, from which displays and JND_SHARE are taken out.
   std::vector<std::pair<std::string, std::string>> environment;
+  std::vector<std::string> wrapper = {};  ///< Runs the program: {"strace", "-f"}.
+  std::filesystem::path out_file = {};    ///< Where stdout goes instead of to the test.
 };
 
-/// The jnd program as a child of the test. Throws `std::runtime_error` if the system refuses.
+/// The jnd program as a child of the test, every signal at its default. Throws
+/// `std::runtime_error` if the system refuses.
 class RunningProgram {
  public:
   explicit RunningProgram(const std::vector<std::string>& arguments,
@@ -37,13 +40,15 @@ class RunningProgram {
   /// The next line of stdout without its end; none at the end of the stream.
   [[nodiscard]] std::optional<std::string> read_line();
   void send_signal(int number) const;
+  /// Closes the reading end of its stdout, as `head` does.
+  void stop_reading();
   [[nodiscard]] ProgramOutcome wait();
 
  private:
   bool read_more();
 
   pid_t pid_ = -1;
-  int out_ = -1;  ///< Read end of its stdout.
+  int out_ = -1;  ///< Read end of its stdout; -1 once closed.
   int err_ = -1;  ///< File that takes its stderr.
   std::string buffer_;
 };

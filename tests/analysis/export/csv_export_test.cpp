@@ -94,7 +94,7 @@ TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
 TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
   export_csv(study_.store(), out(), {});
   const std::string schema =
-      bytes(fs::path(JND_SOURCE_DIR) / "data" / "database" / "study.sql");
+      bytes(fs::path(JND_SOURCE_DIR) / "data" / "database" / "1_study.sql");
   const std::set<std::string> kWorkedOut = {"simulated", "excluded", "completed"};
   for (const char* name : kTables) {
     const CsvTable columns = table(name);

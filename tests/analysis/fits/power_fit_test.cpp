@@ -89,6 +89,48 @@ TEST(PowerFit, TheIntensitysUnitOnlyChangesTheFactor) {
   }
 }
 
+TEST(PowerFit, TheMagnitudesUnitOnlyChangesTheFactor) {
+  const std::vector<Magnitude> data = {{0, 0.1}, {1, 0.7}, {2, 1.1}, {3, 1.2}, {4, 1.7}};
+  const PowerFit plain = fit_power(data);
+  for (const double factor : {1e-250, 1e-170, 1e170, 1e250}) {
+    std::vector<Magnitude> scaled = data;
+    for (Magnitude& row : scaled) row.magnitude *= factor;
+    const PowerFit found = fit_power(scaled);
+    ASSERT_EQ(found.status, FitStatus::kOk) << factor << found.reason;
+    EXPECT_NEAR(*found.a, *plain.a, 1e-10);
+    EXPECT_NEAR(*found.k / factor, *plain.k, 1e-10);
+    EXPECT_NEAR(*found.r_squared, *plain.r_squared, 1e-10);
+    EXPECT_NEAR(*found.k_standard_error / factor, *plain.k_standard_error, 1e-10);
+  }
+}
+
+TEST(PowerFit, MagnitudesAllAlikeHaveNoRSquared) {
+  for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
+    const PowerFit found = fit_power({{1, 0.1}, {2, 0.1}, {3, 0.1}}, method);
+    ASSERT_EQ(found.status, FitStatus::kOk);
+    EXPECT_FALSE(found.r_squared.has_value()) << *found.r_squared;
+  }
+}
+
+TEST(PowerFit, BothSolversComeToOneOptimum) {
+  core::RandomStream random(4, "power test");
+  int num_fits = 0;
+  for (int set = 0; set < 300; ++set) {
+    std::vector<Magnitude> data;
+    for (const double intensity : kScale) {
+      data.push_back({intensity, random.uniform(-0.5, 3.0)});
+    }
+    const PowerFit ceres = fit_power(data, PowerMethod::kNonlinear, Solver::kCeres);
+    const PowerFit newton = fit_power(data, PowerMethod::kNonlinear, Solver::kNewton);
+    ASSERT_EQ(ceres.status, newton.status) << set << ceres.reason << newton.reason;
+    if (ceres.status != FitStatus::kOk) continue;
+    ++num_fits;
+    EXPECT_NEAR(*ceres.a, *newton.a, 1e-9 * (1.0 + std::fabs(*newton.a))) << set;
+    EXPECT_NEAR(*ceres.k / *newton.k, 1.0, 1e-9) << set;
+  }
+  EXPECT_GT(num_fits, 200);
+}
+
 TEST(PowerFit, LogarithmsLeaveOutZerosAndSayWhichRows) {
   const PowerFit found =
       fit_power({{0, 0.2}, {1, 0.0}, {2, 1.0}, {4, 2.0}, {8, 4.0}}, PowerMethod::kLogLog);

@@ -227,23 +227,53 @@ TEST(PsychometricFit, SaysWhichWayTheDataHaveNoOptimum) {
     EXPECT_FALSE(found.standard_error.has_value());
     return found.reason;
   };
-  EXPECT_THAT(reason({}), StartsWith("no trials"));
-  EXPECT_THAT(reason({{2.0, 0, 0}}), StartsWith("no trials"));
-  EXPECT_THAT(reason({{1.0, 3, 5}}), StartsWith("all at the reference"));
+  EXPECT_THAT(reason({}), StartsWith("too few rows"));
+  EXPECT_THAT(reason({{2.0, 0, 0}}), StartsWith("too few rows"));
+  EXPECT_THAT(reason({{1.0, 3, 5}}), StartsWith("one intensity"));
   EXPECT_THAT(reason({{0.5, 0, 5}, {2, 5, 5}}), StartsWith("separated"));
   EXPECT_THAT(reason({{0.5, 0, 5}, {1, 3, 5}, {2, 5, 5}}), StartsWith("separated"));
   EXPECT_THAT(reason({{0.5, 3, 6}, {2, 3, 6}}), StartsWith("flat"));
   EXPECT_THAT(reason({{0.5, 4, 6}, {2, 2, 6}}), StartsWith("inverted"));
   EXPECT_THAT(reason({{0, 1, 6}, {2, 5, 6}}), StartsWith("impossible"));
-  EXPECT_THAT(reason({{2, 5, 5}, {3, 5, 5}}, true), StartsWith("all alike"));
+  EXPECT_THAT(reason({{0, 0, 5}, {1, 3, 5}}), StartsWith("one intensity"));
+  EXPECT_THAT(reason({{0, 0, 5}, {2, 3, 5}}, true), StartsWith("one intensity"));
+  for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+    EXPECT_THAT(reason({{2, 5, 5}, {3, 5, 5}}, true, false, method), StartsWith("all alike"));
+    EXPECT_THAT(reason({{2, 0, 5}, {3, 0, 5}}, true, false, method), StartsWith("all alike"));
+    EXPECT_THAT(reason({{2, 5, 5}, {3, 5, 5}, {4, 5, 5}}, true, true, method),
+                StartsWith("all alike"));
+  }
   EXPECT_THAT(reason({{2, 3, 5}}, true), StartsWith("one intensity"));
   EXPECT_THAT(reason({{2, 0, 5}, {3, 2, 5}, {4, 5, 5}}, true), StartsWith("separated"));
-  EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, false, true), StartsWith("too few levels"));
-  EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, true, true), StartsWith("too few levels"));
+  EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, false, true), StartsWith("too few rows"));
+  EXPECT_THAT(reason({{0.5, 1, 5}, {2, 4, 5}}, true, true), StartsWith("too few rows"));
   EXPECT_THAT(reason({{0.5, 0, 5}, {2, 5, 5}}, false, false, kLeastSquares),
               StartsWith("separated"));
   EXPECT_THAT(reason({{0.5, 4, 6}, {2, 2, 6}}, true, false, kLeastSquares),
               StartsWith("inverted"));
+}
+
+TEST(PsychometricFit, WhatOnlyEqualsItsLimitIsNoOptimum) {
+  // Inverted: with a lapse near 0.5, every step does as well as any slope, to the last digit.
+  const PsychometricFit found =
+      fit({{1.1, 17, 30}, {1.5, 10, 18}}, 1.0, kLeastSquares, false, true);
+  EXPECT_EQ(found.status, FitStatus::kDegenerate) << *found.lapse_rate;
+}
+
+TEST(PsychometricFit, AShallowOptimumIsFoundAmongManySteps) {
+  // 1.1e-5 below the limits, which every start on the steps between the levels runs into.
+  const PsychometricFit found =
+      fit({{0.8, 0, 1}, {1.1, 2, 3}, {1.5, 0, 1}}, 1.0, kLeastSquares, true, true);
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  EXPECT_GT(*found.weber_fraction, 100.0);
+}
+
+TEST(PsychometricFit, ProportionsAllAlikeHaveNoRSquared) {
+  // Their mean is not the proportion itself, but for rounding.
+  const PsychometricFit found =
+      fit({{1.5, 7, 10}, {2.0, 7, 10}, {3.0, 7, 10}}, 1.0, kLeastSquares);
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  EXPECT_FALSE(found.r_squared.has_value()) << *found.r_squared;
 }
 
 TEST(PsychometricFit, AnAnswerRateThatHardlyRisesIsNotGivenAnInfiniteNumber) {

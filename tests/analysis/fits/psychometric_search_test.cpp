@@ -75,7 +75,7 @@ TEST(PsychometricSearch, NoCurveOfADenseGridIsBetterThanTheOptimumOrTheLimit) {
                    << how.free_pse << ", free lapse " << how.free_lapse);
       const PsychometricLevels levels = pooled_levels(data, 1.0, how.free_pse);
       const PsychometricSearch search(levels, how.method, how.free_pse, how.free_lapse);
-      const PsychometricSearchResult found = search.find(levels);
+      const PsychometricSearchResult found = search.find(levels, minimised_by_ceres);
       ASSERT_NE(found.supremum, PsychometricSupremum::kNotConverged);
       if (found.supremum == PsychometricSupremum::kUnidentified ||
           found.supremum == PsychometricSupremum::kImpossible) {

@@ -61,6 +61,24 @@ TEST(Comparison, SwappingTheColumnsOnlyTurnsTheSign) {
   EXPECT_DOUBLE_EQ(*pearson_correlation(a, b).estimate, *pearson_correlation(b, a).estimate);
 }
 
+TEST(Comparison, TheUnitOfTheValuesOnlyScalesTheEstimate) {
+  const std::vector<double> a = {0.7, 0.9, 0.4, 1.3, 0.8}, b = {0.2, 0.5, 0.6, 0.3, 0.1};
+  for (const auto test : {paired_t_test, welch_t_test, wilcoxon_test, pearson_correlation}) {
+    const Comparison plain = test(a, b);
+    for (const double factor : {1e-300, 1e-160, 1e160, 1e300}) {
+      std::vector<double> scaled_a = a, scaled_b = b;
+      for (double& value : scaled_a) value *= factor;
+      for (double& value : scaled_b) value *= factor;
+      const Comparison found = test(scaled_a, scaled_b);
+      ASSERT_EQ(found.status, FitStatus::kOk) << plain.method << factor << found.reason;
+      EXPECT_NEAR(*found.statistic, *plain.statistic, 1e-9) << plain.method << factor;
+      EXPECT_NEAR(*found.p_value, *plain.p_value, 1e-9) << plain.method << factor;
+      if (plain.kind == Comparison::Kind::kPearson) continue;
+      EXPECT_NEAR(*found.estimate / factor, *plain.estimate, 1e-9) << plain.method << factor;
+    }
+  }
+}
+
 TEST(Comparison, WelchAndPooledAgreeForGroupsOfOneSizeAndSpread) {
   const std::vector<double> a = {1, 2, 3, 4}, b = {5, 6, 7, 8};
   const Comparison welch = welch_t_test(a, b);

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "app/json_document.h"
 #include "support/program.h"
 
@@ -25,10 +29,42 @@ TEST(LoopCommand, PrintsTheKeysOfTheContract) {
   EXPECT_TRUE(json["memory_locked"].is_boolean());
 }
 
+TEST(LoopCommand, SaysWhatItWasGivenAndLosesNoSample) {
+  const ProgramOutcome outcome = run_program({"loop", "--seconds", "0.2", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  EXPECT_EQ(json["num_dropped_samples"], 0);
+  EXPECT_GE(json["num_page_faults"], 0);
+  ASSERT_FALSE(json["cpus"].empty());
+  EXPECT_GE(json["cpus"][0], 0);
+  EXPECT_EQ(json["priority"] == 80, json["scheduler"] == "SCHED_FIFO 80") << json;
+  EXPECT_TRUE(json["cpus_kept_awake"].is_boolean());
+  EXPECT_GT(json["cpu_time_ratio"], 0.0);
+  // It spins for a fifth of a period at most, and ticks in little more.
+  EXPECT_LT(json["cpu_time_ratio"], 0.5);
+}
+
+TEST(LoopCommand, APinnedLoopRunsOnItsCpuAlone) {
+  const auto anywhere = document(run_program({"loop", "--seconds", "0.05", "--json"}).out);
+  const int cpu = anywhere["cpus"].back();
+  const ProgramOutcome outcome =
+      run_program({"loop", "--seconds", "0.05", "--cpu", std::to_string(cpu), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(document(outcome.out)["cpus"], std::vector<int>{cpu});
+}
+
+TEST(LoopCommand, ACpuThatIsNotThereIsALackOfThisMachine) {
+  const ProgramOutcome outcome = run_program({"loop", "--seconds", "0.05", "--cpu", "1000"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("CPU 1000"), std::string::npos) << outcome.err;
+}
+
 TEST(LoopCommand, APersonReadsAVerdict) {
   const ProgramOutcome outcome = run_program({"loop", "--seconds", "0.05"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("lateness"), std::string::npos);
+  EXPECT_NE(outcome.out.find("0 samples lost"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("page faults"), std::string::npos) << outcome.out;
 }
 
 TEST(DevicesCommand, ListsTheSimulatedHand) {
@@ -51,7 +87,10 @@ TEST(DoctorCommand, SaysOfEveryLackWhatMendsIt) {
     EXPECT_EQ(check["remedy"].get<std::string>().empty(), check["ok"].get<bool>()) << check;
   }
   EXPECT_TRUE(names.contains("display"));
-  EXPECT_TRUE(names.contains("real-time priority"));
+  for (const char* name : {"real-time priority", "memory lock", "kernel", "timer resolution",
+                           "cpu governor", "idle states"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
   const ProgramOutcome plain = run_program({"doctor"});
   EXPECT_EQ(plain.exit_code, 0);
   EXPECT_NE(plain.out.find("lacks display"), std::string::npos) << plain.out;

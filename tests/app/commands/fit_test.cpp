@@ -125,13 +125,5 @@ TEST_F(FitCommandTest, BetweenRefusesWhatIsNoNumber) {
   }
 }
 
-TEST_F(FitCommandTest, ATableThatCannotBeReadIsWrongUsageAndNamesItsLines) {
-  table("bad.csv", "intensity,num_yes,num_trials\n5,x,20\n6,30,20\n");
-  const ProgramOutcome outcome = fit({"weber", "--csv", "bad.csv", "--reference", "8"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("bad.csv:2"), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-}
-
 }  // namespace
 }  // namespace jnd::app

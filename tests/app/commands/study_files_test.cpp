@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/json_document.h"
+#include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/program.h"
@@ -159,6 +160,65 @@ TEST_F(StudyFileCommandsTest, PlanFillsTheCellsThatAStudyFolderLacks) {
   for (const auto& cell : json["balance"]) completed += cell["num_completed"].get<int>();
   EXPECT_EQ(completed, 1);
   for (const auto& cell : json["balance"]) EXPECT_LE(cell["num_planned"], 1) << cell;
+}
+
+TEST_F(StudyFileCommandsTest, StimuliThatTheDeviceCannotRenderAreAProblemOfThePlan) {
+  write_file(file("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
+  const ProgramOutcome plain = jnd({"plan", "strong.json"});
+  EXPECT_EQ(plain.exit_code, 1);
+  EXPECT_NE(plain.out.find("TOO STRONG"), std::string::npos)
+      << "the plan is printed all the same";
+  EXPECT_EQ(sentence_flaw(plain.err, {"strong.json: expected", "`lumped`", "found 1 of"}), "");
+  const ProgramOutcome outcome = jnd({"plan", "strong.json", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const auto json = document(outcome.out);
+  EXPECT_EQ(json["problems"].size(), 1U);
+  int num_too_strong = 0;
+  for (const auto& entry : json["range"]) {
+    if (entry["fits"] == true) continue;
+    ++num_too_strong;
+    EXPECT_EQ(entry["stage"], "comparison");
+    EXPECT_EQ(entry["viscosity_pa_s"], 900.0);
+    EXPECT_LT(entry["fits_up_to_m_per_s"], json["limits"]["expected_speed_m_per_s"]);
+  }
+  EXPECT_EQ(num_too_strong, 1);
+  EXPECT_EQ(json["participants"].size(), 13U);
+  // The same stimulus fits a slower hand.
+  EXPECT_EQ(jnd({"plan", "strong.json", "--speed-m-per-s", "0.01"}).exit_code, 0);
+}
+
+TEST_F(StudyFileCommandsTest, WhatIsShippedFitsTheDevice) {
+  for (const char* name :
+       {"short_tour", "magnitude_of_virtual_water", "viscosity_discrimination"}) {
+    const ProgramOutcome outcome = jnd({"plan", name, "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(document(outcome.out)["problems"].empty());
+  }
+}
+
+TEST_F(StudyFileCommandsTest, TheOrdersOfADoubleBlindStudyAreRefusedUntilItIsUnblinded) {
+  write_file(file("blind.json"), replaced(kTinyStudy, "\"name\": \"tiny\"",
+                                          "\"name\": \"tiny\", \"blinding\": \"double\""));
+  ASSERT_EQ(
+      jnd({"simulate", "blind.json", "--participants", "1", "--study", "b.study"}).exit_code,
+      0);
+  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
+           {"plan", "blind.json"}, {"plan", "blind.json", "--study", "b.study"}}) {
+    const ProgramOutcome plain = jnd(words);
+    EXPECT_EQ(plain.exit_code, 1);
+    EXPECT_EQ(plain.out, "");
+    EXPECT_EQ(sentence_flaw(plain.err, {"blind.json", "double"}), "");
+    words.emplace_back("--json");
+    const ProgramOutcome outcome = jnd(words);
+    EXPECT_EQ(outcome.exit_code, 1);
+    const auto json = document(outcome.out);
+    EXPECT_EQ(keys(json), std::set<std::string>{"error"});
+    EXPECT_NE(json["error"].get<std::string>().find("double"), std::string::npos);
+  }
+  ASSERT_EQ(jnd({"unblind", "b.study", "--reason", "all data are in"}).exit_code, 0);
+  EXPECT_EQ(jnd({"plan", "blind.json", "--study", "b.study", "--json"}).exit_code, 0);
+  EXPECT_EQ(jnd({"plan", "blind.json", "--json"}).exit_code, 1)
+      << "says who, without the folder";
 }
 
 }  // namespace

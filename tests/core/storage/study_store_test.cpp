@@ -175,8 +175,8 @@ TEST_F(StudyStoreTest, KeepsAProtocolOnceUnderItsHash) {
   const auto store = with_session();
   const std::string hash = store->add_protocol("again.json", "{}");
   EXPECT_EQ(hash, store->sessions()[0].protocol_sha256);
-  EXPECT_EQ(store->protocol_text(hash), "{}");
-  EXPECT_THROW((void)store->protocol_text("0000"), Error);
+  EXPECT_EQ(store->protocol(hash).text, "{}");
+  EXPECT_THROW((void)store->protocol("0000"), Error);
 }
 
 TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/error.h"
 
 namespace jnd::experiments {
@@ -37,6 +39,15 @@ std::vector<EventData> one_of_each() {
           Continued{},
           FaultRaised{"what"},
           SessionResumed{"repeat", 5, 6},
+          LoopStarted{"SCHED_FIFO 80", true, {0, 1}, 7},
+          LoopMeasured{.num_ticks = 9,
+                       .missed_ticks = 1,
+                       .num_dropped_samples = 2,
+                       .max_lateness_ns = 2000,
+                       .max_tick_cost_ns = 300,
+                       .lateness = {{1024, 4}, {2048, 5}},
+                       .tick_cost = {{512, 9}}},
+          Unblinded{"why"},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }
@@ -65,6 +76,20 @@ TEST(Event, EveryKindComesBackFromItsRowAsItWas) {
   }
 }
 
+TEST(Event, OneOfANewerProgramIsRefusedAndNotGuessedAt) {
+  core::EventRow row = row_from_event(3, {.sequence = 9, .data = NoteAdded{"a"}});
+  EXPECT_NO_THROW((void)event_from_row(row));
+  row.version = 2;
+  try {
+    (void)event_from_row(row);
+    FAIL() << "read";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("session 3, event 9: expected"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("newer jnd"), std::string::npos);
+  }
+}
+
 TEST(Event, StoresAnAnswerUnderReadableWords) {
   const core::EventRow row =
       row_from_event(1, {.sequence = 1, .data = TrialAnswered{4, 2, 120, 2.5, 41}});
@@ -72,6 +97,63 @@ TEST(Event, StoresAnAnswerUnderReadableWords) {
   EXPECT_EQ(row.trial, 4);
   EXPECT_EQ(row.last_tick, 41);
   EXPECT_EQ(row.data, R"({"response":120.0,"response_time_s":2.5})");
+}
+
+std::string refusal(core::EventRow row) {
+  try {
+    (void)event_from_row(row);
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(Event, TakesNoNumberThatItCouldNotHold) {
+  core::EventRow row = row_from_event(
+      3, {.sequence = 8, .data = PresentationStarted{4, 2, 3, "reference", 1.853, 31}});
+  row.data = R"({"presentation": 1e300, "interval": "test"})";
+  EXPECT_EQ(
+      refusal(row),
+      "session 3, event 8: expected the data of presentation_started, found: presentation: "
+      "expected a whole number up to 9007199254740992, found 1e+300");
+  for (const char* number : {"1.5", "true", "18446744073709551615", "-9223372036854775808"}) {
+    row.data = std::string(R"({"interval": "test", "presentation": )") + number + '}';
+    EXPECT_NE(refusal(row).find("expected a whole number"), std::string::npos) << number;
+  }
+  row = row_from_event(3, {.sequence = 8, .data = TrialsDrawn{2, 4, {{.repetition = 2}}}});
+  row.data.replace(row.data.find("\"repetition\":2") + 13, 1, "4294967298");
+  EXPECT_NE(refusal(row).find("repetition: expected a whole number up to 2147483647"),
+            std::string::npos)
+      << refusal(row);
+  row.data = R"({"trials": {}})";
+  EXPECT_NE(refusal(row).find("trials: expected a list, found object"), std::string::npos);
+}
+
+TEST(Event, TakesNoColumnThatTheFoldCouldNotCount) {
+  core::EventRow row = row_from_event(3, {.sequence = 8, .data = StageFinished{1}});
+  row.stage = std::numeric_limits<std::int64_t>::max();
+  EXPECT_NE(refusal(row).find("stage: expected a number up to 2^53 in this column"),
+            std::string::npos);
+  row.stage.reset();
+  EXPECT_NE(refusal(row).find("stage: expected a number up to 2^53 in this column, found none"),
+            std::string::npos);
+  row = row_from_event(3, {.sequence = 8, .data = MediumExplored{2, "viscous", 16.0, 10, 20}});
+  row.intensity = std::numeric_limits<double>::infinity();
+  EXPECT_NE(
+      refusal(row).find("intensity: expected a number up to 2^53 in this column, found inf"),
+      std::string::npos);
+}
+
+TEST(Event, TellsOfDamagedRowsInAShortSentence) {
+  core::EventRow row = row_from_event(3, {.sequence = 8, .data = NoteAdded{"x"}});
+  row.data = std::string(1000000, '\xFF');
+  EXPECT_LT(refusal(row).size(), 300u);
+  EXPECT_NE(refusal(row).find("found `\\xFF\\xFF"), std::string::npos) << refusal(row);
+  row.data = std::string("{\"text\":\"x\"}\0junk", 17);
+  EXPECT_NE(refusal(row).find("as a JSON object, found"), std::string::npos);
+  row.kind = std::string(1000000, '\x1B');
+  EXPECT_LT(refusal(row).size(), 300u);
+  EXPECT_EQ(refusal(row).find('\x1B'), std::string::npos);
 }
 
 TEST(Event, NamesTheEventWhoseDataAreDamaged) {

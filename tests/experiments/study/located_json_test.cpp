@@ -95,6 +95,44 @@ TEST(LocatedJson, RefusesBytesThatAreNotUtf8) {
             "x:1:10: /a: expected UTF-8, found a byte that is not; save the file as UTF-8");
 }
 
+TEST(LocatedJson, RefusesBytesThatAreNotUtf8OutsideOfTextsToo) {
+  EXPECT_EQ(problems_in("\xFF\xFE{\x01"),
+            "x:1:1: /: expected UTF-8, found a byte that is not; save the file as UTF-8")
+      << "as in UTF-16";
+  EXPECT_EQ(problems_in("[a\x80\x1B[2J]"),
+            "x:1:2: /0: expected a value or a text in double quotes, found `a\\x80\\u001B`");
+}
+
+TEST(LocatedJson, LooksBehindAZeroByte) {
+  EXPECT_EQ(problems_in(std::string("{\"a\": 1}\n\0 junk", 15)),
+            "x:2:1: /: expected text, found a zero byte; save the file as UTF-8");
+}
+
+TEST(LocatedJson, TakesNoWordsOfTheFileForThoseOfTheParser) {
+  EXPECT_EQ(problems_in("{\"unexpected a; expected b ill-formed UTF-8\x01\": 1}"),
+            "x:1:44: /: expected a text in quotes that is whole, found an error in it: control "
+            "character U+0001 (SOH) must be escaped to \\u0001");
+}
+
+TEST(LocatedJson, TakesMemoryInProportionToTheText) {
+  // A pointer for every value would be 2^40 bytes.
+  std::string text = "{\"" + std::string(1 << 20, 'k') + "\": [0";
+  for (int i = 1; i < 1 << 20; ++i) text += ",0";
+  std::vector<StudyProblem> problems;
+  const LocatedJson file(text + ", 1]}", "x", problems);
+  ASSERT_TRUE(file.usable());
+  EXPECT_EQ(file.value_position("/" + std::string(1 << 20, 'k') + "/1048576").column, 3145736);
+}
+
+TEST(LocatedJson, PointsAtTheSecondOfTwoEqualKeysWhoseValueCounts) {
+  std::vector<StudyProblem> problems;
+  const LocatedJson file("{\"a\": 1,\n\"b\": [{\"a\": 2, \"a\": 3}]}", "x", problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/b/0/a");
+  EXPECT_EQ(problems[0].column, 16);
+  EXPECT_EQ(file.value_position("/b/0/a").column, 21);
+}
+
 TEST(LocatedJson, TakesTheMarkThatSomeEditorsPutInFront) {
   std::vector<StudyProblem> problems;
   const LocatedJson file("\xEF\xBB\xBF{\"a\": 1}", "x", problems);

@@ -25,7 +25,8 @@ TEST(StructureCheck, ReportsEveryProblemOfAFileInTheOrderOfItsLines) {
   text = broken("\"duration_s\": 180", "\"duration_s\": -1", text);
   EXPECT_EQ(problems_of(text),
             "x.json:2:13: /format: expected 1, found 2\n"
-            "x.json:3:11: /name: expected a name of lower-case letters, digits and _, found "
+            "x.json:3:11: /name: expected a name of at most 64 lower-case letters, digits and "
+            "_, found "
             "the text \"Sound!\"\n"
             "x.json:31:71: /stages/2/between/0/duration_s: expected a number >= 0 and <= 7200 "
             "(s), found -1");

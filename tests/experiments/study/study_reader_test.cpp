@@ -131,6 +131,47 @@ TEST(StudyReader, TellsOfAFileThatCannotBeRead) {
   EXPECT_THROW(static_cast<void>(read_study("/no/such/study.json")), ProtocolError);
 }
 
+TEST(StudyReader, KeepsEveryMessageShortWhateverTheFileHolds) {
+  const std::string words(1000000, 'w');
+  const std::string controls = "\\u001b[2J\\u0000\\u009b" + words;
+  for (const std::string& junk : {words, controls}) {
+    const std::string text = '"' + junk + '"';
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"\"format\": 1", "\"format\": " + text},
+             {"\"format\": 1", text + ": 1"},
+             {"\"sound\"", text},
+             {"\"en\", \"de\"", text},
+             {"{\"en\": \"Sound\", \"de\": \"Heil\"}", text},
+             {"\"en\": \"Sound\"", text + ": 1"},
+             {"\"none\"", text},
+             {"\"water\"", text},
+             {"\"kind\": \"break\"", "\"kind\": " + text},
+             {"\"primed\"}", text + '}'},
+             {"{\"priming\":", '{' + text + ':'},
+             {"\"name\": \"unprimed\"", "\"name\": " + text},
+             {"[10.5, 20]", text}}) {
+      const auto problems = study_text_problems(broken(from, to), "x.json");
+      EXPECT_FALSE(problems.empty()) << from;
+      for (const StudyProblem& problem : problems) {
+        const std::string line = to_string(problem);
+        EXPECT_LT(problem.message.size(), 300u) << problem.message.substr(0, 400);
+        EXPECT_LT(line.size(), 600u) << from;
+        EXPECT_EQ(line.find_first_of(std::string("\0\x1B\n\xC2", 4)), line.npos) << line;
+      }
+    }
+  }
+}
+
+TEST(StudyReader, TellsAThousandProblemsAndThatThereAreMore) {
+  std::string keys;
+  for (int i = 0; i < 5000; ++i) keys += "\"nonsense_" + std::to_string(i) + "\": 0,\n";
+  const auto problems =
+      study_text_problems(broken("\"format\": 1", keys + "\"format\": 1"), "x.json");
+  ASSERT_EQ(problems.size(), 1001u);
+  EXPECT_EQ(problems.back().message,
+            "expected no more than 1000 problems, found more; mend these first");
+}
+
 TEST(StudyReader, NeverCrashesOnATextCutShort) {
   for (std::size_t length = 0; length < kSoundStudy.size(); ++length) {
     EXPECT_FALSE(study_text_problems(kSoundStudy.substr(0, length), "x").empty()) << length;

@@ -107,6 +107,17 @@ TEST(StudyRules, WantOnlyForToNameAnArmThatExists) {
             "`one_of` counterbalance, found `group_order`");
 }
 
+TEST(StudyRules, RefuseMoreTrialsThanAnyoneCanDo) {
+  std::string scales = "[0";
+  for (int i = 1; i < 51; ++i) scales += ", " + std::to_string(i);
+  const std::string text =
+      broken("[0, 1, 2], \"repetitions\": 3", scales + "], \"repetitions\": 1000");
+  EXPECT_EQ(problems_of(text),
+            "x.json:8:13: /stages: expected at most 50000 trials in all blocks together, found "
+            "51014");
+  EXPECT_EQ(problems_of(broken("1000", "900", text)), "");
+}
+
 TEST(StudyRules, RefuseMoreCellsThanAnyoneCanFill) {
   std::string many = "\"stages\": [";
   for (int i = 0; i < 6; ++i) {

@@ -1,5 +1,7 @@
 -- Layout 1 of study.sqlite. Append only: a later event supersedes an earlier one, and triggers
 -- refuse to change or delete a row. Column names are the words of the program and of the exports.
+-- Files of this folder are carried out in the order of their numbers, each once, and never changed
+-- after a release: what comes later is a file of its own.
 
 CREATE TABLE study_format (version INTEGER NOT NULL, created_by TEXT NOT NULL);
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "analysis/fits/power_fit.h"
+
+namespace jnd::analysis {
+
+/// The least-squares power law through magnitudes, S = exp(log_k) I^a.
+struct PowerMinimum {
+  FitStatus status = FitStatus::kDegenerate;
+  std::string_view reason;  ///< Static; "" at kOk.
+  double log_k = 0.0, a = 0.0;
+  double largest = 0.0;         ///< Largest |magnitude|, so that no square overflows.
+  double sum_of_squares = 0.0;  ///< Of the residuals over `largest`.
+};
+
+/// The global minimum. For each exponent the best k is known; where the sum of squares that is
+/// left turns from falling to rising on a grid of exponents, the solver goes downhill.
+[[nodiscard]] PowerMinimum power_minimum(const std::vector<Magnitude>& data, Solver solver);
+
+}  // namespace jnd::analysis

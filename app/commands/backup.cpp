@@ -1,0 +1,79 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/json_text.h"
+#include "app/progress_bar.h"
+#include "core/clock.h"
+#include "core/storage/backup.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string target;
+  bool json = false;
+};
+
+core::BackupReport backed_up(const Options& options) {
+  ProgressBar bar("backup");
+  return core::back_up(options.folder, options.target, core::SystemClock().now_ns(),
+                       [&](double done) { bar.show(done); });
+}
+
+int run(const Options& options) {
+  const core::BackupReport report = backed_up(options);
+  std::vector<std::string> problems;
+  for (const core::Finding& finding : report.integrity.problems) {
+    problems.push_back((finding.session == 0
+                            ? std::string()
+                            : "session " + std::to_string(finding.session) + ": ") +
+                       finding.message);
+  }
+  if (options.json) {
+    const nlohmann::json document = {{"complete", report.integrity.complete},
+                                     {"problems", problems},
+                                     {"remarks", report.remarks},
+                                     {"num_sessions", report.integrity.num_sessions},
+                                     {"num_events", report.integrity.num_events},
+                                     {"num_samples", report.integrity.num_samples},
+                                     {"num_chunks", report.num_chunks},
+                                     {"num_chunks_copied", report.num_chunks_copied}};
+    std::puts(json_text(document).c_str());
+  } else {
+    std::printf(
+        "%s: %lld sessions, %lld events, %lld of %lld recorded chunks new, read back: %s\n",
+        options.target.c_str(), static_cast<long long>(report.integrity.num_sessions),
+        static_cast<long long>(report.integrity.num_events),
+        static_cast<long long>(report.num_chunks_copied),
+        static_cast<long long>(report.num_chunks),
+        report.integrity.complete ? "complete" : "NOT complete");
+    for (const std::string& problem : problems) std::printf("  problem: %s\n", problem.c_str());
+    for (const std::string& remark : report.remarks) {
+      std::printf("  remark: %s\n", remark.c_str());
+    }
+  }
+  return report.integrity.complete ? kDone : kHasProblems;
+}
+
+}  // namespace
+
+void add_backup(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "backup", "Copies a study, also while a session runs; again, copies what is new");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--to", options->target,
+                   "Folder of the copy: new, empty, or an earlier backup of this study")
+      ->required();
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,95 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/reopened_session.h"
+#include "core/error.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::vector<std::int64_t> trials;
+  std::string reason;
+  std::string participant;
+  std::optional<std::int64_t> session;
+  bool include = false;
+};
+
+/// The one session that is meant: trials are counted within a session.
+core::SessionRow session_meant(const core::StudyStore& store, const Options& options) {
+  std::vector<core::SessionRow> meant;
+  for (const core::SessionRow& row : store.sessions()) {
+    if (options.session && row.session != *options.session) continue;
+    if (!options.participant.empty() && row.participant != options.participant) continue;
+    meant.push_back(row);
+  }
+  if (meant.size() == 1) return meant.front();
+  if (!meant.empty()) {
+    throw UsageError(
+        "--trial: expected --participant or --session to say whose trials, found " +
+        std::to_string(meant.size()) + " sessions in " + options.folder);
+  }
+  throw core::Error(
+      options.folder + ": expected " +
+      (options.session ? "session " + std::to_string(*options.session) : "a session") +
+      (options.participant.empty() ? "" : " of " + options.participant) + ", found none");
+}
+
+/// All of them can be, before the first one is.
+void require_trials(const experiments::SessionState& state, const Options& options) {
+  const auto num_trials = static_cast<std::int64_t>(state.trials.size());
+  for (const std::int64_t trial : options.trials) {
+    if (trial >= 1 && trial <= num_trials) continue;
+    throw core::Error("--trial " + std::to_string(trial) + ": expected one of the session's " +
+                      std::to_string(num_trials) + " trials, found none of that number");
+  }
+}
+
+int run(const Options& options) {
+  if (options.reason.empty()) {
+    throw UsageError("--reason: expected why, for those who read the data, found nothing");
+  }
+  core::StudyStore store(options.folder, core::StudyStore::Mode::kReadWrite);
+  const core::SessionRow row = session_meant(store, options);
+  ReopenedSession reopened(store, row);
+  experiments::Session& session = reopened.session();
+  require_trials(session.state(), options);
+  for (const std::int64_t trial : options.trials) {
+    const bool already = session.state().trial(trial).excluded != options.include;
+    if (!already && options.include) session.include(trial, options.reason);
+    if (!already && !options.include) session.exclude(trial, options.reason);
+    std::printf("%s, session %lld, trial %lld: %s%s\n", row.participant.c_str(),
+                static_cast<long long>(row.session), static_cast<long long>(trial),
+                options.include ? "included" : "excluded", already ? " already" : "");
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_exclude(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "exclude", "Leaves trials out of results, with a reason; nothing is deleted");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--trial", options->trials,
+                   "Numbers of trials in the session, as in trials.csv, with spaces between")
+      ->required();
+  command->add_option("--reason", options->reason, "Why; kept with the data")->required();
+  command->add_option("--participant", options->participant, "Whose trials");
+  command->add_option("--session", options->session, "Which session's trials");
+  command->add_flag("--include", options->include, "Take an exclusion back");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

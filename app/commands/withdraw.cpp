@@ -1,0 +1,81 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "app/json_text.h"
+#include "core/clock.h"
+#include "core/storage/withdrawal.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string participant;
+  bool yes = false;
+  bool json = false;
+};
+
+/// On a terminal the pseudonym is asked for again: there is no way back.
+bool confirmed(const Options& options) {
+  if (options.yes || ::isatty(STDIN_FILENO) == 0) return true;
+  std::fprintf(stderr,
+               "This deletes every answer and every sample of %s, here and in the backups that "
+               "%s knows of, for good.\nType the pseudonym again to go on: ",
+               options.participant.c_str(), options.folder.c_str());
+  std::string typed;
+  std::getline(std::cin, typed);
+  return typed == options.participant;
+}
+
+int run(const Options& options) {
+  if (!confirmed(options)) {
+    throw UsageError("withdraw: expected the pseudonym " + options.participant +
+                     " to be typed again, found something else; nothing was deleted");
+  }
+  const core::WithdrawalReport report =
+      core::withdraw(options.folder, options.participant, core::SystemClock().now_ns());
+  if (options.json) {
+    std::vector<std::string> backups;
+    for (const auto& backup : report.backups) backups.push_back(backup.string());
+    const nlohmann::json document = {{"participant", options.participant},
+                                     {"sessions", report.sessions},
+                                     {"backups", backups},
+                                     {"remaining", report.remaining}};
+    std::puts(json_text(document).c_str());
+  } else {
+    std::printf("%s: %s withdrew; %zu sessions deleted here and in %zu backups\n",
+                options.folder.c_str(), options.participant.c_str(), report.sessions.size(),
+                report.backups.size());
+    for (const std::string& remaining : report.remaining) {
+      std::printf("  not reached: %s\n", remaining.c_str());
+    }
+  }
+  if (report.remaining.empty()) return kDone;
+  std::fprintf(stderr, "jnd: a backup could not be reached; attach it and run this again\n");
+  return kHasProblems;
+}
+
+}  // namespace
+
+void add_withdraw(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "withdraw", "Deletes a participant for good, also from known backups");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--participant", options->participant, "Pseudonym, for example P01")
+      ->required();
+  command->add_flag("--yes", options->yes, "Do not ask again on a terminal");
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

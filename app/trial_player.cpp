@@ -1,0 +1,229 @@
+#include "app/trial_player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/random_stream.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/session/stimulus.h"
+
+namespace jnd::app {
+
+using namespace experiments;
+
+void stop_if_cancelled(const LaboratoryRun& run) {
+  if (run.is_cancelled && run.is_cancelled()) throw Cancelled{};
+}
+
+/// In real time, ends early when the run is asked to stop.
+void TrialPlayer::wait(double duration_s) {
+  if (!run_.realtime) return apparatus_.run_for(duration_s);
+  constexpr double kGlanceS = 0.020;
+  for (double waited_s = 0.0; waited_s < duration_s; waited_s += kGlanceS) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(std::min(kGlanceS, duration_s - waited_s));
+  }
+}
+
+void TrialPlayer::explore(const Exploration& exploration) {
+  stop_if_cancelled(run_);
+  const std::int64_t first_tick = apparatus_.next_tick();
+  apparatus_.render(amounts_of(exploration.setting));
+  StrokeIntent intent = participant_.strokes("");
+  if (exploration.setting.medium == "solid") intent.height_m = -0.005;
+  apparatus_.begin_strokes(plan_of(intent),
+                           stroke_stream(session_.state().last_sequence, 0, 0));
+  wait(exploration.duration_s);
+  session_.explored(exploration.setting.medium, exploration.setting.intensity, first_tick,
+                    apparatus_.next_tick() - 1);
+}
+
+/// Free space, hand at rest at home.
+void TrialPlayer::rest(double duration_s) {
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  wait(std::max(duration_s, 2.0 * run_.laboratory.arm.home_s));
+}
+
+device::StrokePlan TrialPlayer::plan_of(const StrokeIntent& intent) const {
+  const Laboratory::Movement& habit = run_.laboratory.movement;
+  return {.amplitude_m = intent.amplitude_m,
+          .max_speed_m_per_s = intent.max_speed_m_per_s,
+          .height_m = intent.height_m,
+          .lift_m = habit.lift_m,
+          .amplitude_sd_ratio = habit.stroke_amplitude_sd_ratio,
+          .speed_sd_ratio = habit.stroke_speed_sd_ratio,
+          .height_sd_m = habit.stroke_height_sd_m};
+}
+
+core::RandomStream TrialPlayer::stroke_stream(std::int64_t trial, std::int64_t attempt,
+                                              std::int64_t presentation) const {
+  return {session_.seed(), "stroke", {trial, attempt, presentation}};
+}
+
+/// Until the strokes are done and the hand has visibly turned, or far too much time is over.
+void TrialPlayer::run_strokes(const StrokeIntent& intent) {
+  constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
+  const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
+  double elapsed_s = 0.0;
+  while (apparatus_.strokes_finished() < intent.num_strokes && elapsed_s < limit_s) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(kGlanceS);
+    elapsed_s += kGlanceS;
+  }
+  apparatus_.run_for(0.2 + 0.1 * intent.period_s);
+}
+
+TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
+  const std::int64_t number = *session_.state().current_trial();
+  session_.begin_presentation(interval, apparatus_.next_tick());
+  const TrialState& trial = session_.state().trial(number);
+  const core::MediumAmounts amounts =
+      amounts_of(interval == "free_space" ? "free_space" : block.medium,
+                 trial.presentations.back().intensity);
+  const StrokeIntent intent = participant_.strokes(block.procedure);
+  const std::int64_t limited_before =
+      static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
+  apparatus_.render(amounts);
+  apparatus_.begin_strokes(
+      plan_of(intent), stroke_stream(number, trial.attempt,
+                                     static_cast<std::int64_t>(trial.presentations.size())));
+  apparatus_.run_for(run_.study.device.ramp_s);  // Felt is what comes after the ramp.
+  const core::ContactSums before = apparatus_.telemetry().contact_sums;
+  apparatus_.meter_strokes();
+  run_strokes(intent);
+  const core::ContactSums sums = apparatus_.telemetry().contact_sums - before;
+  const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
+
+  PresentationSummary summary;
+  summary.stroke_width_m = strokes.stroke_width_m;
+  summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
+  summary.mean_height_m = strokes.mean_height_m;
+  summary.num_strokes = strokes.num_strokes;
+  summary.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
+  if (amounts.quadratic_kg_per_m == 0.0) {
+    summary.commanded_damping_n_s_per_m = amounts.damping_n_s_per_m;
+  }
+  summary.limited_ticks =
+      static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks) - limited_before;
+  // What was delivered and the device's own viscosity; dry friction is felt as something
+  // else.
+  const std::int64_t last_tick = apparatus_.next_tick() - 1;
+  const Felt felt{
+      .damping_n_s_per_m = sums.delivered_damping_n_s_per_m() +
+                           run_.laboratory.device.mechanical_viscosity_n_s_per_m,
+      .last_tick = last_tick,
+      .duration_s =
+          static_cast<double>(last_tick -
+                              session_.state().trial(number).presentations.back().first_tick) /
+          run_.study.device.rate_hz};
+  session_.end_presentation(felt.last_tick, summary);
+  return felt;
+}
+
+Moment TrialPlayer::moment(const Block& block) const {
+  const std::int64_t number = *session_.state().current_trial();
+  const TrialState& trial = session_.state().trial(number);
+  const auto per_repetition = static_cast<std::int64_t>(block.intensities.size());
+  return {.trial = number,
+          .attempt = trial.attempt,
+          .presentation = static_cast<std::int64_t>(trial.presentations.size()),
+          .trial_in_block =
+              (trial.planned.repetition - 1) * per_repetition + trial.planned.position};
+}
+
+double TrialPlayer::read(const Felt& felt, const Block& block) const {
+  return participant_.perceiver().reading_ln(felt.damping_n_s_per_m, moment(block));
+}
+
+void TrialPlayer::run_trial(const Block& block) {
+  stop_if_cancelled(run_);
+  const std::int64_t trial = *session_.state().current_trial();
+  rest(block.free_space_between_s);
+  session_.start_trial(apparatus_.next_tick());
+  const TrialForm form = procedure_named(block.procedure).form();
+  if (form.adjustable) return produce(block, trial);
+  if (form.answer == AnswerKind::kYesNo) return compare(block);
+  estimate(block, trial);
+}
+
+void TrialPlayer::estimate(const Block& block, std::int64_t trial) {
+  double sum_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    felt = present(block, "test");
+    sum_ln += read(felt, block);
+    ++looks;
+  } while (participant_.perceiver().looks_again(moment(block)));
+  std::optional<double> previous;
+  if (trial > 1) {
+    const TrialState& before = session_.state().trial(trial - 1);
+    if (before.stage == session_.state().stage) previous = before.response;
+  }
+  session_.answer(
+      participant_.perceiver().estimate_percent(sum_ln / looks, moment(block), previous),
+      felt.duration_s, felt.last_tick);
+}
+
+void TrialPlayer::compare(const Block& block) {
+  double reference_ln = 0.0;
+  double test_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    felt = present(block, "reference");
+    reference_ln += read(felt, block);
+    felt = present(block, "test");
+    test_ln += read(felt, block);
+    ++looks;
+  } while (participant_.perceiver().looks_again(moment(block)));
+  const bool thicker = participant_.perceiver().says_thicker(
+      test_ln / looks, reference_ln / looks, moment(block));
+  session_.answer(thicker ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+}
+
+void TrialPlayer::produce(const Block& block, std::int64_t trial) {
+  constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
+  const double target_percent = session_.state().trial(trial).planned.target_percent.value();
+  // What is felt now, with the noise of all looks at this trial averaged: who steps on and on
+  // knows better where they are than who felt it once.
+  double noise_ln = 0.0;
+  int looks = 0;
+  double duration_s = 0.0;
+  Felt felt;
+  const auto look = [&] {
+    felt = present(block, "test");
+    duration_s += felt.duration_s;
+    const double felt_ln = std::log(std::max(felt.damping_n_s_per_m, 1e-6));
+    noise_ln += read(felt, block) - felt_ln;
+    ++looks;
+    return felt_ln + noise_ln / looks;
+  };
+  double reading_ln = look();
+  const double first_ln = reading_ln;
+  using Wish = Perceiver::Wish;
+  Wish last_wish = Wish::kMatches;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Wish wish =
+        participant_.perceiver().wish(reading_ln, first_ln, target_percent, moment(block));
+    if (wish == Wish::kMatches) break;
+    // Back and forth over the target by the smallest step: it does not get closer than this.
+    if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
+        (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
+      break;
+    }
+    last_wish = wish;
+    const bool raise = wish == Wish::kRaiseFine || wish == Wish::kRaiseCoarse;
+    const bool coarse = wish == Wish::kRaiseCoarse || wish == Wish::kLowerCoarse;
+    if (!session_.adjust(raise ? Direction::kRaise : Direction::kLower,
+                         coarse ? StepSize::kCoarse : StepSize::kFine)) {
+      break;
+    }
+    reading_ln = look();
+  }
+  session_.answer(0.0, duration_s, felt.last_tick);
+}
+
+}  // namespace jnd::app

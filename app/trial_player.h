@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+
+#include "app/apparatus.h"
+#include "app/laboratory_run.h"
+#include "experiments/participants/simulated_participant.h"
+#include "experiments/session/session.h"
+
+namespace jnd::app {
+
+/// Thrown out of the middle of a session that was asked to stop.
+struct Cancelled {};
+
+/// Throws `Cancelled` if the run was asked to stop.
+void stop_if_cancelled(const LaboratoryRun& run);
+
+/// Plays a simulated participant at the apparatus: explores media, and runs trials of every
+/// procedure, each presentation in closed loop and every act an event of the session. Throws
+/// `Cancelled` within 20 ms of apparatus time, also in the middle of a presentation. Not real
+/// time.
+class TrialPlayer {
+ public:
+  /// The references must outlive the player.
+  TrialPlayer(const LaboratoryRun& run, Apparatus& apparatus, experiments::Session& session,
+              const experiments::SimulatedParticipant& participant)
+      : run_(run), apparatus_(apparatus), session_(session), participant_(participant) {}
+
+  /// A medium outside of any trial.
+  void explore(const experiments::Exploration& exploration);
+  /// The session's current trial, to its answer.
+  void run_trial(const experiments::Block& block);
+
+ private:
+  struct Felt {
+    double damping_n_s_per_m = 0.0;
+    std::int64_t last_tick = 0;
+    double duration_s = 0.0;
+  };
+
+  void wait(double duration_s);
+  void rest(double duration_s);
+  [[nodiscard]] device::StrokePlan plan_of(const experiments::StrokeIntent& intent) const;
+  [[nodiscard]] core::RandomStream stroke_stream(std::int64_t trial, std::int64_t attempt,
+                                                 std::int64_t presentation) const;
+  void run_strokes(const experiments::StrokeIntent& intent);
+  Felt present(const experiments::Block& block, const std::string& interval);
+  [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
+  [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;
+  void estimate(const experiments::Block& block, std::int64_t trial);
+  void compare(const experiments::Block& block);
+  void produce(const experiments::Block& block, std::int64_t trial);
+
+  const LaboratoryRun& run_;
+  Apparatus& apparatus_;
+  experiments::Session& session_;
+  const experiments::SimulatedParticipant& participant_;
+};
+
+}  // namespace jnd::app

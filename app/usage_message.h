@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace jnd::app {
+
+/// What is wrong with a command line that CLI11 refused, as one sentence of ours: which word of
+/// which subcommand, what was expected there, what was found, and what to do.
+[[nodiscard]] std::string usage_message(const CLI::App& program, const CLI::ParseError& error);
+
+/// The text with control characters shown as `?`, for a message that has to stay one line.
+[[nodiscard]] std::string one_line(std::string text);
+
+}  // namespace jnd::app

@@ -1,0 +1,161 @@
+#include "core/storage/backup.h"
+
+#include <set>
+#include <utility>
+
+#include "core/storage/database.h"
+#include "core/storage/files.h"
+#include "core/storage/study_format.h"
+#include "core/storage/study_store.h"
+#include "core/storage/writer_lock.h"
+
+namespace jnd::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Durability kDurable = Durability::kEveryCommit;
+
+/// An older study gets its identity before it is copied for the first time.
+void bring_study_up_to_date(const fs::path& folder) {
+  const fs::path file = folder / "study.sqlite";
+  if (!fs::exists(file)) {
+    throw Error(folder.string() +
+                ": expected a study folder of jnd, found no study.sqlite in it");
+  }
+  bool outdated = false;
+  {
+    Database database(file, Database::Mode::kReadOnly, kDurable);
+    outdated = study_format_of(database) < current_study_format();
+  }
+  if (outdated) const StudyStore brought(folder, StudyStore::Mode::kReadWrite);
+}
+
+/// Nothing that is there already, but an earlier copy of the same study, is written to.
+void require_own_target(const fs::path& folder, const fs::path& target,
+                        const std::string& study_id) {
+  if (!fs::exists(target)) return;
+  const std::string place =
+      target.string() + ": expected an empty folder or an earlier backup ";
+  if (fs::exists(folder) && fs::equivalent(folder, target)) {
+    throw Error(place + "of the study, found the study itself; choose another folder");
+  }
+  if (!fs::is_directory(target)) throw Error(place + "of the study, found no folder");
+  if (fs::exists(target / "study.sqlite")) {
+    Database database(target / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+    if (is_empty(database)) return;
+    if (StudyStore(target, StudyStore::Mode::kReadOnly).study_id() == study_id) return;
+    throw Error(place + "of this study, found another study; choose another folder");
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
+    // What a backup that was interrupted before its first page leaves.
+    const fs::path name = entry.path().filename();
+    if (name != "recordings" && name != "writer.lock") {
+      throw Error(place + "of the study, found other files in it; choose another folder");
+    }
+  }
+}
+
+/// A study on a read-only disk can be copied all the same.
+void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
+                   BackupReport& report) try {
+  Database study(folder / "study.sqlite", Database::Mode::kReadWrite, kDurable);
+  Statement(study, "INSERT INTO backup (folder, time_ns) VALUES (?, ?)")
+      .bind(fs::absolute(target).lexically_normal().string())
+      .bind(time_ns)
+      .run();
+} catch (const Error& error) {
+  report.remarks.push_back(
+      "the study does not know of this backup, so a withdrawal will not "
+      "reach it: " +
+      std::string(error.what()));
+}
+
+void copy_study(const fs::path& folder, const fs::path& target) {
+  const fs::path file = target / "study.sqlite";
+  const Database from(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+  Database to(file, fs::exists(file) ? Database::Mode::kReadWrite : Database::Mode::kCreate,
+              kDurable);
+  from.copy_to(to);
+  to.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+using ChunkKey = std::pair<std::int64_t, std::int64_t>;  // Segment and first tick.
+
+std::set<ChunkKey> chunk_keys(Database& recording) {
+  Statement rows(recording, "SELECT segment, first_tick FROM chunk");
+  std::set<ChunkKey> keys;
+  while (rows.step()) keys.emplace(rows.integer(0), rows.integer(1));
+  return keys;
+}
+
+void copy_chunk(Database& from, Database& to, const ChunkKey& key) {
+  Statement row(
+      from, "SELECT num_samples, sha256, data FROM chunk WHERE segment = ? AND first_tick = ?");
+  if (!row.bind(key.first).bind(key.second).step()) return;
+  Statement(to, "INSERT INTO chunk VALUES (?, ?, ?, ?, ?)")
+      .bind(key.first)
+      .bind(key.second)
+      .bind(row.integer(0))
+      .bind(row.text(1))
+      .bind_bytes(row.bytes(2))
+      .run();
+}
+
+/// Chunks are never changed, so those that the copy has stay as they are.
+void copy_recording(const fs::path& source, const fs::path& target, BackupReport& report) {
+  Database from(source, Database::Mode::kReadOnly, kDurable);
+  if (is_empty(from)) return;
+  Database to(target, fs::exists(target) ? Database::Mode::kReadWrite : Database::Mode::kCreate,
+              kDurable);
+  const bool is_new = is_empty(to);
+  const std::set<ChunkKey> known = is_new ? std::set<ChunkKey>() : chunk_keys(to);
+  if (is_new) {
+    from.copy_to(to);
+    report.num_chunks_copied += static_cast<std::int64_t>(chunk_keys(to).size());
+  } else {
+    Transaction transaction(to);
+    for (const ChunkKey& key : chunk_keys(from)) {
+      if (known.contains(key)) continue;
+      copy_chunk(from, to, key);
+      ++report.num_chunks_copied;
+    }
+    transaction.commit();
+  }
+  to.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  report.num_chunks += static_cast<std::int64_t>(chunk_keys(to).size());
+}
+
+}  // namespace
+
+BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
+                     const std::function<void(double)>& on_progress) {
+  bring_study_up_to_date(folder);
+  const StudyStore study(folder, StudyStore::Mode::kReadOnly);
+  require_own_target(folder, target, study.study_id());
+  make_private_folders(target / "recordings");
+  const WriterLock lock(target);
+
+  BackupReport report;
+  note_in_study(folder, target, time_ns, report);
+  copy_study(folder, target);
+  const StudyStore copy(target, StudyStore::Mode::kReadOnly);
+  for (const WithdrawalRow& withdrawn : copy.withdrawals()) {
+    remove_recording(copy.recording_file(withdrawn.session));
+  }
+  const std::vector<SessionRow> sessions = copy.sessions();
+  double done = 0.0;
+  for (const SessionRow& session : sessions) {
+    const fs::path source = study.recording_file(session.session);
+    if (session.recorded && fs::exists(source)) {
+      copy_recording(source, copy.recording_file(session.session), report);
+    }
+    done += 1.0;
+    if (on_progress) on_progress(done / static_cast<double>(sessions.size()));
+  }
+  sync_folder(target / "recordings");
+  report.integrity = verify(copy);
+  return report;
+}
+
+}  // namespace jnd::core

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/storage/integrity.h"
+
+namespace jnd::core {
+
+struct BackupReport {
+  std::int64_t num_chunks = 0;         ///< Of all recordings in the backup.
+  std::int64_t num_chunks_copied = 0;  ///< By this run; the others were there already.
+  std::vector<std::string> remarks;
+  Integrity integrity;  ///< Of the backup, read back.
+};
+
+/// Makes `target` a copy of the study in `folder`, or brings an earlier copy up to date:
+/// study.sqlite first, by SQLite's own backup, then of each recording the chunks that are
+/// missing. So no event of the copy speaks of samples that it does not hold, even while a
+/// session goes on. The copy is a study folder like any other. It is noted in the study, so
+/// that a withdrawal reaches it; and it is verified.
+///
+/// Throws `Error` for a target that holds something else, and where a disk or a right is
+/// missing; an earlier copy is then still whole. Not real time.
+[[nodiscard]] BackupReport back_up(const std::filesystem::path& folder,
+                                   const std::filesystem::path& target, std::int64_t time_ns,
+                                   const std::function<void(double)>& on_progress = {});
+
+}  // namespace jnd::core

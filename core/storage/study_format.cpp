@@ -1,0 +1,49 @@
+#include "core/storage/study_format.h"
+
+#include <iterator>
+#include <string>
+
+#include "core/error.h"
+#include "core/storage/study_schema.h"
+
+namespace jnd::core {
+namespace {
+
+constexpr std::int64_t kApplicationId = 0x6a6e6431;  // "jnd1", and so for every layout.
+
+}  // namespace
+
+std::int64_t current_study_format() noexcept { return std::ssize(kStudySchemaSteps); }
+
+std::int64_t study_format_of(Database& database) {
+  if (is_empty(database)) return 0;
+  const std::string place = database.file().string() + ": expected ";
+  Statement application(database, "PRAGMA application_id");
+  if (!application.step() || application.integer(0) != kApplicationId) {
+    throw Error(place + "a study of jnd, found another kind of database");
+  }
+  Statement format(database, "SELECT MAX(version) FROM study_format");
+  if (!format.step() || format.integer(0) < 1) {
+    throw Error(place + "the number of its layout, found none");
+  }
+  if (format.integer(0) > current_study_format()) {
+    throw Error(place + "layout " + std::to_string(current_study_format()) +
+                " or older, found " + std::to_string(format.integer(0)) +
+                "; open it with a newer jnd");
+  }
+  return format.integer(0);
+}
+
+void bring_up_to_date(Database& database) {
+  for (std::int64_t format = study_format_of(database); format < current_study_format();
+       ++format) {
+    Transaction step(database);
+    database.execute(kStudySchemaSteps[format]);
+    database.execute("INSERT INTO study_format VALUES (" + std::to_string(format + 1) +
+                     ", 'jnd')");
+    database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
+    step.commit();
+  }
+}
+
+}  // namespace jnd::core

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/storage/database.h"
+
+namespace jnd::core {
+
+/// The layout of study.sqlite, which every version of the program brings up to its own: step n
+/// of data/database/ leads from layout n - 1 to n, in one transaction.
+
+/// The layout that this program writes and reads.
+[[nodiscard]] std::int64_t current_study_format() noexcept;
+
+/// The layout of the database, 0 for an empty one. Throws `Error` for a database that is none
+/// of a study, or of a newer program.
+[[nodiscard]] std::int64_t study_format_of(Database& database);
+
+/// Carries out the steps that are missing.
+void bring_up_to_date(Database& database);
+
+}  // namespace jnd::core

@@ -1,0 +1,135 @@
+#include "core/storage/withdrawal.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/storage/database.h"
+#include "core/storage/files.h"
+#include "core/storage/study_format.h"
+#include "core/storage/study_store.h"
+#include "core/storage/writer_lock.h"
+
+namespace jnd::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::int64_t> sessions_in(Database& database, const std::string& table,
+                                      const std::string& participant) {
+  Statement rows(database,
+                 "SELECT session FROM " + table + " WHERE participant = ? ORDER BY session");
+  rows.bind(participant);
+  std::vector<std::int64_t> sessions;
+  while (rows.step()) sessions.push_back(rows.integer(0));
+  return sessions;
+}
+
+/// The triggers that keep rows from being deleted, by name and text.
+std::vector<std::pair<std::string, std::string>> guards(Database& database) {
+  Statement rows(database,
+                 "SELECT name, sql FROM sqlite_master WHERE type = 'trigger' AND name LIKE "
+                 "'%\\_stays' ESCAPE '\\'");
+  std::vector<std::pair<std::string, std::string>> all;
+  while (rows.step()) all.emplace_back(rows.text(0), rows.text(1));
+  return all;
+}
+
+void leave_tombstone(Database& database, std::int64_t session, std::int64_t time_ns) {
+  Statement(database,
+            "INSERT INTO withdrawal SELECT session, participant, ?,"
+            " (SELECT COUNT(*) FROM event WHERE event.session = s.session),"
+            " (SELECT COUNT(*) FROM trial WHERE trial.session = s.session)"
+            " FROM session AS s WHERE session = ?")
+      .bind(time_ns)
+      .bind(session)
+      .run();
+}
+
+/// All rows of the sessions in one transaction, or none of them.
+void delete_rows(Database& database, const std::vector<std::int64_t>& sessions,
+                 std::int64_t time_ns) {
+  Transaction transaction(database);
+  const auto all_guards = guards(database);
+  for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
+  for (const std::int64_t session : sessions) {
+    leave_tombstone(database, session, time_ns);
+    for (const char* table :
+         {"answer", "presentation", "trial", "design", "event", "session"}) {
+      Statement(database, std::string("DELETE FROM ") + table + " WHERE session = ?")
+          .bind(session)
+          .run();
+    }
+  }
+  for (const auto& [name, sql] : all_guards) database.execute(sql);
+  transaction.commit();
+}
+
+/// Deletes what one folder holds of the participant. Returns the sessions that it ever had.
+std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& participant,
+                                   std::int64_t time_ns) {
+  const WriterLock lock(folder);
+  std::vector<std::int64_t> gone;
+  {
+    Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
+                      Durability::kEveryCommit);
+    bring_up_to_date(database);
+    // Freed pages are overwritten with zeros; VACUUM and the truncated log leave no old ones.
+    database.execute("PRAGMA secure_delete = ON");
+    const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
+    if (!there.empty()) delete_rows(database, there, time_ns);
+    gone = sessions_in(database, "withdrawal", participant);
+    if (!gone.empty()) {
+      database.execute("VACUUM");
+      database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+    }
+  }
+  const StudyStore store(folder, StudyStore::Mode::kReadOnly);
+  for (const std::int64_t session : gone) remove_recording(store.recording_file(session));
+  return gone;
+}
+
+/// Folders that were once made copies of this study.
+std::vector<fs::path> known_backups(const fs::path& folder) {
+  Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
+                    Durability::kEveryCommit);
+  Statement rows(database, "SELECT DISTINCT folder FROM backup ORDER BY folder");
+  std::vector<fs::path> all;
+  while (rows.step()) all.emplace_back(rows.text(0));
+  return all;
+}
+
+std::string id_of(const fs::path& folder) {
+  return StudyStore(folder, StudyStore::Mode::kReadOnly).study_id();
+}
+
+}  // namespace
+
+WithdrawalReport withdraw(const fs::path& folder, const std::string& participant,
+                          std::int64_t time_ns) {
+  WithdrawalReport report;
+  report.sessions = erase_in(folder, participant, time_ns);
+  if (report.sessions.empty()) {
+    throw Error(folder.string() +
+                ": expected a participant of this study, found no session of " + participant);
+  }
+  const std::string study_id = id_of(folder);
+  for (const fs::path& backup : known_backups(folder)) {
+    std::error_code error;
+    if (fs::equivalent(backup, folder, error)) continue;
+    try {
+      if (id_of(backup) != study_id) {
+        report.remaining.push_back(backup.string() +
+                                   ": expected a backup of this study, found another study");
+        continue;
+      }
+      (void)erase_in(backup, participant, time_ns);
+      report.backups.push_back(backup);
+    } catch (const Error& failure) {
+      report.remaining.emplace_back(failure.what());
+    }
+  }
+  return report;
+}
+
+}  // namespace jnd::core

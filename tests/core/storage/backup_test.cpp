@@ -1,0 +1,96 @@
+#include "core/storage/backup.h"
+
+#include <gtest/gtest.h>
+
+#include "core/storage/kept_study.h"
+
+namespace jnd::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BackupTest : public ::testing::Test {
+ protected:
+  BackupTest() { kept_.add_session("P01"); }
+  [[nodiscard]] fs::path copy() const { return kept_.beside("copy"); }
+  BackupReport back_up_now() { return back_up(kept_.folder(), copy(), ++time_ns_); }
+
+  KeptStudy kept_;
+  std::int64_t time_ns_ = 0;
+};
+
+TEST_F(BackupTest, ACopyIsAStudyFolderWithEverythingInIt) {
+  const BackupReport report = back_up_now();
+  EXPECT_TRUE(report.integrity.complete);
+  EXPECT_EQ(report.integrity.num_events, 6);
+  EXPECT_EQ(report.integrity.num_samples, 1000);
+  EXPECT_TRUE(report.remarks.empty());
+  const StudyStore study(kept_.folder(), StudyStore::Mode::kReadOnly);
+  const StudyStore store(copy(), StudyStore::Mode::kReadOnly);
+  EXPECT_EQ(store.study_id(), study.study_id());
+  EXPECT_EQ(store.sessions().at(0).participant, "P01");
+  EXPECT_EQ(store.events(1).size(), study.events(1).size());
+  EXPECT_EQ(store.answers(1).at(0).answer, "secret of P01");
+}
+
+TEST_F(BackupTest, OfRecordingsOnlyWhatIsNewIsCopied) {
+  const BackupReport first = back_up_now();
+  EXPECT_EQ(first.num_chunks_copied, first.num_chunks);
+  EXPECT_EQ(back_up_now().num_chunks_copied, 0);
+  kept_.add_session("P02");
+  KeptStudy::record(kept_.recording(1), 1000, 1999);
+  const BackupReport third = back_up_now();
+  EXPECT_EQ(third.num_chunks_copied, 2);
+  EXPECT_EQ(third.num_chunks, 3);
+  EXPECT_EQ(third.integrity.num_samples, 3000);
+  EXPECT_TRUE(third.integrity.complete);
+}
+
+TEST_F(BackupTest, WorksWhileAnotherProgramWrites) {
+  const StudyStore writer(kept_.folder(), StudyStore::Mode::kReadWrite);
+  EXPECT_TRUE(back_up_now().integrity.complete);
+}
+
+TEST_F(BackupTest, IsForItsOwnerAlone) {
+  (void)back_up_now();
+  for (const auto& entry : fs::recursive_directory_iterator(copy())) {
+    EXPECT_EQ(entry.status().permissions() & (fs::perms::group_all | fs::perms::others_all),
+              fs::perms::none)
+        << entry.path();
+  }
+}
+
+TEST_F(BackupTest, WritesOverNothingButAnEarlierCopyOfTheSameStudy) {
+  fs::create_directory(copy());
+  std::ofstream(copy() / "thesis.txt") << "mine";
+  EXPECT_THROW((void)back_up_now(), Error);
+  EXPECT_EQ(bytes_of(copy() / "thesis.txt"), "mine");
+  fs::remove(copy() / "thesis.txt");
+  EXPECT_NO_THROW((void)back_up_now());
+
+  const KeptStudy other;
+  other.add_session("P09");
+  const std::string before = bytes_of(copy() / "study.sqlite");
+  EXPECT_THROW((void)back_up(other.folder(), copy(), 1), Error);
+  EXPECT_EQ(bytes_of(copy() / "study.sqlite"), before);
+  EXPECT_THROW((void)back_up(kept_.folder(), kept_.folder(), 1), Error);
+  EXPECT_THROW((void)back_up(kept_.beside("none"), kept_.beside("copy2"), 1), Error);
+  EXPECT_FALSE(fs::exists(kept_.beside("copy2")));
+}
+
+TEST_F(BackupTest, SaysWhenTheCopyIsNotWhole) {
+  fs::remove(kept_.recording(1));
+  const BackupReport report = back_up_now();
+  EXPECT_FALSE(report.integrity.complete);
+}
+
+TEST_F(BackupTest, AStudyOfAnOlderLayoutKeepsItsIdentity) {
+  const fs::path old = kept_.beside("old");
+  fs::copy(fs::path(JND_SOURCE_DIR) / "tests/core/storage/layout_1", old,
+           fs::copy_options::recursive);
+  EXPECT_TRUE(back_up(old, copy(), 1).integrity.complete);
+  EXPECT_EQ(back_up(old, copy(), 2).num_chunks_copied, 0);
+}
+
+}  // namespace
+}  // namespace jnd::core

@@ -1,0 +1,111 @@
+#include "core/storage/withdrawal.h"
+
+#include <gtest/gtest.h>
+
+#include "core/storage/backup.h"
+#include "core/storage/database.h"
+#include "core/storage/integrity.h"
+#include "core/storage/kept_study.h"
+
+namespace jnd::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WithdrawalTest : public ::testing::Test {
+ protected:
+  WithdrawalTest() {
+    kept_.add_session("P01");
+    kept_.add_session("P02");
+  }
+  static bool holds(const fs::path& folder, const std::string& words) {
+    return all_bytes(folder).find(words) != std::string::npos;
+  }
+  static Integrity verified(const fs::path& folder) {
+    return verify(StudyStore(folder, StudyStore::Mode::kReadOnly));
+  }
+
+  KeptStudy kept_;
+};
+
+TEST_F(WithdrawalTest, NothingOfThePersonIsLeftButTheTombstone) {
+  ASSERT_TRUE(holds(kept_.folder(), "secret of P01"));
+  const WithdrawalReport report = withdraw(kept_.folder(), "P01", 5);
+  EXPECT_EQ(report.sessions, std::vector<std::int64_t>{1});
+  EXPECT_TRUE(report.remaining.empty());
+  EXPECT_FALSE(holds(kept_.folder(), "secret of P01"));
+  EXPECT_FALSE(holds(kept_.folder(), "note about P01"));
+  EXPECT_FALSE(fs::exists(kept_.recording(1)));
+
+  const StudyStore store(kept_.folder(), StudyStore::Mode::kReadOnly);
+  ASSERT_EQ(store.sessions().size(), 1U);
+  EXPECT_EQ(store.sessions()[0].participant, "P02");
+  EXPECT_EQ(store.events(2).size(), 6U);
+  EXPECT_EQ(store.answers(2).at(0).answer, "secret of P02");
+  ASSERT_EQ(store.withdrawals().size(), 1U);
+  EXPECT_EQ(store.withdrawals()[0].participant, "P01");
+  EXPECT_EQ(store.withdrawals()[0].time_ns, 5);
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+}
+
+TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards) {
+  (void)withdraw(kept_.folder(), "P02", 5);
+  EXPECT_EQ(kept_.add_session("P03"), 3);
+  for (const char* table : {"event", "trial", "session", "design", "answer", "withdrawal"}) {
+    Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadWrite,
+                      Durability::kAtClose);
+    EXPECT_THROW(database.execute(std::string("DELETE FROM ") + table), Error) << table;
+  }
+}
+
+TEST_F(WithdrawalTest, ReachesTheBackupsItKnowsOfAndSaysWhichItCannot) {
+  (void)back_up(kept_.folder(), kept_.beside("near"), 1);
+  (void)back_up(kept_.folder(), kept_.beside("away"), 2);
+  fs::rename(kept_.beside("away"), kept_.beside("unplugged"));
+  const WithdrawalReport first = withdraw(kept_.folder(), "P01", 5);
+  EXPECT_EQ(first.backups, std::vector<fs::path>{kept_.beside("near")});
+  EXPECT_FALSE(holds(kept_.beside("near"), "secret of P01"));
+  EXPECT_FALSE(fs::exists(kept_.beside("near") / "recordings" / "0001.sqlite"));
+  EXPECT_TRUE(verified(kept_.beside("near")).complete);
+  ASSERT_EQ(first.remaining.size(), 1U);
+  EXPECT_NE(first.remaining[0].find("away"), std::string::npos) << first.remaining[0];
+
+  fs::rename(kept_.beside("unplugged"), kept_.beside("away"));
+  const WithdrawalReport second = withdraw(kept_.folder(), "P01", 6);
+  EXPECT_TRUE(second.remaining.empty());
+  EXPECT_EQ(second.sessions, std::vector<std::int64_t>{1});
+  EXPECT_FALSE(holds(kept_.beside("away"), "secret of P01"));
+}
+
+TEST_F(WithdrawalTest, ALaterBackupForgetsThePersonToo) {
+  (void)back_up(kept_.folder(), kept_.beside("copy"), 1);
+  fs::rename(kept_.beside("copy"), kept_.beside("unplugged"));
+  (void)withdraw(kept_.folder(), "P01", 5);
+  (void)back_up(kept_.folder(), kept_.beside("unplugged"), 7);
+  EXPECT_FALSE(holds(kept_.beside("unplugged"), "secret of P01"));
+  EXPECT_FALSE(fs::exists(kept_.beside("unplugged") / "recordings" / "0001.sqlite"));
+}
+
+TEST_F(WithdrawalTest, AnInterruptedOneIsFoundByVerifyAndFinishedByTheNextCall) {
+  const std::string recording = bytes_of(kept_.recording(1));
+  (void)withdraw(kept_.folder(), "P01", 5);
+  std::ofstream(kept_.recording(1), std::ios::binary) << recording;
+  EXPECT_FALSE(verified(kept_.folder()).complete);
+  (void)withdraw(kept_.folder(), "P01", 6);
+  EXPECT_FALSE(fs::exists(kept_.recording(1)));
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+}
+
+TEST_F(WithdrawalTest, SomebodyUnknownIsAnErrorAndChangesNothing) {
+  EXPECT_THROW((void)withdraw(kept_.folder(), "P09", 5), Error);
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+}
+
+TEST_F(WithdrawalTest, NotWhileASessionRuns) {
+  const StudyStore running(kept_.folder(), StudyStore::Mode::kReadWrite);
+  EXPECT_THROW((void)withdraw(kept_.folder(), "P01", 5), Error);
+  EXPECT_EQ(running.sessions().size(), 2U);
+}
+
+}  // namespace
+}  // namespace jnd::core

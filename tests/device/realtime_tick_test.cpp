@@ -1,0 +1,311 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "device/fault_injection.h"
+#include "device/haptic_loop.h"
+#include "device/lumped_hand_device.h"
+#include "device/realtime_thread.h"
+#include "realtime_trap.h"
+#include "scripted_device.h"
+#include "support/allocation_counter.h"
+
+namespace jnd::device {
+namespace {
+
+using test_support::AllocationCounter;
+using test_support::LockCounter;
+using test_support::LockedMemory;
+using test_support::PageFaultCounter;
+using test_support::SystemCallTrap;
+
+constexpr int kNumTicks = 20'000;
+constexpr const char* kSanitizer = "a sanitizer has these functions for itself";
+
+core::MediumAmounts everything() {
+  core::MediumAmounts medium = core::solid({.stiffness_n_per_m = 100.0});
+  medium.quadratic_kg_per_m = 7.0;
+  medium.damping_n_s_per_m = 50.0;
+  return medium;
+}
+
+/// A loop with all its doors, over a device in which things may go wrong.
+struct Scene {
+  Scene(std::vector<ScheduledFault> faults, bool lumped, std::size_t queue_capacity)
+      : samples(queue_capacity),
+        faulty(lumped ? static_cast<HapticDevice&>(hand) : scripted, std::move(faults)),
+        loop({}, faulty, {commands, telemetry, stop, &samples, &heartbeat}) {
+    // What the test's own device remembers is in place before.
+    scripted.received.resize(kNumTicks);
+    scripted.received.clear();
+    scripted.move_all({0.05, 0.0, 0.0});
+    faulty.open();
+    hand.begin_strokes({}, core::RandomStream(1, "stroke"));
+  }
+
+  void command(const core::MediumAmounts& medium) {
+    commands.publish({.sequence = ++sequence, .medium = medium, .ramp_s = 0.050});
+  }
+  /// With a window that lives, and a consumer that keeps up.
+  void run(int num_ticks) {
+    for (int i = 0; i < num_ticks; ++i) {
+      heartbeat.beat();
+      loop.tick();
+      if (drains) samples.drain([](const core::Sample&) {});
+    }
+  }
+
+  LumpedHandDevice hand{LumpedHandDevice::Parameters{.dry_friction_n = 0.3}};
+  ScriptedDevice scripted;
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  core::Heartbeat heartbeat;
+  core::SpscQueue<core::Sample> samples;
+  bool drains = true;
+  FaultInjectingDevice faulty;
+  HapticLoop loop;
+  std::uint64_t sequence = 0;
+};
+
+struct Situation {
+  const char* name;
+  std::vector<ScheduledFault> faults;
+  void (*play)(Scene& scene);
+  core::Fault expected;  ///< At the end.
+};
+
+/// Struck from tick 100 on, armed again at tick 400.
+void be_struck_and_rearm(Scene& scene) {
+  scene.command(core::viscous({.viscosity_pa_s = 10.0}));
+  scene.run(400);
+  scene.loop.rearm();
+  scene.run(kNumTicks - 400);
+}
+
+template <core::MediumAmounts (*kMedium)()>
+void stay_in(Scene& scene) {
+  scene.command(kMedium());
+  scene.run(kNumTicks);
+}
+
+core::MediumAmounts some_water() { return core::water({}); }
+core::MediumAmounts some_honey() { return core::viscous({.viscosity_pa_s = 10.0}); }
+core::MediumAmounts some_wall() { return core::solid({.stiffness_n_per_m = 500.0}); }
+
+const std::vector<Situation>& situations() {
+  using core::Fault;
+  static const std::vector<Situation> all = {
+      {"FreeSpace", {}, stay_in<core::free_space>, Fault::kNone},
+      {"Water", {}, stay_in<some_water>, Fault::kNone},
+      {"Viscous", {}, stay_in<some_honey>, Fault::kNone},
+      {"Solid", {}, stay_in<some_wall>, Fault::kNone},
+      {"AllAtOnce", {}, stay_in<everything>, Fault::kNone},
+      {"Limited",
+       {},
+       [](Scene& scene) {
+         scene.command(core::viscous({.viscosity_pa_s = 30.0}));
+         scene.scripted.move_all({1.0, 0.0, 0.0});
+         scene.run(kNumTicks);
+       },
+       Fault::kNone},
+      {"ManyCommands",
+       {},
+       [](Scene& scene) {
+         for (int i = 0; i < kNumTicks; i += 20) {
+           scene.command(i % 40 == 0 ? everything() : core::free_space());
+           scene.run(20);
+         }
+       },
+       Fault::kNone},
+      {"FullQueue",
+       {},
+       [](Scene& scene) {
+         scene.drains = false;
+         stay_in<some_water>(scene);
+       },
+       Fault::kNone},
+      {"EmergencyStop",
+       {},
+       [](Scene& scene) {
+         scene.command(everything());
+         scene.run(100);
+         scene.stop.press();
+         scene.run(100);
+         scene.stop.release();
+         scene.loop.rearm();
+         scene.run(1000);
+         scene.stop.press();
+         scene.run(kNumTicks - 1200);
+       },
+       Fault::kEmergencyStop},
+      {"SilentWindow",
+       {},
+       [](Scene& scene) {
+         scene.command(everything());
+         scene.run(100);
+         scene.drains = false;
+         for (int i = 0; i < kNumTicks - 100; ++i) scene.loop.tick();
+       },
+       Fault::kHeartbeatLost},
+      {"CommandThatIsNoNumber",
+       {},
+       [](Scene& scene) {
+         scene.command({.damping_n_s_per_m = std::numeric_limits<double>::quiet_NaN()});
+         scene.run(kNumTicks);
+       },
+       Fault::kNonFiniteForce},
+      {"NonFinitePosition",
+       {{100, 5, Injection::kNonFinitePosition}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"NonFiniteVelocity",
+       {{100, 5, Injection::kNonFiniteVelocity}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"ReadFailure", {{100, 5, Injection::kReadFailure}}, be_struck_and_rearm, Fault::kNone},
+      {"WriteFailure", {{100, 5, Injection::kWriteFailure}}, be_struck_and_rearm, Fault::kNone},
+      {"FrozenSample",
+       {{100, 50, Injection::kFrozenSample}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"StaleTime", {{100, 50, Injection::kStaleTime}}, be_struck_and_rearm, Fault::kNone},
+      {"DetachedPoint",
+       {{100, 50, Injection::kDetachedPoint}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"PositionJump",
+       {{100, 50, Injection::kPositionJump, core::ContactPoint::kIndex, 0.05}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"VelocitySpike",
+       {{100, 1, Injection::kVelocitySpike, core::ContactPoint::kThumb, 20.0}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"ForceSpike",
+       {{100, 5, Injection::kForceSpike, core::ContactPoint::kThumb, 7.0}},
+       be_struck_and_rearm,
+       Fault::kNone},
+      {"FaultThatLasts",
+       {{100, kNumTicks, Injection::kReadFailure}},
+       be_struck_and_rearm,
+       Fault::kDeviceReadFailed},
+  };
+  return all;
+}
+
+/// Plays every situation on both devices, each watched by a `Watch` from its first tick to its
+/// last, after one round to warm up. `caught` says what the watch has seen, if anything.
+template <typename Watch, typename Caught>
+void expect_nothing_in_any_situation(Caught&& caught) {
+  for (const Situation& situation : situations()) {
+    for (const bool lumped : {false, true}) {
+      SCOPED_TRACE(std::string(situation.name) + (lumped ? ", lumped" : ", scripted"));
+      Scene rehearsal(situation.faults, lumped, 64);
+      situation.play(rehearsal);
+      Scene scene(situation.faults, lumped, 64);
+      std::int64_t found = 0;
+      {
+        const Watch watch;
+        situation.play(scene);
+        found = caught(watch);
+      }
+      EXPECT_EQ(found, 0);
+      scene.telemetry.fetch();
+      EXPECT_EQ(scene.telemetry.value().fault, situation.expected);
+      EXPECT_EQ(scene.telemetry.value().num_ticks, kNumTicks);
+      EXPECT_EQ(scene.telemetry.value().num_dropped_samples > 0, !scene.drains);
+    }
+  }
+}
+
+TEST(RealtimeTick, NeitherAllocatesNorFrees) {
+  if (!AllocationCounter::is_supported()) GTEST_SKIP() << kSanitizer;
+  expect_nothing_in_any_situation<AllocationCounter>([](const AllocationCounter& counter) {
+    return static_cast<std::int64_t>(counter.allocations() + counter.frees());
+  });
+}
+
+TEST(RealtimeTick, TakesNoLock) {
+  if (!LockCounter::is_supported()) GTEST_SKIP() << kSanitizer;
+  expect_nothing_in_any_situation<LockCounter>(
+      [](const LockCounter& counter) { return static_cast<std::int64_t>(counter.locks()); });
+}
+
+TEST(RealtimeTick, MissesNoPageOfMemory) {
+  if (!PageFaultCounter::is_supported()) GTEST_SKIP() << kSanitizer;
+  const LockedMemory memory;
+  if (!memory.is_locked()) GTEST_SKIP() << "memory cannot be locked here: see `jnd doctor`";
+  expect_nothing_in_any_situation<PageFaultCounter>(
+      [](const PageFaultCounter& counter) { return counter.faults(); });
+}
+
+TEST(RealtimeTick, MakesNoSystemCall) {
+  if (!SystemCallTrap::is_supported()) GTEST_SKIP() << "no dispatch of system calls here";
+  expect_nothing_in_any_situation<SystemCallTrap>(
+      [](const SystemCallTrap&) { return SystemCallTrap::first_call().value_or(0); });
+}
+
+/// Watches the thread that drives it, from its hundredth tick on.
+class WatchingDevice final : public HapticDevice {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return hand_.name(); }
+  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+    return hand_.capabilities();
+  }
+  void open() override { hand_.open(); }
+  [[nodiscard]] bool read(core::HapticState& state) noexcept override {
+    if (++num_reads_ == 100) {
+      allocations_.emplace();
+      locks_.emplace();
+      page_faults_.emplace();
+    }
+    return hand_.read(state);
+  }
+  [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
+    if (locks_) {
+      num_allocations = allocations_->allocations() + allocations_->frees();
+      num_locks = locks_->locks();
+      num_page_faults = page_faults_->faults();
+    }
+    return hand_.write(force_on_hand_n);
+  }
+  void close() noexcept override {}
+
+  std::size_t num_allocations = 0;
+  std::size_t num_locks = 0;
+  std::int64_t num_page_faults = 0;
+
+ private:
+  LumpedHandDevice hand_{LumpedHandDevice::Parameters{.rate_hz = 5000.0}};
+  int num_reads_ = 0;
+  std::optional<AllocationCounter> allocations_;
+  std::optional<LockCounter> locks_;
+  std::optional<PageFaultCounter> page_faults_;
+};
+
+TEST(RealtimeThread, BetweenTicksItNeitherAllocatesNorLocksNorMissesAPage) {
+  if (!LockCounter::is_supported()) GTEST_SKIP() << kSanitizer;
+  WatchingDevice device;
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  HapticLoop loop({.rate_hz = 5000.0}, device, {commands, telemetry, stop});
+  RealtimeThread thread({.priority = 0, .keep_cpus_awake = false});
+  start_haptics(device, loop, thread, false);
+  commands.publish({.sequence = 1, .medium = everything()});
+  while (thread.timing().num_ticks() < 2000) std::this_thread::yield();
+  thread.stop();
+  EXPECT_EQ(device.num_allocations, 0U);
+  EXPECT_EQ(device.num_locks, 0U);
+  if (!thread.report().memory_locked) GTEST_SKIP() << "memory cannot be locked here";
+  EXPECT_EQ(device.num_page_faults, 0);
+}
+
+}  // namespace
+}  // namespace jnd::device

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+extern "C" {
+int study_fuzz_input(const std::uint8_t* data, std::size_t size);
+int csv_fuzz_input(const std::uint8_t* data, std::size_t size);
+int event_fuzz_input(const std::uint8_t* data, std::size_t size);
+int recording_fuzz_input(const std::uint8_t* data, std::size_t size);
+int laboratory_fuzz_input(const std::uint8_t* data, std::size_t size);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using Input = int (*)(const std::uint8_t*, std::size_t);
+
+/// Feeds a fuzz target with every file of a folder: seeds, and what fuzzing once found.
+void expect_sound(Input input, const std::string& folder) {
+  int num_files = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(JND_SOURCE_DIR) / folder)) {
+    std::ifstream stream(entry.path(), std::ios::binary);
+    const std::vector<char> letters{std::istreambuf_iterator<char>(stream), {}};
+    const std::vector<std::uint8_t> bytes(letters.begin(), letters.end());
+    ++num_files;
+    try {
+      EXPECT_EQ(input(bytes.data(), bytes.size()), 0) << entry.path();
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << entry.path() << ": " << error.what();
+    }
+  }
+  EXPECT_GT(num_files, 0) << folder;
+}
+
+TEST(FuzzCorpus, StudiesAreReadOrRefusedWithASentence) {
+  expect_sound(study_fuzz_input, "tests/fuzz/corpus/study");
+  expect_sound(study_fuzz_input, "protocols");
+}
+
+TEST(FuzzCorpus, TablesAreReadOrRefusedWithASentence) {
+  expect_sound(csv_fuzz_input, "tests/fuzz/corpus/csv");
+}
+
+TEST(FuzzCorpus, EventsAreReadAndFoldedOrRefusedWithASentence) {
+  expect_sound(event_fuzz_input, "tests/fuzz/corpus/event");
+}
+
+TEST(FuzzCorpus, ChunksOfSamplesAreReadOrRefusedWithASentence) {
+  expect_sound(recording_fuzz_input, "tests/fuzz/corpus/recording");
+}
+
+TEST(FuzzCorpus, LaboratoriesAreReadOrRefusedWithASentence) {
+  expect_sound(laboratory_fuzz_input, "tests/fuzz/corpus/laboratory");
+  expect_sound(laboratory_fuzz_input, "data/laboratories");
+}
+
+}  // namespace
