@@ -129,6 +129,8 @@ std::string changed_study_remark(const core::StudyStore& store,
   const core::ProtocolRow protocol = store.protocol(session.protocol_sha256);
   if (protocol.relative_path.empty()) return "";
   const std::filesystem::path file = store.folder() / protocol.relative_path;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return "";
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return "";
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

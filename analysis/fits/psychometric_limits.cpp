@@ -62,7 +62,7 @@ double likelihood_lapse(const PsychometricLevels& levels, const double* lower_ta
   double low = 0.0, high = 0.5;
   if (!(lapse_gradient(levels, low, lower_tail) < 0.0)) return 0.0;
   if (lapse_gradient(levels, high, lower_tail) < 0.0) return 0.5;
-  for (int halving = 0; halving < 14; ++halving) {  // A start for Newton: 3e-5 will do.
+  for (int halving = 0; halving < 9; ++halving) {  // A start for Newton: 1e-3 will do.
     const double middle = 0.5 * (low + high);
     (lapse_gradient(levels, middle, lower_tail) < 0.0 ? low : high) = middle;
   }

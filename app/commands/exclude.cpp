@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/option_checks.h"
 #include "app/reopened_session.h"
 #include "core/error.h"
 
@@ -83,10 +84,12 @@ void add_exclude(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--trial", options->trials,
                    "Numbers of trials in the session, as in trials.csv, with spaces between")
-      ->required();
+      ->required()
+      ->check(whole_number(1, 1000000));
   command->add_option("--reason", options->reason, "Why; kept with the data")->required();
   command->add_option("--participant", options->participant, "Whose trials");
-  command->add_option("--session", options->session, "Which session's trials");
+  command->add_option("--session", options->session, "Which session's trials")
+      ->check(whole_number(1, 1000000));
   command->add_flag("--include", options->include, "Take an exclusion back");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

@@ -15,15 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes the folders if asked to; returns the database file.
+/// Makes the folders if asked to; returns the database file. One that is of something else is
+/// found before anything is written, for already opening it to write would change it.
 fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
-  if (mode == StudyStore::Mode::kCreate) {
-    make_private_folders(folder / "recordings");
-  } else if (!fs::exists(folder / "study.sqlite")) {
+  const fs::path file = folder / "study.sqlite";
+  if (fs::exists(file)) {
+    Database database(file, Database::Mode::kReadOnly, Durability::kEveryCommit);
+    (void)study_format_of(database);
+  } else if (mode != StudyStore::Mode::kCreate) {
     throw Error(folder.string() +
                 ": expected a study folder of jnd, found no study.sqlite in it");
   }
-  return folder / "study.sqlite";
+  if (mode == StudyStore::Mode::kCreate) make_private_folders(folder / "recordings");
+  return file;
 }
 
 [[noreturn]] void refuse_empty(const fs::path& file) {

@@ -135,7 +135,7 @@ TEST(CsvReader, NamesTheColumnsThereAreWhereOneIsMissing) {
   EXPECT_TRUE(reader.numbers("intensity").empty());
   EXPECT_EQ(message_of([&] { reader.throw_problems(); }),
             "t.csv:1: intensity: expected a column of this name, found the columns Intensity, "
-            "yes");
+            "yes; rename \"Intensity\" if that is meant");
 }
 
 TEST(CsvReader, AnEmptyCellEndsTheShorterColumnOnce) {

@@ -124,6 +124,45 @@ TEST_F(LaboratoryRunTest, AnswersAreTheSameWhetherSamplesAreKeptOrNot) {
   EXPECT_FALSE(fs::exists(fast->recording_file(1)));
 }
 
+TEST_F(LaboratoryRunTest, AskedToStopItDoesSoInTheMiddleOfAPresentationAndIsResumed) {
+  const auto store = store_with_session("stopped");
+  LaboratoryRun stopping = run_of(*store);
+  bool felt = false;
+  stopping.on_event = [&](const core::EventRow& event) {
+    felt = event.kind == "presentation_started" && event.trial == 2;
+  };
+  stopping.is_cancelled = [&] { return felt; };
+  EXPECT_FALSE(run(*store, stopping).ended);
+  const std::vector<core::EventRow> events = store->events(1);
+  EXPECT_EQ(events[events.size() - 2].kind, "presentation_started");
+  EXPECT_EQ(events.back().kind, "paused");
+  EXPECT_TRUE(run(*store, run_of(*store)).ended);
+  EXPECT_TRUE(store->completed(1));
+  EXPECT_TRUE(core::verify(*store).complete);
+}
+
+TEST_F(LaboratoryRunTest, AStageThatWasInterruptedGoesOnWithItsNextMedium) {
+  study_ = experiments::read_study_text(
+      replaced(kTinyStudy, R"({"medium": "free_space", "duration_s": 0.5})",
+               R"({"medium": "free_space", "duration_s": 0.5},
+                  {"medium": "water", "scale": 2, "duration_s": 0.5})"),
+      "tiny.json");
+  const auto store = store_with_session("interrupted");
+  LaboratoryRun stopping = run_of(*store);
+  bool explored = false;
+  stopping.on_event = [&](const core::EventRow& event) {
+    explored |= event.kind == "medium_explored";
+  };
+  stopping.is_cancelled = [&] { return explored; };
+  EXPECT_FALSE(run(*store, stopping).ended);
+  EXPECT_TRUE(run(*store, run_of(*store)).ended);
+  int num_explored = 0;
+  for (const core::EventRow& event : store->events(1)) {
+    num_explored += event.kind == "medium_explored" ? 1 : 0;
+  }
+  EXPECT_EQ(num_explored, 2);
+}
+
 TEST_F(LaboratoryRunTest, KilledAfterAnyEventItResumesToTheSameOrderAndStimuli) {
   const auto whole = store_with_session("whole");
   (void)run(*whole, run_of(*whole));

@@ -45,11 +45,11 @@ TEST_F(BackupCommandTest, TheCopyGivesTheSameResults) {
   EXPECT_EQ(difference(tables_text(opened("safe/copy"), 2), tables_text(opened("a.study"), 2)),
             "");
   EXPECT_EQ(
-      difference(samples_text(opened("safe/copy"), 1), samples_text(opened("a.study"), 1)),
-      "");
-  EXPECT_EQ(document(jnd({"backup", "a.study", "--to", "safe/copy", "--json"}).out)
-                ["num_chunks_copied"],
-            0);
+      difference(samples_text(opened("safe/copy"), 1), samples_text(opened("a.study"), 1)), "");
+  EXPECT_EQ(
+      document(
+          jnd({"backup", "a.study", "--to", "safe/copy", "--json"}).out)["num_chunks_copied"],
+      0);
 }
 
 TEST_F(BackupCommandTest, ASessionThatDiedGoesOnInItsBackup) {
@@ -83,8 +83,7 @@ TEST_F(BackupCommandTest, WritesOverNothing) {
 TEST_F(BackupCommandTest, WithdrawDeletesHereAndInTheBackup) {
   simulate();
   ASSERT_EQ(jnd({"backup", "a.study", "--to", "copy"}).exit_code, 0);
-  const ProgramOutcome out =
-      jnd({"withdraw", "a.study", "--participant", "P01", "--json"});
+  const ProgramOutcome out = jnd({"withdraw", "a.study", "--participant", "P01", "--json"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
   const auto told = document(out.out);
   EXPECT_EQ(told["sessions"], nlohmann::json({1}));
@@ -100,10 +99,10 @@ TEST_F(BackupCommandTest, WithdrawDeletesHereAndInTheBackup) {
   const ProgramOutcome again = jnd({"run", "tiny.json", "--study", "a.study", "--participant",
                                     "P01", "--headless", "--seed", "7"});
   EXPECT_EQ(again.exit_code, 1);
-  EXPECT_EQ(jnd({"simulate", "tiny.json", "--participants", "1", "--study", "a.study", "--seed",
-                 "7"})
-                .exit_code,
-            0);
+  EXPECT_EQ(
+      jnd({"simulate", "tiny.json", "--participants", "1", "--study", "a.study", "--seed", "7"})
+          .exit_code,
+      0);
   EXPECT_EQ(opened("a.study").sessions().back().participant, "P03");
   EXPECT_EQ(jnd({"withdraw", "a.study", "--participant", "P09"}).exit_code, 1);
 }

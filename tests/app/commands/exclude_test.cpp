@@ -54,8 +54,8 @@ TEST_F(ExcludeCommandTest, LeavesTrialsOutWithTheReasonAndTakesThemBack) {
 }
 
 TEST_F(ExcludeCommandTest, OneOfAllTrialsMissingChangesNothing) {
-  const ProgramOutcome out = jnd({"exclude", "a.study", "--session", "1", "--trial", "2", "99",
-                                  "--reason", "sneezed"});
+  const ProgramOutcome out = jnd(
+      {"exclude", "a.study", "--session", "1", "--trial", "2", "99", "--reason", "sneezed"});
   EXPECT_EQ(out.exit_code, 1);
   EXPECT_NE(out.err.find("--trial 99: expected one of the session's 10 trials"),
             std::string::npos)
@@ -69,9 +69,9 @@ TEST_F(ExcludeCommandTest, SaysWhatIsMissingInTheCommand) {
   EXPECT_NE(whose.err.find("--participant or --session"), std::string::npos) << whose.err;
   EXPECT_EQ(jnd({"exclude", "a.study", "--session", "1", "--trial", "2"}).exit_code, 2);
   EXPECT_EQ(jnd({"exclude", "a.study", "--session", "1", "--reason", "x"}).exit_code, 2);
-  EXPECT_EQ(jnd({"exclude", "a.study", "--session", "1", "--trial", "2", "--reason", ""})
-                .exit_code,
-            2);
+  EXPECT_EQ(
+      jnd({"exclude", "a.study", "--session", "1", "--trial", "2", "--reason", ""}).exit_code,
+      2);
   const ProgramOutcome nobody =
       jnd({"exclude", "a.study", "--participant", "P09", "--trial", "2", "--reason", "x"});
   EXPECT_EQ(nobody.exit_code, 1);

@@ -169,6 +169,57 @@ TEST_F(RunCommandTest, InterruptedFromTheKeyboardItStopsCleanlyAndCanBeResumed) 
   EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 0);
 }
 
+TEST_F(RunCommandTest, InRealTimeWhatTheLoopWasGivenAndHowPunctualItWasIsKept) {
+  write_file(temporary_.path() / "move.json", R"json({
+    "format": 1, "name": "move", "languages": ["en"], "title": {"en": "Move"},
+    "authors": ["A. Author"],
+    "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+    "stages": [{"kind": "explore", "name": "free", "instruction": {"en": "Move."},
+                "media": [{"medium": "free_space", "duration_s": 0.3}]}]
+  })json");
+  const ProgramOutcome outcome = jnd({"run", "move.json", "--study", "a.study", "--participant",
+                                      "P01", "--headless", "--realtime"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::vector<nlohmann::json> started;
+  std::vector<nlohmann::json> measured;
+  for (const core::EventRow& event : opened("a.study").events(1)) {
+    if (event.kind == "loop_started") started.push_back(nlohmann::json::parse(event.data));
+    if (event.kind == "loop_measured") measured.push_back(nlohmann::json::parse(event.data));
+  }
+  ASSERT_EQ(started.size(), 1U);
+  EXPECT_TRUE(started[0]["scheduler"].get<std::string>().starts_with("SCHED_"));
+  EXPECT_FALSE(started[0]["cpus"].empty());
+  ASSERT_EQ(measured.size(), 1U);
+  EXPECT_GE(measured[0]["num_ticks"], 250);
+  std::int64_t num_ticks = 0;
+  for (const auto& bucket : measured[0]["lateness_ns"]) {
+    num_ticks += bucket[1].get<std::int64_t>();
+  }
+  EXPECT_EQ(num_ticks, measured[0]["num_ticks"]);
+}
+
+TEST_F(RunCommandTest, ASessionThatAnOlderProgramBeganGoesOnAsItWouldHave) {
+  fs::copy(fs::path(JND_SOURCE_DIR) / "tests/core/storage/layout_1",
+           temporary_.path() / "old.study", fs::copy_options::recursive);
+  std::string before;
+  for (const core::TrialRow& trial : opened("old.study").trials(1)) {
+    before += std::to_string(trial.trial) + ":" + std::to_string(trial.response.value()) + " ";
+  }
+  const ProgramOutcome outcome = jnd({"resume", "old.study", "--headless"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  ASSERT_EQ(jnd(run_words("new.study")).exit_code, 0);
+  const core::StudyStore old = opened("old.study");
+  EXPECT_TRUE(old.completed(1));
+  EXPECT_EQ(difference(design_text(old, 1), design_text(opened("new.study"), 1)), "");
+  EXPECT_EQ(difference(stimuli_text(old, 1), stimuli_text(opened("new.study"), 1)), "");
+  std::string after;
+  for (const core::TrialRow& trial : old.trials(1)) {
+    after += std::to_string(trial.trial) + ":" + std::to_string(trial.response.value()) + " ";
+  }
+  EXPECT_TRUE(after.starts_with(before)) << after;
+  EXPECT_EQ(jnd({"verify", "old.study"}).exit_code, 0);
+}
+
 TEST_F(RunCommandTest, NothingToResumeIsOneSentenceAndNoError) {
   ASSERT_EQ(jnd(run_words("a.study")).exit_code, 0);
   const std::string before = tables_text(opened("a.study"), 1);
