@@ -66,7 +66,9 @@ std::vector<DataGroup<AnswerCount>> read_answer_counts(
   const std::vector<double> num_yes = counts(reader, "num_yes");
   const std::vector<double> num_trials = counts(reader, "num_trials");
   for (std::size_t row = 0; row < std::min(num_yes.size(), num_trials.size()); ++row) {
-    if (num_yes[row] > num_trials[row]) {
+    // A count that is none has been reported, and may be too large to be written as one.
+    if (num_yes[row] > num_trials[row] && num_trials[row] >= 0.0 &&
+        num_trials[row] <= kLargestCount) {
       reader.report(
           row, "num_yes",
           "at most num_trials = " + std::to_string(static_cast<long long>(num_trials[row])));

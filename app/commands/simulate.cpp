@@ -35,14 +35,13 @@ int run(const Options& options) {
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const std::vector<std::string> participants = next_participants(store, options.participants);
-  const std::vector<std::int64_t> sessions =
-      add_sessions(store,
-                   {.study = study,
-                    .laboratory = laboratory,
-                    .study_file = file,
-                    .seed = options.seed,
-                    .record = !options.fast},
-                   participants);
+  const std::vector<std::int64_t> sessions = add_sessions(store,
+                                                          {.study = study,
+                                                           .laboratory = laboratory,
+                                                           .study_file = file,
+                                                           .seed = options.seed,
+                                                           .record = !options.fast},
+                                                          participants);
   const auto start = std::chrono::steady_clock::now();
   std::int64_t num_ticks = 0;
   {

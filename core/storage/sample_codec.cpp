@@ -192,8 +192,14 @@ std::string encode_samples(const std::vector<Sample>& samples) {
 std::vector<Sample> decode_samples(std::string_view bytes, std::int64_t first_tick,
                                    std::int64_t num_samples, const std::string& place) {
   if (num_samples <= 0) return {};
-  const auto count = static_cast<std::size_t>(num_samples);
   PlaneReader damaged({}, place);
+  // Far above any chunk that was ever written; a damaged row must not ask for all memory.
+  constexpr std::int64_t kMostSamples = 1 << 20;
+  if (num_samples > kMostSamples || first_tick < 0 ||
+      first_tick > std::numeric_limits<std::int64_t>::max() - num_samples) {
+    damaged.fail();
+  }
+  const auto count = static_cast<std::size_t>(num_samples);
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   const unsigned long long largest = kNumChannels * (9ULL + 4ULL * count);
   if (size > largest) damaged.fail();  // The two error codes of zstd are larger still.

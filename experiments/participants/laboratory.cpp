@@ -2,24 +2,32 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "core/error.h"
+#include "experiments/study/shown_text.h"
+#include "experiments/study/structure_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
+/// A value as a message shows it: short, whatever it is.
+std::string in_words(const json& value) {
+  return value.is_string() ? '"' + shown_text(value.get<std::string>()) + '"'
+                           : found_words(value);
+}
+
 /// Reads one object key by key and collects what is wrong with it.
 class Section {
  public:
-  Section(const json& parent, const std::string& path, std::vector<std::string>& problems)
+  /// The object at `key`; `path` is where messages say it is.
+  Section(const json& parent, const std::string& key, const std::string& path,
+          std::vector<std::string>& problems)
       : path_(path), problems_(problems) {
-    const std::string key = path.substr(path.rfind('/') + 1);
     if (parent.is_object() && parent.contains(key) && parent.at(key).is_object()) {
       object_ = &parent.at(key);
     } else {
@@ -41,7 +49,7 @@ class Section {
       problems_.push_back(path_ + "/" + key + ": " + range + ", found none");
     } else if (!found->is_number() ||
                !(found->get<double>() >= low && found->get<double>() <= high)) {
-      problems_.push_back(path_ + "/" + key + ": " + range + ", found " + found->dump());
+      problems_.push_back(path_ + "/" + key + ": " + range + ", found " + in_words(*found));
     } else {
       value = found->get<double>();
     }
@@ -63,7 +71,7 @@ class Section {
       std::string names;
       for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
       problems_.push_back(path_ + "/" + key + ": expected one of " + names + ", found " +
-                          (found == nullptr ? "none" : found->dump()));
+                          (found == nullptr ? "none" : in_words(*found)));
       return;
     }
     value = found->get<std::string>();
@@ -73,7 +81,7 @@ class Section {
     if (object_ == nullptr) return;
     for (const auto& [key, value] : object_->items()) {
       if (key != "comment" && !known_.contains(key)) {
-        problems_.push_back(path_ + "/" + key + ": unknown key");
+        problems_.push_back(path_ + "/" + shown_text(key) + ": unknown key");
       }
     }
   }
@@ -90,14 +98,14 @@ class Section {
     static const std::set<std::string> kBases = {"thesis", "calibrated", "assumption"};
     for (const auto& [name, value] : found.items()) {
       if (!kKeys.contains(name)) {
-        problems_.push_back(path_ + "/" + key + "/" + name + ": unknown key");
+        problems_.push_back(path_ + "/" + key + "/" + shown_text(name) + ": unknown key");
       }
     }
     if (found.contains("basis") &&
         (!found.at("basis").is_string() || !kBases.contains(found.at("basis")))) {
       problems_.push_back(path_ + "/" + key +
                           "/basis: expected thesis, calibrated or assumption, found " +
-                          found.at("basis").dump());
+                          in_words(found.at("basis")));
     }
   }
 
@@ -109,7 +117,7 @@ class Section {
 
 void read_device(const json& file, Laboratory::Device& device,
                  std::vector<std::string>& problems) {
-  Section in(file, "/device", problems);
+  Section in(file, "device", "/device", problems);
   in.positive("mass_kg", device.mass_kg);
   in.not_negative("mechanical_viscosity_n_s_per_m", device.mechanical_viscosity_n_s_per_m);
   in.not_negative("dry_friction_n", device.dry_friction_n);
@@ -120,7 +128,7 @@ void read_device(const json& file, Laboratory::Device& device,
 }
 
 void read_arm(const json& file, Laboratory::Arm& arm, std::vector<std::string>& problems) {
-  Section in(file, "/arm", problems);
+  Section in(file, "arm", "/arm", problems);
   in.not_negative("stiffness_n_per_m", arm.stiffness_n_per_m);
   in.not_negative("damping_n_s_per_m", arm.damping_n_s_per_m);
   in.positive("home_s", arm.home_s);
@@ -129,7 +137,7 @@ void read_arm(const json& file, Laboratory::Arm& arm, std::vector<std::string>& 
 
 void read_movement(const json& file, Laboratory::Movement& movement,
                    std::vector<std::string>& problems) {
-  Section in(file, "/movement", problems);
+  Section in(file, "movement", "/movement", problems);
   in.positive("max_speed_m_per_s", movement.max_speed_m_per_s);
   in.number("max_speed_sd_ln", movement.max_speed_sd_ln, 0.0, 1.0);
   in.number("stroke_amplitude_sd_ratio", movement.stroke_amplitude_sd_ratio, 0.0, 0.3);
@@ -153,7 +161,7 @@ void read_strokes(const json& file, std::map<std::string, Laboratory::Strokes>& 
   }
   for (const auto& [procedure, value] : file.at("strokes").items()) {
     if (procedure == "comment") continue;
-    Section in(file.at("strokes"), "/strokes/" + procedure, problems);
+    Section in(file.at("strokes"), procedure, "/strokes/" + shown_text(procedure), problems);
     Laboratory::Strokes& read = strokes[procedure];
     in.positive("amplitude_m", read.amplitude_m);
     in.number("amplitude_sd_ln", read.amplitude_sd_ln, 0.0, 1.0);
@@ -166,7 +174,7 @@ void read_strokes(const json& file, std::map<std::string, Laboratory::Strokes>& 
 
 void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
                     std::vector<std::string>& problems) {
-  Section in(file, "/perceiver", problems);
+  Section in(file, "perceiver", "/perceiver", problems);
   in.positive("weber_fraction", perceiver.weber_fraction);
   in.number("weber_fraction_sd_ln", perceiver.weber_fraction_sd_ln, 0.0, 2.0);
   in.word("noise", perceiver.noise, {"normal", "weibull"});
@@ -194,7 +202,7 @@ void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
 
 void read_answers(const json& file, Laboratory::Answers& answers,
                   std::vector<std::string>& problems) {
-  Section in(file, "/answers", problems);
+  Section in(file, "answers", "/answers", problems);
   in.number("age_years", answers.age_years, 18.0, 100.0);
   in.number("age_sd_years", answers.age_sd_years, 0.0, 30.0);
   in.number("right_handed_probability", answers.right_handed_probability, 0.0, 1.0);
@@ -231,7 +239,8 @@ const Laboratory::Strokes& Laboratory::strokes_for(const std::string& procedure)
 
 Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   const json file = json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!file.is_object()) {
+  // The library takes a zero byte for the end of the text.
+  if (!file.is_object() || text.find('\0') != std::string::npos) {
     throw core::Error(place +
                       ": expected a laboratory as one JSON object, found something else");
   }
@@ -241,7 +250,7 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
       "format", "name",     "title",   "comment",   "calibrated_on", "device",
       "arm",    "movement", "strokes", "perceiver", "answers",       "implied"};
   for (const auto& [key, value] : file.items()) {
-    if (!kKeys.contains(key)) problems.push_back("/" + key + ": unknown key");
+    if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
   }
   if (!file.contains("format") || file.at("format") != 1) {
     problems.emplace_back("/format: expected 1");
@@ -264,7 +273,11 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   read_answers(file, laboratory.answers, problems);
   if (!problems.empty()) {
     std::string message = place + ": " + std::to_string(problems.size()) + " problem(s)";
-    for (const std::string& problem : problems) message += "\n  " + problem;
+    constexpr std::size_t kMostTold = 100;
+    for (std::size_t i = 0; i < problems.size() && i < kMostTold; ++i) {
+      message += "\n  " + problems[i];
+    }
+    if (problems.size() > kMostTold) message += "\n  ...";
     throw core::Error(message);
   }
   return laboratory;

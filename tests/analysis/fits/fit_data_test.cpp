@@ -65,6 +65,19 @@ TEST(FitData, NamesEveryMissingColumnTheGroupingOnesToo) {
   }
 }
 
+TEST(FitData, ComparesNoCountsThatHaveBeenRefused) {
+  try {
+    (void)read_answer_counts(
+        CsvTable::parse("intensity,num_yes,num_trials\n1,1e305,1e300\n1,1,-1\n", "t.csv"));
+    FAIL() << "counts beyond every integer were accepted";
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "t.csv:2: num_yes: expected a whole number >= 0, found \"1e305\"\n"
+                 "t.csv:2: num_trials: expected a whole number >= 0, found \"1e300\"\n"
+                 "t.csv:3: num_trials: expected a whole number >= 0, found \"-1\"");
+  }
+}
+
 TEST(FitData, ATableWithoutRowsIsOneEmptyGroup) {
   const auto groups = read_magnitudes(CsvTable::parse("intensity,magnitude\n", "t.csv"));
   ASSERT_EQ(groups.size(), 1U);

@@ -98,5 +98,13 @@ TEST(SampleCodec, RefusesDamagedBytesInsteadOfInventingSamples) {
   }
 }
 
+TEST(SampleCodec, RefusesNumbersOfADamagedRowInsteadOfAskingForAllMemory) {
+  const std::string bytes = encode_samples(std::vector<Sample>(10));
+  constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
+  EXPECT_THROW((void)decode_samples(bytes, 0, kLargest, "test"), Error);
+  EXPECT_THROW((void)decode_samples(bytes, 0, std::int64_t{1} << 40, "test"), Error);
+  EXPECT_THROW((void)decode_samples(bytes, kLargest - 5, 10, "test"), Error);
+}
+
 }  // namespace
 }  // namespace jnd::core

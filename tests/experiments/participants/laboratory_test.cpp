@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -119,6 +120,37 @@ TEST(Laboratory, AProcedureWithoutStrokesOfItsOwnHasTheDefault) {
   EXPECT_EQ(&laboratory.strokes_for("staircase"), &laboratory.strokes.at("default"));
   EXPECT_EQ(&laboratory.strokes_for("constant_stimuli"),
             &laboratory.strokes.at("constant_stimuli"));
+}
+
+TEST(Laboratory, TellsOfAnyJunkInShortLinesForATerminal) {
+  nlohmann::json file = thesis();
+  file[std::string("\x1B[2J\n") + std::string(100000, 'k')] = 1;
+  file["device"][std::string(100000, 'k')] = 1;
+  file["device"]["mass_kg"] = {{"value", std::string(100000, 'v')}, {"why\x1B", 0}};
+  file["perceiver"]["noise"] = std::vector<int>(100000, 1);
+  file["strokes"]["a/b\x1B"] = nullptr;
+  std::istringstream lines(problems_of(file));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LT(line.size(), 300u) << line.substr(0, 400);
+    EXPECT_EQ(line.find('\x1B'), std::string::npos) << line;
+  }
+}
+
+TEST(Laboratory, ShowsAValueOfBottomlessNestingWithoutRunningOutOfStack) {
+  const std::string text = R"({"device": {"mass_kg": {"value": )" + std::string(1000000, '[') +
+                           std::string(1000000, ']') + "}}}";
+  EXPECT_THROW((void)parse_laboratory(text, "x.json"), core::Error);
+}
+
+TEST(Laboratory, ReadsAProcedureWhoseNameHoldsASlash) {
+  nlohmann::json file = thesis();
+  file["strokes"]["a/b"] = file["strokes"]["default"];
+  EXPECT_TRUE(parse_laboratory(file.dump(), "x.json").strokes.contains("a/b"));
+}
+
+TEST(Laboratory, LooksBehindAZeroByte) {
+  EXPECT_THROW((void)parse_laboratory(shipped("thesis.json") + '\0' + "junk", "x.json"),
+               core::Error);
 }
 
 }  // namespace

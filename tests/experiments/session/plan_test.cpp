@@ -90,8 +90,9 @@ TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
     for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
     MemoryLog log;
     const core::SimulatedClock clock;
-    Session session({.session = 1, .seed = session_seed(9, study.name, plan.participant), .stages = stages},
-                    {}, log, clock);
+    Session session(
+        {.session = 1, .seed = session_seed(9, study.name, plan.participant), .stages = stages},
+        {}, log, clock);
     session.start();
     std::int64_t tick = 0;
     while (session.current_stage() != nullptr) {
