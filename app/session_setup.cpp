@@ -6,6 +6,7 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -28,6 +29,17 @@ void require_device(const std::string& name) {
     (void)device::device_named(name);
   } catch (const core::Error& error) {
     throw UsageError(std::string("--device: ") + error.what());
+  }
+}
+
+void require_device_starts(const std::string& name, double rate_hz) {
+  try {
+    const std::unique_ptr<device::HapticDevice> device =
+        device::device_named(name).make(rate_hz);
+    device->open();
+    device->close();
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
   }
 }
 

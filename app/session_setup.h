@@ -27,6 +27,10 @@ struct SessionSetup {
 /// Throws `UsageError` if no device has this name.
 void require_device(const std::string& name);
 
+/// Opens the device once and closes it, so that nothing is stored for a session that cannot
+/// begin. Throws `EnvironmentError` with what the device says.
+void require_device_starts(const std::string& name, double rate_hz);
+
 /// Adds the rows of sessions for these participants, cells assigned in the order given, before
 /// any of them starts: so what a session holds does not depend on how many run at once. Returns
 /// their numbers. Throws `Error` if one of the participants has a session already.

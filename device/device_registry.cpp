@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "device/lumped_hand_device.h"
+#include "device/unplugged_device.h"
 
 namespace jnd::device {
 namespace {
@@ -16,6 +17,11 @@ constexpr std::array kDevices = {
                 .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<LumpedHandDevice>(
                       LumpedHandDevice::Parameters{.rate_hz = rate_hz});
+                }},
+    DeviceEntry{.name = "unplugged",
+                .description = "a device that never starts, to rehearse what happens then",
+                .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
+                  return std::make_unique<UnpluggedDevice>(rate_hz);
                 }},
 };
 

@@ -33,7 +33,7 @@ struct SquaresProblem {
                                                 std::vector<double> start);
 
 /// The same for a sum of squares, within its bounds: Levenberg and Marquardt.
-[[nodiscard]] std::vector<double> ceres_minimum(const SquaresProblem& problem,
+[[nodiscard]] std::vector<double> ceres_minimum(const SquaresProblem& squares,
                                                 std::vector<double> start);
 
 }  // namespace jnd::analysis

@@ -41,6 +41,7 @@ fs::path fresh_folder() {
 
 int run(const Options& options) {
   require_device(options.device);
+  require_device_starts(options.device, 1000.0);
   const fs::path out = options.out.empty() ? fresh_folder() : fs::path(options.out);
   for (const char* name : kStudies) {
     const fs::path folder = out / (std::string(name) + ".study");

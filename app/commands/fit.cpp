@@ -11,6 +11,7 @@
 #include "analysis/fits/fit_json.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
 
 namespace jnd::app {
 namespace {
@@ -243,9 +244,9 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   weber
       .add_option("--bootstrap", options->num_bootstrap,
                   "refits for a percentile interval of the Weber fraction")
-      ->check(CLI::Range(0, 10'000'000));
+      ->check(whole_number(0, 10'000'000));
   weber.add_option("--seed", options->seed, "of the bootstrap")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seed_number())
       ->capture_default_str();
   weber.callback(
       [&invocation, options] { invocation.run = [options] { return fit_weber(*options); }; });

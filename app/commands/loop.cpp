@@ -9,6 +9,8 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
+#include "app/session_setup.h"
 #include "core/error.h"
 #include "core/storage/storage_thread.h"
 #include "device/device_registry.h"
@@ -144,6 +146,7 @@ int run(const Options& options) {
     throw UsageError(fmt::format(
         "--rate-hz: expected a number > 0 and at most 100000, found {}", options.rate_hz));
   }
+  require_device(options.device);
   Setup setup(options);
   const device::RealtimeReport& report = setup.thread.report();
   if (options.cpu >= 0 && !report.pinned) throw EnvironmentError(report.lacks);
@@ -188,7 +191,7 @@ void add_loop(CLI::App& program, Invocation& invocation) {
   command->add_option("--seconds", options->seconds, "How long (default 5)");
   command->add_option("--device", options->device, "As `jnd devices` lists them");
   command->add_option("--cpu", options->cpu, "Pin the loop to this CPU")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0, 1023));
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
       [options, &invocation] { invocation.run = [options] { return run(*options); }; });

@@ -142,6 +142,7 @@ int run(const Options& options) {
   require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
+  require_device_starts(options.device, study.device.rate_hz);
   const experiments::Laboratory laboratory =
       experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate);
@@ -183,6 +184,7 @@ int resume(const Options& options) {
   }
   require_headless(options);
   const experiments::Study study = stored_study(store, row->session);
+  require_device_starts(row->device, row->rate_hz);
   if (const std::string remark = changed_study_remark(store, *row); !remark.empty()) {
     std::fprintf(stderr, "jnd: %s\n", remark.c_str());
   }

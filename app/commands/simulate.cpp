@@ -30,6 +30,7 @@ int run(const Options& options) {
   require_device(options.device);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
+  require_device_starts(options.device, study.device.rate_hz);
   const experiments::Laboratory laboratory =
       experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,

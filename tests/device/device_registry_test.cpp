@@ -24,12 +24,20 @@ TEST(DeviceRegistry, EveryDeviceIsMadeUnderItsOwnName) {
   EXPECT_TRUE(names.contains("lumped"));
 }
 
+TEST(DeviceRegistry, OneOfThemNeverStarts) {
+  const auto device = device_named("unplugged").make(1000.0);
+  EXPECT_THROW(device->open(), core::Error);
+  core::HapticState state;
+  EXPECT_FALSE(device->read(state));
+  EXPECT_FALSE(device->write(core::zero_vectors()));
+}
+
 TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
   try {
     static_cast<void>(device_named("phantom"));
     FAIL() << "a device that does not exist was found";
   } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(), "device: expected one of lumped, found phantom");
+    EXPECT_STREQ(error.what(), "device: expected one of lumped, unplugged, found phantom");
   }
 }
 

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "app/json_document.h"
 #include "support/program.h"
+#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace {
@@ -105,6 +107,28 @@ TEST(DoctorCommand, MissesTheShippedFilesWhereThereAreNone) {
     if (check["name"] == "shipped studies") found = !check["ok"].get<bool>();
   }
   EXPECT_TRUE(found);
+}
+
+TEST(ApparatusCommands, ADeviceThatDoesNotStartIsToldAndNothingIsStoredForIt) {
+  const test_support::TemporaryFolder folder;
+  const test_support::ProgramOptions here{.folder = folder.path(), .environment = {}};
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"loop", "--device", "unplugged", "--seconds", "1"},
+           {"run", "short_tour", "--study", "a.study", "--participant", "P01", "--headless",
+            "--device", "unplugged"},
+           {"simulate", "short_tour", "--study", "a.study", "--participants", "1", "--device",
+            "unplugged"},
+           {"demo", "--fast", "--out", "demo", "--device", "unplugged"}}) {
+    const auto outcome = test_support::run_program(words, here);
+    EXPECT_EQ(outcome.exit_code, 3) << words[0];
+    EXPECT_EQ(outcome.out, "") << words[0];
+    EXPECT_EQ(
+        outcome.err,
+        "jnd: unplugged: expected the device to answer, found nothing connected; check its "
+        "cable, its power and its emergency stop, then try again\n")
+        << words[0];
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 }  // namespace
