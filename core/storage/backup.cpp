@@ -1,5 +1,6 @@
 #include "core/storage/backup.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -18,14 +19,10 @@ constexpr Durability kDurable = Durability::kEveryCommit;
 
 /// An older study gets its identity before it is copied for the first time.
 void bring_study_up_to_date(const fs::path& folder) {
-  const fs::path file = folder / "study.sqlite";
-  if (!fs::exists(file)) {
-    throw Error(folder.string() +
-                ": expected a study folder of jnd, found no study.sqlite in it");
-  }
+  require_study(folder);
   bool outdated = false;
   {
-    Database database(file, Database::Mode::kReadOnly, kDurable);
+    Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
     outdated = study_format_of(database) < current_study_format();
   }
   if (outdated) const StudyStore brought(folder, StudyStore::Mode::kReadWrite);
@@ -42,8 +39,10 @@ void require_own_target(const fs::path& folder, const fs::path& target,
   }
   if (!fs::is_directory(target)) throw Error(place + "of the study, found no folder");
   if (fs::exists(target / "study.sqlite")) {
-    Database database(target / "study.sqlite", Database::Mode::kReadOnly, kDurable);
-    if (is_empty(database)) return;
+    {
+      Database database(target / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+      if (is_empty(database)) return;
+    }
     if (StudyStore(target, StudyStore::Mode::kReadOnly).study_id() == study_id) return;
     throw Error(place + "of this study, found another study; choose another folder");
   }
@@ -56,28 +55,76 @@ void require_own_target(const fs::path& folder, const fs::path& target,
   }
 }
 
-/// A study on a read-only disk can be copied all the same.
+/// Sessions, events and tombstones are never changed, so an earlier copy holds nothing that the
+/// study has not. One that does was gone on with, or is the newer of the two.
+void require_earlier(Database& copy, Database& study, const fs::path& target) {
+  const auto refuse = [&](std::int64_t session, const char* what) {
+    throw Error(target.string() + ": expected an earlier copy of this study, found " + what +
+                " of session " + std::to_string(session) +
+                " that the study does not have; nothing was changed, choose another folder");
+  };
+  Statement known_event(
+      study, "SELECT kind, time_ns, data FROM event WHERE session = ? AND sequence = ?");
+  Statement known_tombstone(study, "SELECT 1 FROM withdrawal WHERE session = ?");
+  Statement events(copy,
+                   "SELECT session, MAX(sequence), kind, time_ns, data FROM event"
+                   " GROUP BY session");
+  while (events.step()) {
+    const std::int64_t session = events.integer(0);
+    const bool same = known_event.bind(session).bind(events.integer(1)).step() &&
+                      known_event.text(0) == events.text(2) &&
+                      known_event.integer(1) == events.integer(3) &&
+                      known_event.text(2) == events.text(4);
+    known_event.reset();
+    const bool withdrew = known_tombstone.bind(session).step();
+    known_tombstone.reset();
+    if (!same && !withdrew) refuse(session, "events");
+  }
+  Statement tombstones(copy, "SELECT session FROM withdrawal");
+  while (tombstones.step()) {
+    const std::int64_t session = tombstones.integer(0);
+    const bool known = known_tombstone.bind(session).step();
+    known_tombstone.reset();
+    if (!known) refuse(session, "the withdrawal");
+  }
+}
+
+std::vector<std::string> backups_known_in(const fs::path& folder) {
+  Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+  if (is_empty(database)) return {};
+  Statement rows(database, "SELECT DISTINCT folder FROM backup");
+  std::vector<std::string> folders;
+  while (rows.step()) folders.push_back(rows.text(0));
+  return folders;
+}
+
+/// The study learns of this copy, and of those that were made from the copy. One on a read-only
+/// disk can be copied all the same.
 void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
                    BackupReport& report) try {
+  std::vector<std::string> folders = {fs::absolute(target).lexically_normal().string()};
+  if (fs::exists(target / "study.sqlite")) {
+    const std::vector<std::string> known = backups_known_in(folder);
+    for (const std::string& further : backups_known_in(target)) {
+      if (std::find(known.begin(), known.end(), further) == known.end()) {
+        folders.push_back(further);
+      }
+    }
+  }
   Database study(folder / "study.sqlite", Database::Mode::kReadWrite, kDurable);
-  Statement(study, "INSERT INTO backup (folder, time_ns) VALUES (?, ?)")
-      .bind(fs::absolute(target).lexically_normal().string())
-      .bind(time_ns)
-      .run();
+  Transaction transaction(study);
+  for (const std::string& one : folders) {
+    Statement(study, "INSERT INTO backup (folder, time_ns) VALUES (?, ?)")
+        .bind(one)
+        .bind(time_ns)
+        .run();
+  }
+  transaction.commit();
 } catch (const Error& error) {
   report.remarks.push_back(
       "the study does not know of this backup, so a withdrawal will not "
       "reach it: " +
       std::string(error.what()));
-}
-
-void copy_study(const fs::path& folder, const fs::path& target) {
-  const fs::path file = target / "study.sqlite";
-  const Database from(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
-  Database to(file, fs::exists(file) ? Database::Mode::kReadWrite : Database::Mode::kCreate,
-              kDurable);
-  from.copy_to(to);
-  to.execute("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
 using ChunkKey = std::pair<std::int64_t, std::int64_t>;  // Segment and first tick.
@@ -122,8 +169,25 @@ void copy_recording(const fs::path& source, const fs::path& target, BackupReport
     }
     transaction.commit();
   }
-  to.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  to.checkpoint();
   report.num_chunks += static_cast<std::int64_t>(chunk_keys(to).size());
+}
+
+/// Sessions of the snapshot whose samples are kept.
+std::vector<std::int64_t> recorded_sessions(Database& snapshot) {
+  Statement rows(snapshot, "SELECT session FROM session WHERE recorded ORDER BY session");
+  std::vector<std::int64_t> sessions;
+  while (rows.step()) sessions.push_back(rows.integer(0));
+  return sessions;
+}
+
+/// In one transaction of SQLite's: the earlier copy, or the new one.
+void write_study(const Database& snapshot, const fs::path& target) {
+  const fs::path file = target / "study.sqlite";
+  Database to(file, fs::exists(file) ? Database::Mode::kReadWrite : Database::Mode::kCreate,
+              kDurable);
+  snapshot.copy_to(to);
+  to.checkpoint();
 }
 
 }  // namespace
@@ -137,23 +201,32 @@ BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_
   const WriterLock lock(target);
 
   BackupReport report;
-  note_in_study(folder, target, time_ns, report);
-  copy_study(folder, target);
-  const StudyStore copy(target, StudyStore::Mode::kReadOnly);
-  for (const WithdrawalRow& withdrawn : copy.withdrawals()) {
-    remove_recording(copy.recording_file(withdrawn.session));
+  Database snapshot;
+  {
+    Database from(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+    if (fs::exists(target / "study.sqlite")) {
+      Database earlier(target / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+      if (!is_empty(earlier)) require_earlier(earlier, from, target);
+    }
+    note_in_study(folder, target, time_ns, report);
+    from.copy_to(snapshot);
   }
-  const std::vector<SessionRow> sessions = copy.sessions();
+  const std::vector<std::int64_t> sessions = recorded_sessions(snapshot);
   double done = 0.0;
-  for (const SessionRow& session : sessions) {
-    const fs::path source = study.recording_file(session.session);
-    if (session.recorded && fs::exists(source)) {
-      copy_recording(source, copy.recording_file(session.session), report);
+  for (const std::int64_t session : sessions) {
+    const fs::path source = study.recording_file(session);
+    if (fs::exists(source)) {
+      copy_recording(source, target / "recordings" / source.filename(), report);
     }
     done += 1.0;
     if (on_progress) on_progress(done / static_cast<double>(sessions.size()));
   }
   sync_folder(target / "recordings");
+  write_study(snapshot, target);
+  const StudyStore copy(target, StudyStore::Mode::kReadOnly);
+  for (const WithdrawalRow& withdrawn : copy.withdrawals()) {
+    remove_recording(copy.recording_file(withdrawn.session));
+  }
   report.integrity = verify(copy);
   return report;
 }

@@ -17,14 +17,15 @@ struct BackupReport {
   Integrity integrity;  ///< Of the backup, read back.
 };
 
-/// Makes `target` a copy of the study in `folder`, or brings an earlier copy up to date:
-/// study.sqlite first, by SQLite's own backup, then of each recording the chunks that are
-/// missing. So no event of the copy speaks of samples that it does not hold, even while a
-/// session goes on. The copy is a study folder like any other. It is noted in the study, so
-/// that a withdrawal reaches it; and it is verified.
+/// Makes `target` a copy of the study in `folder`, or brings an earlier copy up to date: a
+/// snapshot of study.sqlite first, then of each recording the chunks that are missing, then the
+/// snapshot is written, in one transaction. So no event of the copy speaks of samples that it
+/// does not hold, even while a session goes on, and an earlier copy stays whole if anything
+/// fails. The copy is a study folder like any other. It is noted in the study, so that a
+/// withdrawal reaches it; and it is verified.
 ///
-/// Throws `Error` for a target that holds something else, and where a disk or a right is
-/// missing; an earlier copy is then still whole. Not real time.
+/// Throws `Error` for a target that holds something else, or anything that the study has not,
+/// and where a disk or a right is missing. Not real time.
 [[nodiscard]] BackupReport back_up(const std::filesystem::path& folder,
                                    const std::filesystem::path& target, std::int64_t time_ns,
                                    const std::function<void(double)>& on_progress = {});

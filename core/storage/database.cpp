@@ -14,8 +14,19 @@ namespace {
 /// read-only disk or in another's folder.
 bool is_archived(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  return ::access(folder.c_str(), W_OK) != 0 &&
-         !std::filesystem::exists(file.string() + "-wal");
+  if (::access(folder.c_str(), W_OK) == 0) return false;
+  std::error_code error;
+  const auto log_bytes = std::filesystem::file_size(file.string() + "-wal", error);
+  return error || log_bytes == 0;
+}
+
+/// A program that was killed while it made this database left a journal to be rolled back,
+/// which a reader may not do.
+void roll_back(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file.string() + "-journal", error)) return;
+  Database database(file, Database::Mode::kReadWrite, Durability::kEveryCommit);
+  (void)is_empty(database);
 }
 
 /// SQLite needs a writable folder for its shared memory unless told that nothing will change.
@@ -51,6 +62,7 @@ Database::Database(const std::filesystem::path& file, Mode mode, Durability dura
     make_private_file(file);
   } else {
     require_file(file);
+    if (mode == Mode::kReadOnly && !is_archived(file)) roll_back(file);
   }
   const int flags = mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   const bool archived = mode == Mode::kReadOnly && is_archived(file);
@@ -124,6 +136,16 @@ void Database::fail(const std::string& doing) const {
       throw Error(place + "SQLite to carry out \"" + doing.substr(0, 60) +
                   "\", found: " + reason);
   }
+}
+
+void Database::checkpoint() {
+  Statement pragma(*this, "PRAGMA wal_checkpoint(TRUNCATE)");
+  // That it was held up is a row, not an error.
+  if (pragma.step() && pragma.integer(0) == 0) return;
+  throw Error(
+      file_.string() +
+      ": expected to be the only program that has this database open, found another one "
+      "reading it; close it, then run this again");
 }
 
 void Database::copy_to(Database& target) const {

@@ -29,6 +29,9 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void execute(const std::string& sql);
+  /// Folds the write-ahead log into the file and empties it, so that the file alone is all
+  /// there is. Throws `Error` while another program reads.
+  void checkpoint();
   /// Replaces the content of `target` by this one's, as it is at one moment, whoever
   /// writes to it meanwhile.
   void copy_to(Database& target) const;

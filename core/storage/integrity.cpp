@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/storage/recording.h"
+#include "core/storage/sha256.h"
 
 namespace jnd::core {
 namespace {
@@ -40,6 +41,15 @@ std::string span(std::int64_t first, std::int64_t last) {
   return std::to_string(first) + " to " + std::to_string(last);
 }
 
+/// Of a chunk whose numbers may be damaged too.
+std::string ticks_of(const RecordingChunk& chunk) {
+  constexpr std::int64_t kBeyond = std::int64_t{1} << 53;
+  const auto plausible = [](std::int64_t number) { return number >= 0 && number < kBeyond; };
+  if (!plausible(chunk.first_tick) || !plausible(chunk.num_samples))
+    return "that make no sense";
+  return span(chunk.first_tick, chunk.first_tick + chunk.num_samples - 1);
+}
+
 class SessionCheck {
  public:
   SessionCheck(const StudyStore& store, const SessionRow& session, Integrity& integrity)
@@ -48,6 +58,7 @@ class SessionCheck {
   void run() {
     const std::vector<EventRow> events = store_.events(session_.session);
     integrity_.num_events += static_cast<std::int64_t>(events.size());
+    check_protocol();
     check_sequence(events);
     check_answers();
     if (session_.recorded) check_recording(events);
@@ -59,6 +70,12 @@ class SessionCheck {
   }
   void remark(std::string message) {
     integrity_.remarks.push_back({session_.session, std::move(message)});
+  }
+
+  void check_protocol() {
+    const ProtocolRow protocol = store_.protocol(session_.protocol_sha256);
+    if (sha256(protocol.text) == protocol.sha256) return;
+    problem("expected the study's text to fit its hash, found it damaged");
   }
 
   void check_sequence(const std::vector<EventRow>& events) {
@@ -100,13 +117,20 @@ class SessionCheck {
     const std::filesystem::path file = store_.recording_file(session_.session);
     Ranges recorded;
     try {
-      for (const RecordingChunk& chunk : RecordingReader(file).chunks()) {
-        const std::int64_t last = chunk.first_tick + chunk.num_samples - 1;
+      const RecordingReader reader(file);
+      if (reader.rate_hz() != 0.0 && reader.rate_hz() != session_.rate_hz) {
+        problem(file.filename().string() + ": expected a rate of " +
+                std::to_string(session_.rate_hz) + " Hz, found " +
+                std::to_string(reader.rate_hz()));
+      }
+      for (const RecordingChunk& chunk : reader.chunks()) {
         if (!chunk.intact) {
           problem(file.filename().string() + ": expected the chunk of ticks " +
-                  span(chunk.first_tick, last) + " to fit its hash, found it damaged");
+                  ticks_of(chunk) +
+                  " to fit its hash and its number of samples, found it damaged");
           continue;
         }
+        const std::int64_t last = chunk.first_tick + chunk.num_samples - 1;
         recorded.emplace_back(chunk.first_tick, last);
         integrity_.num_samples += chunk.num_samples;
       }
@@ -134,7 +158,8 @@ class SessionCheck {
       std::int64_t first = -1;
       if (event.kind == "medium_explored") first = event.first_tick.value_or(-1);
       if (event.kind == "presentation_ended") first = presentation_first;
-      if (event.kind == "session_resumed" && event.last_tick >= event.first_tick) {
+      if (event.kind == "session_resumed" && event.first_tick && event.last_tick &&
+          *event.last_tick >= *event.first_tick) {
         remark("ticks " + span(*event.first_tick, *event.last_tick) +
                " belong to the attempt that was interrupted");
       }
@@ -152,6 +177,27 @@ class SessionCheck {
   const SessionRow& session_;
   Integrity& integrity_;
 };
+
+/// Recordings that neither a session nor a tombstone speaks of.
+std::vector<std::filesystem::path> recordings_without_session(const StudyStore& store) {
+  std::set<std::filesystem::path> known;
+  for (const SessionRow& session : store.sessions()) {
+    known.insert(store.recording_file(session.session));
+  }
+  for (const WithdrawalRow& withdrawn : store.withdrawals()) {
+    known.insert(store.recording_file(withdrawn.session));
+  }
+  std::vector<std::filesystem::path> orphans;
+  std::error_code error;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(store.folder() / "recordings", error)) {
+    if (entry.path().extension() == ".sqlite" && !known.contains(entry.path())) {
+      orphans.push_back(entry.path());
+    }
+  }
+  std::sort(orphans.begin(), orphans.end());
+  return orphans;
+}
 
 }  // namespace
 
@@ -178,6 +224,13 @@ Integrity verify(const StudyStore& store) {
           {withdrawn.session, "expected the recording of " + withdrawn.participant +
                                   ", who withdrew, to be gone, found it; run `jnd withdraw` "
                                   "again"});
+    }
+  });
+  check(0, [&] {
+    for (const std::filesystem::path& orphan : recordings_without_session(store)) {
+      integrity.problems.push_back(
+          {0, orphan.string() + ": expected a session of this recording, found none; was "
+                                "study.sqlite put back from an older copy?"});
     }
   });
   check(0, [&] {

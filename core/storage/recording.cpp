@@ -124,6 +124,17 @@ RecordingReader::~RecordingReader() = default;
 
 double RecordingReader::rate_hz() const noexcept { return implementation_->rate_hz; }
 
+/// The row's own numbers are not in the hash, but the bytes know them.
+static bool decodes(const RecordingChunk& chunk, std::string_view bytes) {
+  if (chunk.num_samples < 1) return false;
+  try {
+    (void)decode_samples(bytes, chunk.first_tick, chunk.num_samples, "chunk");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 std::vector<RecordingChunk> RecordingReader::chunks() const {
   if (is_empty(implementation_->database)) return {};
   Statement rows(implementation_->database,
@@ -132,13 +143,21 @@ std::vector<RecordingChunk> RecordingReader::chunks() const {
   std::vector<RecordingChunk> all;
   while (rows.step()) {
     const std::string_view bytes = rows.bytes(4);
-    all.push_back({.segment = rows.integer(0),
-                   .first_tick = rows.integer(1),
-                   .num_samples = rows.integer(2),
-                   .num_bytes = static_cast<std::int64_t>(bytes.size()),
-                   .intact = sha256(bytes.data(), bytes.size()) == rows.text(3)});
+    RecordingChunk chunk{.segment = rows.integer(0),
+                         .first_tick = rows.integer(1),
+                         .num_samples = rows.integer(2),
+                         .num_bytes = static_cast<std::int64_t>(bytes.size())};
+    chunk.intact = sha256(bytes.data(), bytes.size()) == rows.text(3) && decodes(chunk, bytes);
+    all.push_back(chunk);
   }
   return all;
+}
+
+std::int64_t RecordingReader::last_tick() const {
+  if (is_empty(implementation_->database)) return -1;
+  Statement rows(implementation_->database,
+                 "SELECT MAX(first_tick + num_samples) - 1 FROM chunk");
+  return rows.step() ? rows.optional_integer(0).value_or(-1) : -1;
 }
 
 void RecordingReader::read(std::int64_t first_tick, std::int64_t last_tick,

@@ -39,7 +39,7 @@ struct RecordingChunk {
   std::int64_t first_tick = 0;
   std::int64_t num_samples = 0;
   std::int64_t num_bytes = 0;
-  bool intact = false;  ///< The hash fits the bytes.
+  bool intact = false;  ///< The hash fits the bytes, and they decode to the samples promised.
 };
 
 /// Reads a recording. Throws `Error` if the file is missing or foreign; one that was being made
@@ -52,7 +52,10 @@ class RecordingReader {
   RecordingReader& operator=(const RecordingReader&) = delete;
 
   [[nodiscard]] double rate_hz() const noexcept;
+  /// Reads and decodes everything.
   [[nodiscard]] std::vector<RecordingChunk> chunks() const;
+  /// -1 if there is no sample. Quick.
+  [[nodiscard]] std::int64_t last_tick() const;
   /// Calls `visit` for every sample with first_tick <= tick <= last_tick, in order.
   void read(std::int64_t first_tick, std::int64_t last_tick,
             const std::function<void(const Sample&)>& visit) const;

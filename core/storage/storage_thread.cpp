@@ -9,7 +9,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPoll = 1ms;
-constexpr auto kPatience = 500ms;
+constexpr auto kPatience = 200ms;
+constexpr auto kGlance = 20ms;
 
 }  // namespace
 
@@ -25,17 +26,23 @@ StorageThread::~StorageThread() {
   thread_.join();
 }
 
-void StorageThread::after(std::int64_t tick, const std::function<void()>& work) {
+void StorageThread::after(std::int64_t tick, const std::function<void()>& work,
+                          const std::function<void()>& while_waiting) {
   std::unique_lock lock(mutex_);
   work_ = &work;
   work_tick_ = tick;
   wake_.notify_one();
-  done_.wait(lock, [&] { return work_ == nullptr; });
+  while (!done_.wait_for(lock, kGlance, [&] { return work_ == nullptr; })) {
+    if (while_waiting) while_waiting();
+  }
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void StorageThread::commit(StudyStore& store, const Commit& commit) {
-  after(commit.event.last_tick.value_or(-1), [&] { consumer_.commit(store, commit); });
+void StorageThread::commit(StudyStore& store, const Commit& commit,
+                           const std::function<void()>& while_waiting) {
+  after(
+      commit.event.last_tick.value_or(-1), [&] { consumer_.commit(store, commit); },
+      while_waiting);
 }
 
 void StorageThread::take_samples() {

@@ -47,11 +47,14 @@ class StorageThread {
   /// Runs `work` on the storage thread once every sample up to `tick` has been taken (-1: at
   /// once) and returns when it is done. Throws what `work` or an earlier sample threw. A tick
   /// that never comes, because its sample was dropped or the loop stands still, counts as taken
-  /// after half a second without samples. Not real time.
-  void after(std::int64_t tick, const std::function<void()>& work);
+  /// after a fifth of a second without samples. Not real time.
+  /// `while_waiting`, if any, is called every 20 ms in the calling thread.
+  void after(std::int64_t tick, const std::function<void()>& work,
+             const std::function<void()>& while_waiting = {});
 
   /// The recording up to `commit`'s last tick, synced, then the commit, synced.
-  void commit(StudyStore& store, const Commit& commit);
+  void commit(StudyStore& store, const Commit& commit,
+              const std::function<void()>& while_waiting = {});
 
  private:
   void run();

@@ -34,6 +34,17 @@ std::int64_t study_format_of(Database& database) {
   return format.integer(0);
 }
 
+void require_study(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "study.sqlite";
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    throw Error(folder.string() + ": expected a study folder of jnd, found " +
+                (error ? error.message() : "no study.sqlite in it"));
+  }
+  Database database(file, Database::Mode::kReadOnly, Durability::kEveryCommit);
+  (void)study_format_of(database);
+}
+
 void bring_up_to_date(Database& database) {
   for (std::int64_t format = study_format_of(database); format < current_study_format();
        ++format) {

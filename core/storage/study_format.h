@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 #include "core/storage/database.h"
 
@@ -15,6 +16,10 @@ namespace jnd::core {
 /// The layout of the database, 0 for an empty one. Throws `Error` for a database that is none
 /// of a study, or of a newer program.
 [[nodiscard]] std::int64_t study_format_of(Database& database);
+
+/// Throws `Error` unless the folder holds a study of this layout or an older one; changes
+/// nothing, as opening a foreign database to write already would.
+void require_study(const std::filesystem::path& folder);
 
 /// Carries out the steps that are missing.
 void bring_up_to_date(Database& database);

@@ -8,7 +8,7 @@
 namespace jnd::core {
 
 // The rows of study.sqlite as SQL: columns in one order for writing and reading. The words are
-// those of data/database/study.sql.
+// those of data/database.
 
 inline constexpr char kEventColumns[] =
     "session, sequence, kind, version, time_ns, stage, trial, attempt, first_tick, last_tick, "

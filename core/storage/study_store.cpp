@@ -16,16 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Makes the folders if asked to; returns the database file. One that is of something else is
-/// found before anything is written, for already opening it to write would change it.
+/// found before anything is written.
 fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
-  const fs::path file = folder / "study.sqlite";
-  if (fs::exists(file)) {
-    Database database(file, Database::Mode::kReadOnly, Durability::kEveryCommit);
-    (void)study_format_of(database);
-  } else if (mode != StudyStore::Mode::kCreate) {
-    throw Error(folder.string() +
-                ": expected a study folder of jnd, found no study.sqlite in it");
-  }
+  fs::path file = folder / "study.sqlite";
+  std::error_code error;
+  if (mode != StudyStore::Mode::kCreate || fs::exists(file, error)) require_study(folder);
   if (mode == StudyStore::Mode::kCreate) make_private_folders(folder / "recordings");
   return file;
 }
@@ -134,6 +129,9 @@ std::int64_t StudyStore::add_session(SessionRow row) {
                    "SELECT COALESCE(MAX(session), 0) + 1 FROM"
                    " (SELECT session FROM session UNION SELECT session FROM withdrawal)");
     if (next.step()) row.session = next.integer(0);
+    // Nor that of a recording whose session an older study.sqlite does not know.
+    std::error_code error;
+    while (fs::exists(recording_file(row.session), error)) ++row.session;
   }
   Statement statement(database, insert_into("session", kSessionColumns));
   bind(row, statement);
@@ -171,6 +169,15 @@ void StudyStore::append(const Commit& commit) {
     bind(row, *my.insert_answer);
   }
   transaction.commit();
+}
+
+SessionRow StudyStore::session(std::int64_t number) const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 std::string("SELECT ") + kSessionColumns + " FROM session WHERE session = ?");
+  if (rows.bind(number).step()) return session_row(rows);
+  throw Error(implementation_->folder.string() + ": expected session " +
+              std::to_string(number) + ", found none of that number");
 }
 
 std::vector<SessionRow> StudyStore::sessions() const {
@@ -268,8 +275,17 @@ bool StudyStore::finished(std::int64_t session) const {
 
 bool StudyStore::unblinded() const {
   const std::lock_guard guard(implementation_->mutex);
-  Statement rows(implementation_->database, "SELECT 1 FROM event WHERE kind = 'unblinded'");
+  Statement rows(implementation_->database,
+                 "SELECT 1 FROM unblinding UNION SELECT 1 FROM event WHERE kind = 'unblinded'");
   return rows.step();
+}
+
+void StudyStore::add_unblinding(std::int64_t time_ns, const std::string& reason) {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement(implementation_->database, "INSERT INTO unblinding VALUES (?, ?)")
+      .bind(time_ns)
+      .bind(reason)
+      .run();
 }
 
 std::string StudyStore::study_id() const {

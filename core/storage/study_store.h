@@ -163,6 +163,8 @@ class StudyStore {
   void append(const Commit& commit);
 
   [[nodiscard]] std::vector<SessionRow> sessions() const;
+  /// Throws `Error` if there is none of this number.
+  [[nodiscard]] SessionRow session(std::int64_t number) const;
   [[nodiscard]] std::vector<EventRow> events(std::int64_t session) const;
   [[nodiscard]] std::vector<DesignRow> design(std::int64_t session) const;
   /// Answered trials that count: not superseded. With `include_excluded`, also those set aside.
@@ -177,6 +179,7 @@ class StudyStore {
   [[nodiscard]] bool finished(std::int64_t session) const;
   /// Whether somebody asked to see what a double-blind study hides.
   [[nodiscard]] bool unblinded() const;
+  void add_unblinding(std::int64_t time_ns, const std::string& reason);
   /// The same in every backup of a study, and in no other study.
   [[nodiscard]] std::string study_id() const;
   [[nodiscard]] std::vector<WithdrawalRow> withdrawals() const;

@@ -1,7 +1,7 @@
 #include "core/storage/withdrawal.h"
 
 #include <algorithm>
-#include <set>
+#include <exception>
 #include <utility>
 
 #include "core/storage/database.h"
@@ -68,24 +68,23 @@ void delete_rows(Database& database, const std::vector<std::int64_t>& sessions,
 /// Deletes what one folder holds of the participant. Returns the sessions that it ever had.
 std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& participant,
                                    std::int64_t time_ns) {
+  require_study(folder);
   const WriterLock lock(folder);
-  std::vector<std::int64_t> gone;
+  Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
+                    Durability::kEveryCommit);
+  bring_up_to_date(database);
+  // Freed pages are overwritten with zeros; VACUUM and the emptied log leave no old ones.
+  database.execute("PRAGMA secure_delete = ON");
+  const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
+  if (!there.empty()) delete_rows(database, there, time_ns);
+  std::vector<std::int64_t> gone = sessions_in(database, "withdrawal", participant);
+  if (gone.empty()) return gone;
   {
-    Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
-                      Durability::kEveryCommit);
-    bring_up_to_date(database);
-    // Freed pages are overwritten with zeros; VACUUM and the truncated log leave no old ones.
-    database.execute("PRAGMA secure_delete = ON");
-    const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
-    if (!there.empty()) delete_rows(database, there, time_ns);
-    gone = sessions_in(database, "withdrawal", participant);
-    if (!gone.empty()) {
-      database.execute("VACUUM");
-      database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-    }
+    const StudyStore store(folder, StudyStore::Mode::kReadOnly);
+    for (const std::int64_t session : gone) remove_recording(store.recording_file(session));
   }
-  const StudyStore store(folder, StudyStore::Mode::kReadOnly);
-  for (const std::int64_t session : gone) remove_recording(store.recording_file(session));
+  database.execute("VACUUM");
+  database.checkpoint();
   return gone;
 }
 
@@ -114,18 +113,24 @@ WithdrawalReport withdraw(const fs::path& folder, const std::string& participant
                 ": expected a participant of this study, found no session of " + participant);
   }
   const std::string study_id = id_of(folder);
-  for (const fs::path& backup : known_backups(folder)) {
-    std::error_code error;
-    if (fs::equivalent(backup, folder, error)) continue;
+  // A backup may have been backed up itself, and know of copies that the study does not.
+  std::vector<fs::path> folders = known_backups(folder);
+  for (std::size_t next = 0; next < folders.size(); ++next) {
+    const fs::path backup = folders[next];
     try {
+      if (fs::exists(backup) && fs::equivalent(backup, folder)) continue;
+      require_study(backup);
       if (id_of(backup) != study_id) {
-        report.remaining.push_back(backup.string() +
-                                   ": expected a backup of this study, found another study");
-        continue;
+        throw Error(backup.string() + ": expected a backup of this study, found another study");
+      }
+      for (const fs::path& further : known_backups(backup)) {
+        if (std::find(folders.begin(), folders.end(), further) == folders.end()) {
+          folders.push_back(further);
+        }
       }
       (void)erase_in(backup, participant, time_ns);
       report.backups.push_back(backup);
-    } catch (const Error& failure) {
+    } catch (const std::exception& failure) {
       report.remaining.emplace_back(failure.what());
     }
   }

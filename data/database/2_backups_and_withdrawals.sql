@@ -15,6 +15,9 @@ CREATE TABLE backup (
   time_ns INTEGER NOT NULL
 );
 
+-- When a double-blind study was opened to the eye; its sessions have an event of it besides.
+CREATE TABLE unblinding (time_ns INTEGER NOT NULL, reason TEXT NOT NULL);
+
 -- The tombstone of a participant who withdrew: that there was a session, and nothing else of it.
 CREATE TABLE withdrawal (
   session INTEGER PRIMARY KEY,
@@ -23,6 +26,11 @@ CREATE TABLE withdrawal (
   num_events INTEGER NOT NULL,
   num_trials INTEGER NOT NULL
 );
+
+-- What the views of layout 1 ask of every trial.
+CREATE INDEX event_of_trial ON event (session, kind, trial);
+CREATE INDEX event_superseding ON event (session, supersedes) WHERE supersedes IS NOT NULL;
+CREATE INDEX event_unblinded ON event (kind) WHERE kind = 'unblinded';
 
 CREATE TRIGGER protocol_is_final BEFORE UPDATE ON protocol
   BEGIN SELECT RAISE(ABORT, 'protocols are never changed'); END;

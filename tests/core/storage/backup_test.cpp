@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/storage/kept_study.h"
+#include "core/storage/withdrawal.h"
 
 namespace jnd::core {
 namespace {
@@ -76,6 +77,43 @@ TEST_F(BackupTest, WritesOverNothingButAnEarlierCopyOfTheSameStudy) {
   EXPECT_THROW((void)back_up(kept_.folder(), kept_.folder(), 1), Error);
   EXPECT_THROW((void)back_up(kept_.beside("none"), kept_.beside("copy2"), 1), Error);
   EXPECT_FALSE(fs::exists(kept_.beside("copy2")));
+}
+
+TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
+  (void)back_up_now();
+  kept_.add_session("P02");
+  (void)withdraw(kept_.folder(), "P01", 5);
+  // The arguments the wrong way round: P02 and the withdrawal would be undone.
+  const std::string before = bytes_of(kept_.folder() / "study.sqlite");
+  try {
+    (void)back_up(copy(), kept_.folder(), 9);
+    FAIL() << "overwritten";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("that the study does not have"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(bytes_of(kept_.folder() / "study.sqlite"), before);
+
+  // A session that went on in its backup.
+  kept_.add_session("P03");
+  (void)back_up(kept_.folder(), kept_.beside("second"), 10);
+  {
+    StudyStore store(kept_.beside("second"), StudyStore::Mode::kReadWrite);
+    store.append({.event = {.session = 3, .sequence = 7, .kind = "note_added"}});
+  }
+  EXPECT_THROW((void)back_up(kept_.folder(), kept_.beside("second"), 11), Error);
+}
+
+TEST_F(BackupTest, AnEarlierCopyStaysWholeWhenALaterOneFails) {
+  (void)back_up_now();
+  kept_.add_session("P02");
+  // The recording of the second session cannot be copied to where a folder stands.
+  fs::create_directory(copy() / "recordings" / "0002.sqlite");
+  EXPECT_THROW((void)back_up_now(), Error);
+  fs::remove(copy() / "recordings" / "0002.sqlite");
+  const StudyStore store(copy(), StudyStore::Mode::kReadOnly);
+  EXPECT_EQ(store.sessions().size(), 1U);
+  EXPECT_TRUE(verify(store).complete);
 }
 
 TEST_F(BackupTest, SaysWhenTheCopyIsNotWhole) {

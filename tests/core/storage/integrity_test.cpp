@@ -62,6 +62,7 @@ class IntegrityTest : public ::testing::Test {
     for (std::int64_t tick = first_tick; tick <= last_tick; ++tick) {
       Sample sample;
       sample.tick = tick;
+      sample.tip_position_m[0][0] = 1e-3 * static_cast<double>(tick * tick % 97);
       writer.append(sample);
     }
     writer.flush();
@@ -99,6 +100,28 @@ TEST_F(IntegrityTest, CountsWhatAWholeStudyHolds) {
   EXPECT_EQ(integrity.num_events, 7);
   EXPECT_EQ(integrity.num_trials, 1);
   EXPECT_EQ(integrity.num_samples, 10000);
+}
+
+TEST_F(IntegrityTest, AChunkThatDoesNotHoldWhatItsRowSaysIsDamaged) {
+  for (const char* damage : {"num_samples = num_samples + 3", "num_samples = -1",
+                             "num_samples = 9000000000000000000", "first_tick = -5"}) {
+    fs::copy(recording(), recording().string() + ".sound");
+    execute(recording(), ("UPDATE chunk SET " + std::string(damage) +
+                          " WHERE rowid = (SELECT MAX(rowid) FROM chunk)")
+                             .c_str());
+    EXPECT_FALSE(verified().complete) << damage;
+    fs::rename(recording().string() + ".sound", recording());
+    fs::remove(recording().string() + "-wal");
+    fs::remove(recording().string() + "-shm");
+  }
+}
+
+TEST_F(IntegrityTest, ARecordingThatNoSessionKnowsIsAProblem) {
+  fs::copy(recording(), folder() / "recordings" / "0007.sqlite");
+  const Integrity integrity = verified();
+  EXPECT_FALSE(integrity.complete);
+  EXPECT_NE(integrity.problems.at(0).message.find("0007.sqlite: expected a session"),
+            std::string::npos);
 }
 
 TEST_F(IntegrityTest, ADamagedChunkIsNamedWithItsTicks) {

@@ -86,6 +86,52 @@ TEST_F(WithdrawalTest, ALaterBackupForgetsThePersonToo) {
   EXPECT_FALSE(fs::exists(kept_.beside("unplugged") / "recordings" / "0001.sqlite"));
 }
 
+TEST_F(WithdrawalTest, ReachesTheBackupsOfBackups) {
+  (void)back_up(kept_.folder(), kept_.beside("b"), 1);
+  (void)back_up(kept_.beside("b"), kept_.beside("c"), 2);
+  (void)back_up(kept_.folder(), kept_.beside("b"), 3);  // Which forgets nothing.
+  (void)withdraw(kept_.folder(), "P01", 5);
+  EXPECT_FALSE(holds(kept_.beside("c"), "secret of P01"));
+}
+
+TEST_F(WithdrawalTest, DoesNotSayItIsDoneWhileSomebodyReads) {
+  Database reader(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,
+                  Durability::kEveryCommit);
+  reader.execute("BEGIN");
+  Statement row(reader, "SELECT * FROM event");
+  ASSERT_TRUE(row.step());
+  EXPECT_THROW((void)withdraw(kept_.folder(), "P01", 5), Error);
+  row.reset();
+  reader.execute("ROLLBACK");
+  (void)withdraw(kept_.folder(), "P01", 6);
+  EXPECT_FALSE(holds(kept_.folder(), "secret of P01"));
+}
+
+TEST_F(WithdrawalTest, OneBackupOutOfOrderDoesNotKeepTheOthers) {
+  (void)back_up(kept_.folder(), kept_.beside("a"), 1);
+  (void)back_up(kept_.folder(), kept_.beside("z"), 2);
+  fs::remove_all(kept_.beside("a"));
+  fs::create_symlink("a", kept_.beside("a"));  // Around in a circle: no status at all.
+  const WithdrawalReport report = withdraw(kept_.folder(), "P01", 5);
+  EXPECT_EQ(report.remaining.size(), 1U);
+  EXPECT_EQ(report.backups, std::vector<fs::path>{kept_.beside("z")});
+  EXPECT_FALSE(holds(kept_.beside("z"), "secret of P01"));
+}
+
+TEST_F(WithdrawalTest, LeavesAForeignFolderAsItIs) {
+  fs::create_directory(kept_.beside("foreign"));
+  {
+    Database other(kept_.beside("foreign") / "study.sqlite", Database::Mode::kCreate,
+                   Durability::kEveryCommit);
+    other.execute("PRAGMA journal_mode = DELETE");
+    other.execute("CREATE TABLE recipe (name TEXT)");
+  }
+  const std::string before = all_bytes(kept_.beside("foreign"));
+  EXPECT_THROW((void)withdraw(kept_.beside("foreign"), "P01", 5), Error);
+  EXPECT_EQ(all_bytes(kept_.beside("foreign")), before);
+  EXPECT_FALSE(fs::exists(kept_.beside("foreign") / "writer.lock"));
+}
+
 TEST_F(WithdrawalTest, AnInterruptedOneIsFoundByVerifyAndFinishedByTheNextCall) {
   const std::string recording = bytes_of(kept_.recording(1));
   (void)withdraw(kept_.folder(), "P01", 5);
