@@ -78,7 +78,7 @@ struct Apparatus::Implementation {
     if (parameters.realtime) {
       storage.emplace(samples, consumer);
       thread.emplace(device::RealtimeThread::Parameters{});
-      device::start_haptics(device, loop, *thread, /*allow_no_realtime=*/false);
+      device::start_haptics(device, loop, *thread, parameters.allow_no_realtime);
     } else {
       device.open();
     }
@@ -92,7 +92,7 @@ struct Apparatus::Implementation {
 
   /// Does `work` once every sample up to now has been taken.
   void after_samples(std::int64_t last_tick, const std::function<void()>& work) {
-    if (storage) return storage->after(last_tick, work);
+    if (storage) return storage->after(last_tick, work, [this] { heartbeat.beat(); });
     work();
   }
 
@@ -223,7 +223,11 @@ analysis::StrokeSummary Apparatus::finish_strokes() {
 
 void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
   Implementation& my = *implementation_;
-  if (my.storage) return my.storage->commit(store, commit);
+  // A slow disk is no hung program: the heartbeat goes on while the commit is waited for.
+  if (my.storage) {
+    my.heartbeat.beat();
+    return my.storage->commit(store, commit, [&my] { my.heartbeat.beat(); });
+  }
   my.consumer.commit(store, commit);
 }
 

@@ -29,6 +29,7 @@ class Apparatus {
     std::int64_t first_tick = 0;     ///< A resumed session counts on.
     std::int64_t first_time_ns = 0;  ///< Of the simulated clock, likewise.
     bool realtime = false;           ///< Paced by a real-time thread; else as fast as it goes.
+    bool allow_no_realtime = false;  ///< A real device also without real-time rights.
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.
     std::optional<std::filesystem::path> recording;
     core::Durability durability = core::Durability::kEveryCommit;

@@ -17,27 +17,22 @@ namespace {
 
 using namespace experiments;
 
-core::SessionRow session_row(const core::StudyStore& store, std::int64_t session) {
-  for (const core::SessionRow& row : store.sessions()) {
-    if (row.session == session) return row;
-  }
-  throw core::Error(store.folder().string() + ": expected session " + std::to_string(session) +
-                    ", found none of that number");
+/// Where a resumed recording goes on.
+std::int64_t last_recorded_tick(const core::StudyStore& store, std::int64_t session) {
+  const std::filesystem::path file = store.recording_file(session);
+  return std::filesystem::exists(file) ? core::RecordingReader(file).last_tick() : -1;
 }
 
-/// The recorded tick after which a resumed session goes on, and how many no event knows of.
-struct RecordedEnd {
-  std::int64_t last_tick = -1;
-};
-
-RecordedEnd recorded_end(const core::StudyStore& store, std::int64_t session) {
-  RecordedEnd end;
-  const std::filesystem::path file = store.recording_file(session);
-  if (!std::filesystem::exists(file)) return end;
-  for (const core::RecordingChunk& chunk : core::RecordingReader(file).chunks()) {
-    end.last_tick = std::max(end.last_tick, chunk.first_tick + chunk.num_samples - 1);
+/// A simulated session goes on in its own time, whenever somebody excluded a trial of it.
+std::int64_t last_time_ns(const std::vector<core::EventRow>& events) {
+  for (auto event = events.rbegin(); event != events.rend(); ++event) {
+    if (event->kind == "trial_excluded" || event->kind == "trial_included" ||
+        event->kind == "unblinded") {
+      continue;
+    }
+    return event->time_ns;
   }
-  return end;
+  return 0;
 }
 
 /// Events go through the apparatus, which syncs the recording first.
@@ -64,7 +59,7 @@ class Visit {
         recorded_samples_(row.recorded),
         history_(run.store.events(run.session)),
         participant_(run.laboratory, row.seed),
-        recorded_(recorded_end(run.store, run.session)),
+        recorded_tick_(last_recorded_tick(run.store, run.session)),
         apparatus_(apparatus_parameters(), run.laboratory),
         log_(run, apparatus_),
         session_({.session = run.session,
@@ -103,7 +98,9 @@ class Visit {
   /// A fault of the loop is an event of the session, whatever else it ends.
   void keep_fault() {
     const core::Fault fault = apparatus_.telemetry().fault;
-    if (fault != core::Fault::kNone) session_.fault(std::string(words(fault)));
+    if (fault == core::Fault::kNone) return;
+    session_.fault(std::string(words(fault)));
+    keep_timing();
   }
 
   Apparatus::Parameters apparatus_parameters() const {
@@ -112,9 +109,10 @@ class Visit {
     parameters.ramp_s = run_.study.device.ramp_s;
     parameters.immersion = run_.study.device.immersion;
     parameters.home_height_m = participant_.home_height_m();
-    parameters.first_tick = std::max(recorded_.last_tick, last_tick_in(history_)) + 1;
-    if (!history_.empty()) parameters.first_time_ns = history_.back().time_ns;
+    parameters.first_tick = std::max(recorded_tick_, last_tick_in(history_)) + 1;
+    parameters.first_time_ns = last_time_ns(history_);
     parameters.realtime = run_.realtime;
+    parameters.allow_no_realtime = run_.allow_no_realtime;
     if (recorded_samples_) parameters.recording = run_.store.recording_file(run_.session);
     parameters.durability = run_.durability;
     return parameters;
@@ -123,7 +121,8 @@ class Visit {
   static std::int64_t last_tick_in(const std::vector<core::EventRow>& events) {
     std::int64_t last = -1;
     for (const core::EventRow& event : events) {
-      last = std::max({last, event.first_tick.value_or(-1), event.last_tick.value_or(-1)});
+      // A first tick was still to come when its event was stored.
+      last = std::max({last, event.first_tick.value_or(0) - 1, event.last_tick.value_or(-1)});
     }
     return last;
   }
@@ -166,7 +165,7 @@ class Visit {
   void begin_session() {
     if (!session_.state().started) return session_.start();
     const std::int64_t last_known = session_.state().last_tick;
-    session_.resume(run_.choice, last_known + 1, std::max(recorded_.last_tick, last_known));
+    session_.resume(run_.choice, last_known + 1, std::max(recorded_tick_, last_known));
   }
 
   void stage_progress() const {
@@ -250,7 +249,7 @@ class Visit {
   bool recorded_samples_;
   std::vector<core::EventRow> history_;
   SimulatedParticipant participant_;
-  RecordedEnd recorded_;
+  std::int64_t recorded_tick_;
   Apparatus apparatus_;
   StoredLog log_;
   Session session_;
@@ -260,7 +259,7 @@ class Visit {
 }  // namespace
 
 LaboratoryRunResult run_laboratory(const LaboratoryRun& run) {
-  const core::SessionRow row = session_row(run.store, run.session);
+  const core::SessionRow row = run.store.session(run.session);
   Visit visit(run, row);
   return visit.play();
 }

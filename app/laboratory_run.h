@@ -17,8 +17,9 @@ struct LaboratoryRun {
   const experiments::Study& study;
   const experiments::Laboratory& laboratory;
   core::StudyStore& store;
-  std::int64_t session = 0;  ///< Its row is in the store already.
-  bool realtime = false;     ///< Paced by the clock; else as fast as it goes.
+  std::int64_t session = 0;        ///< Its row is in the store already.
+  bool realtime = false;           ///< Paced by the clock; else as fast as it goes.
+  bool allow_no_realtime = false;  ///< A real device also without real-time rights.
   core::Durability durability = core::Durability::kEveryCommit;
   /// How an interrupted session goes on: "repeat", "restart" or "end".
   std::string choice = "repeat";

@@ -52,6 +52,7 @@ int invoke(int argc, char** argv) {
   try {
     for (const app::Registration add : app::registrations()) add(program, invocation);
     program.parse(argc, argv);
+    app::refuse_options_as_values(program);
     if (invocation.run) return invocation.run();
     return failed(
         app::kEnvironmentLacks,

@@ -92,7 +92,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     row.cells = to_string(cells[i]);
     row.pilot = setup.pilot;
     row.simulated = true;
-    row.device = "lumped";
+    row.device = setup.device;
     row.laboratory = setup.laboratory.text;
     row.program_version = JND_VERSION;
     row.realtime = setup.realtime ? "real-time thread" : "simulated";
@@ -104,26 +104,26 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
 }
 
 std::vector<std::string> next_participants(const core::StudyStore& store, int count) {
-  std::set<std::string> known;
-  for (const core::SessionRow& row : store.sessions()) known.insert(row.participant);
-  for (const core::WithdrawalRow& gone : store.withdrawals()) known.insert(gone.participant);
+  std::set<std::string> taken;
+  for (const core::SessionRow& row : store.sessions()) taken.insert(row.participant);
+  for (const core::WithdrawalRow& gone : store.withdrawals()) taken.insert(gone.participant);
+  return next_participants(taken, count);
+}
+
+std::vector<std::string> next_participants(const std::set<std::string>& taken, int count) {
   std::vector<std::string> names;
   for (int number = 1; static_cast<int>(names.size()) < count; ++number) {
     char name[16];
     std::snprintf(name, sizeof name, "P%02d", number);
-    if (!known.contains(name)) names.emplace_back(name);
+    if (!taken.contains(name)) names.emplace_back(name);
   }
   return names;
 }
 
 experiments::Study stored_study(const core::StudyStore& store, std::int64_t session) {
-  for (const core::SessionRow& row : store.sessions()) {
-    if (row.session != session) continue;
-    return experiments::read_study_text(store.protocol(row.protocol_sha256).text,
-                                        store.folder().string() + ": stored protocol");
-  }
-  throw core::Error(store.folder().string() + ": expected session " + std::to_string(session) +
-                    ", found none of that number");
+  const core::SessionRow row = store.session(session);
+  return experiments::read_study_text(store.protocol(row.protocol_sha256).text,
+                                      store.folder().string() + ": stored protocol");
 }
 
 std::vector<const experiments::Stage*> stages_of_session(const experiments::Study& study,
@@ -155,11 +155,11 @@ std::string changed_study_remark(const core::StudyStore& store,
 }
 
 void require_unblinded(const core::StudyStore& store) {
-  if (store.unblinded()) return;
   std::set<std::string> seen;
   for (const core::SessionRow& row : store.sessions()) {
     if (!seen.insert(row.protocol_sha256).second) continue;
     if (stored_study(store, row.session).blinding != experiments::Blinding::kDouble) continue;
+    if (store.unblinded()) return;
     throw core::Error(store.folder().string() +
                       ": expected a study whose levels may be seen, found a double-blind one "
                       "that nobody has unblinded; `jnd unblind` does, and leaves a record");
@@ -181,6 +181,7 @@ std::int64_t run_batch(const Batch& batch) {
   };
   const auto work = [&] {
     for (std::size_t i = next++; i < batch.sessions.size() && !failed; i = next++) {
+      if (batch.is_cancelled && batch.is_cancelled()) return;
       try {
         const LaboratoryRunResult result =
             run_laboratory({.study = batch.study,
@@ -188,10 +189,12 @@ std::int64_t run_batch(const Batch& batch) {
                             .store = batch.store,
                             .session = batch.sessions[i],
                             .durability = core::Durability::kAtClose,
-                            .on_progress = [&, i](double done) {
-                              progress[i].store(done, std::memory_order_relaxed);
-                              report();
-                            }});
+                            .on_progress =
+                                [&, i](double done) {
+                                  progress[i].store(done, std::memory_order_relaxed);
+                                  report();
+                                },
+                            .is_cancelled = batch.is_cancelled});
         progress[i].store(1.0);
         num_ticks += result.num_ticks;
       } catch (...) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SessionSetup {
   const experiments::Study& study;
   const experiments::Laboratory& laboratory;
   std::filesystem::path study_file;
+  std::string device = "lumped";
   std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
   bool pilot = false;
   bool realtime = false;
@@ -40,6 +42,9 @@ void require_device_starts(const std::string& name, double rate_hz);
 
 /// "P01", "P02", ...: the next free pseudonyms of a study.
 [[nodiscard]] std::vector<std::string> next_participants(const core::StudyStore& store,
+                                                         int count);
+/// The same where these are taken.
+[[nodiscard]] std::vector<std::string> next_participants(const std::set<std::string>& taken,
                                                          int count);
 
 /// The study as it was when the session began, from the store; its text may have changed since.
@@ -66,6 +71,7 @@ struct Batch {
   std::vector<std::int64_t> sessions;
   int jobs = 1;
   std::function<void(double)> on_progress;  ///< 0 to 1, from several threads; may be empty.
+  std::function<bool()> is_cancelled;       ///< Leaves sessions open; may be empty.
 };
 /// Throws the first error of any session, after the others have come to an end. Returns the
 /// simulated ticks of all.

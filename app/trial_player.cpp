@@ -32,8 +32,8 @@ void TrialPlayer::explore(const Exploration& exploration) {
   apparatus_.render(amounts_of(exploration.setting));
   StrokeIntent intent = participant_.strokes("");
   if (exploration.setting.medium == "solid") intent.height_m = -0.005;
-  apparatus_.begin_strokes(plan_of(intent),
-                           stroke_stream(session_.state().last_sequence, 0, 0));
+  apparatus_.begin_strokes(
+      plan_of(intent), stroke_stream(0, session_.state().stage, session_.state().num_explored));
   wait(exploration.duration_s);
   session_.explored(exploration.setting.medium, exploration.setting.intensity, first_tick,
                     apparatus_.next_tick() - 1);

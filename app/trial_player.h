@@ -17,8 +17,7 @@ void stop_if_cancelled(const LaboratoryRun& run);
 
 /// Plays a simulated participant at the apparatus: explores media, and runs trials of every
 /// procedure, each presentation in closed loop and every act an event of the session. Throws
-/// `Cancelled` within 20 ms of apparatus time, also in the middle of a presentation. Not real
-/// time.
+/// `Cancelled` between acts and between the strokes of a presentation. Not real time.
 class TrialPlayer {
  public:
   /// The references must outlive the player.

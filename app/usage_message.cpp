@@ -9,6 +9,7 @@
 #include <regex>
 #include <vector>
 
+#include "app/command.h"
 #include "experiments/study/study_problem.h"
 
 namespace jnd::app {
@@ -166,6 +167,21 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
         fmt::format("; see `jnd {}{}--help`", asked.words, asked.words.empty() ? "" : " ");
   }
   return one_line(message);
+}
+
+void refuse_options_as_values(const CLI::App& program) {
+  for (const CLI::App* command : program.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_items_expected_max() == 0) continue;
+      for (const std::string& value : option->results()) {
+        if (!value.starts_with("--") || command->get_option_no_throw(value) == nullptr)
+          continue;
+        throw UsageError(option->get_name() + ": expected a value, found the option `" + value +
+                         "`; write a value after it, or leave it away");
+      }
+    }
+    refuse_options_as_values(*command);
+  }
 }
 
 std::string one_line(std::string text) {

@@ -47,29 +47,15 @@ struct Outcome {
   double duration_s = 0.0;  ///< Of the longest session.
 };
 
-/// "P01", "P02" ...: pseudonyms that the study folder does not have yet.
-std::vector<std::string> next_pseudonyms(const std::vector<core::SessionRow>& sessions,
-                                         int count) {
-  std::vector<std::string> names;
-  for (int number = 1; static_cast<int>(names.size()) < count; ++number) {
-    const std::string name = fmt::format("P{:02}", number);
-    const bool known = std::any_of(sessions.begin(), sessions.end(),
-                                   [&](const auto& row) { return row.participant == name; });
-    if (!known) names.push_back(name);
-  }
-  return names;
-}
-
 Outcome outcome_of(const Options& options) {
   Outcome outcome;
   outcome.study = experiments::read_study(user_or_shipped(options.file, "protocols"));
   experiments::PlanRequest request = {.participants = {}, .seed = options.seed};
-  std::vector<core::SessionRow> sessions;
   bool unblinded = false;
   if (!options.folder.empty()) {
     const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
-    sessions = store.sessions();
-    request.num_earlier_sessions = static_cast<std::int64_t>(sessions.size());
+    request.num_earlier_sessions = static_cast<std::int64_t>(store.sessions().size());
+    request.participants = next_participants(store, options.participants);
     request.completed = experiments::completed_cells(store);
     unblinded = store.unblinded();
   }
@@ -78,7 +64,8 @@ Outcome outcome_of(const Options& options) {
                       ": expected a study that is not blind for the experimenter, found "
                       "`double`; its orders are shown once its study folder is unblinded");
   }
-  request.participants = next_pseudonyms(sessions, options.participants);
+  if (options.folder.empty())
+    request.participants = next_participants({}, options.participants);
   outcome.plans = experiments::plan_participants(outcome.study, request);
   outcome.completed = request.completed;
   for (const experiments::ParticipantPlan& plan : outcome.plans) {

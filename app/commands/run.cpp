@@ -1,8 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cctype>
-#include <csignal>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -15,26 +13,13 @@
 #include "app/progress_bar.h"
 #include "app/session_setup.h"
 #include "app/share.h"
+#include "app/stop_signals.h"
 #include "app/usage_message.h"
 #include "core/error.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
 namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-void request_stop(int) { stop_requested = true; }
-
-/// Stop with what is on disk, rather than die with it.
-void stop_on_signals() {
-  stop_requested = false;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
-  // The terminal was closed; under nohup that is no reason to stop.
-  if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-}
 
 struct Options {
   std::string file;
@@ -71,8 +56,9 @@ class Acknowledgements {
   bool unheard_ = false;
 };
 
-std::string how_to_go_on(const Options& options) {
-  return "`jnd resume " + options.folder + " --headless` goes on from there";
+std::string how_to_go_on(const Options& options, std::int64_t session) {
+  return "`jnd resume " + options.folder + " --session " + std::to_string(session) +
+         " --headless" + (options.realtime ? " --realtime" : "") + "` goes on from there";
 }
 
 int run_session(const Options& options, core::StudyStore& store,
@@ -89,12 +75,13 @@ int run_session(const Options& options, core::StudyStore& store,
          .store = store,
          .session = session,
          .realtime = options.realtime,
+         .allow_no_realtime = options.allow_no_realtime,
          .choice = options.choose,
          .on_event = [&](const core::EventRow& event) { acknowledgements.tell(event); },
          .on_progress = [&](double done) { bar.show(done); },
-         .is_cancelled = [&] { return stop_requested.load() || acknowledgements.unheard(); }});
+         .is_cancelled = [&] { return stop_requested() || acknowledgements.unheard(); }});
   } catch (const core::Error& error) {
-    throw core::Error(std::string(error.what()) + "; " + how_to_go_on(options));
+    throw core::Error(std::string(error.what()) + "; " + how_to_go_on(options, session));
   }
   const std::string unheard =
       "stdout: expected a reader of --acknowledge, found that it takes no more lines; ";
@@ -102,7 +89,7 @@ int run_session(const Options& options, core::StudyStore& store,
     std::fprintf(stderr, "jnd: %s%s\n",
                  acknowledgements.unheard() ? unheard.c_str()
                                             : "stopped; every answer so far is on disk, and ",
-                 how_to_go_on(options).c_str());
+                 how_to_go_on(options, session).c_str());
     return acknowledgements.unheard() ? kEnvironmentLacks : kDone;
   }
   if (acknowledgements.unheard()) {
@@ -151,6 +138,7 @@ int run(const Options& options) {
                    {.study = study,
                     .laboratory = laboratory,
                     .study_file = file,
+                    .device = options.device,
                     .seed = options.seed.value_or(std::random_device{}()),
                     .pilot = options.pilot,
                     .realtime = options.realtime},
@@ -161,22 +149,42 @@ int run(const Options& options) {
 /// The session asked for, or the open one; none if everything is finished.
 std::optional<core::SessionRow> session_to_resume(const core::StudyStore& store,
                                                   const Options& options) {
-  for (const core::SessionRow& row : store.sessions()) {
-    if (options.session ? row.session == *options.session : !store.finished(row.session)) {
-      return row;
+  if (options.session) {
+    core::SessionRow row = store.session(*options.session);
+    return store.finished(row.session) ? std::nullopt : std::optional(std::move(row));
+  }
+  std::optional<core::SessionRow> open;
+  std::string others;
+  for (core::SessionRow& row : store.sessions()) {
+    if (store.finished(row.session)) continue;
+    if (open) others += ", " + std::to_string(row.session) + " (" + row.participant + ")";
+    if (!open) open = std::move(row);
+  }
+  if (others.empty()) return open;
+  throw UsageError("resume: expected --session to say which, found several that are open in " +
+                   options.folder + ": " + std::to_string(open->session) + " (" +
+                   open->participant + ")" + others);
+}
+
+/// A session of two laboratories would be no result at all.
+experiments::Laboratory laboratory_of(const Options& options, const core::SessionRow& row) {
+  if (!options.laboratory.empty()) {
+    const experiments::Laboratory asked =
+        experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+    if (asked.text != row.laboratory) {
+      throw core::Error(options.laboratory + ": expected the laboratory that session " +
+                        std::to_string(row.session) +
+                        " was begun in, found another or a changed one; leave --laboratory "
+                        "away");
     }
   }
-  if (options.session) {
-    throw core::Error(options.folder + ": expected session " +
-                      std::to_string(*options.session) + ", found none of that number");
-  }
-  return std::nullopt;
+  return experiments::parse_laboratory(row.laboratory, options.folder + ": laboratory");
 }
 
 int resume(const Options& options) {
   core::StudyStore store(options.folder, core::StudyStore::Mode::kReadWrite);
   const std::optional<core::SessionRow> row = session_to_resume(store, options);
-  if (!row || store.finished(row->session)) {
+  if (!row) {
     // Whoever reads acknowledgements reads nothing else.
     std::fprintf(options.acknowledge ? stderr : stdout,
                  "%s: nothing to resume, every session is finished\n", options.folder.c_str());
@@ -188,11 +196,7 @@ int resume(const Options& options) {
   if (const std::string remark = changed_study_remark(store, *row); !remark.empty()) {
     std::fprintf(stderr, "jnd: %s\n", remark.c_str());
   }
-  const experiments::Laboratory laboratory =
-      options.laboratory.empty()
-          ? experiments::parse_laboratory(row->laboratory, options.folder + ": laboratory")
-          : experiments::read_laboratory(
-                user_or_shipped(options.laboratory, "data/laboratories"));
+  const experiments::Laboratory laboratory = laboratory_of(options, *row);
   return run_session(options, store, study, laboratory, row->session);
 }
 

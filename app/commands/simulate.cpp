@@ -9,6 +9,8 @@
 #include "app/progress_bar.h"
 #include "app/session_setup.h"
 #include "app/share.h"
+#include "app/stop_signals.h"
+#include "core/error.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
@@ -43,6 +45,7 @@ int run(const Options& options) {
                                                            .seed = options.seed,
                                                            .record = !options.fast},
                                                           participants);
+  stop_on_signals();
   const auto start = std::chrono::steady_clock::now();
   std::int64_t num_ticks = 0;
   {
@@ -52,7 +55,13 @@ int run(const Options& options) {
                            .store = store,
                            .sessions = sessions,
                            .jobs = options.jobs,
-                           .on_progress = [&bar](double done) { bar.show(done); }});
+                           .on_progress = [&bar](double done) { bar.show(done); },
+                           .is_cancelled = [] { return stop_requested(); }});
+  }
+  if (stop_requested()) {
+    throw core::Error(options.folder +
+                      ": stopped, and some of its sessions are open; `jnd resume " +
+                      options.folder + " --headless --session N` goes on with each");
   }
   const double simulated_s = static_cast<double>(num_ticks) / study.device.rate_hz;
   const double elapsed_s =

@@ -4,6 +4,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/replay_check.h"
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
@@ -37,7 +38,10 @@ void print(const char* title, const std::vector<core::Finding>& findings) {
 
 /// A database that cannot even be opened is a finding like any other.
 core::Integrity integrity_of(const std::string& folder) try {
-  return core::verify(core::StudyStore(folder, core::StudyStore::Mode::kReadOnly));
+  const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  core::Integrity integrity = core::verify(store);
+  check_replay(store, integrity);
+  return integrity;
 } catch (const core::Error& error) {
   return {.complete = false, .problems = {{0, error.what()}}};
 }

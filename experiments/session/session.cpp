@@ -15,6 +15,13 @@ namespace {
                     ", found none; nothing was stored");
 }
 
+constexpr char kWhatAnAnswerIs[] = "a number >= 0, or 1 or 0 for yes or no,";
+
+bool is_answer(AnswerKind kind, double response) {
+  if (kind == AnswerKind::kYesNo) return response == 0.0 || response == 1.0;
+  return std::isfinite(response) && response >= 0.0;
+}
+
 }  // namespace
 
 std::uint64_t session_seed(std::uint64_t seed, const std::string& study,
@@ -103,6 +110,7 @@ void Session::answer_item(const std::string& item, const std::string& answer) {
 void Session::explored(const std::string& medium, double intensity, std::int64_t first_tick,
                        std::int64_t last_tick) {
   if (!state_.stage_open) cannot("explore a medium", "a stage under way");
+  if (!std::isfinite(intensity)) cannot("explore a medium", "a finite intensity");
   commit(MediumExplored{state_.stage, medium, intensity, first_tick, last_tick});
 }
 
@@ -233,9 +241,9 @@ void Session::answer(double value, double response_time_s, std::int64_t last_tic
   }
   const AnswerKind kind = current_form().answer;
   const double response = kind == AnswerKind::kMatch ? trial.set_intensity : value;
-  if (!std::isfinite(response) || response < 0.0 ||
-      (kind == AnswerKind::kYesNo && response != 0.0 && response != 1.0)) {
-    cannot("take an answer", "a percentage >= 0, or 1 or 0 for yes or no,");
+  if (!is_answer(kind, response)) cannot("take an answer", kWhatAnAnswerIs);
+  if (!(response_time_s >= 0.0) || !std::isfinite(response_time_s)) {
+    cannot("take an answer", "a response time >= 0");
   }
   core::Commit rows;
   rows.trial = answered_row(number, response);
@@ -268,8 +276,11 @@ void Session::correct(std::int64_t number, double response, const std::string& r
       !state_.trial(number).response) {
     cannot("correct an answer", "an answered trial");
   }
-  if (!(response >= 0.0) || !std::isfinite(response)) {
-    cannot("correct an answer", "a number >= 0");
+  const Stage& stage =
+      *parameters_.stages.at(static_cast<std::size_t>(state_.trial(number).stage));
+  const Block& block = std::get<Block>(stage.content);
+  if (!is_answer(procedure_named(block.procedure).form().answer, response)) {
+    cannot("correct an answer", kWhatAnAnswerIs);
   }
   const TrialState& trial = state_.trial(number);
   core::Commit rows;
@@ -361,6 +372,8 @@ void Session::commit(EventData data, core::Commit rows) {
                     .time_ns = clock_.now_ns(),
                     .data = std::move(data)};
   rows.event = row_from_event(parameters_.session, event);
+  // What could not be read back must not be stored: the session would never open again.
+  (void)event_from_row(rows.event);
   log_.append(rows);
   apply(state_, event);
 }

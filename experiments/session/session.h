@@ -78,7 +78,7 @@ class Session {
   /// Takes the last answer of the current block back; its trial is run again.
   void undo(const std::string& reason);
   /// Sets an earlier answer right, its presentations untouched.
-  void correct(std::int64_t trial, double response, const std::string& reason);
+  void correct(std::int64_t number, double response, const std::string& reason);
   /// All answers of the current block are taken back; the order stays.
   void restart_block(const std::string& reason);
   void exclude(std::int64_t trial, const std::string& reason);
@@ -104,7 +104,7 @@ class Session {
   void draw_trials();
   [[nodiscard]] std::int64_t open_trial(const char* act) const;
   [[nodiscard]] double intensity_of(const TrialState& trial, const std::string& interval) const;
-  [[nodiscard]] core::TrialRow answered_row(std::int64_t trial, double response) const;
+  [[nodiscard]] core::TrialRow answered_row(std::int64_t number, double response) const;
 
   Parameters parameters_;
   EventLog& log_;

@@ -44,14 +44,14 @@ struct Fold {
     trial.set_intensity = trial.planned.starting_intensity.value_or(0.0);
     trial.num_steps = 0;
     trial.response.reset();
-    saw_tick(e.first_tick);
+    saw_tick(e.first_tick - 1);  // The first is still to come.
   }
   void operator()(const PresentationStarted& e) const {
     of(e.trial).presentations.push_back({.interval = e.interval,
                                          .intensity = e.intensity,
                                          .first_tick = e.first_tick,
                                          .started_time_ns = event.time_ns});
-    saw_tick(e.first_tick);
+    saw_tick(e.first_tick - 1);
   }
   void operator()(const PresentationEnded& e) const {
     TrialState& trial = of(e.trial);

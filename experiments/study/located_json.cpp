@@ -39,7 +39,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 std::string_view word_at(std::string_view text, std::size_t& byte) {
   constexpr std::string_view kEnds = " \t\r\n,:[]{}\"";
   byte = std::min(byte, text.size());
-  while (byte > 0 && kEnds.find(text[byte - 1]) == kEnds.npos) --byte;
+  while (byte > 0 && kEnds.find(text[byte - 1]) == std::string_view::npos) --byte;
   return text.substr(byte, std::min(text.find_first_of(kEnds, byte), text.size()) - byte);
 }
 
@@ -210,7 +210,7 @@ class PositionPass {
   }
   void skip_space() {
     while (here_.byte < text_.size() &&
-           std::string_view(" \t\r\n").find(text_[here_.byte]) != text_.npos) {
+           std::string_view(" \t\r\n").find(text_[here_.byte]) != std::string_view::npos) {
       step();
     }
   }
@@ -235,7 +235,7 @@ class PositionPass {
       string_token();
     } else {
       while (here_.byte < text_.size() &&
-             std::string_view(",]} \t\r\n").find(text_[here_.byte]) == text_.npos) {
+             std::string_view(",]} \t\r\n").find(text_[here_.byte]) == std::string_view::npos) {
         step();
       }
     }
@@ -301,11 +301,11 @@ void LocatedJson::parse(std::string_view text, std::vector<StudyProblem>& proble
                            std::move(message)});
   };
   // The parser takes a zero byte for the end of the text and does not look at what follows.
-  if (const std::size_t byte = text.find('\0'); byte != text.npos) {
+  if (const std::size_t byte = text.find('\0'); byte != std::string_view::npos) {
     return refuse(byte, "", "expected text, found a zero byte; save the file as UTF-8");
   }
   // Then of all: nothing below has to cope with more levels than this.
-  if (const std::size_t byte = too_deep_at(text); byte != text.npos) {
+  if (const std::size_t byte = too_deep_at(text); byte != std::string_view::npos) {
     return refuse(byte, "",
                   "expected at most " + std::to_string(kMaxDepth) +
                       " levels of brackets and braces, found more");

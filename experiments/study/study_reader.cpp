@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// The whole file, or a problem in words.
 std::optional<std::string> file_text(const fs::path& file,
                                      std::vector<StudyProblem>& problems) {
-  constexpr std::uintmax_t kLargestStudy = 4 * 1024 * 1024;
+  constexpr std::uintmax_t kLargestStudy = std::uintmax_t{4} << 20;
   const auto refuse = [&](const std::string& found) -> std::optional<std::string> {
     problems.push_back(
         {file.string(), 0, 0, "", "expected a study file that can be read, found " + found});

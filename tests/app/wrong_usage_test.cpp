@@ -46,6 +46,15 @@ class WrongUsageTest : public ::testing::Test {
   test_support::TemporaryFolder temporary_;
 };
 
+TEST_F(WrongUsageTest, AnOptionIsNoValueOfTheOneBefore) {
+  expect_wrong({
+      {{"run", "short_tour", "--study", "--headless", "--participant", "P01"},
+       {"--study: expected a value, found the option `--headless`"}},
+      {{"backup", ".", "--to", "--json"},
+       {"--to: expected a value, found the option `--json`"}},
+  });
+}
+
 TEST_F(WrongUsageTest, AMisspeltSubcommandIsToldTheNearest) {
   expect_wrong({
       {{"rnu"}, {"expected a subcommand", "`rnu`", "did you mean `run`?"}},

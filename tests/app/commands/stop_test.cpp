@@ -67,7 +67,8 @@ TEST_F(StopTest, EverySignalToStopEndsTheSessionCleanlyAndTellsHowToGoOn) {
     const ProgramOutcome outcome = child.wait();
     EXPECT_EQ(outcome.signal, 0);
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(sentence_flaw(outcome.err, {"stopped", "`jnd resume " + study + " --headless`"}),
+    EXPECT_EQ(sentence_flaw(outcome.err,
+                            {"stopped", "`jnd resume " + study + " --session 1 --headless`"}),
               "");
     for (const std::string& line : lines_of(outcome.out)) acknowledged.push_back(line);
     EXPECT_EQ(check_acknowledged(opened(study), acknowledged), acknowledged.size());
@@ -250,6 +251,43 @@ TEST_F(StopTest, AClockThatWasSetBackDisturbsNoSession) {
   EXPECT_TRUE(opened("a.study").finished(1));
   EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 0);
   EXPECT_EQ(jnd({"export", "csv", "a.study", "--out", "out"}).exit_code, 0);
+}
+
+TEST_F(StopTest, OfSeveralOpenSessionsOneHasToBeNamed) {
+  for (const char* participant : {"P01", "P02"}) {
+    std::vector<std::string> words = long_words("a.study");
+    words[5] = participant;
+    RunningProgram child(words, options_);
+    for (int line = 0; line < 20; ++line) ASSERT_TRUE(child.read_line());
+    child.send_signal(SIGINT);
+    EXPECT_EQ(child.wait().exit_code, 0);
+  }
+  const ProgramOutcome which = jnd({"resume", "a.study", "--headless"});
+  EXPECT_EQ(which.exit_code, 2);
+  EXPECT_EQ(sentence_flaw(which.err, {"expected --session", "1 (P01), 2 (P02)"}), "");
+  EXPECT_EQ(jnd({"resume", "a.study", "--headless", "--session", "2"}).exit_code, 0);
+  EXPECT_FALSE(opened("a.study").finished(1));
+  EXPECT_TRUE(opened("a.study").completed(2));
+  const ProgramOutcome other =
+      jnd({"resume", "a.study", "--headless", "--laboratory", "misspecified"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(sentence_flaw(other.err, {"expected the laboratory that session 1"}), "");
+  EXPECT_EQ(jnd({"resume", "a.study", "--headless"}).exit_code, 0);
+}
+
+TEST_F(StopTest, ManySimulatedSessionsStopTooAndSayWhatIsOpen) {
+  RunningProgram child(
+      {"simulate", "magnitude_of_virtual_water", "--participants", "40", "--study", "a.study"},
+      options_);
+  while (
+      !std::filesystem::exists(temporary_.path() / "a.study" / "recordings" / "0002.sqlite")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  child.send_signal(SIGINT);
+  const ProgramOutcome outcome = child.wait();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.signal;
+  EXPECT_EQ(sentence_flaw(outcome.err, {"stopped", "jnd resume a.study"}), "");
+  EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 0);
 }
 
 }  // namespace

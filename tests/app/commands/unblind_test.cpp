@@ -54,5 +54,25 @@ TEST_F(UnblindCommandTest, ADoubleBlindStudyShowsNothingUntilSomebodyUnblindsIt)
   EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 0);
 }
 
+TEST_F(UnblindCommandTest, TheRecordOutlivesTheParticipants) {
+  EXPECT_EQ(jnd({"unblind", "a.study", "--reason", "paper"}).exit_code, 0);
+  EXPECT_EQ(
+      jnd({"simulate", "blind.json", "--participants", "1", "--study", "a.study"}).exit_code,
+      0);
+  for (const char* name : {"P01", "P02"}) {
+    EXPECT_EQ(jnd({"withdraw", "a.study", "--participant", name}).exit_code, 0);
+  }
+  EXPECT_EQ(jnd({"export", "csv", "a.study", "--out", "csv"}).exit_code, 0);
+}
+
+TEST_F(UnblindCommandTest, AStudyThatIsNotBlindHasNothingToUnblind) {
+  write_file(temporary_.path() / "tiny.json", kTinyStudy);
+  ASSERT_EQ(
+      jnd({"simulate", "tiny.json", "--participants", "1", "--study", "b.study"}).exit_code, 0);
+  const ProgramOutcome out = jnd({"unblind", "b.study", "--reason", "x"});
+  EXPECT_EQ(out.exit_code, 1);
+  EXPECT_NE(out.err.find("expected a double-blind study"), std::string::npos) << out.err;
+}
+
 }  // namespace
 }  // namespace jnd::app

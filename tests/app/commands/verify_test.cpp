@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "app/json_document.h"
 #include "app/tiny_study.h"
+#include "core/storage/database.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -77,6 +80,52 @@ TEST_F(VerifyCommandTest, ADamagedDatabaseIsAFindingNotAFault) {
   EXPECT_EQ(verified(1)["complete"], false);
   fs::remove(in_study("study.sqlite"));
   EXPECT_EQ(verified(1)["complete"], false);
+}
+
+TEST_F(VerifyCommandTest, RowsAndEventsThatDisagreeAreFound) {
+  const std::string sound = read_file(in_study("study.sqlite"));
+  for (const char* damage :
+       {"UPDATE trial SET response = response + 1 WHERE session = 2 AND trial = 1",
+        "UPDATE presentation SET intensity = 7 WHERE session = 2 AND trial = 1",
+        "UPDATE presentation SET interval = 'tes4' WHERE session = 2 AND trial = 1",
+        "UPDATE design SET intensity = 7 WHERE session = 2 AND trial = 1",
+        "UPDATE event SET kind = 'trial_answereD' WHERE session = 2 AND kind = "
+        "'trial_answered'",
+        "UPDATE event SET data = '{' WHERE session = 2 AND kind = 'presentation_ended'",
+        "UPDATE protocol SET text = replace(text, 'tiny', 'tinz')"}) {
+    {
+      core::Database database(in_study("study.sqlite"), core::Database::Mode::kReadWrite,
+                              core::Durability::kEveryCommit);
+      for (const char* guard : {"trial", "presentation", "design", "event", "protocol"}) {
+        database.execute("DROP TRIGGER " + std::string(guard) + "_is_final");
+      }
+      database.execute(damage);
+    }
+    const auto json = verified(1);
+    EXPECT_FALSE(json["problems"].empty()) << damage;
+    write_file(in_study("study.sqlite"), sound);
+  }
+}
+
+TEST_F(VerifyCommandTest, AnInterruptedBeginningIsRolledBackByWhoeverLooks) {
+  // A rollback journal that its program did not live to remove.
+  const fs::path file = temporary_.path() / "a.study" / "study.sqlite";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    core::Database database(file, core::Database::Mode::kReadWrite,
+                            core::Durability::kEveryCommit);
+    database.execute("PRAGMA journal_mode = DELETE");
+    database.execute("PRAGMA cache_size = 1");
+    database.execute("BEGIN EXCLUSIVE");
+    for (int table = 0; table < 50; ++table) {
+      database.execute("CREATE TABLE t" + std::to_string(table) + " AS SELECT * FROM event");
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(fs::exists(file.string() + "-journal"));
+  EXPECT_EQ(verified(0)["complete"], true);
 }
 
 TEST_F(VerifyCommandTest, ChangesNothing) {
