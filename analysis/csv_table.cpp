@@ -44,8 +44,8 @@ std::string in_quotes(std::string_view cell, std::size_t most_bytes = 60) {
     }
     const std::string part =
         std::string(cell.substr(0, kept)) + (kept < cell.size() ? "..." : "");
-    std::string shown = nlohmann::json(part).dump(
-        -1, ' ', has_high_control(part), nlohmann::json::error_handler_t::replace);
+    std::string shown = nlohmann::json(part).dump(-1, ' ', has_high_control(part),
+                                                  nlohmann::json::error_handler_t::replace);
     if (shown.size() <= most_bytes + 20) return shown;
   }
 }

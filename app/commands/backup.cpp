@@ -14,6 +14,7 @@ namespace {
 struct Options {
   std::string folder;
   std::string target;
+  std::string forget;
   bool json = false;
 };
 
@@ -24,6 +25,16 @@ core::BackupReport backed_up(const Options& options) {
 }
 
 int run(const Options& options) {
+  if (options.target.empty() == options.forget.empty()) {
+    throw UsageError("backup: expected --to with a folder, or --forget with one, found " +
+                     std::string(options.target.empty() ? "neither" : "both"));
+  }
+  if (!options.forget.empty()) {
+    core::forget_backup(options.folder, options.forget, core::SystemClock().now_ns());
+    std::printf("%s: the backup in %s is forgotten; withdrawals will not look for it\n",
+                options.folder.c_str(), options.forget.c_str());
+    return kDone;
+  }
   const core::BackupReport report = backed_up(options);
   std::vector<std::string> problems;
   for (const core::Finding& finding : report.integrity.problems) {
@@ -67,10 +78,10 @@ void add_backup(CLI::App& program, Invocation& invocation) {
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command
-      ->add_option("--to", options->target,
-                   "Folder of the copy: new, empty, or an earlier backup of this study")
-      ->required();
+  command->add_option("--to", options->target,
+                      "Folder of the copy: new, empty, or an earlier backup of this study");
+  command->add_option("--forget", options->forget,
+                      "Folder of a copy that was deleted: withdrawals will not look for it");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

@@ -57,7 +57,10 @@ int run(const Options& options) {
     }
   }
   if (report.remaining.empty()) return kDone;
-  std::fprintf(stderr, "jnd: a backup could not be reached; attach it and run this again\n");
+  std::fprintf(stderr,
+               "jnd: a backup could not be reached; attach it and run this again, or if it is "
+               "gone, say so "
+               "with `jnd backup DIR --forget FOLDER`\n");
   return kHasProblems;
 }
 

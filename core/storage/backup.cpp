@@ -89,23 +89,24 @@ void require_earlier(Database& copy, Database& study, const fs::path& target) {
   }
 }
 
-std::vector<std::string> backups_known_in(const fs::path& folder) {
-  Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
-  if (is_empty(database)) return {};
-  Statement rows(database, "SELECT DISTINCT folder FROM backup");
-  std::vector<std::string> folders;
-  while (rows.step()) folders.push_back(rows.text(0));
-  return folders;
+fs::path as_noted(const fs::path& target) { return fs::absolute(target).lexically_normal(); }
+
+void note(Database& study, const fs::path& target, std::int64_t time_ns, bool forgotten) {
+  Statement(study, "INSERT INTO backup (folder, time_ns, forgotten) VALUES (?, ?, ?)")
+      .bind(target.string())
+      .bind(time_ns)
+      .bind(std::int64_t{forgotten})
+      .run();
 }
 
 /// The study learns of this copy, and of those that were made from the copy. One on a read-only
 /// disk can be copied all the same.
 void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
                    BackupReport& report) try {
-  std::vector<std::string> folders = {fs::absolute(target).lexically_normal().string()};
+  std::vector<fs::path> folders = {as_noted(target)};
   if (fs::exists(target / "study.sqlite")) {
-    const std::vector<std::string> known = backups_known_in(folder);
-    for (const std::string& further : backups_known_in(target)) {
+    const std::vector<fs::path> known = known_backups(folder);
+    for (const fs::path& further : known_backups(target)) {
       if (std::find(known.begin(), known.end(), further) == known.end()) {
         folders.push_back(further);
       }
@@ -113,12 +114,7 @@ void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t 
   }
   Database study(folder / "study.sqlite", Database::Mode::kReadWrite, kDurable);
   Transaction transaction(study);
-  for (const std::string& one : folders) {
-    Statement(study, "INSERT INTO backup (folder, time_ns) VALUES (?, ?)")
-        .bind(one)
-        .bind(time_ns)
-        .run();
-  }
+  for (const fs::path& one : folders) note(study, one, time_ns, /*forgotten=*/false);
   transaction.commit();
 } catch (const Error& error) {
   report.remarks.push_back(
@@ -229,6 +225,29 @@ BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_
   }
   report.integrity = verify(copy);
   return report;
+}
+
+std::vector<fs::path> known_backups(const fs::path& folder) {
+  Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+  if (is_empty(database)) return {};
+  Statement rows(database,
+                 "SELECT folder FROM backup AS b WHERE NOT forgotten AND"
+                 " backup = (SELECT MAX(backup) FROM backup WHERE folder = b.folder)"
+                 " ORDER BY folder");
+  std::vector<fs::path> folders;
+  while (rows.step()) folders.emplace_back(rows.text(0));
+  return folders;
+}
+
+void forget_backup(const fs::path& folder, const fs::path& target, std::int64_t time_ns) {
+  bring_study_up_to_date(folder);
+  const std::vector<fs::path> known = known_backups(folder);
+  if (std::find(known.begin(), known.end(), as_noted(target)) == known.end()) {
+    throw Error(folder.string() + ": expected a backup in " + as_noted(target).string() +
+                " to forget, found that the study knows of none there");
+  }
+  Database study(folder / "study.sqlite", Database::Mode::kReadWrite, kDurable);
+  note(study, as_noted(target), time_ns, /*forgotten=*/true);
 }
 
 }  // namespace jnd::core

@@ -30,4 +30,13 @@ struct BackupReport {
                                    const std::filesystem::path& target, std::int64_t time_ns,
                                    const std::function<void(double)>& on_progress = {});
 
+/// Folders that hold a copy of the study, as far as it knows.
+[[nodiscard]] std::vector<std::filesystem::path> known_backups(
+    const std::filesystem::path& folder);
+
+/// The copy in `target` exists no more: a withdrawal does not look for it. Throws `Error` if
+/// the study does not know of it.
+void forget_backup(const std::filesystem::path& folder, const std::filesystem::path& target,
+                   std::int64_t time_ns);
+
 }  // namespace jnd::core

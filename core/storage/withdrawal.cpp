@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/storage/backup.h"
 #include "core/storage/database.h"
 #include "core/storage/files.h"
 #include "core/storage/study_format.h"
@@ -86,16 +87,6 @@ std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& pa
   database.execute("VACUUM");
   database.checkpoint();
   return gone;
-}
-
-/// Folders that were once made copies of this study.
-std::vector<fs::path> known_backups(const fs::path& folder) {
-  Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
-                    Durability::kEveryCommit);
-  Statement rows(database, "SELECT DISTINCT folder FROM backup ORDER BY folder");
-  std::vector<fs::path> all;
-  while (rows.step()) all.emplace_back(rows.text(0));
-  return all;
 }
 
 std::string id_of(const fs::path& folder) {

@@ -8,11 +8,12 @@ INSERT INTO study_identity VALUES (lower(hex(randomblob(16))));
 -- text in it later is told when a session is resumed.
 ALTER TABLE protocol ADD COLUMN relative_path TEXT NOT NULL DEFAULT '';
 
--- Folders that hold a copy, so that a withdrawal reaches them.
+-- Folders that hold a copy, so that a withdrawal reaches them. The last row of a folder counts.
 CREATE TABLE backup (
   backup INTEGER PRIMARY KEY,
   folder TEXT NOT NULL,
-  time_ns INTEGER NOT NULL
+  time_ns INTEGER NOT NULL,
+  forgotten INTEGER NOT NULL      -- Said to exist no more.
 );
 
 -- When a double-blind study was opened to the eye; its sessions have an event of it besides.

@@ -86,6 +86,17 @@ TEST_F(WithdrawalTest, ALaterBackupForgetsThePersonToo) {
   EXPECT_FALSE(fs::exists(kept_.beside("unplugged") / "recordings" / "0001.sqlite"));
 }
 
+TEST_F(WithdrawalTest, ABackupThatWasDeletedCanBeForgotten) {
+  (void)back_up(kept_.folder(), kept_.beside("gone"), 1);
+  fs::remove_all(kept_.beside("gone"));
+  EXPECT_EQ(withdraw(kept_.folder(), "P01", 5).remaining.size(), 1U);
+  EXPECT_THROW(forget_backup(kept_.folder(), kept_.beside("other"), 6), Error);
+  forget_backup(kept_.folder(), kept_.beside("gone"), 6);
+  EXPECT_TRUE(withdraw(kept_.folder(), "P01", 7).remaining.empty());
+  (void)back_up(kept_.folder(), kept_.beside("gone"), 8);  // Made again, it is known again.
+  EXPECT_EQ(known_backups(kept_.folder()), std::vector<fs::path>{kept_.beside("gone")});
+}
+
 TEST_F(WithdrawalTest, ReachesTheBackupsOfBackups) {
   (void)back_up(kept_.folder(), kept_.beside("b"), 1);
   (void)back_up(kept_.beside("b"), kept_.beside("c"), 2);
