@@ -20,7 +20,7 @@ using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 using Clock = std::chrono::steady_clock;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(JND_SANITIZED)
 constexpr int kFewer = 5;  // Everything is ten times slower there, and the same.
 #else
 constexpr int kFewer = 1;
