@@ -25,14 +25,12 @@ std::int64_t last_recorded_tick(const core::StudyStore& store, std::int64_t sess
 
 /// A simulated session goes on in its own time, whenever somebody excluded a trial of it.
 std::int64_t last_time_ns(const std::vector<core::EventRow>& events) {
-  for (auto event = events.rbegin(); event != events.rend(); ++event) {
-    if (event->kind == "trial_excluded" || event->kind == "trial_included" ||
-        event->kind == "unblinded") {
-      continue;
-    }
-    return event->time_ns;
-  }
-  return 0;
+  const auto last =
+      std::find_if(events.rbegin(), events.rend(), [](const core::EventRow& event) {
+        return event.kind != "trial_excluded" && event.kind != "trial_included" &&
+               event.kind != "unblinded";
+      });
+  return last == events.rend() ? 0 : last->time_ns;
 }
 
 /// Events go through the apparatus, which syncs the recording first.
