@@ -90,9 +90,19 @@ struct Apparatus::Implementation {
     device.close();
   }
 
+  /// A slow disk is no hung program, but whoever waits for it cannot press the emergency stop:
+  /// the heartbeat goes on for a second, then the force fades.
+  std::function<void()> beats_while_waiting() {
+    heartbeat.beat();
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    return [this, patience] {
+      if (std::chrono::steady_clock::now() < patience) heartbeat.beat();
+    };
+  }
+
   /// Does `work` once every sample up to now has been taken.
   void after_samples(std::int64_t last_tick, const std::function<void()>& work) {
-    if (storage) return storage->after(last_tick, work, [this] { heartbeat.beat(); });
+    if (storage) return storage->after(last_tick, work, beats_while_waiting());
     work();
   }
 
@@ -223,11 +233,7 @@ analysis::StrokeSummary Apparatus::finish_strokes() {
 
 void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
   Implementation& my = *implementation_;
-  // A slow disk is no hung program: the heartbeat goes on while the commit is waited for.
-  if (my.storage) {
-    my.heartbeat.beat();
-    return my.storage->commit(store, commit, [&my] { my.heartbeat.beat(); });
-  }
+  if (my.storage) return my.storage->commit(store, commit, my.beats_while_waiting());
   my.consumer.commit(store, commit);
 }
 

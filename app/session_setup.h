@@ -29,8 +29,9 @@ struct SessionSetup {
 /// Throws `UsageError` if no device has this name.
 void require_device(const std::string& name);
 
-/// Opens the device once and closes it, so that nothing is stored for a session that cannot
-/// begin. Throws `EnvironmentError` with what the device says.
+/// Opens a simulated device once and closes it, so that nothing is stored for a session that
+/// cannot begin; a real one is left alone, for its motors may turn on. Throws
+/// `EnvironmentError` with what the device says.
 void require_device_starts(const std::string& name, double rate_hz);
 
 /// Adds the rows of sessions for these participants, cells assigned in the order given, before

@@ -19,14 +19,7 @@
 #include <mutex>
 #include <shared_mutex>
 
-#if defined(__has_feature)
-#define JND_HAS_FEATURE(feature) __has_feature(feature)
-#else
-#define JND_HAS_FEATURE(feature) 0
-#endif
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !JND_HAS_FEATURE(address_sanitizer) && !JND_HAS_FEATURE(thread_sanitizer)
+#if !defined(JND_SANITIZED)
 #define JND_TRAP
 #endif
 

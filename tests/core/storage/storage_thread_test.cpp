@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 
 namespace jnd::core {
 namespace {
@@ -30,6 +31,20 @@ TEST(StorageThread, DoesNotWaitForEverForATickThatNeverComes) {
   bool done = false;
   storage.after(1000000, [&] { done = true; });
   EXPECT_TRUE(done);
+}
+
+TEST(StorageThread, CallsBackWhileItIsWaitedFor) {
+  SpscQueue<Sample> samples(16);
+  StorageThread storage(samples, {});
+  std::atomic<int> num_calls{0};
+  // The work ends when it was heard of twice; without the calls it would end the test's time.
+  storage.after(
+      -1,
+      [&] {
+        while (num_calls < 2) std::this_thread::yield();
+      },
+      [&] { ++num_calls; });
+  EXPECT_GE(num_calls, 2);
 }
 
 TEST(StorageThread, ThrowsFromTheNextCallWhatAWriteThrew) {
