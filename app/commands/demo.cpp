@@ -98,11 +98,9 @@ int run(const Options& options) {
     return kDone;
   }
   std::printf(
-      "All values are SIMULATED, beside those of Schmidt (2018). Intervals: 95 %%, over "
-      "resampled\n"
-      "participants; of means of the participants by Student's t. inside: the interval holds "
-      "the\n"
-      "published value.\n"
+      "All values are SIMULATED, beside those of Schmidt (2018). Intervals: 95 %%, over\n"
+      "resampled participants; of means of the participants by Student's t. inside: the\n"
+      "interval holds the published value.\n"
       "%d sessions, %.0f s at the device in %.1f s; every answer%s is in %s\n"
       "Next: jnd results %s/%s.study\n",
       2 * kParticipants, simulated_s, elapsed_s, options.fast ? "" : " and sample",
