@@ -6,20 +6,6 @@
 namespace jnd::analysis {
 namespace {
 
-/// One participant's mean over presentations of test and reference that hold a whole stroke.
-std::optional<double> mean_of(const std::vector<core::PresentationRow>& presentations,
-                              std::optional<double> core::PresentationRow::*value) {
-  double sum = 0.0;
-  int count = 0;
-  for (const core::PresentationRow& row : presentations) {
-    if (row.interval == "free_space" || row.num_strokes < 1 || !(row.*value)) continue;
-    sum += *(row.*value);
-    ++count;
-  }
-  if (count == 0) return std::nullopt;
-  return sum / count;
-}
-
 void add(ResultsSection& section, const std::string& name, const std::string& unit,
          const std::string& meaning, const std::vector<double>& values) {
   const Summary summary = summary_of(values);
@@ -41,6 +27,19 @@ std::vector<core::PresentationRow> all_presentations(const ParticipantData& part
 
 }  // namespace
 
+std::optional<double> movement_mean(const std::vector<core::PresentationRow>& presentations,
+                                    std::optional<double> core::PresentationRow::*value) {
+  double sum = 0.0;
+  int count = 0;
+  for (const core::PresentationRow& row : presentations) {
+    if (row.interval == "free_space" || row.num_strokes < 1 || !(row.*value)) continue;
+    sum += *(row.*value);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
 ResultsSection movement_results(const StudyData& data) {
   ResultsSection section{.name = "movement"};
   const struct {
@@ -57,7 +56,7 @@ ResultsSection movement_results(const StudyData& data) {
   for (const auto& quantity : kQuantities) {
     std::vector<double> whole;
     for (const ParticipantData& participant : data.participants) {
-      if (const auto mean = mean_of(all_presentations(participant), quantity.value)) {
+      if (const auto mean = movement_mean(all_presentations(participant), quantity.value)) {
         whole.push_back(*mean);
       } else {
         section.excluded.push_back(
@@ -70,7 +69,7 @@ ResultsSection movement_results(const StudyData& data) {
       for (const ParticipantData& participant : data.participants) {
         const auto found = participant.presentations.find(block.block);
         if (found == participant.presentations.end()) continue;
-        if (const auto mean = mean_of(found->second, quantity.value)) {
+        if (const auto mean = movement_mean(found->second, quantity.value)) {
           by_block[block.block][participant.participant] = *mean;
         }
       }

@@ -94,4 +94,10 @@ struct ResultsOptions {
                                                        const BlockDesign& second);
 [[nodiscard]] ResultsSection movement_results(const StudyData& data);
 
+/// One participant's mean over presentations of test and reference that hold a whole stroke:
+/// what `movement_results` rests on. `value` is a column such as stroke_width_m.
+[[nodiscard]] std::optional<double> movement_mean(
+    const std::vector<core::PresentationRow>& presentations,
+    std::optional<double> core::PresentationRow::*value);
+
 }  // namespace jnd::analysis

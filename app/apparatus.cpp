@@ -1,5 +1,7 @@
 #include "app/apparatus.h"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -10,12 +12,12 @@
 #include "core/doors/latest_value.h"
 #include "core/doors/spsc_queue.h"
 #include "core/error.h"
-#include "core/safety/emergency_stop.h"
 #include "core/safety/fault.h"
-#include "core/safety/heartbeat.h"
 #include "core/storage/recording.h"
+#include "device/device_registry.h"
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
+#include "device/mouse_device.h"
 #include "device/realtime_thread.h"
 
 namespace jnd::app {
@@ -26,7 +28,10 @@ namespace {
 constexpr std::size_t kRealtimeQueueCapacity = 32768;
 constexpr std::size_t kSimulatedQueueCapacity = 256;
 
-device::LumpedHandDevice::Parameters device_parameters(
+constexpr std::string_view kLumped = "lumped";
+constexpr std::string_view kMouse = "mouse";
+
+device::LumpedHandDevice::Parameters lumped_parameters(
     const Apparatus::Parameters& parameters, const experiments::Laboratory& laboratory) {
   device::LumpedHandDevice::Parameters device;
   device.rate_hz = parameters.rate_hz;
@@ -42,31 +47,51 @@ device::LumpedHandDevice::Parameters device_parameters(
   return device;
 }
 
+std::unique_ptr<device::HapticDevice> make_device(const Apparatus::Parameters& parameters,
+                                                  const experiments::Laboratory* laboratory) {
+  if (parameters.device == kLumped && laboratory != nullptr) {
+    return std::make_unique<device::LumpedHandDevice>(
+        lumped_parameters(parameters, *laboratory));
+  }
+  if (parameters.device == kMouse) {
+    return std::make_unique<device::MouseDevice>(
+        device::MouseDevice::Parameters{.rate_hz = parameters.rate_hz,
+                                        .height_m = parameters.home_height_m},
+        parameters.doors != nullptr ? &parameters.doors->pointer : nullptr);
+  }
+  return device::device_named(parameters.device).make(parameters.rate_hz);
+}
+
 device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& parameters,
-                                               const experiments::Laboratory& laboratory) {
+                                               const experiments::Laboratory* laboratory) {
   device::HapticLoop::Parameters loop;
   loop.rate_hz = parameters.rate_hz;
   loop.first_tick = parameters.first_tick;
-  loop.limits.per_point_n = laboratory.device.max_force_per_point_n;
-  loop.limits.total_n = laboratory.device.max_total_force_n;
-  loop.limits.slew_n_per_s = laboratory.device.max_slew_n_per_s;
+  if (laboratory != nullptr) {
+    loop.limits.per_point_n = laboratory->device.max_force_per_point_n;
+    loop.limits.total_n = laboratory->device.max_total_force_n;
+    loop.limits.slew_n_per_s = laboratory->device.max_slew_n_per_s;
+  }
   return loop;
 }
 
 }  // namespace
 
 struct Apparatus::Implementation {
-  Implementation(Parameters the_parameters, const experiments::Laboratory& laboratory)
+  Implementation(Parameters the_parameters, const experiments::Laboratory* laboratory)
       : parameters(std::move(the_parameters)),
-        device(device_parameters(parameters, laboratory)),
+        doors(parameters.doors != nullptr ? *parameters.doors : own_doors),
+        device(make_device(parameters, laboratory)),
+        simulated_hand(dynamic_cast<device::LumpedHandDevice*>(device.get())),
         samples(parameters.realtime ? kRealtimeQueueCapacity : kSimulatedQueueCapacity),
-        loop(loop_parameters(parameters, laboratory), device,
+        max_total_force_n(std::min(loop_parameters(parameters, laboratory).limits.total_n,
+                                   device->capabilities().max_total_force_n)),
+        loop(loop_parameters(parameters, laboratory), *device,
              {.commands = commands,
               .telemetry = telemetry,
-              .emergency_stop = emergency_stop,
+              .emergency_stop = doors.emergency_stop,
               .samples = &samples,
-              .heartbeat = parameters.realtime ? &heartbeat : nullptr}),
-        next_tick(parameters.first_tick) {
+              .heartbeat = parameters.realtime ? &doors.heartbeat : nullptr}) {
     if (parameters.recording) {
       recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
     }
@@ -74,29 +99,36 @@ struct Apparatus::Implementation {
     consumer = {.recording = recording ? &*recording : nullptr,
                 .visit = [this](const core::Sample& sample) {
                   if (metering) feed_meter(sample);
+                  if (parameters.on_sample) parameters.on_sample(sample);
                 }};
     if (parameters.realtime) {
       storage.emplace(samples, consumer);
       thread.emplace(device::RealtimeThread::Parameters{});
-      device::start_haptics(device, loop, *thread, parameters.allow_no_realtime);
+      device::start_haptics(*device, loop, *thread, parameters.allow_no_realtime);
     } else {
-      device.open();
+      device->open();
     }
   }
 
   ~Implementation() {
     if (thread) thread->stop();
     storage.reset();
-    device.close();
+    device->close();
+  }
+
+  /// The sign of life of the thread that a person talks to: the window's own, where there is
+  /// one.
+  void beat() noexcept {
+    if (parameters.doors == nullptr) doors.heartbeat.beat();
   }
 
   /// A slow disk is no hung program, but whoever waits for it cannot press the emergency stop:
   /// the heartbeat goes on for a second, then the force fades.
   std::function<void()> beats_while_waiting() {
-    heartbeat.beat();
+    beat();
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
     return [this, patience] {
-      if (std::chrono::steady_clock::now() < patience) heartbeat.beat();
+      if (std::chrono::steady_clock::now() < patience) beat();
     };
   }
 
@@ -117,6 +149,7 @@ struct Apparatus::Implementation {
     }
     meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s / core::kNumContactPoints,
                loop.period_s());
+    num_metered_strokes.store(meter.num_strokes(), std::memory_order_relaxed);
   }
 
   void run_simulated(std::int64_t num_ticks) {
@@ -133,7 +166,7 @@ struct Apparatus::Implementation {
 
   void run_realtime(std::int64_t until_tick) {
     while (true) {
-      heartbeat.beat();
+      beat();
       telemetry.fetch();
       const core::Telemetry& now = telemetry.value();
       if (now.fault != core::Fault::kNone) return;
@@ -143,27 +176,32 @@ struct Apparatus::Implementation {
   }
 
   Parameters parameters;
-  device::LumpedHandDevice device;
+  OperatorDoors own_doors;  ///< Used where there is no window.
+  OperatorDoors& doors;
+  std::unique_ptr<device::HapticDevice> device;
+  device::LumpedHandDevice* simulated_hand;  ///< The device, where an arm moves it.
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
-  core::EmergencyStop emergency_stop;
-  core::Heartbeat heartbeat;
   core::SpscQueue<core::Sample> samples;
   core::SampleConsumer consumer;
+  double max_total_force_n;
   device::HapticLoop loop;
   std::optional<core::RecordingWriter> recording;
   analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
   bool metering = false;
+  std::atomic<int> num_metered_strokes{0};
   std::optional<core::StorageThread> storage;
   std::optional<device::RealtimeThread> thread;
   core::SimulatedClock simulated_clock;
   core::SystemClock system_clock;
   core::HapticCommand command;
-  std::int64_t next_tick;
 };
 
+Apparatus::Apparatus(const Parameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters, nullptr)) {}
+
 Apparatus::Apparatus(const Parameters& parameters, const experiments::Laboratory& laboratory)
-    : implementation_(std::make_unique<Implementation>(parameters, laboratory)) {}
+    : implementation_(std::make_unique<Implementation>(parameters, &laboratory)) {}
 
 Apparatus::~Apparatus() = default;
 
@@ -178,13 +216,18 @@ void Apparatus::render(const core::MediumAmounts& medium) {
 
 void Apparatus::begin_strokes(const device::StrokePlan& plan,
                               const core::RandomStream& random) {
-  implementation_->device.begin_strokes(plan, random);
+  Implementation& my = *implementation_;
+  if (my.simulated_hand != nullptr) my.simulated_hand->begin_strokes(plan, random);
 }
 
-void Apparatus::go_home() { implementation_->device.go_home(); }
+void Apparatus::go_home() {
+  Implementation& my = *implementation_;
+  if (my.simulated_hand != nullptr) my.simulated_hand->go_home();
+}
 
 std::int64_t Apparatus::strokes_finished() const noexcept {
-  return implementation_->device.strokes_finished();
+  const Implementation& my = *implementation_;
+  return my.simulated_hand != nullptr ? my.simulated_hand->strokes_finished() : 0;
 }
 
 void Apparatus::run_for(double duration_s) {
@@ -201,6 +244,8 @@ void Apparatus::run_for(double duration_s) {
     throw core::Error("haptic loop: " + std::string(words(fault)));
 }
 
+void Apparatus::rearm() { implementation_->loop.rearm(); }
+
 std::int64_t Apparatus::next_tick() const noexcept {
   Implementation& my = *implementation_;
   my.telemetry.fetch();
@@ -213,12 +258,21 @@ const core::Telemetry& Apparatus::telemetry() const noexcept {
   return implementation_->telemetry.value();
 }
 
+double Apparatus::max_total_force_n() const noexcept {
+  return implementation_->max_total_force_n;
+}
+
 void Apparatus::meter_strokes() {
   Implementation& my = *implementation_;
   my.after_samples(next_tick() - 1, [&my] {
     (void)my.meter.finish();
+    my.num_metered_strokes = 0;
     my.metering = true;
   });
+}
+
+int Apparatus::num_metered_strokes() const noexcept {
+  return implementation_->num_metered_strokes.load(std::memory_order_relaxed);
 }
 
 analysis::StrokeSummary Apparatus::finish_strokes() {
@@ -226,6 +280,7 @@ analysis::StrokeSummary Apparatus::finish_strokes() {
   analysis::StrokeSummary summary;
   my.after_samples(next_tick() - 1, [&] {
     summary = my.meter.finish();
+    my.num_metered_strokes = 0;
     my.metering = false;
   });
   return summary;

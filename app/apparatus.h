@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "analysis/movement/strokes.h"
+#include "app/operator/operator_doors.h"
 #include "core/clock.h"
 #include "core/haptic_command.h"
 #include "core/storage/storage_thread.h"
@@ -17,11 +20,14 @@
 
 namespace jnd::app {
 
-/// A simulated hand, its haptic loop and where the samples go, driven as one: commands in, time
-/// passes, what was felt and how the hand moved comes out. Not real time itself.
+/// A device, its haptic loop and where the samples go, driven as one: commands in, time passes,
+/// what was felt and how the hand moved comes out. The hand is moved by a simulated arm
+/// ("lumped", in real time or as fast as it goes) or by a person, in real time. Not real time
+/// itself; used by one thread.
 class Apparatus {
  public:
   struct Parameters {
+    std::string device = "lumped";  ///< As in the registry of devices.
     double rate_hz = 1000.0;
     double ramp_s = 0.050;
     core::Immersion immersion;
@@ -33,9 +39,18 @@ class Apparatus {
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.
     std::optional<std::filesystem::path> recording;
     core::Durability durability = core::Durability::kEveryCommit;
+    /// Of a window, which then beats the heartbeat and keeps them alive. nullptr: `run_for`
+    /// and whatever waits for the disk beat it.
+    OperatorDoors* doors = nullptr;
+    /// Called for every sample, in order, by the thread that stores them; simulated, by the one
+    /// that calls `run_for`. May be empty.
+    std::function<void(const core::Sample&)> on_sample;
   };
 
-  /// Throws `Error` if the loop or the recording cannot be set up.
+  /// A device with its default settings: "mouse", or a real one. Throws `Error` if device, loop
+  /// or recording cannot be set up.
+  explicit Apparatus(const Parameters& parameters);
+  /// The lumped hand and the limits of this laboratory; other devices take the limits alone.
   Apparatus(const Parameters& parameters, const experiments::Laboratory& laboratory);
   ~Apparatus();
   Apparatus(const Apparatus&) = delete;
@@ -43,6 +58,7 @@ class Apparatus {
 
   /// Changes the medium by a ramp.
   void render(const core::MediumAmounts& medium);
+  // Of the simulated arm; a hand that a person moves takes no orders and has finished none.
   void begin_strokes(const device::StrokePlan& plan, const core::RandomStream& random);
   void go_home();
   /// Whole strokes since the last `begin_strokes`.
@@ -51,11 +67,20 @@ class Apparatus {
   /// Lets this much time pass. Throws `Error` if the loop latched a fault.
   void run_for(double duration_s);
 
+  /// Asks for the force back, faded in from zero, after a stop that was released or a fault.
+  /// Telemetry tells whether it came: what is still wrong latches again.
+  void rearm();
+
   /// Number of the next sample.
   [[nodiscard]] std::int64_t next_tick() const noexcept;
   [[nodiscard]] const core::Telemetry& telemetry() const noexcept;
+  /// The most that the points together ever get: the least of the limiter's and the device's.
+  [[nodiscard]] double max_total_force_n() const noexcept;
   /// Strokes from now on until `finish_strokes`.
   void meter_strokes();
+  /// Whole strokes since `meter_strokes`, as far as samples have been taken; 0 while none are
+  /// metered. Any thread.
+  [[nodiscard]] int num_metered_strokes() const noexcept;
   [[nodiscard]] analysis::StrokeSummary finish_strokes();
   /// The recording up to the commit's last tick is on disk before the commit is, and both are
   /// when this returns.

@@ -12,6 +12,7 @@
 
 #include "app/command.h"
 #include "app/commands/validate.h"
+#include "app/open_window.h"
 #include "app/usage_message.h"
 #include "core/error.h"
 
@@ -54,9 +55,7 @@ int invoke(int argc, char** argv) {
     program.parse(argc, argv);
     app::refuse_options_as_values(program);
     if (invocation.run) return invocation.run();
-    return failed(
-        app::kEnvironmentLacks,
-        "no display was found for the window; `jnd --help` lists what works without one");
+    return app::open_window({});
   } catch (const CLI::ParseError& error) {
     // CLI11 has codes of its own: asking for help is 0, everything else is wrong usage.
     if (error.get_exit_code() == 0) return program.exit(error);

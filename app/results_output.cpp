@@ -109,7 +109,11 @@ analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  const analysis::StudyData data = analysis::load_study(store);
+  return results_of_data(analysis::load_study(store), options);
+}
+
+analysis::StudyResults results_of_data(const analysis::StudyData& data,
+                                       const analysis::ResultsOptions& options) {
   analysis::StudyResults results = analysis::results_of(
       data, analysis::published_for(data.study, share_folder() / "data" / "published"),
       options);

@@ -12,6 +12,10 @@ namespace jnd::app {
 [[nodiscard]] analysis::StudyResults results_of_folder(
     const std::filesystem::path& folder, const analysis::ResultsOptions& options = {});
 
+/// The same of what was read from a folder already; whether it may be seen is the caller's.
+[[nodiscard]] analysis::StudyResults results_of_data(
+    const analysis::StudyData& data, const analysis::ResultsOptions& options = {});
+
 /// The contract's JSON: study, simulated, sections.
 [[nodiscard]] nlohmann::json to_json(const analysis::StudyResults& results);
 

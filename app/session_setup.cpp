@@ -32,6 +32,15 @@ void require_device(const std::string& name) {
   }
 }
 
+void require_device_moves_by_itself(const std::string& name, const std::string& place) {
+  constexpr double kUsualRateHz = 1000.0;
+  if (device::device_named(name).make(kUsualRateHz)->capabilities().moves_by_itself) return;
+  throw UsageError(place +
+                   ": expected a device that moves by itself, for participants that are "
+                   "simulated, found one that a person has to move; choose another, see `jnd "
+                   "devices`");
+}
+
 void require_device_starts(const std::string& name, double rate_hz) {
   try {
     const std::unique_ptr<device::HapticDevice> device =
@@ -43,6 +52,10 @@ void require_device_starts(const std::string& name, double rate_hz) {
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());
   }
+}
+
+static std::string laboratory_text(const SessionSetup& setup) {
+  return setup.laboratory == nullptr ? "" : setup.laboratory->text;
 }
 
 /// One folder is one study and, simulated, one laboratory: pooling two would be no result at
@@ -57,10 +70,11 @@ static void refuse_other_study(const core::StudyStore& store, const SessionSetup
           row.protocol_sha256.substr(0, 12) + "), found another or a changed one (" +
           hash.substr(0, 12) + "); use a new folder for it");
     }
-    if (row.laboratory != setup.laboratory.text) {
-      throw core::Error(store.folder().string() +
-                        ": expected the laboratory that its sessions were simulated in, found "
-                        "another or a changed one; use a new folder for it");
+    if (row.laboratory != laboratory_text(setup)) {
+      throw core::Error(
+          store.folder().string() +
+          ": expected the laboratory that its sessions were simulated in, or persons "
+          "as in them, found another; use a new folder for it");
     }
   }
 }
@@ -93,9 +107,9 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     row.seed = experiments::session_seed(setup.seed, setup.study.name, participants[i]);
     row.cells = to_string(cells[i]);
     row.pilot = setup.pilot;
-    row.simulated = true;
+    row.simulated = setup.laboratory != nullptr;
     row.device = setup.device;
-    row.laboratory = setup.laboratory.text;
+    row.laboratory = laboratory_text(setup);
     row.program_version = JND_VERSION;
     row.realtime = setup.realtime ? "real-time thread" : "simulated";
     row.recorded = setup.record;

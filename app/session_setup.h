@@ -17,7 +17,8 @@ namespace jnd::app {
 /// What every session of a run has in common.
 struct SessionSetup {
   const experiments::Study& study;
-  const experiments::Laboratory& laboratory;
+  /// Where its participants, or at least their hands, are simulated; nullptr: persons.
+  const experiments::Laboratory* laboratory = nullptr;
   std::filesystem::path study_file;
   std::string device = "lumped";
   std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
@@ -28,6 +29,11 @@ struct SessionSetup {
 
 /// Throws `UsageError` if no device has this name.
 void require_device(const std::string& name);
+
+/// Simulated participants have no hand of their own: throws `UsageError` "PLACE: expected a
+/// device that moves by itself, ..." for a device that a person has to move. `place` says where
+/// the name is from, "--device mouse".
+void require_device_moves_by_itself(const std::string& name, const std::string& place);
 
 /// Opens a simulated device once and closes it, so that nothing is stored for a session that
 /// cannot begin; a real one is left alone, for its motors may turn on. Throws

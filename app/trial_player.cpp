@@ -76,50 +76,22 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent) {
 }
 
 TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
+  presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
-  session_.begin_presentation(interval, apparatus_.next_tick());
   const TrialState& trial = session_.state().trial(number);
-  const core::MediumAmounts amounts =
-      amounts_of(interval == "free_space" ? "free_space" : block.medium,
-                 trial.presentations.back().intensity);
   const StrokeIntent intent = participant_.strokes(block.procedure);
-  const std::int64_t limited_before =
-      static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
-  apparatus_.render(amounts);
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(number, trial.attempt,
                                      static_cast<std::int64_t>(trial.presentations.size())));
-  apparatus_.run_for(run_.study.device.ramp_s);  // Felt is what comes after the ramp.
-  const core::ContactSums before = apparatus_.telemetry().contact_sums;
-  apparatus_.meter_strokes();
+  apparatus_.run_for(run_.study.device.ramp_s);
+  presenter_.ramp_is_over();
   run_strokes(intent);
-  const core::ContactSums sums = apparatus_.telemetry().contact_sums - before;
-  const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
-
-  PresentationSummary summary;
-  summary.stroke_width_m = strokes.stroke_width_m;
-  summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
-  summary.mean_height_m = strokes.mean_height_m;
-  summary.num_strokes = strokes.num_strokes;
-  summary.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
-  if (amounts.quadratic_kg_per_m == 0.0) {
-    summary.commanded_damping_n_s_per_m = amounts.damping_n_s_per_m;
-  }
-  summary.limited_ticks =
-      static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks) - limited_before;
-  // What was delivered and the device's own viscosity; dry friction is felt as something
-  // else.
-  const std::int64_t last_tick = apparatus_.next_tick() - 1;
-  const Felt felt{
-      .damping_n_s_per_m = sums.delivered_damping_n_s_per_m() +
-                           run_.laboratory.device.mechanical_viscosity_n_s_per_m,
-      .last_tick = last_tick,
-      .duration_s =
-          static_cast<double>(last_tick -
-                              session_.state().trial(number).presentations.back().first_tick) /
-          run_.study.device.rate_hz};
-  session_.end_presentation(felt.last_tick, summary);
-  return felt;
+  const Presenter::Felt felt = presenter_.end();
+  // What was delivered and the device's own viscosity; dry friction is felt as something else.
+  return {.damping_n_s_per_m = felt.delivered_damping_n_s_per_m +
+                               run_.laboratory.device.mechanical_viscosity_n_s_per_m,
+          .last_tick = felt.last_tick,
+          .duration_s = felt.duration_s};
 }
 
 Moment TrialPlayer::moment(const Block& block) const {

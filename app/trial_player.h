@@ -4,6 +4,7 @@
 
 #include "app/apparatus.h"
 #include "app/laboratory_run.h"
+#include "app/presenter.h"
 #include "experiments/participants/simulated_participant.h"
 #include "experiments/session/session.h"
 
@@ -23,7 +24,11 @@ class TrialPlayer {
   /// The references must outlive the player.
   TrialPlayer(const LaboratoryRun& run, Apparatus& apparatus, experiments::Session& session,
               const experiments::SimulatedParticipant& participant)
-      : run_(run), apparatus_(apparatus), session_(session), participant_(participant) {}
+      : run_(run),
+        apparatus_(apparatus),
+        session_(session),
+        participant_(participant),
+        presenter_(apparatus, session, run.study.device) {}
 
   /// A medium outside of any trial.
   void explore(const experiments::Exploration& exploration);
@@ -54,6 +59,7 @@ class TrialPlayer {
   Apparatus& apparatus_;
   experiments::Session& session_;
   const experiments::SimulatedParticipant& participant_;
+  Presenter presenter_;
 };
 
 }  // namespace jnd::app

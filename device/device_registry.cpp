@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "device/lumped_hand_device.h"
+#include "device/mouse_device.h"
 #include "device/unplugged_device.h"
 
 namespace jnd::device {
@@ -17,6 +18,13 @@ constexpr std::array kDevices = {
                 .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<LumpedHandDevice>(
                       LumpedHandDevice::Parameters{.rate_hz = rate_hz});
+                }},
+    DeviceEntry{.name = "mouse",
+                .description = "a hand that a person draws with the mouse and sees lag behind, "
+                               "for trying things out without a robot",
+                .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
+                  return std::make_unique<MouseDevice>(
+                      MouseDevice::Parameters{.rate_hz = rate_hz});
                 }},
     DeviceEntry{.name = "unplugged",
                 .description = "a device that never starts, to rehearse what happens then",

@@ -13,6 +13,7 @@ struct DeviceCapabilities {
   double max_force_per_point_n = 10.0;  ///< What it can render at one point.
   double max_total_force_n = 30.0;      ///< Sum over the points.
   bool simulated = false;               ///< No person can be hurt by it.
+  bool moves_by_itself = false;         ///< By a simulated arm: nobody has to be there.
 };
 
 /// A device that holds a hand at five points. Everything it takes and gives is in SI units and

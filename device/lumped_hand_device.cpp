@@ -24,21 +24,11 @@ void require_not_negative(double value, const char* field) {
 
 }  // namespace
 
-const core::PointVectors& lumped_hand_tips_m() noexcept {
-  // A stiff hand seen from the right: fingers along +y, thumb up; all in the plane x = 0.
-  static const core::PointVectors kTips = {
-      Eigen::Vector3d(0.0, -0.061, 0.017), Eigen::Vector3d(0.0, -0.061, -0.043),
-      Eigen::Vector3d(0.0, -0.001, 0.037), Eigen::Vector3d(0.0, 0.059, 0.007),
-      Eigen::Vector3d(0.0, 0.064, -0.018)};
-  return kTips;
-}
-
 LumpedHandDevice::LumpedHandDevice(const Parameters& parameters)
     : parameters_(parameters),
       period_s_(period_of(parameters.rate_hz)),
-      period_ns_(std::llround(1e9 / parameters.rate_hz)),
       arm_(parameters.arm, period_s_),
-      position_m_(arm_.reference_m()) {
+      hand_(parameters.rate_hz, arm_.reference_m()) {
   require_positive(parameters.mass_kg, "mass_kg");
   require_not_negative(parameters.mechanical_viscosity_n_s_per_m,
                        "mechanical_viscosity_n_s_per_m");
@@ -59,56 +49,37 @@ DeviceCapabilities LumpedHandDevice::capabilities() const noexcept {
   return {.rate_hz = parameters_.rate_hz,
           .max_force_per_point_n = parameters_.max_force_per_point_n,
           .max_total_force_n = parameters_.max_total_force_n,
-          .simulated = true};
+          .simulated = true,
+          .moves_by_itself = true};
 }
 
 void LumpedHandDevice::open() {
   arm_ = StrokingArm(parameters_.arm, period_s_);
-  position_m_ = arm_.reference_m();
-  velocity_m_per_s_.setZero();
-  device_time_ns_ = 0;
-  sums_ = {};
+  hand_.rest_at(arm_.reference_m());
 }
 
 bool LumpedHandDevice::read(core::HapticState& state) noexcept {
-  const core::PointVectors& tips = lumped_hand_tips_m();
-  state.device_time_ns = device_time_ns_;
-  for (int i = 0; i < core::kNumContactPoints; ++i) {
-    state.tip_position_m[i] = position_m_ + tips[i];
-    state.tip_velocity_m_per_s[i] = velocity_m_per_s_;
-    state.attached[i] = true;
-  }
-  // The platform that carries the fingers, behind the hand.
-  state.end_effector_position_m = position_m_ - Eigen::Vector3d(0.0, 0.12, 0.0);
+  hand_.read(state);
   return true;
 }
 
 bool LumpedHandDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   follow_orders();
-  Eigen::Vector3d rendered_n = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& force : force_on_hand_n) rendered_n += force;
-  const double squared_m2_per_s2 = velocity_m_per_s_.squaredNorm();
+  const Eigen::Vector3d rendered_n = total_of(force_on_hand_n);
+  const Eigen::Vector3d velocity_m_per_s = hand_.velocity_m_per_s();
   double damping_n_s_per_m = parameters_.mechanical_viscosity_n_s_per_m;
   if (parameters_.dry_friction_n > 0.0) {
-    damping_n_s_per_m += parameters_.dry_friction_n /
-                         std::sqrt(squared_m2_per_s2 + parameters_.friction_speed_m_per_s *
-                                                           parameters_.friction_speed_m_per_s);
+    damping_n_s_per_m +=
+        parameters_.dry_friction_n /
+        std::sqrt(velocity_m_per_s.squaredNorm() +
+                  parameters_.friction_speed_m_per_s * parameters_.friction_speed_m_per_s);
   }
-
-  const double speed_m_per_s = std::sqrt(squared_m2_per_s2);
-  const double rendered_opposing_n =
-      speed_m_per_s > 0.0 ? -rendered_n.dot(velocity_m_per_s_) / speed_m_per_s : 0.0;
-  ++sums_.num_ticks;
-  sums_.rendered_opposing_n += rendered_opposing_n;
-  sums_.opposing_n += rendered_opposing_n + damping_n_s_per_m * speed_m_per_s;
-  sums_.speed_m_per_s += speed_m_per_s;
+  hand_.feel(rendered_n, damping_n_s_per_m);
 
   arm_.advance();
-  const Eigen::Vector3d force_n = rendered_n - damping_n_s_per_m * velocity_m_per_s_ +
-                                  arm_.force_n(position_m_, velocity_m_per_s_);
-  velocity_m_per_s_ += (period_s_ / parameters_.mass_kg) * force_n;
-  position_m_ += period_s_ * velocity_m_per_s_;
-  device_time_ns_ += period_ns_;
+  const Eigen::Vector3d force_n = rendered_n - damping_n_s_per_m * velocity_m_per_s +
+                                  arm_.force_n(hand_.position_m(), velocity_m_per_s);
+  hand_.move_at(velocity_m_per_s + (period_s_ / parameters_.mass_kg) * force_n);
   report_progress();
   return true;
 }

@@ -4,18 +4,15 @@
 #include <cstdint>
 
 #include "core/doors/latest_value.h"
+#include "device/drawn_mass.h"
 #include "device/haptic_device.h"
 #include "device/stroking_arm.h"
 
 namespace jnd::device {
 
-/// A simulated hand on a simulated device: one mass that a `StrokingArm` pulls along,
+/// A simulated hand on a simulated device: one `DrawnMass` that a `StrokingArm` pulls along,
 ///
-///     mass a = rendered force + arm force - viscosity v - friction v / sqrt(|v|^2 + v0^2),
-///
-/// with five tips fixed to it, the hand plane's normal along x, so that a stroke meets the
-/// medium head on. Semi-implicit Euler at the loop's period; its own time moves on by one
-/// period a write, so that a run is the same to the bit, however fast it goes.
+///     mass a = rendered force + arm force - viscosity v - friction v / sqrt(|v|^2 + v0^2).
 ///
 /// `read`, `write` and `contact_sums` belong to the loop's thread; `begin_strokes`, `go_home`,
 /// `strokes_finished` and `is_home` to one other, which may be the same.
@@ -44,7 +41,9 @@ class LumpedHandDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override {}
-  [[nodiscard]] core::ContactSums contact_sums() const noexcept override { return sums_; }
+  [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
+    return hand_.sums();
+  }
 
   /// Throws `core::Error` for a plan out of range. Takes effect in the next tick.
   void begin_strokes(const StrokePlan& plan, const core::RandomStream& random);
@@ -67,12 +66,8 @@ class LumpedHandDevice final : public HapticDevice {
 
   Parameters parameters_;
   double period_s_;
-  std::int64_t period_ns_;
   StrokingArm arm_;
-  Eigen::Vector3d position_m_;
-  Eigen::Vector3d velocity_m_per_s_ = Eigen::Vector3d::Zero();
-  std::int64_t device_time_ns_ = 0;
-  core::ContactSums sums_;
+  DrawnMass hand_;
 
   core::LatestValue<ArmOrder> orders_;
   std::uint32_t last_order_ = 0;
@@ -80,9 +75,5 @@ class LumpedHandDevice final : public HapticDevice {
   /// Number of the order in force in the upper half, 2 * strokes + home in the lower.
   std::atomic<std::uint64_t> progress_{1};
 };
-
-/// Where the tips are relative to the hand, in metres: multiples of 0.1 um, the grid of a
-/// recording, with mean zero.
-[[nodiscard]] const core::PointVectors& lumped_hand_tips_m() noexcept;
 
 }  // namespace jnd::device

@@ -17,7 +17,8 @@ class UnpluggedDevice final : public HapticDevice {
             .rate_hz = rate_hz_,
             .max_force_per_point_n = 1.0,
             .max_total_force_n = 1.0,
-            .simulated = true};
+            .simulated = true,
+            .moves_by_itself = true};
   }
   /// Throws, always.
   void open() override {

@@ -69,7 +69,7 @@ void StrokeMeter::turn() noexcept {
 
 StrokeSummary StrokeMeter::finish() noexcept {
   StrokeSummary summary;
-  summary.num_strokes = std::max(0, (progress_.num_turns - 1) / 2);
+  summary.num_strokes = num_strokes();
   summary.duration_s = progress_.duration_s;
   if (summary.num_strokes > 0) {
     summary.stroke_width_m = progress_.sum_width_m / (2.0 * summary.num_strokes);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 
 namespace jnd::analysis {
@@ -38,6 +39,11 @@ class StrokeMeter {
   /// the tick stands for. A tick that is not finite is left out. Real time.
   void feed(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_per_s,
             double duration_s) noexcept;
+
+  /// Whole strokes so far, as `finish` would count them. Real time.
+  [[nodiscard]] int num_strokes() const noexcept {
+    return std::max(0, (progress_.num_turns - 1) / 2);
+  }
 
   /// What was fed since the construction or the last call. Starts anew. Real time.
   StrokeSummary finish() noexcept;

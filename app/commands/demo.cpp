@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/open_window.h"
 #include "app/option_checks.h"
 #include "app/progress_bar.h"
 #include "app/results_output.h"
@@ -41,6 +42,7 @@ fs::path fresh_folder() {
 
 int run(const Options& options) {
   require_device(options.device);
+  require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_starts(options.device, 1000.0);
   const fs::path out = options.out.empty() ? fresh_folder() : fs::path(options.out);
   for (const char* name : kStudies) {
@@ -67,7 +69,7 @@ int run(const Options& options) {
       const std::vector<std::int64_t> sessions =
           add_sessions(store,
                        {.study = study,
-                        .laboratory = laboratory,
+                        .laboratory = &laboratory,
                         .study_file = file,
                         .seed = options.seed,
                         .record = !options.fast},
@@ -105,7 +107,10 @@ int run(const Options& options) {
       "Next: jnd results %s/%s.study\n",
       2 * kParticipants, simulated_s, elapsed_s, options.fast ? "" : " and sample",
       out.string().c_str(), out.string().c_str(), kStudies[1]);
-  return kDone;
+  if (!has_display()) return kDone;
+  std::fflush(stdout);
+  return open_window({.study_folder = out / (std::string(kStudies[1]) + ".study"),
+                      .shows_results = true});
 }
 
 }  // namespace

@@ -1,195 +1,32 @@
-#include <fcntl.h>
-#include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/utsname.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <set>
-#include <string>
-#include <thread>
 #include <vector>
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
-#include "app/share.h"
+#include "app/machine_checks.h"
 
 namespace jnd::app {
 namespace {
 
-struct Finding {
-  const char* name;
-  bool ok;
-  std::string found;
-  std::string remedy;  ///< What mends it; "" if nothing needs to be.
-};
-
-constexpr const char* kLimits = "/etc/security/limits.d/realtime.conf";
-
-std::string join_realtime(const char* limit) {
-  return std::string("add \"@realtime - ") + limit + "\" to " + kLimits +
-         ", join the group realtime and log in again";
-}
-
-std::string words_of_limit(int resource, std::int64_t unit) {
-  rlimit limit{};
-  ::getrlimit(static_cast<__rlimit_resource>(resource), &limit);
-  if (limit.rlim_cur == RLIM_INFINITY) return "unlimited";
-  return std::to_string(static_cast<std::int64_t>(limit.rlim_cur) / unit);
-}
-
-/// The first line of a file that the system keeps; "" if it cannot be read.
-std::string line_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  return line;
-}
-
-Finding realtime_priority() {
-  sched_param before{};
-  int policy = SCHED_OTHER;
-  pthread_getschedparam(pthread_self(), &policy, &before);
-  sched_param wanted{.sched_priority = 80};
-  const bool ok = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) == 0;
-  if (ok) pthread_setschedparam(pthread_self(), policy, &before);
-  return {"real-time priority", ok,
-          std::string(ok ? "SCHED_FIFO 80" : "SCHED_FIFO 80 refused") + "; limit rtprio " +
-              words_of_limit(RLIMIT_RTPRIO, 1),
-          ok ? "" : join_realtime("rtprio 95")};
-}
-
-Finding memory_lock() {
-  const bool ok = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-  if (ok) ::munlockall();
-  return {"memory lock", ok,
-          std::string(ok ? "mlockall works" : "mlockall refused") + "; limit memlock " +
-              words_of_limit(RLIMIT_MEMLOCK, 1024) + " kB",
-          ok ? "" : join_realtime("memlock unlimited")};
-}
-
-Finding kernel() {
-  utsname name{};
-  ::uname(&name);
-  const std::string version = name.version;
-  const bool realtime =
-      line_of("/sys/kernel/realtime") == "1" || version.find("PREEMPT_RT") != std::string::npos;
-  const bool dynamic = version.find("PREEMPT_DYNAMIC") != std::string::npos;
-  const bool full =
-      line_of("/sys/kernel/debug/sched/preempt").find("(full)") != std::string::npos ||
-      line_of("/proc/cmdline").find("preempt=full") != std::string::npos;
-  const bool preempts = version.find("PREEMPT") != std::string::npos;
-  const bool ok = realtime || (preempts && (!dynamic || full));
-  const char* found = realtime          ? "PREEMPT_RT"
-                      : dynamic && full ? "PREEMPT_DYNAMIC, full"
-                      : dynamic         ? "PREEMPT_DYNAMIC, not known to be full"
-                      : preempts        ? "PREEMPT"
-                                        : "no preemption of the kernel";
-  return {"kernel", ok, found,
-          ok ? "" : "boot with preempt=full, or install linux-image-rt-amd64"};
-}
-
-Finding timers() {
-  timespec resolution{.tv_sec = 1, .tv_nsec = 0};
-  ::clock_getres(CLOCK_MONOTONIC, &resolution);
-  const bool ok = resolution.tv_sec == 0 && resolution.tv_nsec <= 1000;
-  std::string found = ok ? std::to_string(resolution.tv_nsec) + " ns" : "coarser than 1 us";
-  const std::string source =
-      line_of("/sys/devices/system/clocksource/clocksource0/current_clocksource");
-  if (!source.empty()) found += ", clock " + source;
-  return {"timer resolution", ok, found,
-          ok ? "" : "boot without highres=off, with a kernel that has high-resolution timers"};
-}
-
-Finding cpu_governor() {
-  std::set<std::string> governors;
-  std::error_code error;
-  for (const auto& entry :
-       std::filesystem::directory_iterator("/sys/devices/system/cpu/cpufreq", error)) {
-    const std::string governor = line_of(entry.path() / "scaling_governor");
-    if (!governor.empty()) governors.insert(governor);
-  }
-  std::string found;
-  for (const std::string& governor : governors) {
-    found += (found.empty() ? "" : ", ") + governor;
-  }
-  const bool ok = governors.empty() || governors == std::set<std::string>{"performance"};
-  return {"cpu governor", ok, found.empty() ? "none that can be read" : found,
-          ok ? "" : "run: cpupower frequency-set -g performance"};
-}
-
-/// The device file is only opened: what is asked for lasts as long as it is open.
-Finding idle_states() {
-  const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
-  const bool ok = file >= 0;
-  if (ok) ::close(file);
-  return {"idle states", ok,
-          ok ? "can be kept away while the loop runs" : "cannot be kept away",
-          ok ? ""
-             : "let the group realtime write to /dev/cpu_dma_latency: put "
-               "KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", MODE=\"0660\" into "
-               "/etc/udev/rules.d/99-realtime.rules"};
-}
-
-Finding processors() {
-  const unsigned int count = std::thread::hardware_concurrency();
-  return {"processors", count >= 2, std::to_string(count),
-          count >= 2 ? "" : "use a machine with two cores or more: one is for the haptic loop"};
-}
-
-Finding disk_space() {
-  std::error_code error;
-  const auto space = std::filesystem::space(".", error);
-  const double free_gb = error ? 0.0 : static_cast<double>(space.available) / 1e9;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.1f GB free here", free_gb);
-  return {"disk space", free_gb >= 2.0, text,
-          free_gb >= 2.0 ? "" : "free 2 GB: an hour of recording takes up to 60 MB a session"};
-}
-
-Finding display() {
-  const bool ok =
-      std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  return {"display", ok, ok ? "found" : "none",
-          ok ? "" : "start from a desktop, or use the commands that need no window"};
-}
-
-Finding shipped_files() {
-  const std::filesystem::path folder = share_folder();
-  std::error_code error;
-  const bool ok = std::filesystem::is_directory(folder / "protocols", error);
-  return {"shipped studies", ok, ok ? "found" : "none in " + folder.string(),
-          ok ? "" : "set JND_SHARE to the folder that holds protocols/ and data/"};
-}
-
 int run(bool as_json) {
-  const std::vector<Finding> findings = {
-      realtime_priority(), memory_lock(), kernel(),     timers(),  cpu_governor(),
-      idle_states(),       processors(),  disk_space(), display(), shipped_files()};
+  const std::vector<MachineCheck> checks = machine_checks();
   if (as_json) {
-    nlohmann::json checks = nlohmann::json::array();
-    for (const Finding& finding : findings) {
-      checks.push_back({{"name", finding.name},
-                        {"ok", finding.ok},
-                        {"found", finding.found},
-                        {"remedy", finding.remedy}});
+    nlohmann::json list = nlohmann::json::array();
+    for (const MachineCheck& check : checks) {
+      list.push_back({{"name", check.name},
+                        {"ok", check.ok},
+                        {"found", check.found},
+                        {"remedy", check.remedy}});
     }
-    std::puts(json_text(nlohmann::json{{"checks", std::move(checks)}}).c_str());
+    std::puts(json_text(nlohmann::json{{"checks", std::move(list)}}).c_str());
     return kDone;
   }
-  for (const Finding& finding : findings) {
-    std::printf("%-5s %-20s %s\n", finding.ok ? "ok" : "lacks", finding.name,
-                finding.found.c_str());
-    if (!finding.ok) std::printf("      %-20s %s\n", "", finding.remedy.c_str());
+  for (const MachineCheck& check : checks) {
+    std::printf("%-5s %-20s %s\n", check.ok ? "ok" : "lacks", check.name.c_str(),
+                check.found.c_str());
+    if (!check.ok) std::printf("      %-20s %s\n", "", check.remedy.c_str());
   }
   return kDone;
 }

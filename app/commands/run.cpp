@@ -9,6 +9,7 @@
 
 #include "app/commands/commands.h"
 #include "app/laboratory_run.h"
+#include "app/open_window.h"
 #include "app/option_checks.h"
 #include "app/progress_bar.h"
 #include "app/session_setup.h"
@@ -103,14 +104,6 @@ int run_session(const Options& options, core::StudyStore& store,
   return kDone;
 }
 
-void require_headless(const Options& options) {
-  if (options.headless) return;
-  throw EnvironmentError(
-      "no window: expected --headless with a simulated participant; sessions with a person in "
-      "front "
-      "of a window are still being built");
-}
-
 /// It stands in tables, file names and messages.
 void require_pseudonym(const std::string& participant) {
   const bool plain = std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
@@ -124,11 +117,20 @@ void require_pseudonym(const std::string& participant) {
 }
 
 int run(const Options& options) {
-  require_headless(options);
   require_device(options.device);
   require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
+  if (!options.headless) {
+    return open_window({.study_folder = options.folder,
+                        .study_file = file,
+                        .participant = options.participant,
+                        .device = options.device,
+                        .seed = options.seed,
+                        .pilot = options.pilot,
+                        .allow_no_realtime = options.allow_no_realtime});
+  }
+  require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_starts(options.device, study.device.rate_hz);
   const experiments::Laboratory laboratory =
       experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
@@ -136,7 +138,7 @@ int run(const Options& options) {
   const std::vector<std::int64_t> sessions =
       add_sessions(store,
                    {.study = study,
-                    .laboratory = laboratory,
+                    .laboratory = &laboratory,
                     .study_file = file,
                     .device = options.device,
                     .seed = options.seed.value_or(std::random_device{}()),
@@ -181,23 +183,31 @@ experiments::Laboratory laboratory_of(const Options& options, const core::Sessio
   return experiments::parse_laboratory(row.laboratory, options.folder + ": laboratory");
 }
 
+int resume_headless(const Options& options, core::StudyStore& store,
+                    const core::SessionRow& row) {
+  const experiments::Study study = stored_study(store, row.session);
+  require_device_starts(row.device, row.rate_hz);
+  require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
+  if (const std::string remark = changed_study_remark(store, row); !remark.empty()) {
+    std::fprintf(stderr, "jnd: %s\n", remark.c_str());
+  }
+  const experiments::Laboratory laboratory = laboratory_of(options, row);
+  return run_session(options, store, study, laboratory, row.session);
+}
+
 int resume(const Options& options) {
-  core::StudyStore store(options.folder, core::StudyStore::Mode::kReadWrite);
-  const std::optional<core::SessionRow> row = session_to_resume(store, options);
+  std::optional<core::StudyStore> store(std::in_place, options.folder,
+                                        core::StudyStore::Mode::kReadWrite);
+  const std::optional<core::SessionRow> row = session_to_resume(*store, options);
   if (!row) {
     // Whoever reads acknowledgements reads nothing else.
     std::fprintf(options.acknowledge ? stderr : stdout,
                  "%s: nothing to resume, every session is finished\n", options.folder.c_str());
     return kDone;
   }
-  require_headless(options);
-  const experiments::Study study = stored_study(store, row->session);
-  require_device_starts(row->device, row->rate_hz);
-  if (const std::string remark = changed_study_remark(store, *row); !remark.empty()) {
-    std::fprintf(stderr, "jnd: %s\n", remark.c_str());
-  }
-  const experiments::Laboratory laboratory = laboratory_of(options, *row);
-  return run_session(options, store, study, laboratory, row->session);
+  if (options.headless) return resume_headless(options, *store, *row);
+  store.reset();  // The window opens it itself.
+  return open_window({.study_folder = options.folder, .resume_session = row->session});
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct Options {
 
 int run(const Options& options) {
   require_device(options.device);
+  require_device_moves_by_itself(options.device, "--device " + options.device);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
   require_device_starts(options.device, study.device.rate_hz);
@@ -40,7 +41,7 @@ int run(const Options& options) {
   const std::vector<std::string> participants = next_participants(store, options.participants);
   const std::vector<std::int64_t> sessions = add_sessions(store,
                                                           {.study = study,
-                                                           .laboratory = laboratory,
+                                                           .laboratory = &laboratory,
                                                            .study_file = file,
                                                            .seed = options.seed,
                                                            .record = !options.fast},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 namespace jnd::core {
 
@@ -9,15 +10,30 @@ namespace jnd::core {
 /// not bring the force back: the loop has to be armed again, too. Real time.
 class EmergencyStop {
  public:
-  void press() noexcept { pressed_.store(true, std::memory_order_release); }
-  void release() noexcept { pressed_.store(false, std::memory_order_release); }
+  void press() noexcept {
+    std::uint64_t state = state_.load(std::memory_order_relaxed);
+    while (!state_.compare_exchange_weak(state, ((state | 1) + 2), std::memory_order_acq_rel)) {
+    }
+  }
+  /// Releases it unless somebody has pressed it since `num_presses` was read, so that a stop
+  /// never falls to a release that was meant for an earlier one. Returns whether it is released.
+  bool release(std::uint64_t num_presses) noexcept {
+    std::uint64_t pressed = num_presses << 1 | 1;
+    return state_.compare_exchange_strong(pressed, num_presses << 1,
+                                          std::memory_order_acq_rel) ||
+           !is_pressed();
+  }
   [[nodiscard]] bool is_pressed() const noexcept {
-    return pressed_.load(std::memory_order_acquire);
+    return (state_.load(std::memory_order_acquire) & 1) != 0;
+  }
+  /// How often it has been pressed.
+  [[nodiscard]] std::uint64_t num_presses() const noexcept {
+    return state_.load(std::memory_order_acquire) >> 1;
   }
 
  private:
-  std::atomic<bool> pressed_{false};
-  static_assert(std::atomic<bool>::is_always_lock_free);
+  std::atomic<std::uint64_t> state_{0};  ///< Twice the number of presses, and 1 while pressed.
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 };
 
 }  // namespace jnd::core

@@ -1,5 +1,6 @@
 #include "core/storage/recording.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/storage/database.h"
@@ -158,6 +159,21 @@ std::int64_t RecordingReader::last_tick() const {
   Statement rows(implementation_->database,
                  "SELECT MAX(first_tick + num_samples) - 1 FROM chunk");
   return rows.step() ? rows.optional_integer(0).value_or(-1) : -1;
+}
+
+std::int64_t RecordingReader::missing_ticks() const {
+  if (is_empty(implementation_->database)) return 0;
+  Statement rows(implementation_->database,
+                 "SELECT first_tick, num_samples FROM chunk ORDER BY first_tick");
+  std::int64_t missing = 0;
+  std::optional<std::int64_t> next;
+  while (rows.step()) {
+    const std::int64_t first = rows.integer(0);
+    const std::int64_t end = first + rows.integer(1);
+    if (next && first > *next) missing += first - *next;
+    next = std::max(end, next.value_or(end));
+  }
+  return missing;
 }
 
 void RecordingReader::read(std::int64_t first_tick, std::int64_t last_tick,

@@ -56,6 +56,8 @@ class RecordingReader {
   [[nodiscard]] std::vector<RecordingChunk> chunks() const;
   /// -1 if there is no sample. Quick.
   [[nodiscard]] std::int64_t last_tick() const;
+  /// Ticks between the first and the last sample that no chunk holds. Quick: no sample is read.
+  [[nodiscard]] std::int64_t missing_ticks() const;
   /// Calls `visit` for every sample with first_tick <= tick <= last_tick, in order.
   void read(std::int64_t first_tick, std::int64_t last_tick,
             const std::function<void(const Sample&)>& visit) const;

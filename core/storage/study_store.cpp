@@ -119,6 +119,20 @@ ProtocolRow StudyStore::protocol(const std::string& hash) const {
           .relative_path = statement.text(2)};
 }
 
+std::vector<ProtocolRow> StudyStore::protocols() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 "SELECT sha256, file_name, text, relative_path FROM protocol ORDER BY rowid");
+  std::vector<ProtocolRow> all;
+  while (rows.step()) {
+    all.push_back({.sha256 = rows.text(0),
+                   .file_name = rows.text(1),
+                   .text = rows.text(2),
+                   .relative_path = rows.text(3)});
+  }
+  return all;
+}
+
 std::int64_t StudyStore::add_session(SessionRow row) {
   const std::lock_guard guard(implementation_->mutex);
   Database& database = implementation_->database;
@@ -187,6 +201,32 @@ std::vector<SessionRow> StudyStore::sessions() const {
   std::vector<SessionRow> all;
   while (rows.step()) {
     all.push_back(session_row(rows));
+  }
+  return all;
+}
+
+std::vector<SessionOverview> StudyStore::overview() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(
+      implementation_->database,
+      "SELECT session,"
+      " (SELECT COUNT(*) FROM design AS d WHERE d.session = s.session),"
+      " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = s.session),"
+      " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
+      "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT 1),"
+      " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
+      "         AND e.kind = 'session_completed'),"
+      " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
+      "         AND e.kind = 'session_ended_early')"
+      " FROM session AS s ORDER BY session");
+  std::vector<SessionOverview> all;
+  while (rows.step()) {
+    all.push_back({.session = rows.integer(0),
+                   .num_trials = rows.integer(1),
+                   .num_answers = rows.integer(2),
+                   .last_time_ns = rows.optional_integer(3),
+                   .completed = rows.integer(4) != 0,
+                   .ended_early = rows.integer(5) != 0});
   }
   return all;
 }

@@ -116,6 +116,17 @@ struct WithdrawalRow {
   std::int64_t time_ns = 0;
 };
 
+/// What a session has come to, as a line of a list.
+struct SessionOverview {
+  std::int64_t session = 0;
+  std::int64_t num_trials = 0;   ///< Drawn so far.
+  std::int64_t num_answers = 0;  ///< Trials whose answer stands, those set aside among them.
+  /// Of the last event of the visit itself; acts on a session afterwards do not count.
+  std::optional<std::int64_t> last_time_ns;
+  bool completed = false;
+  bool ended_early = false;
+};
+
 /// Everything that one act appends. All of it in one transaction, or none.
 struct Commit {
   EventRow event;
@@ -154,6 +165,8 @@ class StudyStore {
   std::string add_protocol(const std::string& file_name, const std::string& text,
                            const std::string& relative_path = "");
   [[nodiscard]] ProtocolRow protocol(const std::string& hash) const;
+  /// In the order in which they were added.
+  [[nodiscard]] std::vector<ProtocolRow> protocols() const;
 
   /// Adds a session with the next free number unless `row.session` names one; returns its
   /// number.
@@ -165,6 +178,8 @@ class StudyStore {
   [[nodiscard]] std::vector<SessionRow> sessions() const;
   /// Throws `Error` if there is none of this number.
   [[nodiscard]] SessionRow session(std::int64_t number) const;
+  /// One a session, by its number. Quick: no event is read.
+  [[nodiscard]] std::vector<SessionOverview> overview() const;
   [[nodiscard]] std::vector<EventRow> events(std::int64_t session) const;
   [[nodiscard]] std::vector<DesignRow> design(std::int64_t session) const;
   /// Answered trials that count: not superseded. With `include_excluded`, also those set aside.

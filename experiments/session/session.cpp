@@ -189,10 +189,10 @@ void Session::end_presentation(std::int64_t last_tick, const PresentationSummary
          std::move(rows));
 }
 
-bool Session::adjust(Direction direction, StepSize size) {
+/// Where a step leads from the intensity of the trial under way.
+double Session::adjusted(Direction direction, StepSize size) const {
   const Block& block = current_block();
-  const std::int64_t number = open_trial("adjust the intensity");
-  const TrialState& trial = state_.trial(number);
+  const TrialState& trial = state_.trial(open_trial("adjust the intensity"));
   if (!current_form().adjustable) cannot("adjust the intensity", "a production");
   const double step = size == StepSize::kCoarse ? block.coarse_step : block.fine_step;
   double target = trial.set_intensity + (direction == Direction::kRaise ? step : -step);
@@ -200,7 +200,17 @@ bool Session::adjust(Direction direction, StepSize size) {
   // so.
   const double start = trial.planned.starting_intensity.value_or(0.0);
   target = start + std::round((target - start) / block.fine_step) * block.fine_step;
-  target = std::clamp(target, 0.0, block.max_intensity.value_or(target < 0.0 ? 0.0 : target));
+  return std::clamp(target, 0.0, block.max_intensity.value_or(target < 0.0 ? 0.0 : target));
+}
+
+bool Session::can_adjust(Direction direction, StepSize size) const {
+  return adjusted(direction, size) != state_.trial(*state_.current_trial()).set_intensity;
+}
+
+bool Session::adjust(Direction direction, StepSize size) {
+  const double target = adjusted(direction, size);
+  const std::int64_t number = *state_.current_trial();
+  const TrialState& trial = state_.trial(number);
   if (target == trial.set_intensity) return false;
   commit(IntensityAdjusted{number, trial.attempt, trial.set_intensity, target});
   return true;

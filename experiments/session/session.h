@@ -71,6 +71,7 @@ class Session {
   /// Production: one step, beyond the range of starting values if need be, never below 0.
   /// Returns false, and does nothing, where the intensity cannot go further.
   bool adjust(Direction direction, StepSize size);
+  [[nodiscard]] bool can_adjust(Direction direction, StepSize size) const;
   /// Percent, or 1 and 0; in production the set intensity is the answer and `value` is ignored.
   void answer(double value, double response_time_s, std::int64_t last_tick);
   void discard_attempt(const std::string& reason);
@@ -104,6 +105,7 @@ class Session {
   void draw_trials();
   [[nodiscard]] std::int64_t open_trial(const char* act) const;
   [[nodiscard]] double intensity_of(const TrialState& trial, const std::string& interval) const;
+  [[nodiscard]] double adjusted(Direction direction, StepSize size) const;
   [[nodiscard]] core::TrialRow answered_row(std::int64_t number, double response) const;
 
   Parameters parameters_;

@@ -89,6 +89,15 @@ const ParameterTable& block_table() {
     own.push_back({.key = "question",
                    .kind = ValueKind::kText,
                    .meaning = "What the participant is asked in every trial."});
+    const auto answer_label = [&](const char* key, const char* meaning) {
+      own.push_back({.key = key,
+                     .kind = ValueKind::kText,
+                     .meaning = meaning,
+                     .required = false,
+                     .only_where = {{"procedure", {kConstantStimuli}}}});
+    };
+    answer_label("yes_label", "What the answer that is stored as 1 is called: \"Thicker\".");
+    answer_label("no_label", "What the answer that is stored as 0 is called: \"Not thicker\".");
     own.push_back({.key = "free_space_between_s",
                    .kind = ValueKind::kNumber,
                    .meaning = "Free space before each trial.",

@@ -61,6 +61,7 @@ struct Block {
   std::string quantity;  ///< "scale" or "viscosity_pa_s".
   Text instruction;
   Text question;                    ///< What the participant is asked in every trial.
+  Text yes_label, no_label;         ///< What the two answers are called; may be empty.
   std::vector<double> intensities;  ///< Test stimuli, or starting values in production.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::vector<double> target_percent;         ///< Production: one repetition a target.

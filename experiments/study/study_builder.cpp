@@ -124,6 +124,10 @@ Block block(const ObjectReader& in) {
   block.quantity = quantity_of(block.medium);
   block.instruction = in.text("instruction");
   block.question = in.text("question");
+  if (block.procedure == "constant_stimuli") {
+    block.yes_label = in.text("yes_label");
+    block.no_label = in.text("no_label");
+  }
   block.intensities = in.numbers(block.quantity);
   block.free_space_between_s = in.number("free_space_between_s");
   block.expected_trial_s = in.number("expected_trial_s");

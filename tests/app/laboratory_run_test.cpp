@@ -30,7 +30,7 @@ class LaboratoryRunTest : public ::testing::Test {
         folder(name), core::StudyStore::Mode::kCreate, core::Durability::kAtClose);
     EXPECT_EQ(add_sessions(*store,
                            {.study = study_,
-                            .laboratory = laboratory_,
+                            .laboratory = &laboratory_,
                             .study_file = "tiny.json",
                             .seed = 5,
                             .record = record},

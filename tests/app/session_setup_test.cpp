@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 class SessionSetupTest : public ::testing::Test {
  protected:
   SessionSetup setup() {
-    return {.study = study_, .laboratory = laboratory_, .study_file = "t.json", .seed = 3};
+    return {.study = study_, .laboratory = &laboratory_, .study_file = "t.json", .seed = 3};
   }
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
@@ -49,6 +49,18 @@ TEST_F(SessionSetupTest, AKnownParticipantIsRefusedBeforeAnySessionIsAdded) {
   EXPECT_EQ(store_.sessions().size(), 1U);
   EXPECT_THROW((void)add_sessions(store_, setup(), {"P03", "P03"}), core::Error);
   EXPECT_EQ(store_.sessions().size(), 1U);
+}
+
+TEST_F(SessionSetupTest, ADeviceThatAPersonHasToMoveIsRefusedWithThePlaceOfItsName) {
+  EXPECT_NO_THROW(require_device_moves_by_itself("lumped", "session 3"));
+  try {
+    require_device_moves_by_itself("mouse", "session 3");
+    FAIL() << "a simulated participant was given a mouse";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(std::string(error.what())
+                    .starts_with("session 3: expected a device that moves by itself, "))
+        << error.what();
+  }
 }
 
 TEST_F(SessionSetupTest, PseudonymsFillTheGaps) {

@@ -34,8 +34,9 @@ const std::map<std::string, std::set<std::string>> kLibraryHomes = {
     {"nlohmann", {"experiments", "analysis", "app"}},
     {"mujoco", {"device", "app"}},
     {"ceres", {"analysis"}},
-    {"imgui", {"app"}},
-    {"GLFW", {"app"}},
+    {"imgui", {"app/gui"}},
+    {"GLFW", {"app/gui"}},
+    {"png", {"app/gui"}},
     {"CLI", {"app"}},
     {"fmt", {"app"}},
 };

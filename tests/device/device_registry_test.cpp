@@ -37,7 +37,7 @@ TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
     static_cast<void>(device_named("phantom"));
     FAIL() << "a device that does not exist was found";
   } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(), "device: expected one of lumped, unplugged, found phantom");
+    EXPECT_STREQ(error.what(), "device: expected one of lumped, mouse, unplugged, found phantom");
   }
 }
 

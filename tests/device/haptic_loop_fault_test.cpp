@@ -26,7 +26,7 @@ TEST_F(HapticLoopTest, TheEmergencyStopCutsTheForceInItsOwnTickAndStays) {
   EXPECT_EQ(max_received_n(50), 0.0) << "pressed, neither a command nor arming helps";
   EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
 
-  stop.release();
+  (void)stop.release(stop.num_presses());
   run(100);
   EXPECT_EQ(max_received_n(50), 0.0) << "released, it still has to be armed";
   loop->rearm();
@@ -43,7 +43,7 @@ TEST_F(HapticLoopTest, AStopOfAMomentIsNotMissed) {
   run(50);
   stop.press();
   run(1);
-  stop.release();
+  (void)stop.release(stop.num_presses());
   run(10);
   EXPECT_EQ(max_received_n(50), 0.0);
 }

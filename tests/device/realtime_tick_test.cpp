@@ -10,6 +10,7 @@
 #include "device/fault_injection.h"
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
+#include "device/mouse_device.h"
 #include "device/realtime_thread.h"
 #include "realtime_trap.h"
 #include "scripted_device.h"
@@ -34,11 +35,13 @@ core::MediumAmounts everything() {
   return medium;
 }
 
+enum class Which { kScripted, kLumped, kMouse };
+
 /// A loop with all its doors, over a device in which things may go wrong.
 struct Scene {
-  Scene(std::vector<ScheduledFault> faults, bool lumped, std::size_t queue_capacity)
+  Scene(std::vector<ScheduledFault> faults, Which which, std::size_t queue_capacity)
       : samples(queue_capacity),
-        faulty(lumped ? static_cast<HapticDevice&>(hand) : scripted, std::move(faults)),
+        faulty(device(which), std::move(faults)),
         loop({}, faulty, {commands, telemetry, stop, &samples, &heartbeat}) {
     // What the test's own device remembers is in place before.
     scripted.received.resize(kNumTicks);
@@ -48,6 +51,18 @@ struct Scene {
     hand.begin_strokes({}, core::RandomStream(1, "stroke"));
   }
 
+  HapticDevice& device(Which which) {
+    switch (which) {
+      case Which::kLumped:
+        return hand;
+      case Which::kMouse:
+        return mouse;
+      case Which::kScripted:
+        break;
+    }
+    return scripted;
+  }
+
   void command(const core::MediumAmounts& medium) {
     commands.publish({.sequence = ++sequence, .medium = medium, .ramp_s = 0.050});
   }
@@ -55,6 +70,10 @@ struct Scene {
   void run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       heartbeat.beat();
+      if (i % 16 == 0) {
+        pointer.x_m = ++pointer.sequence % 40 < 20 ? 0.2 : -0.2;
+        mouse.pointer().publish(pointer);
+      }
       loop.tick();
       if (drains) samples.drain([](const core::Sample&) {});
     }
@@ -62,6 +81,8 @@ struct Scene {
 
   LumpedHandDevice hand{LumpedHandDevice::Parameters{.dry_friction_n = 0.3}};
   ScriptedDevice scripted;
+  MouseDevice mouse{MouseDevice::Parameters{}};
+  core::PointerPosition pointer;
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
@@ -137,7 +158,7 @@ const std::vector<Situation>& situations() {
          scene.run(100);
          scene.stop.press();
          scene.run(100);
-         scene.stop.release();
+         (void)scene.stop.release(scene.stop.num_presses());
          scene.loop.rearm();
          scene.run(1000);
          scene.stop.press();
@@ -199,16 +220,16 @@ const std::vector<Situation>& situations() {
   return all;
 }
 
-/// Plays every situation on both devices, each watched by a `Watch` from its first tick to its
+/// Plays every situation on every device, each watched by a `Watch` from its first tick to its
 /// last, after one round to warm up. `caught` says what the watch has seen, if anything.
 template <typename Watch, typename Caught>
 void expect_nothing_in_any_situation(Caught&& caught) {
   for (const Situation& situation : situations()) {
-    for (const bool lumped : {false, true}) {
-      SCOPED_TRACE(std::string(situation.name) + (lumped ? ", lumped" : ", scripted"));
-      Scene rehearsal(situation.faults, lumped, 64);
+    for (const Which which : {Which::kScripted, Which::kLumped, Which::kMouse}) {
+      Scene rehearsal(situation.faults, which, 64);
+      SCOPED_TRACE(std::string(situation.name) + ", " + std::string(rehearsal.faulty.name()));
       situation.play(rehearsal);
-      Scene scene(situation.faults, lumped, 64);
+      Scene scene(situation.faults, which, 64);
       std::int64_t found = 0;
       {
         const Watch watch;

@@ -6,6 +6,10 @@
 #include <vector>
 
 #include "app/json_document.h"
+#include "app/sentence.h"
+#include "app/session_setup.h"
+#include "app/tiny_study.h"
+#include "experiments/study/study_reader.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -77,6 +81,69 @@ TEST(DevicesCommand, ListsTheSimulatedHand) {
   EXPECT_EQ(json["devices"][0]["name"], "lumped");
   EXPECT_EQ(json["devices"][0]["simulated"], true);
   EXPECT_NE(run_program({"devices"}).out.find("lumped"), std::string::npos);
+}
+
+TEST(DevicesCommand, ListsTheMouse) {
+  const auto json = document(run_program({"devices", "--json"}).out);
+  bool listed = false;
+  for (const auto& device : json["devices"]) {
+    if (device["name"] != "mouse") continue;
+    listed = true;
+    EXPECT_EQ(device["simulated"], true);
+    EXPECT_EQ(device["max_total_force_n"], 30.0);
+  }
+  EXPECT_TRUE(listed) << json;
+}
+
+TEST(LoopCommand, AMouseThatNobodyMovesIsAHandAtRest) {
+  const ProgramOutcome outcome =
+      run_program({"loop", "--seconds", "0.1", "--device", "mouse", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(document(outcome.out)["device"], "mouse");
+  EXPECT_GT(document(outcome.out)["num_ticks"], 0);
+}
+
+TEST(PlanCommand, ComparesWithTheLimitsOfTheMouse) {
+  const ProgramOutcome outcome =
+      run_program({"plan", "short_tour", "--device", "mouse", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(document(outcome.out)["problems"].empty());
+}
+
+TEST(ApparatusCommands, SimulatedParticipantsAreRefusedADeviceThatAPersonHasToMove) {
+  const test_support::TemporaryFolder folder;
+  const test_support::ProgramOptions here{.folder = folder.path(), .environment = {}};
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"run", "short_tour", "--study", "a.study", "--participant", "P01", "--headless",
+            "--device", "mouse"},
+           {"simulate", "short_tour", "--study", "a.study", "--participants", "1", "--device",
+            "mouse"},
+           {"demo", "--fast", "--out", "demo", "--device", "mouse"}}) {
+    const auto outcome = test_support::run_program(words, here);
+    EXPECT_EQ(outcome.exit_code, 2) << words[0];
+    EXPECT_EQ(outcome.out, "") << words[0];
+    EXPECT_EQ(outcome.err,
+              "jnd: --device mouse: expected a device that moves by itself, for participants "
+              "that are simulated, found one that a person has to move; choose another, see "
+              "`jnd devices`\n")
+        << words[0];
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(ApparatusCommands, ASessionThatAPersonBeganWithAMouseIsNotResumedWithoutThem) {
+  const test_support::TemporaryFolder folder;
+  const std::filesystem::path file = write_file(folder.path() / "tiny.json", kTinyStudy);
+  const experiments::Study study = experiments::read_study(file);
+  {
+    core::StudyStore store(folder.path() / "a.study", core::StudyStore::Mode::kCreate);
+    (void)add_sessions(store, {.study = study, .study_file = file, .device = "mouse"}, {"P01"});
+  }
+  const auto outcome =
+      run_program({"resume", (folder.path() / "a.study").string(), "--headless"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(sentence_flaw(outcome.err, {"session 1: expected a device that moves by itself"}),
+            "");
 }
 
 TEST(DoctorCommand, SaysOfEveryLackWhatMendsIt) {

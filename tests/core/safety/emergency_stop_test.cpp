@@ -14,8 +14,20 @@ TEST(EmergencyStop, StaysPressedUntilItIsReleased) {
   stop.press();
   EXPECT_TRUE(stop.is_pressed());
   EXPECT_TRUE(stop.is_pressed());
-  stop.release();
+  EXPECT_EQ(stop.num_presses(), 2U);
+  EXPECT_TRUE(stop.release(2));
   EXPECT_FALSE(stop.is_pressed());
+  EXPECT_TRUE(stop.release(2)) << "it is released already";
+}
+
+TEST(EmergencyStop, APressIsNotReleasedByWhoHasNotSeenIt) {
+  EmergencyStop stop;
+  stop.press();
+  const std::uint64_t seen = stop.num_presses();
+  stop.press();
+  EXPECT_FALSE(stop.release(seen));
+  EXPECT_TRUE(stop.is_pressed());
+  EXPECT_TRUE(stop.release(stop.num_presses()));
 }
 
 TEST(EmergencyStop, IsSeenFromAnotherThread) {

@@ -42,6 +42,23 @@ TEST(Recording, ReadsBackExactlyTheTicksAskedFor) {
   EXPECT_EQ(ticks_in(file, 0, 1 << 20).size(), 10000U);
 }
 
+TEST(Recording, CountsTheTicksThatAreMissingInBetween) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  {
+    RecordingWriter writer(file, 1000.0);
+    writer.flush();
+    EXPECT_EQ(RecordingReader(file).missing_ticks(), 0);
+    for (std::int64_t tick = 5; tick < 5000; ++tick) writer.append(at(tick));
+    writer.flush();
+    EXPECT_EQ(RecordingReader(file).missing_ticks(), 0);
+    writer.append(at(5003));
+    writer.append(at(5004));
+    writer.append(at(5010));
+  }
+  EXPECT_EQ(RecordingReader(file).missing_ticks(), 3 + 5);
+}
+
 TEST(Recording, IsForItsOwnerOnly) {
   const test_support::TemporaryFolder folder;
   const fs::path file = folder.path() / "0001.sqlite";

@@ -179,6 +179,60 @@ TEST_F(StudyStoreTest, KeepsAProtocolOnceUnderItsHash) {
   EXPECT_THROW((void)store->protocol("0000"), Error);
 }
 
+TEST_F(StudyStoreTest, ListsItsProtocolsInTheOrderInWhichTheyCame) {
+  StudyStore store(folder(), StudyStore::Mode::kCreate);
+  EXPECT_TRUE(store.protocols().empty());
+  store.add_protocol("z.json", "first", "../z.json");
+  store.add_protocol("a.json", "second");
+  const std::vector<ProtocolRow> protocols = store.protocols();
+  ASSERT_EQ(protocols.size(), 2U);
+  EXPECT_EQ(protocols[0].text, "first");
+  EXPECT_EQ(protocols[0].relative_path, "../z.json");
+  EXPECT_EQ(protocols[1].file_name, "a.json");
+}
+
+TEST_F(StudyStoreTest, AnOverviewCountsTheAnswersThatStand) {
+  const auto store = with_session();
+  EXPECT_EQ(store->overview().at(0).last_time_ns, std::nullopt);
+  Commit drawn = event(1, "trials_drawn");
+  for (const std::int64_t trial : {1, 2, 3}) {
+    drawn.design.push_back({.session = 1, .trial = trial, .block = "group_d"});
+  }
+  store->append(drawn);
+  store->append(answered(2, 1, 1.0));
+  store->append(answered(3, 2, 1.0));
+  Commit undone = event(4, "answer_undone");
+  undone.event.supersedes = 3;
+  undone.event.time_ns = 77;
+  store->append(undone);
+  SessionOverview now = store->overview().at(0);
+  EXPECT_EQ(now.session, 1);
+  EXPECT_EQ(now.num_trials, 3);
+  EXPECT_EQ(now.num_answers, 1);
+  EXPECT_EQ(now.last_time_ns, 77);
+  EXPECT_FALSE(now.completed || now.ended_early);
+
+  // A trial set aside is answered all the same, and whoever did that was no visitor.
+  Commit excluded = event(5, "trial_excluded");
+  excluded.event.trial = 1;
+  excluded.event.time_ns = 99;
+  store->append(excluded);
+  now = store->overview().at(0);
+  EXPECT_EQ(now.num_answers, 1);
+  EXPECT_EQ(now.last_time_ns, 77);
+
+  store->append(event(6, "session_completed"));
+  EXPECT_TRUE(store->overview().at(0).completed);
+  const std::int64_t second = store->add_session(
+      {.participant = "P02", .protocol_sha256 = store->sessions()[0].protocol_sha256});
+  Commit ended = event(1, "session_ended_early");
+  ended.event.session = second;
+  store->append(ended);
+  ASSERT_EQ(store->overview().size(), 2U);
+  EXPECT_TRUE(store->overview()[1].ended_early);
+  EXPECT_FALSE(store->overview()[1].completed);
+}
+
 TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {
   const auto store = with_session();
   EXPECT_EQ(fs::status(folder() / "study.sqlite").permissions() & fs::perms::all,

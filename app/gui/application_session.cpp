@@ -1,0 +1,188 @@
+// A session in the window: from its start or resumption to the check and copy after it.
+
+#include <utility>
+
+#include "app/gui/application.h"
+#include "app/session_setup.h"
+#include "app/share.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "device/device_registry.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app::gui {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of a hand that moves by itself; nothing where a person moves it.
+std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& device,
+                                                        double rate_hz) {
+  const device::DeviceEntry& entry = device::device_named(device);
+  if (!entry.make(rate_hz)->capabilities().moves_by_itself) return nullptr;
+  return std::make_unique<experiments::Laboratory>(
+      experiments::read_laboratory(user_or_shipped("thesis", "data/laboratories")));
+}
+
+}  // namespace
+
+void Application::start_tour() {
+  const fs::path folder = default_study_folder("short_tour");
+  const fs::path file = user_or_shipped("short_tour", "protocols");
+  create_study_folder(file, folder);
+  open_folder(folder);
+  seed_ = static_cast<std::uint64_t>(core::SystemClock().now_ns());
+  prepare_state_.language = study_->languages.front();
+  start_session("P01", "mouse");
+}
+
+void Application::start_session(const std::string& participant, const std::string& device) {
+  auto store =
+      std::make_unique<core::StudyStore>(folder_->folder, core::StudyStore::Mode::kReadWrite);
+  const std::unique_ptr<experiments::Laboratory> laboratory =
+      laboratory_for(device, study_->device.rate_hz);
+  const std::int64_t session = add_sessions(*store,
+                                            {.study = *study_,
+                                             .laboratory = laboratory.get(),
+                                             .study_file = folder_->study_file,
+                                             .device = device,
+                                             .seed = seed_,
+                                             .pilot = prepare_state_.pilot,
+                                             .realtime = true},
+                                            {participant})
+                                   .front();
+  run(std::move(store), session);
+}
+
+void Application::resume_session(const fs::path& folder, std::int64_t session) {
+  open_folder(folder);
+  auto store = std::make_unique<core::StudyStore>(folder, core::StudyStore::Mode::kReadWrite);
+  prepare_state_.language = "";
+  run(std::move(store), session);
+}
+
+void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t session) {
+  const core::SessionRow row = store->session(session);
+  experiments::Study study = stored_study(*store, session);
+  std::unique_ptr<experiments::Laboratory> laboratory;
+  if (!row.laboratory.empty()) {
+    laboratory = std::make_unique<experiments::Laboratory>(experiments::parse_laboratory(
+        row.laboratory, store->folder().string() + ": laboratory"));
+  }
+  check_.reset();
+  backup_.reset();
+  after_ = {};
+  run_state_ = {};
+  view_.reset();
+  finished_ = false;
+  closing_ = false;
+  session_folder_ = store->folder();
+  // A stop pressed in an earlier session must not meet this one.
+  (void)doors_.emergency_stop.release(doors_.emergency_stop.num_presses());
+  worker_ = std::make_unique<SessionWorker>(
+      SessionWorker::Parameters{.store = std::move(store),
+                                .session = session,
+                                .study = std::move(study),
+                                .laboratory = std::move(laboratory),
+                                .language = prepare_state_.language,
+                                .allow_no_realtime = request_.allow_no_realtime,
+                                .wake = wake_},
+      doors_);
+  screen_ = Screen::kSession;
+}
+
+void Application::draw_session(Ui& ui) {
+  if (worker_) {
+    if (auto newest = worker_->view()) view_ = std::move(newest);
+    if (worker_->over()) close_session();
+  }
+  if (screen_ != Screen::kSession) return draw_sessions(ui);
+  if (!view_) {
+    ui.text(ui.screen(), "Starting the device …",
+            {.font = Font::kTitle, .colour = Colour::kSoft, .align = Align::kCentre});
+    return;
+  }
+  after_session();
+  const std::vector<TracePoint> trace =
+      worker_ && !view_->hides_levels ? worker_->trace().snapshot() : std::vector<TracePoint>{};
+  const RunViewResult result = draw_run_view(ui, *view_, trace, after_, run_state_);
+  if (result.stop) escape();
+  if (worker_) {
+    for (const OperatorRequest& request : result.requests) worker_->request(request);
+  }
+  if (closing_ && run_state_.dialog == RunViewState::Dialog::kNone && !result.to_sessions) {
+    closing_ = false;  // They stay.
+  }
+  if (result.back_up && backup_ == nullptr) {
+    backup_ = std::make_unique<BackgroundTask<ActionOutcome>>(
+        [folder = session_folder_, target = fs::path(after_.backup_folder)](
+            WorkControl& control) { return back_up_study(folder, target, control); },
+        wake_);
+  }
+  if (worker_ == nullptr && result.to_results) {
+    go_to(StudyTab::kResults);
+  } else if (worker_ == nullptr && result.to_sessions) {
+    go_to(StudyTab::kSessions);
+  }
+}
+
+/// The session is over and its folder closed: left, failed, or finished.
+void Application::close_session() {
+  const std::string failure = worker_->failure();
+  worker_.reset();
+  run_state_.pad = {};
+  (void)doors_.emergency_stop.release(doors_.emergency_stop.num_presses());
+  finished_ = view_ && view_->step == Step::kFinished;
+  if (closing_) closed_ = true;
+  if (finished_) return;
+  if (!failure.empty()) tell("The session stopped", failure);
+  go_to(StudyTab::kSessions);
+}
+
+/// Once a session is finished its folder is closed, checked, and copied where a copy is known.
+void Application::after_session() {
+  if (worker_ && view_->step == Step::kFinished) {
+    worker_->request(operate::Leave{});
+    return;
+  }
+  if (!finished_) return;
+  if (check_ == nullptr) {
+    attempt("The study cannot be read", [this] { reload_folder(); });
+    after_.backup_folder = folder_->backups.empty()
+                               ? free_folder_beside(session_folder_, "backup").string()
+                               : folder_->backups.front().string();
+    check_ = std::make_unique<BackgroundTask<ActionOutcome>>(
+        [folder = session_folder_](WorkControl& control) {
+          return verify_study(folder, control);
+        },
+        wake_);
+    if (!folder_->backups.empty()) {
+      backup_ = std::make_unique<BackgroundTask<ActionOutcome>>(
+          [folder = session_folder_, target = folder_->backups.front()](WorkControl& control) {
+            return back_up_study(folder, target, control);
+          },
+          wake_);
+    }
+  }
+  const auto collect = [&](BackgroundTask<ActionOutcome>& task, bool& running,
+                           std::string& sentence, bool& failed) {
+    running = task.running();
+    if (running) {
+      after_.progress = task.progress();
+    } else if (const ActionOutcome* outcome = task.result()) {
+      sentence = outcome->sentence;
+      failed = !outcome->ok;
+    } else {
+      sentence = task.error();
+      failed = true;
+    }
+  };
+  collect(*check_, after_.checking, after_.check, after_.check_failed);
+  if (backup_) {
+    collect(*backup_, after_.backing_up, after_.backup, after_.backup_failed);
+    if (!after_.backing_up && after_.backup_failed) backup_.reset();
+  }
+}
+
+}  // namespace jnd::app::gui

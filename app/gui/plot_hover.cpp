@@ -1,0 +1,103 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "app/gui/plot_drawing.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr float kReach = 24;  // Logical pixels.
+
+struct Nearest {
+  float distance = kReach;
+  float x = 0, y = 0;
+  std::string words;
+};
+
+std::string with_unit(double value, const std::string& unit) {
+  std::string text = short_number(value);
+  // In English a percent sign follows its number at once; units do not.
+  if (!unit.empty()) text += " " + unit;
+  return text;
+}
+
+/// The name, if any, and what it was measured at.
+std::string described(const std::string& name, const std::string& values) {
+  return name.empty() ? values : name + ":  " + values;
+}
+
+class Search {
+ public:
+  Search(const Ui& ui, const PlotArea& area) : ui_(ui), area_(area) {}
+
+  /// True where the point is the nearest so far; its words are asked for only then.
+  bool is_nearer(double x, double y) {
+    if (!area_.can_show(x, y)) return false;
+    const float there_x = area_.x(x);
+    const float there_y = area_.y(y);
+    if (!area_.place.inset(-6).contains(there_x, there_y)) return false;
+    const float distance = std::hypot(there_x - ui_.mouse_x(), there_y - ui_.mouse_y());
+    if (!(distance < nearest_.distance)) return false;
+    nearest_ = {.distance = distance, .x = there_x, .y = there_y};
+    return true;
+  }
+  Nearest& nearest() { return nearest_; }
+
+ private:
+  const Ui& ui_;
+  const PlotArea& area_;
+  Nearest nearest_;
+};
+
+void search_series(Search& search, const PlotSeries& series, const PlotModel& model) {
+  std::size_t best = std::numeric_limits<std::size_t>::max();
+  for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+    if (search.is_nearer(series.x[i], series.y[i])) best = i;
+  }
+  if (best == std::numeric_limits<std::size_t>::max()) return;
+  const std::string& name = best < series.names.size() ? series.names[best] : series.name;
+  const std::string& y_unit = model.y.unit.empty() ? model.unit : model.y.unit;
+  std::string values = with_unit(series.y[best], y_unit) + " at " +
+                       with_unit(series.x[best], model.x.unit + model.x.tick_suffix);
+  if (best < series.low.size() && best < series.high.size() &&
+      std::isfinite(series.low[best]) && std::isfinite(series.high[best])) {
+    values +=
+        "  (" + short_number(series.low[best]) + " to " + short_number(series.high[best]) + ")";
+  }
+  search.nearest().words = described(name, values);
+}
+
+void search_box(Search& search, const PlotBox& box, const PlotModel& model) {
+  const std::string& unit = model.y.unit.empty() ? model.unit : model.y.unit;
+  const auto look = [&](double value, const char* what) {
+    if (!search.is_nearer(box.x, value)) return;
+    search.nearest().words = described(box.name, what + with_unit(value, unit));
+  };
+  look(box.lower_whisker, "down to ");
+  look(box.lower_quartile, "lower quartile ");
+  look(box.median, "median ");
+  look(box.upper_quartile, "upper quartile ");
+  look(box.upper_whisker, "up to ");
+  for (const PlotBox::Outlier& outlier : box.outliers) {
+    if (!search.is_nearer(box.x, outlier.value)) continue;
+    search.nearest().words = described(outlier.name, with_unit(outlier.value, unit));
+  }
+}
+
+}  // namespace
+
+void draw_hover(Ui& ui, const PlotArea& area, const PlotModel& model) {
+  if (!ui.hovered(area.place.inset(-6))) return;
+  Search search(ui, area);
+  for (const PlotSeries& series : model.series) {
+    if (series.style != PlotSeries::Style::kBand) search_series(search, series, model);
+  }
+  for (const PlotBox& box : model.boxes) search_box(search, box, model);
+  const Nearest& nearest = search.nearest();
+  if (nearest.words.empty()) return;
+  ui.ring(nearest.x, nearest.y, 7, Colour::kBlue, 2);
+  ui.tooltip(nearest.x, nearest.y, nearest.words);
+}
+
+}  // namespace jnd::app::gui

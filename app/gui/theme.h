@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct ImFont;
+
+namespace jnd::app::gui {
+
+/// By role; the numbers are logical pixels of the em square.
+enum class Font {
+  kTiny,         ///< 12, ticks of plots.
+  kSmall,        ///< 14, footer.
+  kBody,         ///< 17.
+  kStrong,       ///< 17, semi-bold.
+  kLarge,        ///< 20, semi-bold: titles of cards.
+  kTitle,        ///< 30, bold: the one sentence.
+  kHuge,         ///< 44, bold: the name, what is typed.
+  kCaps,         ///< 13, semi-bold, spaced: headings.
+  kMono,         ///< 14, JetBrains Mono: numbers in tables.
+  kSmallStrong,  ///< 14, semi-bold: chips, what counts in the footer.
+  kAnswer,       ///< 24, semi-bold: large buttons.
+  kKeyCap,       ///< 12, JetBrains Mono, medium.
+};
+inline constexpr int kNumFonts = 12;
+
+enum class Colour {
+  kGround,
+  kCard,
+  kInk,
+  kSoft,
+  kLine,
+  kBlue,
+  kBlueSoft,
+  kGreen,
+  kAmber,
+  kRed,
+  kOnFilled,  ///< Words on a button filled with any of the five colours of meaning.
+  kPilot,     ///< The whole frame of a pilot session.
+  kStop,      ///< The emergency stop, filled; as red in the dark as by day.
+  kOnStop,
+};
+inline constexpr int kNumColours = 14;
+
+/// Fonts, colours and scale. Colours are told apart by those who see no red or green, and every
+/// one stands with a word or a shape besides. Every colour of words has a contrast of at least
+/// 4.5 : 1 (WCAG 2.1, AA) on each ground it stands on, in both modes.
+class Theme {
+ public:
+  /// `scale`: of the monitor, times what the person chose.
+  explicit Theme(float scale = 1.0f, bool dark = false);
+
+  /// Builds the font atlas of ImGui's current context for the scale; after it changed, outside
+  /// of a frame. Missing font files are replaced by what there is and named in `missing_fonts`.
+  void load_fonts();
+  [[nodiscard]] const std::vector<std::string>& missing_fonts() const noexcept {
+    return missing_;
+  }
+
+  [[nodiscard]] bool dark() const noexcept { return dark_; }
+  void set_dark(bool dark) noexcept { dark_ = dark; }
+  [[nodiscard]] float scale() const noexcept { return scale_; }
+  /// Takes effect with `load_fonts`; within 0.5 to 4.
+  void set_scale(float scale) noexcept;
+  [[nodiscard]] bool fonts_are_stale() const noexcept { return fonts_scale_ != scale_; }
+
+  /// As ImGui packs it.
+  [[nodiscard]] std::uint32_t rgba(Colour colour, float alpha = 1.0f) const noexcept;
+  /// For lines and bars, which need less contrast than words (3 : 1) and so can be clearer.
+  [[nodiscard]] std::uint32_t line_rgba(Colour colour, float alpha = 1.0f) const noexcept;
+  /// 0xRRGGBB
+  [[nodiscard]] std::uint32_t rgb(Colour colour) const noexcept;
+  [[nodiscard]] ImFont* font(Font font) const noexcept;
+  [[nodiscard]] float size(Font font) const noexcept;  ///< Logical pixels of the em square.
+
+ private:
+  float scale_ = 1.0f;
+  bool dark_;
+  float fonts_scale_ = 0.0f;
+  std::array<ImFont*, kNumFonts> fonts_{};
+  std::vector<std::string> missing_;
+};
+
+/// How opaque the ground of a chip is, of the colour of its words.
+inline constexpr float kChipAlpha = 0.12f;
+
+}  // namespace jnd::app::gui

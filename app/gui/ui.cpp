@@ -1,0 +1,176 @@
+#include "app/gui/ui.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/gui/ui_state.h"
+
+namespace jnd::app::gui {
+namespace {
+
+// A field asked for the keyboard gets it from ImGui one or two frames later.
+constexpr int kMaxFramesOfWaiting = 5;
+
+}  // namespace
+
+const Drawn::Widget* Drawn::find(std::string_view name) const {
+  const auto found = std::ranges::find(widgets, name, &Widget::name);
+  return found == widgets.end() ? nullptr : &*found;
+}
+
+bool Drawn::shows(std::string_view part) const {
+  return std::ranges::any_of(
+      texts, [&](const std::string& text) { return text.find(part) != std::string::npos; });
+}
+
+Ui::Ui(Theme& theme) : theme_(theme), my_(std::make_unique<Implementation>()) {
+  my_->context = ImGui::GetCurrentContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  // Frames are drawn when something happens, so a blinking cursor might stop in the dark.
+  io.ConfigInputTextCursorBlink = false;
+  // The dialog's window would otherwise be moved by whoever drags its ground.
+  io.ConfigWindowsMoveFromTitleBarOnly = true;
+  Implementation::map_keys(io);
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowPadding = style.WindowMinSize = ImVec2(1, 1);
+  style.WindowBorderSize = style.ChildBorderSize = style.FrameBorderSize = 0;
+  style.ItemSpacing = ImVec2(0, 0);
+  style.Colors[ImGuiCol_FrameBg] = style.Colors[ImGuiCol_ChildBg] =
+      style.Colors[ImGuiCol_NavHighlight] = style.Colors[ImGuiCol_ScrollbarBg] =
+          ImVec4(0, 0, 0, 0);
+}
+
+Ui::~Ui() = default;
+
+void Ui::begin_frame(InputQueue& queue) {
+  Implementation& my = *my_;
+  ImGui::SetCurrentContext(my.context);
+  // What was just used may open a dialog or a field, for which the next key is meant.
+  const bool is_ready = !std::exchange(my.was_used, false) && !my.is_waiting_for_focus();
+  if (my.again.has_value()) {
+    my.input = *std::exchange(my.again, std::nullopt);
+  } else if (is_ready) {
+    my.input = queue.next_frame(!my.active_before.empty());
+  } else {
+    my.input = {.mouse = queue.mouse()};
+  }
+  my.has_more = !queue.empty();
+  my.feed(ImGui::GetIO());
+
+  my.keys = my.input.keys;
+  std::erase_if(my.keys, [](const KeyEvent& event) {
+    return event.action == KeyEvent::Action::kRelease;
+  });
+  my.characters = my.input.characters;
+  my.give_keys_to_field();
+  const bool was_down = my.mouse.down;
+  my.mouse = {.x = my.input.mouse.x / theme_.scale(),
+              .y = my.input.mouse.y / theme_.scale(),
+              .down = my.input.mouse.down};
+  my.went_down = my.mouse.down && !was_down;
+  my.went_up = was_down && !my.mouse.down;
+  if (my.went_down) {
+    my.press_x = my.mouse.x;
+    my.press_y = my.mouse.y;
+    my.press_dialog = my.dialog_before;
+  }
+  my.is_repeating = false;
+  my.dialog_is_new = false;
+  my.dialog.clear();
+  my.fields.clear();
+  my.active_field.clear();
+  my.area_is_active = false;
+  my.drawn = {.view = std::move(my.drawn.view), .frame = my.drawn.frame + 1};
+
+  ImGui::NewFrame();
+  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+  ImGui::Begin("screen", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBringToFrontOnFocus);
+}
+
+const Drawn& Ui::drawn() const noexcept { return my_->drawn; }
+
+bool Ui::was_held() const noexcept { return my_->was_held; }
+
+const Drawn& Ui::end_frame() {
+  Implementation& my = *my_;
+  ImGui::End();
+  ImGui::Render();
+  // A dialog that closed by itself kept this frame's keys and clicks from everybody.
+  if (!my.dialog_before.empty() && my.dialog.empty() &&
+      (!my.keys.empty() || !my.characters.empty() || my.went_up)) {
+    my.again = {.keys = my.keys, .characters = my.characters, .mouse = my.input.mouse};
+    if (my.went_up) my.mouse.down = true;
+  }
+  // Pressed while a dialog was closing, it is for what was below; not so while one was opening.
+  if (my.went_down && my.dialog.empty()) my.press_dialog.clear();
+  my.dialog_before = my.dialog;
+  if (my.is_waiting_for_focus() && ++my.frames_of_waiting > kMaxFramesOfWaiting) {
+    my.wants_focus.clear();
+  }
+  if (my.tab_steps != 0 && !my.fields.empty()) {
+    const auto here = std::ranges::find(my.fields, my.active_before);
+    const auto count = static_cast<std::ptrdiff_t>(my.fields.size());
+    std::ptrdiff_t next = my.tab_steps > 0 ? 0 : count - 1;
+    if (here != my.fields.end()) {
+      next = (here - my.fields.begin() + my.tab_steps + count) % count;
+    }
+    my.wants_focus = my.fields[static_cast<std::size_t>(next)];
+    my.frames_of_waiting = 0;
+  }
+  my.active_before = my.active_field;
+  return my.drawn;
+}
+
+bool Ui::wants_another_frame() const noexcept {
+  return my_->has_more || my_->was_used || my_->is_waiting_for_focus() || my_->is_repeating ||
+         my_->again.has_value() || my_->dialog_is_new;
+}
+
+void Ui::set_view(std::string_view name) { my_->drawn.view = name; }
+
+Rect Ui::screen() const {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  return {0, 0, size.x / theme_.scale(), size.y / theme_.scale()};
+}
+
+ImDrawList& Ui::draw_list() { return *ImGui::GetWindowDrawList(); }
+
+float Ui::px(float logical) const noexcept { return logical * theme_.scale(); }
+
+std::uint32_t Ui::rgba(Colour colour, float alpha) const { return theme_.rgba(colour, alpha); }
+
+float Ui::mouse_x() const { return my_->mouse.x; }
+
+float Ui::mouse_y() const { return my_->mouse.y; }
+
+bool Ui::hovered(const Rect& place) const { return my_->mouse_is_on(place); }
+
+void Ui::log_widget(std::string_view name, std::string_view label, const Chord& key,
+                    const Rect& place, bool enabled) {
+  my_->drawn.widgets.push_back({.name = std::string(name),
+                                .label = std::string(label),
+                                .key = words(key),
+                                .place = my_->visible(place),
+                                .enabled = enabled && !my_->is_blocked()});
+  log_text(label);
+}
+
+void Ui::log_text(std::string_view words) {
+  if (!words.empty()) my_->drawn.texts.emplace_back(words);
+}
+
+void Ui::note_drawn(std::string_view what, const Rect& place) {
+  if (place.width > 0) log_widget(what, "", {}, place, true);
+  log_text(what);
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,129 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/text_layout.h"
+#include "app/gui/ui.h"
+#include "app/gui/ui_state.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr double kRepeatDelayS = 0.4;
+constexpr double kRepeatIntervalS = 0.08;
+constexpr float kKeyCapGap = 9;
+constexpr float kKeyCapHeight = 20;
+
+Font font_of(const ButtonStyle& style) {
+  if (style.large) return Font::kAnswer;
+  return style.tone == Tone::kQuiet && !style.selected ? Font::kBody : Font::kStrong;
+}
+
+float padding_of(const ButtonStyle& style) {
+  if (style.large) return 28;
+  return style.tone == Tone::kQuiet ? 10 : 18;
+}
+
+}  // namespace
+
+Ui::Press Ui::press_on(const Rect& place, const ButtonStyle& style) {
+  Implementation& my = *my_;
+  Press press;
+  if (!style.enabled) return press;
+  const bool is_under_mouse = my.mouse_is_on(place);
+  const bool was_pressed = my.press_was_on(place);
+  // Who pressed elsewhere and moves on means what was pressed.
+  press.hovered = is_under_mouse && (!my.mouse.down || was_pressed);
+  press.held = press.hovered && my.mouse.down;
+  if (press.hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+
+  if (style.repeats) {
+    const double now_s = ImGui::GetTime();
+    if (press.held) {
+      my.is_repeating = true;
+      if (my.went_down) {
+        my.next_repeat_s = now_s + kRepeatDelayS;
+        my.was_held = false;
+        press.answered = true;
+      } else if (now_s >= my.next_repeat_s) {
+        my.next_repeat_s = now_s + kRepeatIntervalS;
+        my.was_held = true;
+        press.answered = true;
+      }
+    }
+  } else if (is_under_mouse && was_pressed) {
+    press.answered = style.at_once ? my.went_down : my.went_up;
+    my.was_used |= press.answered;
+  }
+  if (!press.answered && my.take_key(style.key, style.repeats)) press.answered = true;
+  return press;
+}
+
+bool Ui::button(std::string_view name, const Rect& place, std::string_view label,
+                const ButtonStyle& style) {
+  log_widget(name, label, style.key, place, style.enabled);
+  const Press press = press_on(place, style);
+  draw_button(place, label, style, press);
+  return press.answered;
+}
+
+float Ui::button_width(std::string_view label, const ButtonStyle& style) const {
+  float width = text_width(label, font_of(style)) + 2 * padding_of(style);
+  if (style.key.key != Key::kNone) width += kKeyCapGap + key_cap_width(style.key);
+  return std::ceil(width);
+}
+
+void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyle& style,
+                     const Press& press) {
+  constexpr float kRounding = 9;
+  const bool is_filled = style.tone == Tone::kPrimary || style.tone == Tone::kDanger;
+  Colour letters = Colour::kInk;
+  if (is_filled && style.enabled) {
+    const bool is_danger = style.tone == Tone::kDanger;
+    fill(place, is_danger ? Colour::kStop : Colour::kBlue, kRounding);
+    letters = is_danger ? Colour::kOnStop : Colour::kOnFilled;
+    if (press.hovered) {
+      // Away from the letters, so that they stay as readable.
+      const Colour shade = !theme_.dark() ? Colour::kInk
+                           : is_danger    ? Colour::kOnFilled
+                                          : Colour::kOnStop;
+      fill(place, shade, kRounding, press.held ? 0.24f : 0.12f);
+    }
+  } else if (style.tone == Tone::kQuiet) {
+    letters = style.selected ? Colour::kBlue : press.hovered ? Colour::kInk : Colour::kSoft;
+    if (press.hovered) fill(place, Colour::kInk, kRounding, press.held ? 0.12f : 0.06f);
+  } else {
+    fill(place, style.selected ? Colour::kBlueSoft : Colour::kCard, kRounding);
+    if (press.hovered) fill(place, Colour::kBlue, kRounding, press.held ? 0.16f : 0.08f);
+    outline(place, style.selected || press.hovered ? Colour::kBlue : Colour::kLine, kRounding);
+    if (style.selected) letters = Colour::kBlue;
+  }
+  if (!style.enabled) letters = Colour::kSoft;
+
+  const Font font = font_of(style);
+  const bool has_key = style.key.key != Key::kNone;
+  const float cap = has_key ? key_cap_width(style.key) + kKeyCapGap : 0;
+  const float room = place.width - cap - 12;
+  const Measure measure = [&](std::string_view part) { return text_width(part, font); };
+  const std::string shown = shorten(label, room + 1, measure);
+  const float width = measure(shown);
+  float x = place.x + (place.width - width - cap) / 2;
+  draw_line_of_text(x, place.y + (place.height - line_height(font)) / 2, shown, font,
+                    rgba(letters, style.enabled ? 1.0f : 0.7f));
+  if (!has_key) return;
+  x += width + kKeyCapGap;
+  const bool is_on_fill = is_filled && style.enabled;
+  key_cap(x, place.y + (place.height - kKeyCapHeight) / 2, style.key,
+          is_on_fill ? letters : Colour::kSoft);
+}
+
+bool Ui::row(std::string_view name, const Rect& place, std::string_view label,
+             const Chord& key) {
+  log_widget(name, label, key, place, true);
+  const Press press = press_on(place, {.key = key});
+  if (press.hovered) fill(place, Colour::kBlue, 8, press.held ? 0.14f : 0.07f);
+  return press.answered;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,152 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/gui/ui.h"
+#include "app/gui/ui_state.h"
+
+namespace jnd::app::gui {
+namespace {
+
+/// What an edited text keeps for itself.
+bool edits_text(const Chord& chord) {
+  if (chord.control) {
+    switch (static_cast<int>(chord.key)) {
+      case 'A':
+      case 'C':
+      case 'V':
+      case 'X':
+      case 'Y':
+      case 'Z':
+      case static_cast<int>(Key::kBackspace):
+      case static_cast<int>(Key::kDelete):
+      case static_cast<int>(Key::kLeft):
+      case static_cast<int>(Key::kRight):
+      case static_cast<int>(Key::kHome):
+      case static_cast<int>(Key::kEnd):
+        return true;
+      default:
+        return false;
+    }
+  }
+  if (is_printing(chord.key)) return true;
+  return (chord.key >= Key::kBackspace && chord.key <= Key::kDown) || chord.key == Key::kHome ||
+         chord.key == Key::kEnd;
+}
+
+}  // namespace
+
+// Without Escape, which is the emergency stop and would take back what was written, and without
+// Tab, which we see to ourselves.
+void Ui::Implementation::map_keys(ImGuiIO& io) {
+  const auto map = [&](ImGuiKey theirs, Key ours) {
+    io.KeyMap[theirs] = static_cast<int>(ours);
+  };
+  map(ImGuiKey_LeftArrow, Key::kLeft);
+  map(ImGuiKey_RightArrow, Key::kRight);
+  map(ImGuiKey_UpArrow, Key::kUp);
+  map(ImGuiKey_DownArrow, Key::kDown);
+  map(ImGuiKey_PageUp, Key::kPageUp);
+  map(ImGuiKey_PageDown, Key::kPageDown);
+  map(ImGuiKey_Home, Key::kHome);
+  map(ImGuiKey_End, Key::kEnd);
+  map(ImGuiKey_Delete, Key::kDelete);
+  map(ImGuiKey_Backspace, Key::kBackspace);
+  map(ImGuiKey_Space, Key::kSpace);
+  map(ImGuiKey_Enter, Key::kEnter);
+  map(ImGuiKey_A, letter('A'));
+  map(ImGuiKey_C, letter('C'));
+  map(ImGuiKey_V, letter('V'));
+  map(ImGuiKey_X, letter('X'));
+  map(ImGuiKey_Y, letter('Y'));
+  map(ImGuiKey_Z, letter('Z'));
+}
+
+/// ImGui edits the texts, so it gets what is typed; but its undo of 1.86 knows nothing of the
+/// line ends that a text area moves about.
+void Ui::Implementation::feed(ImGuiIO& io) const {
+  if (!input.keys.empty() || !input.characters.empty()) io.KeyCtrl = io.KeyShift = false;
+  for (const KeyEvent& event : input.keys) {
+    const bool goes_down = event.action != KeyEvent::Action::kRelease;
+    // The key before may be released while its Control still is held.
+    io.KeyCtrl |= goes_down && event.chord.control;
+    io.KeyShift |= goes_down && event.chord.shift;
+    const Key key = event.chord.key;
+    if (goes_down && area_is_active && (key == letter('Z') || key == letter('Y'))) continue;
+    io.KeysDown[static_cast<int>(key)] = goes_down;
+  }
+  for (const std::uint32_t character : input.characters) io.AddInputCharacter(character);
+  io.MousePos = ImVec2(input.mouse.x, input.mouse.y);
+  io.MouseDown[0] = input.mouse.down;
+  io.MouseWheel = input.wheel;
+}
+
+bool Ui::Implementation::take_key(const Chord& chord, bool with_repeats) {
+  if (is_blocked()) return false;
+  const auto found = std::ranges::find_if(keys, [&](const KeyEvent& event) {
+    return answers(event.chord, chord) &&
+           (with_repeats || event.action == KeyEvent::Action::kPress);
+  });
+  if (found == keys.end()) return false;
+  was_held = found->action == KeyEvent::Action::kRepeat;
+  keys.erase(found);
+  // A frame has one press, so what was written in it was written by this key.
+  characters.clear();
+  // A held key changes a value and opens nothing; it need not wait for what it did.
+  if (!with_repeats) was_used = true;
+  return true;
+}
+
+void Ui::Implementation::give_keys_to_field() {
+  enter_for_field = false;
+  tab_steps = 0;
+  std::erase_if(keys, [&](const KeyEvent& event) {
+    if (event.chord.key == Key::kTab && !event.chord.control) {
+      tab_steps = event.chord.shift ? -1 : 1;
+      return true;
+    }
+    if (active_before.empty()) return false;
+    if (event.chord.key == Key::kEnter && !event.chord.control) {
+      enter_for_field = true;
+      return true;
+    }
+    return edits_text(event.chord);
+  });
+}
+
+bool Ui::pressed(const Chord& key, bool with_repeats) {
+  return my_->take_key(key, with_repeats);
+}
+
+std::string Ui::typed_digits() {
+  Implementation& my = *my_;
+  if (my.is_blocked() || is_editing()) return "";
+  const bool repeats = std::ranges::any_of(
+      my.keys, [](const KeyEvent& event) { return event.action == KeyEvent::Action::kRepeat; });
+  // A digit held too long is not meant to be many.
+  if (repeats) return "";
+  const auto is_digit = [](std::uint32_t code) { return code >= '0' && code <= '9'; };
+  std::string digits;
+  for (const std::uint32_t character : my.characters) {
+    if (is_digit(character)) digits += static_cast<char>(character);
+    if (character == '.' || character == ',') digits += '.';
+  }
+  // The keypad's digits are meant as such, whatever Num Lock says.
+  for (const KeyEvent& event : my.keys) {
+    const auto code = static_cast<std::uint32_t>(event.chord.key);
+    if (my.characters.empty() && !event.chord.control && is_digit(code)) {
+      digits += static_cast<char>(code);
+    }
+  }
+  if (digits.empty()) return "";
+  my.characters.clear();
+  std::erase_if(my.keys, [](const KeyEvent& event) {
+    return is_printing(event.chord.key) && !event.chord.control;
+  });
+  return digits;
+}
+
+bool Ui::typed_backspace() { return my_->take_key({.key = Key::kBackspace}, true); }
+
+}  // namespace jnd::app::gui

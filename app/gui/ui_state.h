@@ -1,0 +1,94 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gui/ui.h"
+
+namespace jnd::app::gui {
+
+/// What `Ui` remembers from call to call and from frame to frame; for its own sources alone.
+struct Ui::Implementation {
+  ImGuiContext* context = nullptr;
+  Drawn drawn;
+
+  // This frame's input, less what a control has taken.
+  FrameInput input;
+  std::vector<KeyEvent> keys;  ///< Pressed or repeating.
+  std::vector<std::uint32_t> characters;
+  std::optional<FrameInput> again;  ///< Input that went to no one, for the next frame.
+  bool was_held = false;            ///< The last control that answered goes on.
+  bool was_used = false;            ///< A control answered in this frame.
+  bool has_more = false;            ///< The queue is not empty.
+
+  // The mouse, logical pixels.
+  MouseState mouse;
+  bool went_down = false;
+  bool went_up = false;
+  float press_x = 0, press_y = 0;  ///< Where the button went down.
+  std::string press_dialog;        ///< What was open then.
+  double next_repeat_s = 0.0;      ///< Of a button held down.
+  bool is_repeating = false;
+
+  // The dialog: its name, empty for none.
+  std::string dialog;
+  std::string dialog_before;
+  bool dialog_is_new = false;
+  bool inside_dialog = false;
+  std::size_t num_fields_below = 0;  ///< Of the frame in which it opens.
+
+  // Text fields, by name.
+  std::vector<std::string> fields;
+  std::string active_field;
+  std::string active_before;
+  bool area_is_active = false;
+  std::string wants_focus;
+  int frames_of_waiting = 0;
+  bool enter_for_field = false;
+  int tab_steps = 0;
+  Rect field_place;
+
+  struct Scroll {
+    float offset = 0;
+    float grabbed_at = -1;  ///< Within its thumb, while that is dragged.
+    Rect place;
+    float content_height = 0;
+    std::uint64_t last_frame = 0;
+  };
+  std::map<std::string, Scroll, std::less<>> scrolls;
+  std::string open_scroll;
+  std::vector<Rect> clips;
+
+  /// Drawn below a dialog: no keys, no clicks.
+  [[nodiscard]] bool is_blocked() const noexcept {
+    return !dialog_before.empty() && dialog.empty();
+  }
+  [[nodiscard]] bool is_waiting_for_focus() const noexcept { return !wants_focus.empty(); }
+  [[nodiscard]] Rect visible(const Rect& place) const noexcept {
+    return clips.empty() ? place : place.common(clips.back());
+  }
+  [[nodiscard]] bool mouse_is_on(const Rect& place) const noexcept {
+    return !is_blocked() && visible(place).contains(mouse.x, mouse.y);
+  }
+  [[nodiscard]] bool press_was_on(const Rect& place) const noexcept {
+    return press_dialog == dialog && visible(place).contains(press_x, press_y);
+  }
+  /// The first press of this chord becomes the caller's.
+  bool take_key(const Chord& chord, bool with_repeats);
+  void give_keys_to_field();
+  /// Which of our keys is which of ImGui's.
+  static void map_keys(ImGuiIO& io);
+  void feed(ImGuiIO& io) const;
+};
+
+struct Ui::Press {
+  bool answered = false;
+  bool hovered = false;
+  bool held = false;
+};
+
+}  // namespace jnd::app::gui

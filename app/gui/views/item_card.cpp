@@ -1,0 +1,300 @@
+// The card of a checklist's item, a consent or a question.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "app/gui/views/run_parts.h"
+#include "app/operator/session_words.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using Kind = ItemView::Kind;
+
+bool is_typed(Kind kind) {
+  return kind == Kind::kNumber || kind == Kind::kText || kind == Kind::kWords;
+}
+
+std::string range_words(const ItemView& item) {
+  std::string words;
+  if (item.minimum && item.maximum) {
+    words = number_words(*item.minimum) + " to " + number_words(*item.maximum);
+  } else if (item.minimum) {
+    words = "at least " + number_words(*item.minimum);
+  } else if (item.maximum) {
+    words = "at most " + number_words(*item.maximum);
+  }
+  return words + (item.unit.empty() ? "" : (words.empty() ? "in " : " ") + item.unit);
+}
+
+/// Why what is typed is no answer; "" if it is one.
+std::string problem_with(const ItemView& item, const std::string& typed) {
+  if (typed.empty()) return "type an answer first";
+  if (item.kind == Kind::kWords) {
+    const auto commas = std::count(typed.begin(), typed.end(), ',');
+    if (commas + 1 != item.num_words) {
+      return "expected " + std::to_string(item.num_words) + " words, separated by commas";
+    }
+  }
+  if (item.kind != Kind::kNumber) return "";
+  char* end = nullptr;
+  const double value = std::strtod(typed.c_str(), &end);
+  if (end == typed.c_str() || *end != '\0' || !std::isfinite(value)) {
+    return "expected a number, with a point for decimals";
+  }
+  if ((item.minimum && !(value >= *item.minimum)) ||
+      (item.maximum && !(value <= *item.maximum))) {
+    return "expected " + range_words(item);
+  }
+  return "";
+}
+
+class ItemCard {
+ public:
+  ItemCard(Ui& ui, const ItemView& item, RunViewState& state, RunViewResult& result)
+      : ui_(ui), item_(item), state_(state), result_(result) {
+    if (state.item == item.name) return;
+    state.item = item.name;
+    state.typed = is_typed(item.kind) ? item.answer : "";
+    state.says_yes = false;
+    state.item_is_new = true;
+    state.item_problem.clear();
+  }
+
+  void add_controls(Stack& stack, float width) {
+    switch (item_.kind) {
+      case Kind::kTick:
+        stack.add(72, 0, [this](const Rect& strip) {
+          draw_single(strip, "item_done", "Done", Key::kSpace, "done");
+        });
+        break;
+      case Kind::kConsent:
+        stack.add(72, 0, [this](const Rect& strip) { draw_consent(strip); });
+        break;
+      case Kind::kNumber:
+      case Kind::kText:
+      case Kind::kWords:
+        add_typed(stack, width);
+        break;
+      case Kind::kYesNo:
+        stack.add(72, 12, [this](const Rect& strip) { draw_yes_no(strip); });
+        break;
+      case Kind::kYesNoWhich:
+        if (state_.says_yes) {
+          add_typed(stack, width);
+        } else {
+          stack.add(72, 12, [this](const Rect& strip) { draw_yes_no(strip); });
+        }
+        break;
+      case Kind::kChoice:
+        add_choice(stack, width);
+        break;
+      case Kind::kScale:
+        stack.add(104, 12, [this, width](const Rect& strip) { draw_scale(strip, width); });
+        break;
+    }
+    if (item_.required || item_.kind == Kind::kTick || item_.kind == Kind::kConsent) return;
+    stack.add(40, 0, [this](const Rect& strip) {
+      draw_button_row(
+          ui_, strip,
+          {{"item_skip", "No answer", {.tone = Tone::kQuiet, .key = {Key::kF4}}, [this] {
+              give("no_answer");
+            }}});
+    });
+  }
+
+ private:
+  void give(const std::string& answer) {
+    result_.requests.push_back(operate::AnswerItem{item_.stage, item_.name, answer});
+    state_.item.clear();
+  }
+
+  void draw_single(const Rect& strip, const char* name, const char* label, Key key,
+                   const char* answer) {
+    draw_button_row(ui_, strip,
+                    {{name,
+                      label,
+                      {.tone = Tone::kPrimary, .key = {key}, .large = true},
+                      [this, answer] { give(answer); }}},
+                    260);
+  }
+
+  void draw_consent(const Rect& strip) {
+    draw_button_row(ui_, strip,
+                    {{"consent_given",
+                      "Consent is given",
+                      {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                      [this] { give("given"); }},
+                     {"consent_refused",
+                      "End without consent",
+                      {.key = {letter('E'), true}, .large = true},
+                      [this] { open_dialog(state_, RunViewState::Dialog::kEndEarly); }}},
+                    240);
+  }
+
+  void draw_yes_no(const Rect& strip) {
+    draw_button_row(ui_, strip,
+                    {{"item_yes",
+                      "Yes",
+                      {.tone = Tone::kPrimary, .key = {letter('Y')}, .large = true},
+                      [this] {
+                        if (item_.kind == Kind::kYesNo) return give("yes");
+                        state_.says_yes = true;
+                        state_.item_is_new = true;
+                      }},
+                     {"item_no",
+                      "No",
+                      {.tone = Tone::kPrimary, .key = {letter('N')}, .large = true},
+                      [this] { give("no"); }}},
+                    200);
+  }
+
+  void add_typed(Stack& stack, float width) {
+    stack.add(52, 8, [this, width](const Rect& strip) {
+      Rect row = strip.middle(std::min(width, 560.0f), 52);
+      const ButtonStyle style{.tone = Tone::kPrimary, .key = {Key::kEnter}};
+      const Rect button = row.take_right(ui_.button_width("Store", style), 12);
+      const std::string hint = item_.kind == Kind::kWords        ? "word, word, word"
+                               : item_.kind == Kind::kYesNoWhich ? "which?"
+                                                                 : range_words(item_);
+      const bool entered =
+          ui_.text_field("item_text", row, state_.typed, hint, state_.item_is_new);
+      state_.item_is_new = false;
+      if (!ui_.button("item_store", button, "Store", style) && !entered) return;
+      state_.item_problem = problem_with(item_, state_.typed);
+      if (!state_.item_problem.empty()) {
+        state_.item_is_new = true;  // The field keeps the keyboard.
+        return;
+      }
+      give(item_.kind == Kind::kYesNoWhich ? "yes: " + state_.typed : state_.typed);
+    });
+    const std::string below =
+        state_.item_problem.empty() ? range_words(item_) : state_.item_problem;
+    stack.add_text(below, Font::kBody,
+                   state_.item_problem.empty() ? Colour::kSoft : Colour::kAmber, width, 12);
+  }
+
+  void add_choice(Stack& stack, float width) {
+    for (std::size_t i = 0; i < item_.options.size(); ++i) {
+      stack.add(46, 8, [this, width, i](const Rect& strip) {
+        const ItemView::Option& option = item_.options[i];
+        ButtonStyle style;
+        if (i < 9) style.key = {static_cast<Key>('1' + i)};
+        const std::string name = "option_" + option.value;
+        if (ui_.button(name, strip.middle(std::min(width, 460.0f), 46), option.label, style)) {
+          give(option.value);
+        }
+      });
+    }
+  }
+
+  /// As drawn on paper: a row of steps between two words.
+  void draw_scale(const Rect& strip, float width) {
+    Rect area = strip.middle(width, strip.height);
+    Rect labels = area.take_bottom(34);
+    const float step = area.width / static_cast<float>(item_.num_steps);
+    for (int i = 1; i <= item_.num_steps; ++i) {
+      const Rect box{area.x + step * static_cast<float>(i - 1) + 4, area.y, step - 8,
+                     area.height - 8};
+      const std::string number = std::to_string(i);
+      const ButtonStyle style{.selected = item_.answer == number};
+      // The key is the number itself, and 0 for ten.
+      const bool typed = i <= 10 && ui_.pressed({static_cast<Key>('0' + i % 10)});
+      if (ui_.button("scale_" + number, box, number, style) || typed) give(number);
+    }
+    ui_.text(labels, item_.low_label, {.colour = Colour::kSoft});
+    ui_.text(labels, item_.high_label, {.colour = Colour::kSoft, .align = Align::kRight});
+  }
+
+  Ui& ui_;
+  const ItemView& item_;
+  RunViewState& state_;
+  RunViewResult& result_;
+};
+
+/// The text that is agreed to, with its paragraphs; scrolls where it is long.
+void draw_consent_text(Ui& ui, const Rect& place, const ItemView& item, RunViewState& state) {
+  const Rect area = place.middle(std::min(820.0f, place.width - 48), place.height);
+  Rect content = ui.begin_scroll("consent", area, state.consent_height);
+  const float top = content.y;
+  const TextStyle style{.wrap = true};
+  for (const std::string& paragraph : item.paragraphs) {
+    content.y += ui.text({content.x, content.y, area.width - 20, 4000}, paragraph, style) + 12;
+  }
+  content.y += ui.text({content.x, content.y, area.width - 20, 4000}, item.text,
+                       {.font = Font::kStrong, .wrap = true}) +
+               12;
+  state.consent_height = content.y - top;
+  ui.end_scroll();
+}
+
+/// What was answered in this questionnaire; a click asks it again.
+void draw_answered(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
+  Rect area = place.middle(std::min(820.0f, place.width - 48), place.height);
+  ui.text(area.take_top(24), "Answered: choose one to change it",
+          {.font = Font::kSmall, .colour = Colour::kSoft});
+  for (const ItemView& item : view.answered_items) {
+    if (area.height < 32) break;
+    Rect line = area.take_top(32);
+    if (ui.row("change_" + item.name, line, item.text)) state.changed_item = item.name;
+    line = line.middle(line.width - 12, ui.line_height(Font::kBody));
+    Rect answer = line.take_right(line.width * 0.3f, 12);
+    ui.text(line, item.text, {.colour = Colour::kSoft});
+    ui.text(answer, item.answer, {.align = Align::kRight});
+  }
+}
+
+}  // namespace
+
+void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                    RunViewResult& result) {
+  const ItemView* item = view.item ? &*view.item : nullptr;
+  for (const ItemView& answered : view.answered_items) {
+    if (answered.name == state.changed_item) item = &answered;
+  }
+  Rect inside = place.inset(14);
+  const float width = std::min(760.0f, inside.width - 32);
+  if (!view.answered_items.empty()) {
+    const float wanted = 28 + 32 * static_cast<float>(view.answered_items.size());
+    draw_answered(ui, inside.take_bottom(std::min(wanted, inside.height * 0.34f), 8), view,
+                  state);
+  }
+  Stack stack(ui);
+  if (item == nullptr) {
+    stack.add_text(view.sentence, Font::kTitle, Colour::kInk, width, 22);
+    stack.add(72, 0, [&](const Rect& strip) {
+      draw_button_row(ui, strip,
+                      {{"finish_stage",
+                        "Go on",
+                        {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                        [&] {
+                          result.requests.push_back(operate::FinishStage{view.stage, ""});
+                        }}},
+                      260);
+    });
+    stack.draw(inside);
+    return;
+  }
+  if (item->kind == Kind::kConsent) {
+    Rect controls = inside.take_bottom(86, 8);
+    draw_consent_text(ui, inside, *item, state);
+    ItemCard card(ui, *item, state, result);
+    Stack buttons(ui);
+    card.add_controls(buttons, width);
+    buttons.draw(controls);
+    return;
+  }
+  stack.add(18, 16,
+            [&](const Rect& strip) { ui.heading(strip, view.heading, "", Align::kCentre); });
+  const bool changing = item->name == state.changed_item;
+  stack.add_text(changing ? item->text : view.sentence, Font::kTitle, Colour::kInk, width, 12);
+  if (!changing) stack.add_text(in_quotes(view.say), Font::kLarge, Colour::kInk, width, 22);
+  const std::size_t num_requests = result.requests.size();
+  ItemCard card(ui, *item, state, result);
+  card.add_controls(stack, width);
+  stack.draw(inside);
+  if (result.requests.size() > num_requests) state.changed_item.clear();
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,82 @@
+#include "app/gui/views/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace jnd::app::gui {
+
+Rect draw_card(Ui& ui, const Rect& place, std::string_view heading, std::string_view unit) {
+  ui.card(place);
+  Rect inside = place.inset(kPadding);
+  if (!heading.empty()) ui.heading(inside.take_top(18, 10), heading, unit);
+  return inside;
+}
+
+std::vector<Rect> cells_of(const Rect& line, const std::vector<ColumnLook>& columns) {
+  constexpr float kBetween = 18;
+  float shares = 0;
+  for (const ColumnLook& column : columns) shares += column.share;
+  const float room = line.width - kBetween * static_cast<float>(columns.size() - 1);
+  std::vector<Rect> cells;
+  float x = line.x;
+  for (const ColumnLook& column : columns) {
+    const float width = room * column.share / shares;
+    cells.push_back({x, line.y, width, line.height});
+    x += width + kBetween;
+  }
+  return cells;
+}
+
+void draw_table_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& columns) {
+  const Rect head = place.take_top(30);
+  const std::vector<Rect> cells = cells_of(head, columns);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string title =
+        columns[i].title + (columns[i].unit.empty() ? "" : " " + columns[i].unit);
+    ui.text(cells[i], title,
+            {.font = Font::kSmallStrong, .colour = Colour::kSoft, .align = columns[i].align});
+  }
+  ui.line(head.x, head.bottom(), head.right(), head.bottom(), Colour::kLine);
+}
+
+DialogChoice draw_dialog_buttons(Ui& ui, Rect row, std::string_view verb, bool enabled,
+                                 bool entered) {
+  const ButtonStyle primary{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = enabled};
+  const ButtonStyle plain{.key = {Key::kF2}};
+  const Rect verb_place = row.take_right(ui.button_width(verb, primary), 12);
+  const Rect cancel_place = row.take_right(ui.button_width("Cancel", plain), 12);
+  DialogChoice choice;
+  choice.done = ui.button("dialog_do", verb_place, verb, primary) || (entered && enabled);
+  choice.cancelled = ui.button("dialog_cancel", cancel_place, "Cancel", plain);
+  return choice;
+}
+
+Colour colour_of(PreflightLine::Status status) noexcept {
+  switch (status) {
+    case PreflightLine::Status::kOk:
+      return Colour::kGreen;
+    case PreflightLine::Status::kWarning:
+      return Colour::kAmber;
+    case PreflightLine::Status::kFailed:
+      return Colour::kRed;
+    case PreflightLine::Status::kWaiting:
+      break;
+  }
+  return Colour::kSoft;
+}
+
+void draw_notice(Ui& ui, const Rect& place, std::string_view words, Colour colour) {
+  const TextStyle style{.colour = colour, .align = Align::kCentre, .wrap = true};
+  const float width = std::min(640.0f, place.width - 32);
+  ui.text(place.middle(width, ui.text_height(width, words, style)), words, style);
+}
+
+std::string table_number(double value) {
+  if (!std::isfinite(value)) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, std::abs(value) >= 100.0 ? "%.0f" : "%.2f", value);
+  return text;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,230 @@
+#include "app/gui/views/prepare_view.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "app/gui/views/layout.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using Status = PreflightLine::Status;
+
+/// Why nobody can take part under this name; "" if somebody can.
+std::string participant_problem(const PrepareModel& model, const std::string& participant) {
+  constexpr std::size_t kMostLetters = 64;
+  if (participant.empty()) return "Choose a participant.";
+  const bool plain = std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
+  });
+  if (!plain || participant.size() > kMostLetters) {
+    return "At most 64 letters, digits, _, - and .";
+  }
+  if (std::find(model.taken.begin(), model.taken.end(), participant) != model.taken.end()) {
+    return participant + " has taken part already.";
+  }
+  return "";
+}
+
+/// Why the session cannot start; "" if it can.
+std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
+  const std::string participant = participant_problem(model, state.participant);
+  if (!participant.empty()) return participant;
+  std::string failed;
+  for (const PreflightLine& line : model.lines) {
+    if (line.status == Status::kFailed) failed += (failed.empty() ? "" : ", ") + line.name;
+  }
+  if (!failed.empty()) return "To be mended first: " + failed + ".";
+  const bool waits = std::any_of(model.lines.begin(), model.lines.end(), [](const auto& line) {
+    return line.status == Status::kWaiting;
+  });
+  return model.looking || waits || model.lines.empty() ? "Still looking at the machine." : "";
+}
+
+void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
+                      bool& entered) {
+  ui.heading(inside.take_top(18, 6), "Participant");
+  entered =
+      ui.text_field("participant", inside.take_top(46, 6), state.participant, "pseudonym");
+  const std::string problem = participant_problem(model, state.participant);
+  std::string words = problem;
+  if (problem.empty()) {
+    words = model.study.hides_levels ? "Order assigned, but hidden."
+            : model.assigned.empty() ? "The same order for everyone."
+                                     : "Order: " + model.assigned + ".";
+  }
+  ui.text(inside.take_top(24, 20), words,
+          {.colour = problem.empty() ? Colour::kSoft : Colour::kRed});
+}
+
+void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {
+  ui.heading(inside.take_top(18, 6), "Kind of session");
+  Rect line = inside.take_top(46, 6);
+  const float half = std::min(220.0f, (line.width - 12) / 2);
+  if (ui.button("real_session", line.take_left(half, 12), "Real session",
+                {.key = {letter('R')}, .selected = !state.pilot})) {
+    state.pilot = false;
+  }
+  if (ui.button("pilot_session", line.take_left(half), "Pilot",
+                {.key = {letter('P')}, .selected = state.pilot})) {
+    state.pilot = true;
+  }
+  ui.text(inside.take_top(24, 20),
+          state.pilot ? "Marked for good, left out of results." : "Its answers are data.",
+          {.colour = state.pilot ? Colour::kPilot : Colour::kSoft});
+}
+
+void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
+                  PrepareViewResult& result) {
+  ui.heading(inside.take_top(18, 6), "Device");
+  constexpr float kRow = 54;
+  for (std::size_t i = 0; i < model.devices.size(); ++i) {
+    const PrepareModel::Device& device = model.devices[i];
+    const Chord key = i < 9 ? Chord{letter(static_cast<char>('1' + i))} : Chord{};
+    const Rect row = inside.take_top(kRow, 4);
+    const bool selected = device.name == state.device;
+    if (selected) ui.fill(row, Colour::kBlueSoft, 8);
+    ui.outline(row, selected ? Colour::kBlue : Colour::kLine, 8);
+    if (ui.row("device_" + device.name, row, device.name, key) && !selected) {
+      state.device = device.name;
+      result.look_again = true;
+    }
+    Rect words = row.inset(6);
+    words.take_left(10);
+    if (key.key != Key::kNone) {
+      const Rect cap = words.take_right(ui.key_cap_width(key), 12);
+      ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
+    }
+    ui.text(words.take_top(22), device.name + (device.simulated ? " · simulated" : ""),
+            {.font = Font::kStrong, .colour = selected ? Colour::kBlue : Colour::kInk});
+    ui.text(words, device.description, {.font = Font::kSmall, .colour = Colour::kSoft});
+  }
+  inside.take_top(16);
+}
+
+/// Languages side by side; the key goes to the next one.
+void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state) {
+  ui.heading(inside.take_top(18, 6), "Language of the participant");
+  Rect line = inside.take_top(42, 20);
+  const auto now = std::find(model.languages.begin(), model.languages.end(), state.language);
+  const auto current = static_cast<std::size_t>(now - model.languages.begin());
+  for (std::size_t i = 0; i < model.languages.size(); ++i) {
+    const bool is_next =
+        model.languages.size() > 1 && i == (current + 1) % model.languages.size();
+    const ButtonStyle style{.key = is_next ? Chord{letter('L')} : Chord{},
+                            .selected = i == current};
+    const float width = std::max(90.0f, ui.button_width(model.languages[i], style));
+    if (ui.button("language_" + model.languages[i], line.take_left(width, 10),
+                  model.languages[i], style)) {
+      state.language = model.languages[i];
+    }
+  }
+}
+
+void draw_seed(Ui& ui, Rect place, const PrepareModel& model) {
+  ui.heading(place.take_top(18, 6), "Seed of every order");
+  ui.text(place.take_top(42), std::to_string(model.seed),
+          {.font = Font::kMono, .colour = Colour::kSoft});
+}
+
+/// Name, what was found, and what mends it.
+void draw_line(Ui& ui, Rect& inside, const PreflightLine& line, bool is_next) {
+  const TextStyle remedy{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
+  const float text_width = inside.width - 22;
+  const float remedy_height =
+      line.remedy.empty() ? 0 : ui.text_height(text_width, line.remedy, remedy) + 4;
+  const TextStyle found{.colour = colour_of(line.status), .align = Align::kRight};
+  const Rect whole = inside.take_top(40 + remedy_height);
+  Rect words = whole;
+  const float middle = words.y + 20;
+  if (line.status == Status::kWaiting) {
+    ui.ring(words.x + 6, middle, 5, Colour::kSoft);
+  } else if (line.status == Status::kOk) {
+    ui.check(words.x + 6, middle, 13, Colour::kGreen);
+  } else {
+    ui.dot(words.x + 6, middle, 5, colour_of(line.status));
+  }
+  words.take_left(22);
+  Rect first = words.take_top(40);
+  const float name = std::min(ui.text_width(line.name, Font::kBody) + 2, first.width / 2);
+  ui.text(first.take_left(name, 16), line.name, {});
+  const std::string waiting = is_next ? "looking …" : "";
+  ui.text(first, line.status == Status::kWaiting ? waiting : line.found, found);
+  if (!line.remedy.empty()) ui.text(words, line.remedy, remedy);
+  ui.line(whole.x, whole.bottom(), whole.right(), whole.bottom(), Colour::kLine);
+}
+
+void draw_lines(Ui& ui, const Rect& place, const PrepareModel& model, PrepareViewState& state,
+                PrepareViewResult& result) {
+  Rect inside = draw_card(ui, place, "Is everything ready?");
+  Rect bottom = inside.take_bottom(46, 12);
+  const ButtonStyle style{.key = {.key = letter('L'), .control = true},
+                          .enabled = !model.looking};
+  if (ui.button("look_again", bottom.take_right(ui.button_width("Look again", style), 20),
+                "Look again", style)) {
+    result.look_again = true;
+  }
+  if (model.looking) ui.progress(bottom.middle(bottom.width, 8), model.progress);
+  Rect lines = ui.begin_scroll("lines", inside, state.lines_height);
+  const float top = lines.y;
+  bool waited = false;
+  for (const PreflightLine& line : model.lines) {
+    const bool waits = line.status == Status::kWaiting;
+    draw_line(ui, lines, line, model.looking && waits && !waited);
+    waited |= waits;
+  }
+  state.lines_height = lines.y - top;
+  ui.end_scroll();
+}
+
+}  // namespace
+
+PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
+                                    PrepareViewState& state) {
+  PrepareViewResult result;
+  Rect rest = ui.screen();
+  result.tab =
+      draw_study_header(ui, rest.take_top(kHeaderHeight), model.study, StudyTab::kNone).chosen;
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  rest = rest.inset(kGap);
+  Rect bar = rest.take_bottom(88, kGap);
+  const Rect left = rest.take_left((rest.width - kGap) / 2, kGap);
+  Rect inside = draw_card(ui, left, "");
+  bool entered = false;
+  inside = ui.begin_scroll("session", inside, state.session_height);
+  const float top = inside.y;
+  ui.text(inside.take_top(40, 14), "Prepare a session", {.font = Font::kTitle});
+  Rect pair = inside.take_top(116);
+  Rect who = pair.take_left((pair.width - 24) * 0.44f, 24);
+  draw_participant(ui, who, model, state, entered);
+  draw_kind(ui, pair, state);
+  draw_devices(ui, inside, model, state, result);
+  Rect last = inside.take_top(70);
+  draw_seed(ui, last.take_right(std::min(300.0f, last.width / 2), 16), model);
+  draw_languages(ui, last, model, state);
+  state.session_height = inside.y - top;
+  ui.end_scroll();
+  draw_lines(ui, rest, model, state, result);
+
+  ui.card(bar);
+  bar = bar.inset(14);
+  const std::string why_not = obstacle(model, state);
+  const ButtonStyle start{
+      .tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = why_not.empty(), .large = true};
+  const float width = std::max(320.0f, ui.button_width("Start session", start));
+  const Rect button = bar.take_right(width, 20);
+  if (ui.button("start_session", button, "Start session", start) ||
+      (entered && why_not.empty())) {
+    result.start = true;
+  }
+  bar.take_left(4);
+  ui.text(bar,
+          !why_not.empty() ? why_not
+                           : state.participant + (state.pilot ? ", pilot" : "") + ", with " +
+                                 state.device + ".",
+          {.font = Font::kLarge, .colour = why_not.empty() ? Colour::kInk : Colour::kSoft});
+  draw_study_footer(ui, footer, "Nothing is stored before the session starts.", "");
+  return result;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gui/ui.h"
+#include "app/gui/views/study_tabs.h"
+#include "app/operator/preflight.h"
+#include "app/operator/study_folder.h"
+
+namespace jnd::app::gui {
+
+/// What stands before a session: who, with which device, and whether everything is ready.
+struct PrepareModel {
+  const StudyFolder& study;
+  struct Device {
+    std::string name, description;
+    bool simulated = false;
+  };
+  std::vector<Device> devices;
+  std::vector<std::string> languages;  ///< Of the study.
+  /// Who is taken, sessions and withdrawals alike, and so cannot take part again.
+  std::vector<std::string> taken;
+  std::string assigned;  ///< The cell that comes next, in words; "" for one cell or hidden.
+  std::uint64_t seed = 0;
+  std::vector<PreflightLine> lines;
+  bool looking = false;
+  double progress = 0.0;
+};
+
+struct PrepareViewState {
+  std::string participant;  ///< Proposed by the application: the next free pseudonym.
+  bool pilot = false;
+  std::string device;
+  std::string language;
+  float lines_height = 0, session_height = 0;
+};
+
+struct PrepareViewResult {
+  StudyTab tab = StudyTab::kNone;
+  bool start = false;       ///< With what the state holds.
+  bool look_again = false;  ///< Also after the device was changed.
+};
+
+[[nodiscard]] PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
+                                                  PrepareViewState& state);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/gui/views/results_view.h"
+
+namespace jnd::app::gui {
+
+// The parts of the results view: its pages, and the table beside them.
+
+enum class ResultsPage { kCurves, kMagnitudes, kBoxes, kComparisons, kNumbers };
+
+struct ResultsPageLook {
+  ResultsPage page;
+  const char *name, *label;
+};
+/// Those that have anything to show.
+[[nodiscard]] std::vector<ResultsPageLook> pages_of(const ResultsModel& results);
+
+/// Whom the figures are of: the participant chosen, or everybody.
+[[nodiscard]] std::string shown_participant(const ResultsModel& results,
+                                            const ResultsViewState& state);
+
+void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, ResultsPage page,
+                       ResultsViewState& state);
+void draw_curves_page(Ui& ui, Rect place, const ResultsModel& results, ResultsViewState& state);
+void draw_magnitudes_page(Ui& ui, Rect place, const ResultsModel& results,
+                          ResultsViewState& state);
+void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results,
+                       ResultsViewState& state);
+/// How good the data are, as many lines of chips as it takes. Returns their height.
+float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results);
+
+/// "0.72": two digits after the point, as far as it goes.
+[[nodiscard]] std::string two_digits(double value);
+/// "95 % 0.60 to 0.88"; "" where both ends are open.
+[[nodiscard]] std::string interval_words(const analysis::Interval& ci95);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,158 @@
+#include "app/gui/views/results_view.h"
+
+#include <algorithm>
+
+#include "app/gui/views/layout.h"
+#include "app/gui/views/results_parts.h"
+#include "app/gui/views/work_line.h"
+
+namespace jnd::app::gui {
+namespace {
+
+const ButtonStyle kExport{.key = {letter('E'), true}};
+const ButtonStyle kReport{.tone = Tone::kPrimary, .key = {letter('R'), true}};
+
+float own_width(const Ui& ui) {
+  return ui.button_width("Export", kExport) + 10 + ui.button_width("Write report", kReport);
+}
+
+void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
+                      ResultsViewResult& result) {
+  ButtonStyle report = kReport;
+  ButtonStyle exporting = kExport;
+  report.enabled = exporting.enabled = model.results != nullptr && model.work.running.empty();
+  Rect place = strip.take_right(ui.button_width("Write report", report), 10);
+  result.write_report =
+      ui.button("write_report", place.middle(place.width, 38), "Write report", report);
+  place = strip.take_right(ui.button_width("Export", exporting));
+  result.export_tables =
+      ui.button("export", place.middle(place.width, 38), "Export", exporting);
+}
+
+/// Pages at the left, whom it shows at the right.
+void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
+                const ResultsModel& results, ResultsViewState& state,
+                ResultsViewResult& result) {
+  const auto style_of = [&state](std::size_t i) {
+    return ButtonStyle{.key = {letter(static_cast<char>('1' + i))},
+                       .selected = i == state.page};
+  };
+  float wanted = 0;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    wanted += ui.button_width(pages[i].label, style_of(i)) + 8;
+  }
+  const ButtonStyle save{.key = {letter('S'), true}};
+  const bool has_room = wanted + ui.button_width("Save picture", save) <= strip.width;
+  const char* label = has_room ? "Save picture" : "Save";
+  const Rect at_right = strip.take_right(ui.button_width(label, save), 8);
+  result.save_picture = ui.button("save_picture", at_right, label, save);
+  const float shrink = std::min(1.0f, strip.width / wanted);
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const ButtonStyle style = style_of(i);
+    const float width = shrink * (ui.button_width(pages[i].label, style) + 8) - 8;
+    if (ui.button(pages[i].name, strip.take_left(width, 8), pages[i].label, style)) {
+      state.page = i;
+      state.page_height = 0;
+    }
+  }
+  // Arrow keys go through the participants, whose table has no room for keys.
+  const std::size_t count = results.rows.size() + 1;
+  if (ui.pressed({Key::kDown}, true)) state.participant = (state.participant + 1) % count;
+  if (ui.pressed({Key::kUp}, true)) state.participant = (state.participant + count - 1) % count;
+}
+
+void draw_without_results(Ui& ui, const Rect& place, const ResultsViewModel& model,
+                          ResultsViewState& state) {
+  ui.card(place);
+  if (model.problem.empty()) {
+    Rect middle = place.middle(std::min(420.0f, place.width - 64), 70);
+    ui.text(middle.take_top(34, 10), "Computing the results …",
+            {.font = Font::kLarge, .align = Align::kCentre});
+    ui.progress(middle.take_top(8), model.progress);
+    return;
+  }
+  const TextStyle style{.align = Align::kCentre, .wrap = true};
+  const float width = std::min(640.0f, place.width - 64);
+  const std::string title = model.is_blinded ? "Double-blind" : "No results";
+  const float words = ui.text_height(width, model.problem, style);
+  Rect middle = place.middle(width, 48 + words + 28 + 52);
+  ui.text(middle.take_top(40, 8), title, {.font = Font::kTitle, .align = Align::kCentre});
+  ui.text(middle.take_top(words, 28), model.problem, style);
+  if (!model.is_blinded) return;
+  const ButtonStyle unblind{.tone = Tone::kDanger, .key = {letter('U'), true}};
+  const float button = ui.button_width("Unblind the study", unblind);
+  if (ui.button("unblind", middle.middle(button, 52), "Unblind the study", unblind)) {
+    state.asks_to_unblind = true;
+    state.dialog_is_new = true;
+    state.reason.clear();
+  }
+}
+
+void draw_unblind_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& result) {
+  Rect inside = ui.begin_dialog("unblind_dialog", 620, 290);
+  ui.text(inside.take_top(34, 4), "Unblind the study", {.font = Font::kLarge});
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const char* words =
+      "From now on levels, orders and results can be seen by everybody who opens this folder. "
+      "When and why is stored with the study and cannot be taken back.";
+  ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 16), words, soft);
+  const bool entered = ui.text_field("unblind_reason", inside.take_top(46), state.reason,
+                                     "reason", state.dialog_is_new);
+  state.dialog_is_new = false;
+  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), "Unblind",
+                                                  !state.reason.empty(), entered);
+  ui.end_dialog();
+  result.unblind = choice.done;
+  if (choice.done || choice.cancelled) state.asks_to_unblind = false;
+}
+
+/// What goes on, or what came of it, above the footer.
+void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
+                    ResultsViewResult& result) {
+  if (model.work.running.empty()) return;
+  const Rect card = rest.take_bottom(42 + 2 * 12, kGap);
+  ui.card(card);
+  Rect inside = card;
+  inside.take_left(kPadding);
+  inside.take_right(kPadding);
+  result.cancel = draw_work(ui, inside.middle(inside.width, 42), model.work);
+}
+
+std::string method_words(const ResultsViewState& state) {
+  return state.participant == 0 ? "least squares, participants resampled"
+                                : "maximum likelihood, likelihood-ratio intervals";
+}
+
+}  // namespace
+
+ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
+                                    ResultsViewState& state) {
+  ResultsViewResult result;
+  Rect rest = ui.screen();
+  const StudyHeader header = draw_study_header(ui, rest.take_top(kHeaderHeight), model.study,
+                                               StudyTab::kResults, own_width(ui));
+  result.tab = header.chosen;
+  draw_own_buttons(ui, header.own_buttons, model, result);
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  rest = rest.inset(kGap);
+  draw_work_card(ui, rest, model, result);
+  if (model.results == nullptr) {
+    draw_without_results(ui, rest, model, state);
+  } else {
+    const ResultsModel& results = *model.results;
+    const std::vector<ResultsPageLook> pages = pages_of(results);
+    state.page = std::min(state.page, pages.size() - 1);
+    state.participant = std::min(state.participant, results.rows.size());
+    const float table = std::clamp(150.0f + 84.0f * static_cast<float>(results.columns.size()),
+                                   340.0f, rest.width * 0.36f);
+    draw_participants(ui, rest.take_right(table, kGap), results, state);
+    draw_strip(ui, rest.take_top(40, kGap), pages, results, state, result);
+    draw_results_page(ui, rest, results, pages[state.page].page, state);
+  }
+  draw_study_footer(ui, footer, model.work.outcome.sentence,
+                    model.results == nullptr ? "" : method_words(state));
+  if (state.asks_to_unblind) draw_unblind_dialog(ui, state, result);
+  return result;
+}
+
+}  // namespace jnd::app::gui

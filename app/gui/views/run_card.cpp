@@ -1,0 +1,305 @@
+// The card in the middle where no trial is under way.
+
+#include <algorithm>
+
+#include "app/gui/hand_sign.h"
+#include "app/gui/views/run_parts.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr float kLargeButton = 72;
+
+void add_heading(Ui& ui, Stack& stack, const SessionView& view) {
+  stack.add(18, 18, [&ui, heading = view.heading](const Rect& strip) {
+    ui.heading(strip, heading, "", Align::kCentre);
+  });
+}
+
+void add_words(Stack& stack, const SessionView& view, const Rect& place) {
+  const float width = std::min(720.0f, place.width - 48);
+  stack.add_text(view.sentence, Font::kTitle, Colour::kInk, width, view.say.empty() ? 30 : 14);
+  stack.add_text(in_quotes(view.say), Font::kLarge, Colour::kInk, width, 30);
+}
+
+void draw_begin(Ui& ui, const Rect& place, const SessionView& view, RunViewResult& result) {
+  Stack stack(ui);
+  add_heading(ui, stack, view);
+  add_words(stack, view, place);
+  const auto begin = [&](const char* choice) {
+    result.requests.push_back(operate::Begin{choice});
+  };
+  if (view.last_sequence == 0) {
+    stack.add(kLargeButton, 0, [&](const Rect& strip) {
+      draw_button_row(ui, strip,
+                      {{"begin",
+                        "Begin the session",
+                        {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                        [&] { begin("repeat"); }}},
+                      300);
+    });
+  } else {
+    stack.add_text(std::to_string(view.trials_on_disk) +
+                       " answers are safe on disk. Nothing that was answered is asked again, "
+                       "unless you restart the block.",
+                   Font::kBody, Colour::kSoft, std::min(640.0f, place.width - 48), 24);
+    stack.add(kLargeButton, 16, [&](const Rect& strip) {
+      draw_button_row(ui, strip,
+                      {{"resume_repeat",
+                        "Repeat the interrupted trial",
+                        {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                        [&] { begin("repeat"); }}},
+                      360);
+    });
+    stack.add(46, 0, [&](const Rect& strip) {
+      draw_button_row(
+          ui, strip,
+          {{"resume_restart",
+            "Restart the block",
+            {.key = {letter('B')}},
+            [&] { begin("restart"); }},
+           {"resume_end", "End the session here", {.key = {letter('E'), true}}, [&] {
+              begin("end");
+            }}});
+    });
+  }
+  stack.draw(place);
+}
+
+void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
+                 const std::vector<TracePoint>& trace, RunViewState& state,
+                 RunViewResult& result) {
+  Stack stack(ui);
+  add_heading(ui, stack, view);
+  const bool feeling = view.step == Step::kFeeling;
+  if (view.device == "mouse") {
+    stack.add(std::max(110.0f, place.height - 350), 14, [&](const Rect& strip) {
+      draw_pad(ui, strip.middle(strip.width - 48, strip.height), view, trace, state);
+    });
+  } else if (place.height > 420) {
+    stack.add(120, 18, [&](const Rect& strip) {
+      draw_hand_sign(ui, strip.middle(120, 120), view.sign);
+    });
+  }
+  const float width = std::min(720.0f, place.width - 48);
+  stack.add_text(view.sentence, view.device == "mouse" ? Font::kLarge : Font::kTitle,
+                 Colour::kInk, width, 10);
+  stack.add_text(in_quotes(view.say), Font::kLarge, Colour::kInk, width, 16);
+  if (feeling && view.medium && view.medium->duration_s > 0) {
+    stack.add(8, 20, [&](const Rect& strip) {
+      ui.progress(strip.middle(std::min(420.0f, strip.width - 48), 8),
+                  view.medium->felt_s / view.medium->duration_s);
+    });
+  }
+  stack.add(kLargeButton, 0, [&](const Rect& strip) {
+    const bool over = feeling && view.medium && view.medium->felt_s >= view.medium->duration_s;
+    draw_button_row(ui, strip,
+                    {{feeling ? "finish_medium" : "feel_medium",
+                      feeling ? "Go on" : "Present it",
+                      {.tone = !feeling || over ? Tone::kPrimary : Tone::kPlain,
+                       .key = {Key::kSpace},
+                       .large = true},
+                      [&] {
+                        if (feeling) {
+                          result.requests.push_back(operate::FinishMedium{});
+                        } else {
+                          result.requests.push_back(operate::FeelMedium{});
+                        }
+                      }}},
+                    260);
+  });
+  stack.draw(place.inset(8));
+}
+
+void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                RunViewResult& result) {
+  Stack stack(ui);
+  add_heading(ui, stack, view);
+  const bool over = view.break_left_s <= 0.0;
+  stack.add_text(over ? "0:00" : clock_words(view.break_left_s + 0.999), Font::kHuge,
+                 over ? Colour::kGreen : Colour::kInk, place.width, 12);
+  add_words(stack, view, place);
+  stack.add(kLargeButton, 0, [&](const Rect& strip) {
+    draw_button_row(
+        ui, strip,
+        {{"finish_break",
+          over ? "Go on" : "Go on early",
+          {.tone = over ? Tone::kPrimary : Tone::kPlain, .key = {Key::kEnter}, .large = true},
+          [&] {
+            if (over) {
+              result.requests.push_back(operate::FinishStage{view.stage, ""});
+            } else {
+              open_dialog(state, RunViewState::Dialog::kGoOnEarly);
+            }
+          }}},
+        260);
+  });
+  stack.draw(place);
+}
+
+/// One sentence and one thing to do.
+void draw_simple(Ui& ui, const Rect& place, const SessionView& view, const RowButton& button) {
+  Stack stack(ui);
+  add_heading(ui, stack, view);
+  if (view.sign != HandSign::kNone) {
+    stack.add(120, 18, [&](const Rect& strip) {
+      draw_hand_sign(ui, strip.middle(120, 120), view.sign);
+    });
+  }
+  add_words(stack, view, place);
+  stack.add(kLargeButton, 0,
+            [&](const Rect& strip) { draw_button_row(ui, strip, {button}, 260); });
+  stack.draw(place);
+}
+
+void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResult& result) {
+  Rect inside = place;
+  ui.outline(place, Colour::kRed, 10, 3);
+  Stack stack(ui);
+  stack.add_text(view.heading, Font::kHuge, Colour::kRed, inside.width - 48, 16);
+  const float width = std::min(720.0f, inside.width - 48);
+  stack.add_text("The force is off and stays off.", Font::kTitle, Colour::kInk, width, 12);
+  stack.add_text(view.sentence, Font::kLarge, Colour::kInk, width, 12);
+  stack.add_text("Every answer up to trial " + std::to_string(view.trials_on_disk) +
+                     " is on disk. The trial under way will be run again.",
+                 Font::kBody, Colour::kSoft, width, 24);
+  stack.add(kLargeButton, 0, [&](const Rect& strip) {
+    draw_button_row(
+        ui, strip,
+        {{"rearm",
+          view.stop_pressed ? "Release the stop and arm again" : "Arm again",
+          {.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true},
+          [&] { result.requests.push_back(operate::Rearm{view.num_stop_presses}); }}},
+        360);
+  });
+  stack.draw(inside);
+}
+
+}  // namespace
+
+void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
+                   const std::vector<TracePoint>& trace, AfterSession& after,
+                   RunViewState& state, RunViewResult& result) {
+  ui.card(place);
+  Rect inside = place;
+  if (!view.refusal.empty()) {
+    Rect strip = inside.take_bottom(40);
+    ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
+            "Not done: " + view.refusal + ".",
+            {.colour = Colour::kAmber, .align = Align::kCentre});
+  }
+  if (!view.remark.empty() && view.step == Step::kBegin) {
+    Rect strip = inside.take_bottom(60);
+    ui.text(strip.inset(8), view.remark,
+            {.font = Font::kSmall,
+             .colour = Colour::kAmber,
+             .align = Align::kCentre,
+             .wrap = true});
+  }
+  switch (view.step) {
+    case Step::kBegin:
+      return draw_begin(ui, inside, view, result);
+    case Step::kItem:
+      return draw_item_card(ui, inside, view, state, result);
+    case Step::kMedium:
+    case Step::kFeeling:
+      if (view.item && view.step == Step::kFeeling) {
+        return draw_item_card(ui, inside, view, state, result);
+      }
+      return draw_medium(ui, inside, view, trace, state, result);
+    case Step::kBreak:
+      return draw_break(ui, inside, view, state, result);
+    case Step::kRest:
+    case Step::kReady:
+    case Step::kPresenting:
+      return draw_trial_card(ui, inside, view, trace, state, result);
+    case Step::kStageDone:
+      if (!view.answered_items.empty()) {
+        return draw_item_card(ui, inside, view, state, result);
+      }
+      return draw_simple(ui, inside, view,
+                         {"finish_stage",
+                          "Go on",
+                          {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                          [&] {
+                            result.requests.push_back(operate::FinishStage{view.stage, ""});
+                          }});
+    case Step::kPaused:
+      return draw_simple(ui, inside, view,
+                         {"go_on",
+                          "Go on",
+                          {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                          [&] { result.requests.push_back(operate::GoOn{}); }});
+    case Step::kFault:
+      return draw_fault(ui, inside, view, result);
+    case Step::kFailed:
+      ui.outline(place, Colour::kRed, 10, 3);
+      return draw_simple(ui, inside, view,
+                         {"leave_failed",
+                          "Leave the session",
+                          {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                          [&] {
+                            result.requests.push_back(operate::Leave{});
+                            result.to_sessions = true;
+                          }});
+    case Step::kFinished:
+      return draw_after_card(ui, inside, view, after, state, result);
+  }
+}
+
+void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSession& after,
+                     RunViewState& /*state*/, RunViewResult& result) {
+  Stack stack(ui);
+  const float width = std::min(640.0f, place.width - 48);
+  stack.add_text("Session finished", Font::kTitle, Colour::kInk, width, 8);
+  stack.add_text(
+      std::to_string(view.trials_on_disk) + " answers of " + view.participant + " are on disk.",
+      Font::kLarge, Colour::kInk, width, 22);
+  const auto outcome = [&](const char* what, bool running, const std::string& sentence,
+                           bool failed) {
+    stack.add(28, 10, [&ui, &after, width, what, running, sentence, failed](const Rect& strip) {
+      Rect line = strip.middle(width, 26);
+      ui.dot(line.x + 6, line.y + 13, 5,
+             running            ? Colour::kBlue
+             : sentence.empty() ? Colour::kLine
+             : failed           ? Colour::kRed
+                                : Colour::kGreen);
+      line.take_left(22);
+      if (running) {
+        ui.text(line, what, {.colour = Colour::kSoft});
+        ui.progress({line.right() - 160, line.y + 9, 160, 8}, after.progress);
+      } else {
+        ui.text(line, sentence.empty() ? what : sentence,
+                {.colour = sentence.empty() ? Colour::kSoft : Colour::kInk});
+      }
+    });
+  };
+  outcome("Checking that everything is on disk …", after.checking, after.check,
+          after.check_failed);
+  outcome(after.backing_up ? "Copying …" : "Not backed up yet.", after.backing_up, after.backup,
+          after.backup_failed);
+  stack.add(46, 26, [&](const Rect& strip) {
+    Rect line = strip.middle(width, 46);
+    const ButtonStyle style{.key = {letter('B'), true},
+                            .enabled = !after.backing_up && !after.backup_folder.empty()};
+    const Rect button = line.take_right(ui.button_width("Back up", style), 12);
+    (void)ui.text_field("backup_folder", line, after.backup_folder, "folder for the copy");
+    if (ui.button("back_up", button, "Back up", style)) result.back_up = true;
+  });
+  stack.add(72, 0, [&](const Rect& strip) {
+    draw_button_row(
+        ui, strip,
+        {{"to_sessions",
+          "Next participant",
+          {.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true},
+          [&] { result.to_sessions = true; }},
+         {"to_results",
+          "See the results",
+          {.key = {letter('R'), true}, .enabled = !view.hides_levels, .large = true},
+          [&] { result.to_results = true; }}},
+        240);
+  });
+  stack.draw(place);
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,135 @@
+// What is asked before something is undone, noted or left. Escape stays the emergency stop.
+
+#include <cmath>
+#include <cstdlib>
+
+#include "app/gui/views/run_parts.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using Dialog = RunViewState::Dialog;
+using experiments::AnswerKind;
+
+struct DialogWords {
+  const char* title;
+  const char* explanation;
+  const char* hint;
+  const char* verb;
+  bool needs_text;
+};
+
+DialogWords words_of(Dialog dialog) {
+  switch (dialog) {
+    case Dialog::kUndo:
+      return {"Undo the last answer",
+              "The answer stays in the log as undone, and its trial is run again.", "reason",
+              "Undo", true};
+    case Dialog::kCorrect:
+      return {"Set an answer right",
+              "The old answer stays in the log; what was felt is not touched.", "reason",
+              "Correct", true};
+    case Dialog::kNote:
+      return {"Write a note", "It is stored with the time, now.", "note", "Store", true};
+    case Dialog::kPause:
+      return {"Pause the session",
+              "The hand goes to free space; a trial under way is run again afterwards.",
+              "reason (may be left out)", "Pause", false};
+    case Dialog::kEndEarly:
+      return {"End the session for good",
+              "What was answered is kept; the session cannot be resumed.", "reason", "End",
+              true};
+    case Dialog::kLeave:
+      return {"Leave the session",
+              "Every answer is on disk. The session stays open and can be resumed.",
+              "reason (may be left out)", "Leave", false};
+    case Dialog::kGoOnEarly:
+      return {"Go on before the rest is over", "The reason is stored as a note.", "reason",
+              "Go on", true};
+    case Dialog::kNone:
+      break;
+  }
+  return {"", "", "", "", false};
+}
+
+/// The new value of an answer that is set right; NaN while there is none.
+double corrected_value(const RunViewState& state) {
+  if (state.correct_value.empty()) return std::nan("");
+  if (state.correct_kind == AnswerKind::kYesNo) {
+    if (state.correct_value == "yes") return 1.0;
+    return state.correct_value == "no" ? 0.0 : std::nan("");
+  }
+  char* end = nullptr;
+  const double value = std::strtod(state.correct_value.c_str(), &end);
+  return *end == '\0' && value >= 0.0 ? value : std::nan("");
+}
+
+void request(const SessionView& view, const RunViewState& state, RunViewResult& result) {
+  switch (state.dialog) {
+    case Dialog::kUndo:
+      result.requests.push_back(operate::Undo{state.reason});
+      break;
+    case Dialog::kCorrect:
+      result.requests.push_back(
+          operate::Correct{state.correct_trial, corrected_value(state), state.reason});
+      break;
+    case Dialog::kNote:
+      result.requests.push_back(operate::AddNote{state.reason});
+      break;
+    case Dialog::kPause:
+      result.requests.push_back(operate::Pause{state.reason});
+      break;
+    case Dialog::kEndEarly:
+      result.requests.push_back(operate::EndEarly{state.reason});
+      break;
+    case Dialog::kLeave:
+      result.requests.push_back(operate::Leave{state.reason});
+      result.to_sessions = true;
+      break;
+    case Dialog::kGoOnEarly:
+      result.requests.push_back(operate::FinishStage{view.stage, state.reason});
+      break;
+    case Dialog::kNone:
+      break;
+  }
+}
+
+}  // namespace
+
+void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
+                     RunViewResult& result) {
+  const DialogWords words = words_of(state.dialog);
+  const bool corrects = state.dialog == Dialog::kCorrect;
+  Rect inside = ui.begin_dialog("dialog", 560, corrects ? 320 : 260);
+  ui.text(inside.take_top(34, 4), words.title, {.font = Font::kLarge});
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  ui.text(inside.take_top(ui.text_height(inside.width, words.explanation, soft), 16),
+          words.explanation, soft);
+  bool entered = false;
+  if (corrects) {
+    const char* hint = state.correct_kind == AnswerKind::kYesNo     ? "yes or no"
+                       : state.correct_kind == AnswerKind::kPercent ? "percent"
+                                                                    : "intensity";
+    entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
+                             hint, state.dialog_is_new);
+    entered |= ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint);
+  } else {
+    entered = ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint,
+                            state.dialog_is_new);
+  }
+  state.dialog_is_new = false;
+  const bool ready = (!words.needs_text || !state.reason.empty()) &&
+                     (!corrects || !std::isnan(corrected_value(state)));
+  Rect row = inside.take_bottom(48);
+  const ButtonStyle verb{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = ready};
+  const ButtonStyle cancel{.key = {Key::kF2}};
+  const Rect verb_place = row.take_right(ui.button_width(words.verb, verb), 12);
+  const Rect cancel_place = row.take_right(ui.button_width("Cancel", cancel), 12);
+  const bool done = ui.button("dialog_do", verb_place, words.verb, verb) || (entered && ready);
+  const bool cancelled = ui.button("dialog_cancel", cancel_place, "Cancel", cancel);
+  ui.end_dialog();
+  if (done) request(view, state, result);
+  if (done || cancelled) state.dialog = Dialog::kNone;
+}
+
+}  // namespace jnd::app::gui

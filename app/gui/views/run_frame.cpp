@@ -1,0 +1,288 @@
+// What stands around the card: header, footer, list of stages, progress, last answers.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/gui/views/run_parts.h"
+
+namespace jnd::app::gui {
+namespace {
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// Chips from the left; returns where the next would start.
+float draw_chips(Ui& ui, float x, float y, const SessionView& view) {
+  constexpr float kBetween = 10;
+  x += ui.chip(x, y, view.participant, Colour::kBlue) + kBetween;
+  if (view.blinding != experiments::Blinding::kNone) {
+    x += ui.chip(x, y, view.hides_levels ? "levels hidden" : "levels shown", Colour::kBlue) +
+         kBetween;
+  }
+  if (view.pilot) x += ui.chip(x, y, "pilot: not data", Colour::kPilot) + kBetween;
+  if (view.simulated) x += ui.chip(x, y, "simulated hand", Colour::kAmber) + kBetween;
+  return x;
+}
+
+/// A dot, then words of which `strong` stands out; returns the width.
+float draw_health(Ui& ui, float x, const Rect& strip, Colour dot, std::string_view before,
+                  std::string_view strong, std::string_view after) {
+  const float middle = strip.y + strip.height / 2;
+  const float start = x;
+  ui.dot(x + 4.5f, middle, 4.5f, dot);
+  x += 16;
+  const auto write = [&](std::string_view words, Colour colour) {
+    if (words.empty()) return;
+    const float width = ui.text_width(words, Font::kSmall);
+    ui.text({x, middle - ui.line_height(Font::kSmall) / 2, width + 2, 20}, words,
+            {.font = Font::kSmall, .colour = colour});
+    x += width;
+  };
+  write(before, Colour::kSoft);
+  write(strong, Colour::kInk);
+  write(after, Colour::kSoft);
+  return x - start + 26;
+}
+
+}  // namespace
+
+void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                     RunViewResult& result) {
+  ui.fill(place, Colour::kCard);
+  ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
+  Rect strip = place.inset(0);
+  strip.take_left(20);
+  strip.take_right(20);
+  const ButtonStyle stop{.tone = Tone::kDanger, .key = {Key::kEscape}};
+  const Rect stop_place = strip.take_right(ui.button_width("Emergency stop", stop), 10);
+  if (ui.button("emergency_stop", stop_place.middle(stop_place.width, 38), "Emergency stop",
+                stop)) {
+    result.stop = true;
+  }
+  using Dialog = RunViewState::Dialog;
+  const bool running = view.step != Step::kFailed && view.step != Step::kFinished;
+  const bool begun = running && view.step != Step::kBegin;
+  struct Command {
+    const char *name, *label;
+    Chord key;
+    bool enabled;
+    Dialog dialog;
+  };
+  const Command commands[] = {{"leave", "Leave", {letter('W'), true}, running, Dialog::kLeave},
+                              {"pause",
+                               "Pause",
+                               {letter('P')},
+                               begun && view.step != Step::kPaused && view.step != Step::kFault,
+                               Dialog::kPause},
+                              {"note", "Note", {letter('N'), true}, begun, Dialog::kNote},
+                              {"undo",
+                               "Undo",
+                               {letter('Z'), true},
+                               begun && view.step != Step::kFault && !view.answers.empty() &&
+                                   view.answers.front().can_undo,
+                               Dialog::kUndo}};
+  for (const Command& command : commands) {
+    const ButtonStyle style{
+        .tone = Tone::kQuiet, .key = command.key, .enabled = command.enabled};
+    const Rect its = strip.take_right(ui.button_width(command.label, style), 4);
+    if (ui.button(command.name, its.middle(its.width, 36), command.label, style)) {
+      open_dialog(state, command.dialog);
+    }
+  }
+  const float middle = place.y + place.height / 2;
+  ui.text(strip.middle(strip.width, ui.line_height(Font::kLarge)), "jnd",
+          {.font = Font::kLarge});
+  strip.take_left(ui.text_width("jnd", Font::kLarge), 18);
+  const float title = std::min(ui.text_width(view.study, Font::kBody) + 2, strip.width);
+  ui.text({strip.x, middle - ui.line_height(Font::kBody) / 2, title, 24}, view.study, {});
+  if (strip.width - title > 120) draw_chips(ui, strip.x + title + 18, middle - 14, view);
+}
+
+void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
+  ui.fill(place, Colour::kCard);
+  ui.line(place.x, place.y, place.right(), place.y, Colour::kLine);
+  float x = place.x + 20;
+  const LoopView& loop = view.loop;
+  const bool late = loop.missed_ticks > 0 || loop.num_dropped_samples > 0;
+  x += draw_health(ui, x, place,
+                   view.step == Step::kFault || view.step == Step::kFailed ? Colour::kRed
+                   : late                                                  ? Colour::kAmber
+                                                                           : Colour::kGreen,
+                   "", formatted("%.0f Hz", loop.rate_hz),
+                   formatted(" · late %.2f µs", loop.lateness_p99_us) +
+                       formatted(" · missed %.0f", static_cast<double>(loop.missed_ticks)) +
+                       (loop.num_dropped_samples > 0 ? " · samples lost" : ""));
+  if (view.hides_levels) {
+    x += draw_health(ui, x, place, Colour::kGreen, "Force ", "within limits", "");
+  } else {
+    const core::PlainVector& force = view.telemetry.total_force_n;
+    const double force_n =
+        std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
+    const core::PlainVector& velocity = view.telemetry.hand_velocity_m_per_s;
+    const double speed_m_per_s = std::sqrt(
+        velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
+    x += draw_health(ui, x, place, view.telemetry.limited ? Colour::kAmber : Colour::kGreen,
+                     "Force ", formatted("%.1f N", force_n),
+                     formatted(" of %.0f N", view.max_total_force_n) +
+                         formatted(" · %.2f m/s", speed_m_per_s));
+  }
+  x += draw_health(ui, x, place, view.step == Step::kFailed ? Colour::kRed : Colour::kGreen,
+                   view.last_sequence == 0 ? "" : "On disk up to ",
+                   view.trials_on_disk > 0  ? "trial " + std::to_string(view.trials_on_disk)
+                   : view.last_sequence > 0 ? "event " + std::to_string(view.last_sequence)
+                                            : "",
+                   view.last_sequence == 0 ? "Nothing stored yet" : "");
+  const int attached = __builtin_popcount(view.telemetry.sample.attached_bits);
+  draw_health(ui, x, place,
+              attached == core::kNumContactPoints ? Colour::kGreen : Colour::kAmber, "",
+              std::to_string(attached),
+              " of " + std::to_string(core::kNumContactPoints) + " points attached");
+  const ButtonStyle keys{.tone = Tone::kQuiet, .key = {Key::kF1}};
+  Rect strip = place;
+  strip.take_right(16);
+  (void)strip.take_right(ui.button_width("All keys", keys), 8);  // Drawn by the application.
+  const float width = ui.text_width(view.device, Font::kSmall) + 2;
+  ui.text(strip.take_right(width).middle(width, ui.line_height(Font::kSmall)), view.device,
+          {.font = Font::kSmall, .colour = Colour::kSoft});
+}
+
+void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
+  ui.card(place);
+  Rect inside = place.inset(18);
+  Rect times = inside.take_bottom(56, 10);
+  ui.heading(inside.take_top(16, 10), "Session");
+  // A long session shows the part around the stage under way.
+  constexpr float kLine = 38;
+  const auto room = static_cast<std::size_t>(std::max(1.0f, inside.height / kLine));
+  const std::size_t count = view.stages.size();
+  const auto now = static_cast<std::size_t>(std::max<std::int64_t>(0, view.stage));
+  std::size_t first = 0;
+  if (count > room) first = std::min(now > room / 2 ? now - room / 2 : 0, count - room);
+  for (std::size_t i = first; i < std::min(count, first + room); ++i) {
+    const StageLine& stage = view.stages[i];
+    Rect line = inside.take_top(kLine);
+    const bool is_now = stage.status == StageLine::Status::kNow;
+    if (is_now) ui.fill(line, Colour::kBlueSoft, 6);
+    const float middle = line.y + line.height / 2;
+    const float x = line.x + 18;
+    if (stage.status == StageLine::Status::kDone) {
+      ui.line(x - 5, middle, x - 1, middle + 4, Colour::kInk, 1.6f);
+      ui.line(x - 1, middle + 4, x + 6, middle - 5, Colour::kInk, 1.6f);
+    } else {
+      ui.dot(x, middle, 6, is_now ? Colour::kBlue : Colour::kSoft);
+      if (!is_now) ui.dot(x, middle, 4.6f, Colour::kCard);
+    }
+    line.take_left(40);
+    ui.text(line.middle(line.width, ui.line_height(Font::kBody)), stage.title,
+            {.font = is_now ? Font::kStrong : Font::kBody,
+             .colour = is_now                                      ? Colour::kBlue
+                       : stage.status == StageLine::Status::kLater ? Colour::kSoft
+                                                                   : Colour::kInk});
+  }
+  const auto time_line = [&](const char* name, const std::string& value) {
+    const Rect line = times.take_top(26);
+    ui.text(line, name, {.colour = Colour::kSoft});
+    ui.text(line, value, {.font = Font::kStrong, .align = Align::kRight});
+  };
+  time_line("Elapsed", clock_words(view.elapsed_s));
+  time_line("About left", view.step == Step::kFinished ? "0 s" : about_words(view.left_s));
+}
+
+void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view) {
+  ui.card(place);
+  Rect inside = place.inset(18);
+  inside.y -= 6;
+  const Rect words = inside.take_top(24, 8);
+  std::string left;
+  std::string right;
+  double ratio = view.done_ratio;
+  if (view.trial) {
+    const TrialView& trial = *view.trial;
+    left =
+        "Trial " + std::to_string(trial.in_block) + " of " + std::to_string(trial.num_in_block);
+    const auto now = static_cast<std::size_t>(view.stage);
+    right = now < view.stages.size() ? view.stages[now].title : "";
+    if (trial.num_repetitions > 1) {
+      right += " · repetition " + std::to_string(trial.repetition) + " of " +
+               std::to_string(trial.num_repetitions);
+    }
+    ratio = static_cast<double>(trial.in_block - 1) / trial.num_in_block;
+  } else {
+    left = view.step == Step::kFinished
+               ? "Session finished"
+               : "Part " +
+                     std::to_string(std::min<std::size_t>(
+                         static_cast<std::size_t>(view.stage) + 1, view.stages.size())) +
+                     " of " + std::to_string(view.stages.size());
+    right =
+        view.item && view.item->count > 1
+            ? std::to_string(view.item->index) + " of " + std::to_string(view.item->count)
+        : view.medium && view.medium->count > 1
+            ? std::to_string(view.medium->index) + " of " + std::to_string(view.medium->count)
+            : "";
+  }
+  ui.text(words, left, {.font = Font::kStrong});
+  ui.text(words, right, {.colour = Colour::kSoft, .align = Align::kRight});
+  ui.progress(inside.take_top(8), ratio);
+}
+
+void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
+  ui.card(place);
+  Rect inside = place.inset(14);
+  const Rect head = inside.take_top(24);
+  const auto columns = [](const Rect& line) {
+    struct {
+      Rect trial, answer, time, act;
+    } cells{.trial = line, .answer = line, .time = line, .act = line};
+    cells.trial.width = line.width * 0.42f;
+    cells.answer.width = line.width * 0.62f;
+    cells.time.width = line.width * 0.80f;
+    return cells;
+  };
+  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
+  TextStyle soft_right = soft;
+  soft_right.align = Align::kRight;
+  Rect padded = head;
+  padded.x += 8;
+  padded.width -= 16;
+  auto cells = columns(padded);
+  ui.text(cells.trial, "Last answers", soft);
+  ui.text(cells.answer, "answer", soft_right);
+  ui.text(cells.time, "time", soft_right);
+  ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
+  constexpr float kLine = 34;
+  const bool may_correct = view.step != Step::kFinished && view.step != Step::kFailed &&
+                           view.step != Step::kFault && view.step != Step::kBegin;
+  for (const AnswerLine& answer : view.answers) {
+    if (inside.height < kLine) break;
+    Rect line = inside.take_top(kLine);
+    const std::string name = "answer_" + std::to_string(answer.trial);
+    const std::string label = answer.block + ", trial " + std::to_string(answer.in_block);
+    if (ui.row(name, line, label) && may_correct) {
+      open_dialog(state, answer.can_undo ? RunViewState::Dialog::kUndo
+                                         : RunViewState::Dialog::kCorrect);
+      state.correct_trial = answer.trial;
+      state.correct_kind = answer.kind;
+      state.correct_value.clear();
+    }
+    line.x += 8;
+    line.width -= 16;
+    line = line.middle(line.width, ui.line_height(Font::kBody));
+    cells = columns(line);
+    ui.text(cells.trial, label, {});
+    ui.text(cells.answer, answer.answer, {.align = Align::kRight});
+    ui.text(cells.time, formatted("%.1f s", answer.response_time_s),
+            {.font = Font::kMono, .align = Align::kRight});
+    if (may_correct) {
+      ui.text(cells.act, answer.can_undo ? "undo" : "correct",
+              {.colour = Colour::kSoft, .align = Align::kRight});
+    }
+    ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
+  }
+}
+
+}  // namespace jnd::app::gui

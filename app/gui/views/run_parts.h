@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/gui/views/run_view.h"
+#include "app/gui/views/stack.h"
+
+namespace jnd::app::gui {
+
+// The parts of the run view, a file each.
+
+void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                     RunViewResult& result);
+void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view);
+void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view);
+void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view);
+void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state);
+void draw_live_panel(Ui& ui, const Rect& place, const SessionView& view,
+                     const std::vector<TracePoint>& trace);
+void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
+                     RunViewResult& result);
+
+/// The card in the middle, by what the session waits for.
+void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
+                   const std::vector<TracePoint>& trace, AfterSession& after,
+                   RunViewState& state, RunViewResult& result);
+void draw_trial_card(Ui& ui, const Rect& place, const SessionView& view,
+                     const std::vector<TracePoint>& trace, RunViewState& state,
+                     RunViewResult& result);
+void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                    RunViewResult& result);
+void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSession& after,
+                     RunViewState& state, RunViewResult& result);
+/// Where the mouse moves the hand.
+void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
+              const std::vector<TracePoint>& trace, RunViewState& state);
+
+void open_dialog(RunViewState& state, RunViewState::Dialog dialog);
+
+/// "41:07"
+[[nodiscard]] std::string clock_words(double seconds);
+/// "18 min", "40 s"
+[[nodiscard]] std::string about_words(double seconds);
+/// In typographic quotes; "" for nothing.
+[[nodiscard]] std::string in_quotes(std::string_view words);
+
+}  // namespace jnd::app::gui

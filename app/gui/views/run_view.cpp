@@ -1,0 +1,75 @@
+#include "app/gui/views/run_view.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/gui/views/run_parts.h"
+
+namespace jnd::app::gui {
+
+namespace {
+
+constexpr float kHeader = 56;
+constexpr float kFooter = 40;
+constexpr float kGap = 16;
+
+/// The sides give way before the card in the middle does.
+float left_width(float width) { return width < 1400 ? 204.0f : 236.0f; }
+float right_width(float width) { return std::clamp(width * 0.282f, 300.0f, 480.0f); }
+
+}  // namespace
+
+std::string clock_words(double seconds) {
+  const auto whole = static_cast<long>(std::max(0.0, seconds));
+  char text[32];
+  if (whole >= 3600) {
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60,
+                  whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  }
+  return text;
+}
+
+std::string about_words(double seconds) {
+  if (seconds < 55) return std::to_string(static_cast<long>(seconds / 5 + 0.5) * 5) + " s";
+  return std::to_string(static_cast<long>(seconds / 60 + 0.5)) + " min";
+}
+
+std::string in_quotes(std::string_view words) {
+  return words.empty() ? "" : "“" + std::string(words) + "”";
+}
+
+void open_dialog(RunViewState& state, RunViewState::Dialog dialog) {
+  state.dialog = dialog;
+  state.dialog_is_new = true;
+  state.reason.clear();
+}
+
+void ask_to_leave(RunViewState& state) { open_dialog(state, RunViewState::Dialog::kLeave); }
+
+RunViewResult draw_run_view(Ui& ui, const SessionView& view,
+                            const std::vector<TracePoint>& trace, AfterSession& after,
+                            RunViewState& state) {
+  RunViewResult result;
+  Rect rest = ui.screen();
+  state.pad = {};
+  const Rect header = rest.take_top(kHeader);
+  const Rect footer = rest.take_bottom(kFooter);
+  rest = rest.inset(kGap);
+  draw_stage_list(ui, rest.take_left(left_width(ui.screen().width), kGap), view);
+  if (ui.screen().width >= 1000) {
+    draw_live_panel(ui, rest.take_right(right_width(ui.screen().width), kGap), view, trace);
+  }
+  draw_progress_card(ui, rest.take_top(64, kGap), view);
+  draw_answers(ui, rest.take_bottom(std::clamp(rest.height * 0.235f, 96.0f, 196.0f), kGap),
+               view, state);
+  draw_run_card(ui, rest, view, trace, after, state, result);
+  draw_run_header(ui, header, view, state, result);
+  draw_run_footer(ui, footer, view);
+  if (view.pilot) ui.outline(ui.screen().inset(2), Colour::kPilot, 0, 4);
+  if (state.dialog != RunViewState::Dialog::kNone) draw_run_dialog(ui, view, state, result);
+  return result;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/gui/ui.h"
+#include "app/operator/live_trace.h"
+#include "app/operator/operator_request.h"
+#include "app/operator/session_view.h"
+
+namespace jnd::app::gui {
+
+/// What the window remembers of a running session: words being typed, nothing that counts.
+struct RunViewState {
+  enum class Dialog { kNone, kUndo, kCorrect, kNote, kPause, kEndEarly, kLeave, kGoOnEarly };
+  Dialog dialog = Dialog::kNone;
+  bool dialog_is_new = false;      ///< Its first field takes the keyboard.
+  std::string reason;              ///< Or the note.
+  std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
+  experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
+  std::string correct_value;
+
+  std::string percent;  ///< Typed so far.
+  std::int64_t percent_trial = 0;
+  std::string item;  ///< Name of the item that `typed` belongs to.
+  std::string typed;
+  bool says_yes = false;  ///< Of "yes, which?".
+  bool item_is_new = false;
+  std::string changed_item;  ///< Of a questionnaire: answered already, asked again.
+  std::string item_problem;  ///< Why what is typed is no answer.
+  float consent_height = 0;
+
+  /// Where the mouse moves the hand, and how many metres a logical pixel is; empty without.
+  Rect pad;
+  double pad_m_per_px = 0.0;
+};
+
+/// After the last event: what was checked and where a copy is.
+struct AfterSession {
+  bool checking = false, backing_up = false;
+  double progress = 0.0;
+  std::string check, backup;  ///< Sentences; "" before.
+  bool check_failed = false, backup_failed = false;
+  std::string backup_folder;  ///< Known, or proposed.
+};
+
+struct RunViewResult {
+  std::vector<OperatorRequest> requests;
+  bool stop = false;     ///< The emergency stop's button was pressed.
+  bool back_up = false;  ///< Into `AfterSession::backup_folder`.
+  bool to_results = false;
+  bool to_sessions = false;  ///< The session is over, or was left.
+};
+
+/// The session under way. `trace`: of the hand, empty where levels are hidden.
+[[nodiscard]] RunViewResult draw_run_view(Ui& ui, const SessionView& view,
+                                          const std::vector<TracePoint>& trace,
+                                          AfterSession& after, RunViewState& state);
+
+/// Asks whether to leave a session that goes on, as when the window is being closed.
+void ask_to_leave(RunViewState& state);
+
+}  // namespace jnd::app::gui

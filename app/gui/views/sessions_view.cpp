@@ -1,0 +1,238 @@
+#include "app/gui/views/sessions_view.h"
+
+#include <algorithm>
+
+#include "app/gui/views/layout.h"
+#include "app/gui/views/work_line.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr float kLine = 38;
+
+const InterruptedSession* interrupted_in(const StudyFolder& study, std::int64_t session) {
+  for (const InterruptedSession& open : study.interrupted) {
+    if (open.session == session) return &open;
+  }
+  return nullptr;
+}
+
+/// The one that is selected; else the one interrupted last.
+const InterruptedSession* resumable(const StudyFolder& study, std::int64_t selected) {
+  if (selected != 0) return interrupted_in(study, selected);
+  return study.interrupted.empty() ? nullptr : &study.interrupted.front();
+}
+
+struct StatusLook {
+  const char* words;
+  Colour colour;
+};
+StatusLook look_of(SessionLine::Status status) {
+  switch (status) {
+    case SessionLine::Status::kCompleted:
+      return {"completed", Colour::kGreen};
+    case SessionLine::Status::kOpen:
+      return {"open", Colour::kAmber};
+    case SessionLine::Status::kEndedEarly:
+      return {"ended early", Colour::kSoft};
+  }
+  return {"", Colour::kSoft};
+}
+
+std::string marks_of(const SessionLine& line) {
+  std::string marks = line.pilot ? "pilot" : "";
+  if (line.simulated) marks += marks.empty() ? "simulated" : ", simulated";
+  return marks;
+}
+
+std::vector<ColumnLook> columns_of(const StudyFolder& study) {
+  std::vector<ColumnLook> columns = {{"Participant", 1.05f},
+                                     {"State", 1.25f},
+                                     {"Answers", 0.95f, Align::kRight},
+                                     {"When", 1.25f},
+                                     {"Device", 0.75f}};
+  if (!study.hides_levels) columns.push_back({"Order", 1.35f});
+  columns.push_back({"Marks", 1.1f});
+  return columns;
+}
+
+void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const SessionLine& line,
+                  SessionsViewState& state) {
+  if (line.session == state.selected) ui.fill(row, Colour::kBlueSoft, 8);
+  const std::string name = "session_" + std::to_string(line.session);
+  if (ui.row(name, row, line.participant)) state.selected = line.session;
+  Rect inside = row;
+  inside.take_left(8);
+  inside.take_right(8);
+  const std::vector<Rect> cells = cells_of(inside, columns_of(study));
+  ui.text(cells[0], line.participant, {.font = Font::kStrong});
+  const StatusLook look = look_of(line.status);
+  Rect status = cells[1];
+  ui.dot(status.x + 5, status.y + status.height / 2, 4.5f, look.colour);
+  status.take_left(17);
+  ui.text(status, look.words, {.colour = look.colour});
+  const std::string answers =
+      std::to_string(line.num_answers) + " of " + std::to_string(line.num_trials);
+  ui.text(cells[2], answers, {.font = Font::kMono, .align = Align::kRight});
+  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
+  ui.text(cells[3], line.when.empty() ? "-" : line.when, soft);
+  ui.text(cells[4], line.device, soft);
+  std::size_t next = 5;
+  if (!study.hides_levels) ui.text(cells[next++], line.cells.empty() ? "-" : line.cells, soft);
+  ui.text(cells[next], marks_of(line), {.font = Font::kSmall, .colour = Colour::kAmber});
+}
+
+/// Arrow keys go through the rows, whose place is drawn at the heading.
+void move_selection(Ui& ui, const StudyFolder& study, SessionsViewState& state) {
+  const int step =
+      (ui.pressed({Key::kDown}, true) ? 1 : 0) - (ui.pressed({Key::kUp}, true) ? 1 : 0);
+  if (step == 0 || study.sessions.empty()) return;
+  const auto count = std::ssize(study.sessions);
+  std::ptrdiff_t place = step > 0 ? -1 : count;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    if (study.sessions[static_cast<std::size_t>(i)].session == state.selected) place = i;
+  }
+  place = std::clamp<std::ptrdiff_t>(place + step, 0, count - 1);
+  state.selected = study.sessions[static_cast<std::size_t>(place)].session;
+}
+
+void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsViewState& state) {
+  ui.card(place);
+  Rect inside = place.inset(kPadding);
+  Rect title = inside.take_top(20, 8);
+  if (study.sessions.size() > 1) {
+    const Chord down{Key::kDown};
+    Rect caps = title.take_right(2 * ui.key_cap_width(down) + 6, 12);
+    ui.key_cap(caps.x, caps.y, {Key::kUp});
+    ui.key_cap(caps.x + ui.key_cap_width(down) + 6, caps.y, down);
+  }
+  ui.heading(title, "Sessions");
+  if (study.sessions.empty()) {
+    draw_notice(ui, inside, "No session yet. Begin the first one with “New session”.");
+    return;
+  }
+  const float content = kLine * static_cast<float>(study.sessions.size());
+  constexpr float kHead = 30;
+  const bool scrolls = content > inside.height - kHead;
+  Rect head = inside;
+  head.take_left(8);
+  head.take_right(scrolls ? 24 : 8);
+  draw_table_head(ui, head, columns_of(study));
+  inside.take_top(kHead);
+  move_selection(ui, study, state);
+  Rect rows = ui.begin_scroll("sessions", inside, content);
+  for (const SessionLine& line : study.sessions) {
+    const Rect row = rows.take_top(kLine);
+    draw_session(ui, row, study, line, state);
+    ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
+  }
+  ui.end_scroll();
+}
+
+/// A soft name, and a value that stands out.
+void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value) {
+  Rect line = inside.take_top(28);
+  const float width = ui.text_width(value, Font::kStrong) + 2;
+  const Rect at_right = line.take_right(std::min(width, line.width * 0.62f), 10);
+  ui.text(at_right, value, {.font = Font::kStrong, .align = Align::kRight});
+  ui.text(line, name, {.colour = Colour::kSoft});
+}
+
+void draw_study_card(Ui& ui, Rect& column, const StudyFolder& study) {
+  const bool blind = study.blinding == experiments::Blinding::kDouble;
+  const float lines = 5.0f + (blind ? 1.0f : 0.0f);
+  Rect inside =
+      draw_card(ui, column.take_top(28 + 28 * lines + 2 * kPadding, kGap), "This study");
+  draw_fact(ui, inside, "Participants done", std::to_string(study.num_participants_done));
+  draw_fact(ui, inside, "Open sessions", std::to_string(study.num_open));
+  draw_fact(ui, inside, "Pilots", std::to_string(study.num_pilots));
+  draw_fact(ui, inside, "Last session", study.last_session.empty() ? "-" : study.last_session);
+  draw_fact(ui, inside, "Backups known", std::to_string(study.backups.size()));
+  if (blind)
+    draw_fact(ui, inside, "Double-blind", study.hides_levels ? "levels hidden" : "unblinded");
+}
+
+void ask_for_backup(SessionsViewState& state) {
+  state.asks_for_backup = true;
+  state.dialog_is_new = true;
+}
+
+void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork& work,
+                  SessionsViewState& state, SessionsViewResult& result) {
+  const InterruptedSession* open = resumable(study, state.selected);
+  const bool idle = work.running.empty();
+  if (open != nullptr) {
+    const std::string sentence = open->sentence() + ".";
+    const std::string safe = open->problem.empty() ? open->safe() + "." : open->problem;
+    const TextStyle strong{.font = Font::kStrong, .wrap = true};
+    const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
+    const float width = column.width - 2 * kPadding;
+    const float text = ui.text_height(width, sentence, strong);
+    const float small = ui.text_height(width, safe, soft);
+    const Rect card = column.take_top(text + small + 4 + 14 + 48 + 2 * kPadding, kGap);
+    ui.fill(card, Colour::kCard, 10);
+    ui.outline(card, Colour::kAmber, 10, 1.5f);
+    Rect inside = card.inset(kPadding);
+    ui.text(inside.take_top(text, 4), sentence, strong);
+    ui.text(inside.take_top(small, 14), safe, soft);
+    if (ui.button("resume", inside, "Resume " + open->participant,
+                  {.tone = Tone::kPrimary, .key = {letter('R')}})) {
+      result.resume = open->session;
+    }
+  }
+  if (ui.button("new_session", column.take_top(60, 12), "New session",
+                {.tone = open == nullptr ? Tone::kPrimary : Tone::kPlain,
+                 .key = {letter('N')},
+                 .large = true})) {
+    result.new_session = true;
+  }
+  Rect pair = column.take_top(46, kGap);
+  const Rect verify = pair.take_left((pair.width - 12) / 2, 12);
+  const bool has_sessions = !study.sessions.empty();
+  if (ui.button("verify", verify, "Verify",
+                {.key = {letter('V')}, .enabled = idle && has_sessions})) {
+    result.verify = true;
+  }
+  if (ui.button("back_up", pair, "Back up", {.key = {letter('B')}, .enabled = idle})) {
+    ask_for_backup(state);
+  }
+  if (draw_work(ui, column, work)) result.cancel = true;
+}
+
+void draw_backup_dialog(Ui& ui, SessionsViewState& state, SessionsViewResult& result) {
+  Rect inside = ui.begin_dialog("backup_dialog", 640, 250);
+  ui.text(inside.take_top(34, 4), "Back up the study", {.font = Font::kLarge});
+  ui.text(inside.take_top(26, 12),
+          "A new folder, or an earlier backup: then only what is new is copied.",
+          {.colour = Colour::kSoft});
+  const bool entered = ui.text_field("backup_folder", inside.take_top(46), state.backup_folder,
+                                     "folder of the copy", state.dialog_is_new);
+  state.dialog_is_new = false;
+  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), "Back up",
+                                                  !state.backup_folder.empty(), entered);
+  ui.end_dialog();
+  result.back_up = choice.done;
+  if (choice.done || choice.cancelled) state.asks_for_backup = false;
+}
+
+}  // namespace
+
+SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const StudyWork& work,
+                                      SessionsViewState& state) {
+  SessionsViewResult result;
+  Rect rest = ui.screen();
+  result.tab =
+      draw_study_header(ui, rest.take_top(kHeaderHeight), study, StudyTab::kSessions).chosen;
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  rest = rest.inset(kGap);
+  Rect column = rest.take_right(std::clamp(rest.width * 0.27f, 320.0f, 420.0f), kGap);
+  draw_table(ui, rest, study, state);
+  draw_study_card(ui, column, study);
+  draw_actions(ui, column, study, work, state, result);
+  draw_study_footer(ui, footer, work.outcome.sentence,
+                    std::to_string(study.num_sessions) + " sessions");
+  if (state.asks_for_backup) draw_backup_dialog(ui, state, result);
+  return result;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/gui/ui.h"
+
+namespace jnd::app::gui {
+
+/// Things one under the other in the middle of a card.
+class Stack {
+ public:
+  explicit Stack(Ui& ui) : ui_(ui) {}
+
+  /// `draw` gets a rectangle of the card's width and this height.
+  void add(float height, float gap_after, std::function<void(const Rect&)> draw);
+  /// Centred words, wrapped; nothing for none.
+  void add_text(std::string_view words, Font font, Colour colour, float width, float gap_after);
+  /// Draws everything, in the middle of the card as far as it fits.
+  void draw(const Rect& card);
+  [[nodiscard]] float height() const noexcept;
+
+ private:
+  struct Part {
+    float height, gap_after;
+    std::function<void(const Rect&)> draw;
+  };
+  Ui& ui_;
+  std::vector<Part> parts_;
+};
+
+struct RowButton {
+  std::string_view name, label;
+  ButtonStyle style;
+  std::function<void()> act;
+};
+/// Buttons side by side in the middle of a strip; wide ones where `width` > 0.
+void draw_button_row(Ui& ui, const Rect& strip, const std::vector<RowButton>& buttons,
+                     float width = 0.0f);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+#include "app/gui/views/start_view.h"
+
+namespace jnd::app::gui {
+
+// The dialogs of the start view.
+
+void open_new_dialog(const StartModel& model, StartViewState& state);
+void open_open_dialog(StartViewState& state);
+
+void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
+                     StartViewResult& result);
+void draw_open_dialog(
+    Ui& ui,
+    const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
+    StartViewState& state, StartViewResult& result);
+
+}  // namespace jnd::app::gui

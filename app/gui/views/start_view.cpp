@@ -1,0 +1,223 @@
+#include "app/gui/views/start_view.h"
+
+#include <algorithm>
+
+#include "app/gui/views/layout.h"
+#include "app/gui/views/start_dialogs.h"
+#include "app/gui/views/study_tabs.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr float kStudyCard = 76;
+constexpr float kBetweenCards = 12;
+/// So many cards leave room for the studies.
+std::size_t most_resumes(const Ui& ui) { return ui.screen().height < 860 ? 1 : 2; }
+constexpr std::size_t kMostKeys = 9;
+
+struct Open {
+  const StartModel::Study* study;
+  const InterruptedSession* session;
+};
+
+/// Interrupted sessions, those of the study opened last first.
+std::vector<Open> interrupted_in(const StartModel& model) {
+  std::vector<Open> all;
+  for (const StartModel::Study& study : model.studies) {
+    if (!study.folder) continue;
+    for (const InterruptedSession& session : study.folder->interrupted) {
+      all.push_back({&study, &session});
+    }
+  }
+  return all;
+}
+
+std::string safe_words(const Open& open) {
+  if (!open.session->problem.empty()) return open.session->problem;
+  std::string words = open.study->title;
+  if (!open.session->when.empty()) words += " · " + open.session->when;
+  return words + " · " + open.session->safe() + ".";
+}
+
+/// Returns the height it took.
+float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t place,
+                       StartViewResult& result) {
+  const ButtonStyle style{.tone = place == 0 ? Tone::kPrimary : Tone::kPlain,
+                          .key = {.key = Key::kEnter, .control = place > 0}};
+  const float button = ui.button_width("Resume", style);
+  const TextStyle title{.font = Font::kLarge, .wrap = true};
+  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
+  const float width = top.width - 2 * kPadding - button - 20;
+  const std::string sentence = open.session->sentence();
+  const std::string safe = safe_words(open);
+  const float title_height = ui.text_height(width, sentence, title);
+  const float height = title_height + 4 + ui.text_height(width, safe, soft) + 2 * kPadding;
+  const Rect card{top.x, top.y, top.width, height};
+  ui.fill(card, Colour::kCard, 10);
+  ui.outline(card, Colour::kAmber, 10, 1.5f);
+  Rect inside = card.inset(kPadding);
+  const Rect at_right = inside.take_right(button, 20);
+  ui.text(inside.take_top(title_height, 4), sentence, title);
+  ui.text(inside, safe, soft);
+  const std::string name = "resume_" + std::to_string(place + 1);
+  if (ui.button(name, at_right.middle(button, 48), "Resume", style)) {
+    result.resume = {open.study->folder->folder, open.session->session};
+  }
+  return height;
+}
+
+/// Returns the height of all of them.
+float draw_resume_cards(Ui& ui, Rect column, const StartModel& model, StartViewResult& result) {
+  const std::vector<Open> all = interrupted_in(model);
+  if (all.empty()) return 0;
+  constexpr float kHeading = 28;
+  ui.heading(column.take_top(kHeading - 10, 10), "Interrupted");
+  float height = kHeading;
+  for (std::size_t i = 0; i < std::min(all.size(), most_resumes(ui)); ++i) {
+    const float card = draw_resume_card(ui, column, all[i], i, result) + kBetweenCards;
+    column.take_top(card);
+    height += card;
+  }
+  if (all.size() <= most_resumes(ui)) return height;
+  const std::size_t others = all.size() - most_resumes(ui);
+  ui.text(column.take_top(24),
+          std::to_string(others) + (others == 1 ? " more session is" : " more sessions are") +
+              " open: open their studies to resume them.",
+          {.font = Font::kSmall, .colour = Colour::kSoft});
+  return height + 24;
+}
+
+void draw_study_card(Ui& ui, const Rect& card, const StartModel::Study& study,
+                     std::size_t place, StartViewResult& result) {
+  const Chord key = place < kMostKeys ? Chord{letter(static_cast<char>('1' + place))} : Chord{};
+  ui.card(card);
+  if (ui.row("study_" + std::to_string(place + 1), card, study.title, key)) {
+    result.open = study.path;
+  }
+  Rect inside = card.inset(kPadding);
+  if (place < kMostKeys) {
+    const Rect cap = inside.take_right(ui.key_cap_width(key), 16);
+    ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
+  }
+  inside = inside.middle(inside.width, 44);
+  ui.text(inside.take_top(22), study.title, {.font = Font::kStrong});
+  ui.text(inside, study.summary, {.colour = Colour::kSoft});
+}
+
+void draw_studies(Ui& ui, Rect column, const StartModel& model, StartViewState& state,
+                  StartViewResult& result) {
+  ui.heading(column.take_top(18, 10), "Studies");
+  Rect buttons = column.take_bottom(46, kGap);
+  if (model.studies.empty()) {
+    const Rect note = column.take_top(52);
+    ui.text(note, "No study was opened yet. Take the tour, or begin a new study.",
+            {.colour = Colour::kSoft, .wrap = true});
+    buttons.y = column.y + 8;
+  } else {
+    const float content =
+        static_cast<float>(model.studies.size()) * (kStudyCard + kBetweenCards) - kBetweenCards;
+    Rect list = column;
+    list.height = std::min(column.height, content);
+    Rect inside = ui.begin_scroll("studies", list, content);
+    for (std::size_t i = 0; i < model.studies.size(); ++i) {
+      draw_study_card(ui, inside.take_top(kStudyCard, kBetweenCards), model.studies[i], i,
+                      result);
+    }
+    ui.end_scroll();
+    buttons.y = list.bottom() + kGap;
+  }
+  const ButtonStyle new_style{.key = {letter('N'), true}};
+  const ButtonStyle open_style{.key = {letter('O'), true}};
+  if (ui.button("new_study", buttons.take_left(ui.button_width("New study", new_style), 12),
+                "New study", new_style)) {
+    open_new_dialog(model, state);
+  }
+  if (ui.button("open_study", buttons.take_left(ui.button_width("Open study", open_style)),
+                "Open study", open_style)) {
+    open_open_dialog(state);
+  }
+}
+
+void draw_tour(Ui& ui, Rect& column, StartViewResult& result) {
+  ui.heading(column.take_top(18, 10), "Try it now, without a robot");
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const std::string_view words =
+      "Move the mouse through virtual fluids, say which is thicker, and see your own Weber "
+      "fraction.";
+  const float width = column.width - 2 * kPadding;
+  const float text = ui.text_height(width, words, soft);
+  const Rect card = column.take_top(30 + text + 16 + 50 + 2 * kPadding, 2 * kGap);
+  ui.card(card);
+  Rect inside = card.inset(kPadding);
+  ui.text(inside.take_top(30), "A three-minute tour", {.font = Font::kLarge});
+  ui.text(inside.take_top(text, 16), words, soft);
+  if (ui.button("start_tour", inside.take_top(50), "Start the tour",
+                {.tone = Tone::kPrimary, .key = {letter('T')}})) {
+    result.start_tour = true;
+  }
+}
+
+void draw_machine(Ui& ui, Rect column, const StartModel& model) {
+  ui.heading(column.take_top(18, 10), "This machine");
+  constexpr float kLine = 34;
+  const std::size_t count = std::max<std::size_t>(1, model.machine.size());
+  Rect card = column.take_top(static_cast<float>(count) * kLine + 2 * 10);
+  ui.card(card);
+  Rect inside = card;
+  inside.take_left(kPadding);
+  inside.take_right(kPadding);
+  inside.take_top(10);
+  if (model.machine.empty()) {
+    ui.text(inside.take_top(kLine), "Looking …",
+            {.font = Font::kSmall, .colour = Colour::kSoft});
+  }
+  for (std::size_t i = 0; i < model.machine.size(); ++i) {
+    const PreflightLine& line = model.machine[i];
+    const Rect row = inside.take_top(kLine);
+    Rect words = row;
+    ui.text(words.take_left(150, 12), line.name, {.font = Font::kSmall});
+    ui.text(words, line.found,
+            {.font = Font::kSmall, .colour = colour_of(line.status), .align = Align::kRight});
+    if (i + 1 < model.machine.size()) {
+      ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
+    }
+    if (!line.remedy.empty() && ui.hovered(row)) {
+      ui.tooltip(ui.mouse_x(), ui.mouse_y(), line.remedy);
+    }
+  }
+}
+
+}  // namespace
+
+StartViewResult draw_start_view(
+    Ui& ui, const StartModel& model,
+    const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
+    StartViewState& state) {
+  StartViewResult result;
+  Rect rest = ui.screen();
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  const float margin = std::clamp(rest.width * 0.056f, 24.0f, 90.0f);
+  rest.take_left(margin);
+  rest.take_right(margin);
+  rest.take_top(std::clamp(rest.height * 0.055f, 20.0f, 54.0f));
+  rest.take_bottom(kGap);
+  ui.text(rest.take_top(54, 4), "jnd", {.font = Font::kHuge});
+  ui.text(rest.take_top(28, 26), "A haptic psychophysics laboratory",
+          {.font = Font::kBody, .colour = Colour::kSoft});
+  constexpr float kBetweenColumns = 48;
+  Rect left = rest.take_left((rest.width - kBetweenColumns) / 2, kBetweenColumns);
+  Rect right = rest;
+  const float resumes = draw_resume_cards(ui, left, model, result);
+  if (resumes > 0) left.take_top(resumes + kBetweenCards);
+  draw_studies(ui, left, model, state, result);
+  draw_tour(ui, right, result);
+  draw_machine(ui, right, model);
+  draw_study_footer(ui, footer, "Version " + model.version, "");
+  if (state.dialog == StartViewState::Dialog::kNew) draw_new_dialog(ui, model, state, result);
+  if (state.dialog == StartViewState::Dialog::kOpen) {
+    draw_open_dialog(ui, entries_of, state, result);
+  }
+  return result;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gui/ui.h"
+#include "app/operator/preflight.h"
+#include "app/operator/study_folder.h"
+
+namespace jnd::app::gui {
+
+/// What the start view shows. Studies were opened lately; one that cannot be read says why.
+struct StartModel {
+  struct Study {
+    std::filesystem::path path;
+    std::optional<StudyFolder>
+        folder;                  ///< Nothing for a study file, or where it cannot be read.
+    std::string title, summary;  ///< In words, also of a file with problems.
+  };
+  std::vector<Study> studies;          ///< The newest first.
+  std::vector<PreflightLine> machine;  ///< Empty until it was looked at.
+  std::vector<std::string> shipped;    ///< Names of shipped studies.
+  std::string version;
+};
+
+/// What the open dialog lists.
+struct FolderEntry {
+  std::filesystem::path path;
+  enum class Kind { kFolder, kStudyFolder, kStudyFile } kind = Kind::kFolder;
+};
+
+/// What the window remembers of the start view.
+struct StartViewState {
+  enum class Dialog { kNone, kNew, kOpen };
+  Dialog dialog = Dialog::kNone;
+  bool dialog_is_new = false;
+  std::size_t chosen_shipped = 0;
+  std::string study_file;          ///< Typed instead of a shipped one; "" for none.
+  std::string new_folder;          ///< Where the new study goes.
+  std::string proposed_folder;     ///< What stood there before anybody typed.
+  std::filesystem::path browsing;  ///< Folder whose entries are shown.
+  std::filesystem::path listed;    ///< Folder that `entries` were read from.
+  std::vector<FolderEntry> entries;
+  std::string open_path;  ///< Typed.
+  std::string problem;    ///< Why the last attempt did not work, for the open dialog.
+};
+
+struct StartViewResult {
+  struct Resume {
+    std::filesystem::path folder;
+    std::int64_t session = 0;
+  };
+  std::optional<Resume> resume;
+  std::optional<std::filesystem::path> open;  ///< Folder or study file.
+  struct New {
+    std::string study;  ///< Name of a shipped study, or a path.
+    std::filesystem::path folder;
+  };
+  std::optional<New> create;
+  bool start_tour = false;
+};
+
+/// `entries_of` lists a folder, so that the view does no reading: once for each that is shown.
+[[nodiscard]] StartViewResult draw_start_view(
+    Ui& ui, const StartModel& model,
+    const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
+    StartViewState& state);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,90 @@
+#include "app/gui/views/study_tabs.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/gui/views/layout.h"
+
+namespace jnd::app::gui {
+namespace {
+
+struct Tab {
+  StudyTab tab;
+  const char *name, *label;
+  char digit;
+};
+constexpr std::array kTabs = {Tab{StudyTab::kStart, "tab_start", "Start", '0'},
+                              Tab{StudyTab::kSessions, "tab_sessions", "Sessions", '1'},
+                              Tab{StudyTab::kResults, "tab_results", "Results", '2'},
+                              Tab{StudyTab::kStudy, "tab_study", "Study", '3'}};
+
+struct Chip {
+  const char* words;
+  Colour colour;
+};
+
+std::vector<Chip> chips_of(const StudyFolder& study) {
+  std::vector<Chip> chips;
+  if (study.blinding == experiments::Blinding::kDouble) {
+    chips.push_back({study.hides_levels ? "double-blind" : "unblinded", Colour::kBlue});
+  }
+  if (study.simulated) chips.push_back({"simulated data", Colour::kAmber});
+  return chips;
+}
+
+}  // namespace
+
+StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& study,
+                              StudyTab current, float own_width) {
+  StudyHeader header;
+  ui.fill(place, Colour::kCard);
+  ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
+  Rect strip = place;
+  strip.take_left(20);
+  strip.take_right(20);
+  if (own_width > 0) header.own_buttons = strip.take_right(own_width, 12);
+  for (auto tab = kTabs.rbegin(); tab != kTabs.rend(); ++tab) {
+    const ButtonStyle style{.tone = Tone::kQuiet,
+                            .key = {.key = letter(tab->digit), .control = true},
+                            .selected = tab->tab == current};
+    const Rect its = strip.take_right(ui.button_width(tab->label, style));
+    if (ui.button(tab->name, its.middle(its.width, 36), tab->label, style)) {
+      header.chosen = tab->tab;
+    }
+  }
+  ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
+          {.font = Font::kLarge});
+  strip.take_right(12);
+  const float title = ui.text_width(study.title, Font::kBody) + 2;
+  float chips = 0;
+  for (const Chip& chip : chips_of(study)) chips += ui.chip_width(chip.words) + 10;
+  // The words in the middle of the view say the same where there is no room for chips.
+  const bool has_chips = strip.width >= std::min(title, 180.0f) + 8 + chips;
+  const float room = has_chips ? strip.width - chips - 8 : strip.width;
+  const Rect words = strip.take_left(std::min(title, room), 18);
+  ui.text(words, study.title, {});
+  if (!has_chips) return header;
+  float x = strip.x;
+  for (const Chip& chip : chips_of(study)) {
+    x += ui.chip(x, place.y + (place.height - 26) / 2, chip.words, chip.colour) + 10;
+  }
+  return header;
+}
+
+void draw_study_footer(Ui& ui, const Rect& place, const std::string& left,
+                       const std::string& right) {
+  ui.fill(place, Colour::kCard);
+  ui.line(place.x, place.y, place.right(), place.y, Colour::kLine);
+  Rect strip = place;
+  strip.take_left(20);
+  strip.take_right(kCornerWidth, 20);
+  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
+  TextStyle at_right = soft;
+  at_right.align = Align::kRight;
+  const float width = ui.text_width(right, Font::kSmall) + 2;
+  const Rect right_place = strip.take_right(std::min(width, strip.width / 2), 24);
+  ui.text(right_place, right, at_right);
+  ui.text(strip, left, soft);
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "app/gui/ui.h"
+#include "app/operator/study_folder.h"
+
+namespace jnd::app::gui {
+
+enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy };
+
+/// The header of every view of a study: its name, its marks, and the tabs "Start" (Ctrl 0),
+/// "Sessions" (Ctrl 1), "Results" (Ctrl 2), "Study" (Ctrl 3). Leaves room at the right for a
+/// view's own buttons: `own_buttons` is that rectangle. Returns the tab that was chosen.
+struct StudyHeader {
+  StudyTab chosen = StudyTab::kNone;
+  Rect own_buttons;
+};
+/// `own_width`: how wide the view's own buttons are together.
+[[nodiscard]] StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& study,
+                                            StudyTab current, float own_width = 0);
+
+/// The footer of these views: `left` and `right` in words.
+void draw_study_footer(Ui& ui, const Rect& place, const std::string& left,
+                       const std::string& right);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,219 @@
+#include "app/gui/views/study_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/views/layout.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr int kMostParticipants = 60;
+
+std::string counted(int count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+/// The header where there is a file alone, and so neither sessions nor results.
+StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline) {
+  ui.fill(place, Colour::kCard);
+  ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
+  Rect strip = place;
+  strip.take_left(20);
+  strip.take_right(20);
+  const ButtonStyle start{.tone = Tone::kQuiet, .key = {letter('0'), true}};
+  const Rect tab = strip.take_right(ui.button_width("Start", start), 12);
+  const bool chosen = ui.button("tab_start", tab.middle(tab.width, 36), "Start", start);
+  ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
+          {.font = Font::kLarge});
+  const std::string title =
+      outline.title.empty() ? outline.file.filename().string() : outline.title;
+  const float width = std::min(ui.text_width(title, Font::kBody) + 2, strip.width - 120);
+  ui.text(strip.take_left(width, 18), title, {});
+  ui.chip(strip.x, place.y + (place.height - 26) / 2, "study file", Colour::kBlue);
+  return chosen ? StudyTab::kStart : StudyTab::kNone;
+}
+
+/// Every problem with its place, in red.
+void draw_problems(Ui& ui, Rect& inside, const StudyOutline& outline) {
+  const auto count = static_cast<int>(outline.problems.size());
+  ui.text(inside.take_top(34, 2), counted(count, "problem") + " in the file",
+          {.font = Font::kLarge, .colour = Colour::kRed});
+  ui.text(inside.take_top(26, 8),
+          "Mend them in your editor; the file is read again once it is saved.",
+          {.colour = Colour::kSoft});
+  for (const experiments::StudyProblem& problem : outline.problems) {
+    const TextStyle message{.wrap = true};
+    const float indent = 96;
+    const float height = ui.text_height(inside.width - indent, problem.message, message) + 24;
+    Rect row = inside.take_top(height + 16);
+    ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
+    row = row.middle(row.width, height);
+    const std::string place =
+        problem.line > 0 ? std::to_string(problem.line) + ":" + std::to_string(problem.column)
+                         : "file";
+    ui.text(row.take_left(indent).take_top(24), place,
+            {.font = Font::kMono, .colour = Colour::kRed});
+    ui.text(row.take_top(24), problem.pointer.empty() ? "/" : problem.pointer,
+            {.font = Font::kMono, .colour = Colour::kSoft});
+    ui.text(row, problem.message, message);
+  }
+}
+
+void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
+  constexpr float kIndent = 24;
+  constexpr float kDetail = 22;
+  const bool is_arm = stage.kind == "Arm";
+  const auto details =
+      static_cast<float>(stage.details.size() + (stage.only_for.empty() ? 0 : 1));
+  const float first = is_arm ? 34.0f : 28.0f;
+  const float second = is_arm ? 0.0f : 24.0f;
+  Rect row = inside.take_top(first + second + details * kDetail + (is_arm ? 0.0f : 16.0f));
+  ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
+  const float indent = kIndent * static_cast<float>(stage.depth);
+  for (int level = 1; level <= stage.depth; ++level) {
+    const float x = row.x + kIndent * (static_cast<float>(level) - 0.5f);
+    ui.line(x, row.y, x, row.bottom(), Colour::kLine);
+  }
+  row.take_left(indent);
+  if (!is_arm) row.take_top(8);
+  Rect head = row.take_top(first);
+  ui.text(head.take_right(90, 12), duration_words(stage.duration_s),
+          {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
+  if (stage.line > 0) {
+    ui.text(head.take_right(60, 8), "line " + std::to_string(stage.line),
+            {.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kRight});
+  }
+  ui.text(head, stage.title, {.font = is_arm ? Font::kSmallStrong : Font::kStrong});
+  if (is_arm) return;
+  ui.text(row.take_top(second), stage.kind + (stage.what.empty() ? "" : " · " + stage.what),
+          {.colour = Colour::kSoft});
+  const TextStyle small{.font = Font::kSmall};
+  for (const std::string& detail : stage.details) ui.text(row.take_top(kDetail), detail, small);
+  if (!stage.only_for.empty()) {
+    ui.text(row.take_top(kDetail), stage.only_for,
+            {.font = Font::kSmall, .colour = Colour::kAmber});
+  }
+}
+
+void draw_outline(Ui& ui, const Rect& place, const StudyOutline& outline,
+                  StudyViewState& state) {
+  Rect inside = draw_card(ui, place, outline.problems.empty() ? "Stages" : "");
+  if (!outline.problems.empty()) ui.outline(place, Colour::kRed, 10, 2);
+  inside = ui.begin_scroll("outline", inside, state.outline_height);
+  const float top = inside.y;
+  if (!outline.problems.empty()) draw_problems(ui, inside, outline);
+  for (const OutlineStage& stage : outline.stages) draw_stage(ui, inside, stage);
+  state.outline_height = inside.y - top;
+  ui.end_scroll();
+}
+
+void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value) {
+  if (value.empty()) return;
+  const TextStyle style{.font = Font::kSmall, .wrap = true};
+  constexpr float kName = 104;
+  const float height = std::max(22.0f, ui.text_height(inside.width - kName, value, style));
+  Rect row = inside.take_top(height, 4);
+  Rect name_place = row.take_left(kName);
+  ui.text(name_place.take_top(ui.line_height(Font::kSmall)), name,
+          {.font = Font::kSmall, .colour = Colour::kSoft});
+  ui.text(row, value, style);
+}
+
+std::string length_words(const StudyOutline& outline) {
+  const std::string longest = duration_words(outline.longest_s);
+  const std::string shortest = duration_words(outline.shortest_s);
+  return shortest == longest ? "about " + longest : shortest + " to " + longest;
+}
+
+void draw_facts(Ui& ui, Rect& inside, const StudyOutline& outline) {
+  ui.heading(inside.take_top(18, 8), "Study");
+  if (!outline.problems.empty()) {
+    ui.text(inside.take_top(24, 16), "Not known until the file is sound.",
+            {.colour = Colour::kSoft});
+    return;
+  }
+  draw_fact(ui, inside, "Length",
+            length_words(outline) + ", " + counted(outline.num_trials, "trial"));
+  draw_fact(ui, inside, "Blinding", outline.blinding);
+  draw_fact(ui, inside, "Device", outline.device);
+  draw_fact(ui, inside, "Languages", outline.languages);
+  draw_fact(ui, inside, "Authors", outline.authors);
+  draw_fact(ui, inside, "About", outline.description);
+  inside.take_top(14);
+}
+
+void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewState& state,
+                 StudyViewResult& result) {
+  Rect head = inside.take_top(38, 8);
+  const ButtonStyle more{.key = {Key::kPlus},
+                         .enabled = state.num_participants < kMostParticipants,
+                         .repeats = true};
+  const ButtonStyle fewer{
+      .key = {Key::kMinus}, .enabled = state.num_participants > 1, .repeats = true};
+  const int before = state.num_participants;
+  if (ui.button("more_participants", head.take_right(ui.button_width("More", more), 8), "More",
+                more)) {
+    ++state.num_participants;
+  }
+  if (ui.button("fewer_participants", head.take_right(ui.button_width("Fewer", fewer), 12),
+                "Fewer", fewer)) {
+    --state.num_participants;
+  }
+  state.num_participants = std::clamp(state.num_participants, 1, kMostParticipants);
+  result.orders_changed = state.num_participants != before;
+  ui.heading(head, "Orders of the next " + counted(state.num_participants, "participant"));
+  if (!model.orders_problem.empty()) {
+    const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+    ui.text(inside.take_top(ui.text_height(inside.width, model.orders_problem, soft)),
+            model.orders_problem, soft);
+    return;
+  }
+  for (const PlannedOrder& order : model.orders) {
+    Rect line = inside.take_top(30);
+    ui.text(line.take_right(80), duration_words(order.duration_s),
+            {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
+    const float name = ui.text_width(order.participant, Font::kStrong) + 2;
+    ui.text(line.take_left(name, 12), order.participant, {.font = Font::kStrong});
+    ui.text(line, order.cells, {.font = Font::kSmall, .colour = Colour::kBlue});
+    const TextStyle small{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
+    for (const std::string& block : order.blocks) {
+      const float height = ui.text_height(inside.width, block, small);
+      ui.text(inside.take_top(height, 4), block, small);
+    }
+    const Rect gap = inside.take_top(8);
+    ui.line(gap.x, gap.bottom(), gap.right(), gap.bottom(), Colour::kLine);
+  }
+}
+
+std::string reload_words(const StudyViewModel& model) {
+  if (model.num_reloads == 0) return "Read once; read again whenever the file is saved";
+  const auto seconds = std::llround(std::max(0.0, model.since_reload_s));
+  return "Read again " + duration_words(static_cast<double>(seconds)) + " ago";
+}
+
+}  // namespace
+
+StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model, StudyViewState& state) {
+  StudyViewResult result;
+  Rect rest = ui.screen();
+  const Rect header = rest.take_top(kHeaderHeight);
+  result.tab = model.study != nullptr
+                   ? draw_study_header(ui, header, *model.study, StudyTab::kStudy).chosen
+                   : draw_file_header(ui, header, model.outline);
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  rest = rest.inset(kGap);
+  const Rect right = rest.take_right(std::clamp(rest.width * 0.42f, 400.0f, 680.0f), kGap);
+  draw_outline(ui, rest, model.outline, state);
+  ui.card(right);
+  Rect inside = ui.begin_scroll("orders", right.inset(kPadding), state.orders_height);
+  const float top = inside.y;
+  draw_facts(ui, inside, model.outline);
+  if (model.outline.problems.empty()) draw_orders(ui, inside, model, state, result);
+  state.orders_height = inside.y - top;
+  ui.end_scroll();
+  draw_study_footer(ui, footer, reload_words(model), model.outline.file.string());
+  return result;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,228 @@
+// The card of a trial: which fluid, what to ask, the answers.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/gui/hand_sign.h"
+#include "app/gui/views/run_parts.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using experiments::AnswerKind;
+using experiments::Direction;
+using experiments::StepSize;
+
+constexpr float kLargeButton = 84;
+constexpr float kSmallButton = 46;
+
+std::string felt_words(const TrialView& trial) {
+  char text[160];
+  std::string words;
+  if (!trial.interval.empty()) {
+    std::snprintf(text, sizeof text, "felt for %.1f s", trial.felt_s);
+    words = text;
+    if (trial.num_strokes > 0) {
+      words += " · " + std::to_string(trial.num_strokes) +
+               (trial.num_strokes == 1 ? " stroke" : " strokes");
+    }
+    if (trial.interval != "reference" && trial.reference_felt_s) {
+      std::snprintf(text, sizeof text, " · reference felt before for %.1f s",
+                    *trial.reference_felt_s);
+      words += text;
+    }
+  }
+  if (!trial.level.empty()) words += (words.empty() ? "" : " · ") + trial.level;
+  return words;
+}
+
+/// What can be typed as a percent: digits and one point.
+void type_percent(Ui& ui, const TrialView& trial, RunViewState& state) {
+  if (state.percent_trial != trial.trial) {
+    state.percent_trial = trial.trial;
+    state.percent.clear();
+  }
+  for (const char typed : ui.typed_digits()) {
+    constexpr std::size_t kMostDigits = 7;
+    if (state.percent.size() >= kMostDigits) break;
+    if (typed == '.' && state.percent.find('.') != std::string::npos) continue;
+    state.percent += typed;
+  }
+  if (ui.typed_backspace() && !state.percent.empty()) state.percent.pop_back();
+}
+
+class TrialCard {
+ public:
+  TrialCard(Ui& ui, const SessionView& view, RunViewState& state, RunViewResult& result)
+      : ui_(ui), view_(view), trial_(*view.trial), state_(state), result_(result) {}
+
+  void add_controls(Stack& stack) {
+    if (view_.step != Step::kPresenting) {
+      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_first(place); });
+      return;
+    }
+    const bool test = trial_.interval == "test";
+    if (trial_.answer == AnswerKind::kYesNo && trial_.can_answer) {
+      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_yes_no(place); });
+    } else if (trial_.answer == AnswerKind::kPercent && trial_.can_answer) {
+      type_percent(ui_, trial_, state_);
+      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_percent(place); });
+    } else if (trial_.answer == AnswerKind::kMatch && test) {
+      stack.add(kLargeButton, 14, [this](const Rect& place) { draw_steps(place); });
+    } else {
+      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_next(place); });
+    }
+    stack.add(kSmallButton, 0, [this](const Rect& place) { draw_switches(place); });
+  }
+
+ private:
+  void present(const char* interval) {
+    result_.requests.push_back(operate::Present{trial_.trial, interval});
+  }
+  void answer(double value) {
+    result_.requests.push_back(operate::Answer{trial_.trial, value});
+  }
+
+  void draw_first(const Rect& place) {
+    const bool reference = trial_.has_reference;
+    draw_button_row(ui_, place,
+                    {{"present",
+                      reference ? "Present the reference" : "Present the fluid",
+                      {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
+                      [&] { present(reference ? "reference" : "test"); }}},
+                    320);
+    // What it is called elsewhere does the same.
+    if (ui_.pressed({letter(reference ? 'R' : 'T')})) present(reference ? "reference" : "test");
+  }
+
+  void draw_next(const Rect& place) {
+    const bool to_reference =
+        trial_.interval == "free_space" && trial_.has_reference && !trial_.reference_felt_s;
+    draw_button_row(ui_, place,
+                    {{"present",
+                      to_reference ? "Present the reference" : "Present the test",
+                      {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
+                      [&] { present(to_reference ? "reference" : "test"); }}},
+                    320);
+  }
+
+  void draw_yes_no(const Rect& place) {
+    draw_button_row(ui_, place,
+                    {{"answer_yes",
+                      trial_.yes_label,
+                      {.tone = Tone::kPrimary, .key = {letter('Y')}, .large = true},
+                      [&] { answer(1.0); }},
+                     {"answer_no",
+                      trial_.no_label,
+                      {.tone = Tone::kPrimary, .key = {letter('N')}, .large = true},
+                      [&] { answer(0.0); }}},
+                    std::min(250.0f, (place.width - 40) / 2));
+  }
+
+  void draw_percent(const Rect& place) {
+    Rect row = place.middle(std::min(520.0f, place.width - 32), place.height);
+    const bool typed = !state_.percent.empty() && state_.percent != ".";
+    const Rect enter = row.take_right(200, 16);
+    ui_.fill(row, Colour::kGround, 9);
+    ui_.outline(row, typed ? Colour::kBlue : Colour::kLine, 9, typed ? 2 : 1);
+    const TextStyle style{.font = typed ? Font::kHuge : Font::kLarge,
+                          .colour = typed ? Colour::kInk : Colour::kSoft,
+                          .align = Align::kCentre};
+    ui_.text(row.middle(row.width - 20, ui_.line_height(style.font)),
+             typed ? state_.percent + " %" : "type the percent", style);
+    if (ui_.button(
+            "answer_percent", enter, "Store",
+            {.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = typed, .large = true})) {
+      answer(std::strtod(state_.percent.c_str(), nullptr));
+    }
+  }
+
+  void draw_steps(const Rect& place) {
+    const auto step = [&](Direction direction, StepSize size) {
+      result_.requests.push_back(
+          operate::Adjust{trial_.trial, direction, size, ui_.was_held()});
+    };
+    const auto button = [&](const char* name, const char* label, Key key, Direction direction,
+                            StepSize size) {
+      return RowButton{name, label, {.key = {key}, .repeats = true}, [step, direction, size] {
+                         step(direction, size);
+                       }};
+    };
+    draw_button_row(
+        ui_, place,
+        {button("lower_coarse", "Lower", Key::kLeft, Direction::kLower, StepSize::kCoarse),
+         button("lower_fine", "A bit lower", Key::kDown, Direction::kLower, StepSize::kFine),
+         {"matches",
+          "Matches",
+          {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+          [&] { answer(0.0); }},
+         button("raise_fine", "A bit higher", Key::kUp, Direction::kRaise, StepSize::kFine),
+         button("raise_coarse", "Raise", Key::kRight, Direction::kRaise, StepSize::kCoarse)},
+        std::min(150.0f, (place.width - 90) / 5));
+  }
+
+  void draw_switches(const Rect& place) {
+    std::vector<RowButton> buttons;
+    const auto add = [&](const char* name, const char* label, char key, const char* interval) {
+      buttons.push_back(
+          {name, label, {.key = {letter(key)}}, [this, interval] { present(interval); }});
+    };
+    if (trial_.has_reference) {
+      add("present_reference",
+          trial_.interval == "reference" ? "Reference again" : "Back to the reference", 'R',
+          "reference");
+    }
+    if (trial_.interval != "reference") {
+      add("present_test", trial_.interval == "test" ? "Test again" : "Back to the test", 'T',
+          "test");
+    } else if (trial_.can_answer) {
+      add("present_test", "Test again", 'T', "test");
+    }
+    if (trial_.interval != "free_space") {
+      add("present_free_space", "Free space", 'F', "free_space");
+    }
+    draw_button_row(ui_, place, buttons);
+  }
+
+  Ui& ui_;
+  const SessionView& view_;
+  const TrialView& trial_;
+  RunViewState& state_;
+  RunViewResult& result_;
+};
+
+}  // namespace
+
+void draw_trial_card(Ui& ui, const Rect& place, const SessionView& view,
+                     const std::vector<TracePoint>& trace, RunViewState& state,
+                     RunViewResult& result) {
+  const float words_width = std::min(720.0f, place.width - 48);
+  const bool roomy = place.height > 460;
+  Stack stack(ui);
+  stack.add(18, roomy ? 18 : 8, [&ui, &view](const Rect& strip) {
+    ui.heading(strip, view.heading, "", Align::kCentre);
+  });
+  const bool with_pad = view.device == "mouse";
+  if (with_pad) {
+    // Everything else first: the pad takes what is left.
+    const float fixed = roomy ? 330 : 268;
+    stack.add(std::max(110.0f, place.height - fixed), 12, [&](const Rect& strip) {
+      draw_pad(ui, strip.middle(strip.width - 48, strip.height), view, trace, state);
+    });
+  } else if (view.sign != HandSign::kNone && place.height > 330) {
+    const float size = roomy ? 140.0f : 84.0f;
+    stack.add(size, roomy ? 20 : 8, [&ui, &view, size](const Rect& strip) {
+      draw_hand_sign(ui, strip.middle(size, size), view.sign);
+    });
+  }
+  const Font large = with_pad || !roomy ? Font::kLarge : Font::kTitle;
+  stack.add_text(view.sentence, large, Colour::kInk, words_width, 6);
+  stack.add_text(in_quotes(view.say), large, Colour::kInk, words_width, 10);
+  stack.add_text(felt_words(*view.trial), Font::kBody, Colour::kSoft, words_width,
+                 roomy ? 24 : 12);
+  TrialCard controls(ui, view, state, result);
+  controls.add_controls(stack);
+  stack.draw(place.inset(12));
+}
+
+}  // namespace jnd::app::gui

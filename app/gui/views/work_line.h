@@ -1,0 +1,11 @@
+#pragma once
+
+#include "app/gui/views/sessions_view.h"
+
+namespace jnd::app::gui {
+
+/// What goes on beside the window with its progress and "Cancel" (F2), or what came of the last
+/// of it. Returns whether to cancel.
+[[nodiscard]] bool draw_work(Ui& ui, Rect place, const StudyWork& work);
+
+}  // namespace jnd::app::gui

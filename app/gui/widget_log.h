@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "app/gui/ui.h"
+
+namespace jnd::app::gui {
+
+/// What was drawn as JSON, with places in the window's pixels:
+///     {"view": "run", "frame": 12, "scale": 1, "widgets": [{"name": "yes", "label": "Thicker",
+///      "key": "Y", "x": 1, "y": 2, "width": 3, "height": 4, "enabled": true}], "texts":
+///      ["..."]}
+[[nodiscard]] std::string widgets_json(const Drawn& drawn, float scale);
+
+/// Writes a frame that shows something new, whole or not at all: the file is replaced. FILE.texts
+/// beside it grows by each text that no frame before has shown, one a line: whatever stood on
+/// the screen however shortly.
+class WidgetLog {
+ public:
+  /// An empty path switches it off.
+  explicit WidgetLog(std::filesystem::path file) : file_(std::move(file)) {}
+  /// Throws `core::Error` where the file cannot be written.
+  void write(const Drawn& drawn, float scale);
+  /// Of another window: its texts alone.
+  void keep_texts(const Drawn& drawn);
+
+ private:
+  std::filesystem::path file_;
+  std::set<std::string> texts_;
+  Drawn last_;
+  float last_scale_ = 0.0f;
+};
+
+}  // namespace jnd::app::gui

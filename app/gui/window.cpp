@@ -1,0 +1,213 @@
+#include "app/gui/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GL/gl.h>
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "app/gui/picture.h"
+#include "app/gui/window_state.h"
+#include "core/error.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr double kFrameIntervalS = 1.0 / 30;
+constexpr double kIterationIntervalS = 0.05;
+constexpr double kIdleIntervalS = 1.0;
+// A hover, a closed dialog, a field that gets the keyboard: things that show one frame later.
+constexpr int kFramesAfterEvent = 3;
+
+Picture read_back_buffer(int width, int height) {
+  Picture picture = {.width = width, .height = height};
+  const std::size_t row = static_cast<std::size_t>(width) * 4;
+  const auto num_rows = static_cast<std::size_t>(height);
+  std::vector<std::uint8_t> from_below(row * num_rows);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, from_below.data());
+  picture.rgba.resize(from_below.size());
+  for (std::size_t y = 0; y < num_rows; ++y) {
+    std::copy_n(from_below.data() + (num_rows - 1 - y) * row, row,
+                picture.rgba.data() + y * row);
+  }
+  // The frame may be transparent to OpenGL; a picture of it is not.
+  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
+  return picture;
+}
+
+}  // namespace
+
+void Window::Implementation::prepare_fonts() {
+  float monitor_scale = 1.0f;
+  glfwGetWindowContentScale(main, &monitor_scale, nullptr);
+  theme.set_scale(monitor_scale * zoom);
+  if (!theme.fonts_are_stale()) return;
+  ImGui::SetCurrentContext(context);
+  if (has_renderer) ImGui_ImplOpenGL3_DestroyFontsTexture();
+  theme.load_fonts();
+  if (has_renderer) ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Window::Implementation::draw(const Frame& frame) {
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(main, &width, &height);
+  if (width <= 0 || height <= 0) return;  // Iconified.
+  prepare_fonts();
+  const double now_s = glfwGetTime();
+  const auto passed_s = static_cast<float>(std::max(now_s - last_frame_s, 1e-4));
+  last_frame_s = now_s;
+
+  const auto set_up = [&](ImGuiContext* its_context, int its_width, int its_height) {
+    ImGui::SetCurrentContext(its_context);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = ImVec2(static_cast<float>(its_width), static_cast<float>(its_height));
+    io.DeltaTime = passed_s;
+  };
+  set_up(context, width, height);
+  ImGui_ImplOpenGL3_NewFrame();
+  ui->begin_frame(queue);
+  frame(*ui);
+  const Drawn& drawn = ui->end_frame();
+  show_cursor();
+  clear();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (!wanted_pictures.empty()) save_wanted_pictures(width, height);
+  glfwSwapBuffers(main);
+  widget_log.write(drawn, theme.scale());
+
+  if (second == nullptr) return;
+  glfwGetFramebufferSize(second, &width, &height);
+  if (width <= 0 || height <= 0) return;
+  set_up(second_context, width, height);
+  draw_second();
+}
+
+void Window::Implementation::clear() const {
+  const std::uint32_t ground = theme.rgb(Colour::kGround);
+  const auto channel = [&](int shift) {
+    return static_cast<float>(ground >> shift & 0xff) / 255.0f;
+  };
+  glClearColor(channel(16), channel(8), channel(0), 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void Window::Implementation::show_cursor() {
+  const int wanted = ImGui::GetMouseCursor();
+  if (wanted == shown_cursor) return;
+  shown_cursor = wanted;
+  glfwSetCursor(main, wanted == ImGuiMouseCursor_TextInput ? text_cursor
+                      : wanted == ImGuiMouseCursor_Hand    ? hand_cursor
+                                                           : nullptr);
+}
+
+void Window::Implementation::save_wanted_pictures(int width, int height) {
+  const Picture whole = read_back_buffer(width, height);
+  for (const WantedPicture& wanted : std::exchange(wanted_pictures, {})) {
+    std::string problem;
+    try {
+      if (wanted.part.has_value()) {
+        const auto pixel = [&](float logical) {
+          return static_cast<int>(std::lround(logical * theme.scale()));
+        };
+        const Rect& part = *wanted.part;
+        write_png(wanted.file, cut_out(whole, pixel(part.x), pixel(part.y), pixel(part.width),
+                                       pixel(part.height)));
+      } else {
+        write_png(wanted.file, whole);
+      }
+    } catch (const core::Error& error) {
+      problem = error.what();
+    }
+    if (wanted.done) wanted.done(problem);
+  }
+}
+
+void Window::Implementation::something_happened(bool urgent) {
+  frames_left = kFramesAfterEvent;
+  is_urgent |= urgent;
+}
+
+double Window::Implementation::next_frame_s(double now_s) const {
+  if (frames_left <= 0 && !frames_are_wanted) return now_s + kIdleIntervalS;
+  return is_urgent ? now_s : std::max(now_s, last_frame_s + kFrameIntervalS);
+}
+
+void Window::Implementation::wait(double now_s) const {
+  double timeout_s = next_frame_s(now_s) - now_s;
+  if (iterations_are_wanted) timeout_s = std::min(timeout_s, kIterationIntervalS);
+  if (timeout_s > 0) {
+    glfwWaitEventsTimeout(timeout_s);
+  } else {
+    glfwPollEvents();
+  }
+}
+
+Window::Window(const WindowSettings& settings) : my_(std::make_unique<Implementation>(*this)) {
+  my_->open(settings);
+}
+
+Window::~Window() = default;
+
+void Window::run(const Frame& frame) {
+  Implementation& my = *my_;
+  my.is_closed = false;
+  my.something_happened(true);
+  while (!my.is_closed) {
+    if (on_iteration) on_iteration();
+    if (std::exchange(my.second_is_unwanted, false)) my.close_second();
+    if (my.is_woken.exchange(false)) my.frames_left = std::max(my.frames_left, 2);
+    if (my.frames_are_wanted) my.frames_left = std::max(my.frames_left, 1);
+    const double now_s = glfwGetTime();
+    if (my.frames_left > 0 && my.next_frame_s(now_s) <= now_s) {
+      --my.frames_left;
+      my.is_urgent = false;
+      my.draw(frame);
+      if (my.ui->wants_another_frame()) {
+        my.frames_left = std::max(my.frames_left, 1);
+        my.is_urgent = true;
+      }
+    }
+    if (!my.is_closed) my.wait(glfwGetTime());
+  }
+}
+
+void Window::close() noexcept { my_->is_closed = true; }
+
+bool Window::close_requested() noexcept { return std::exchange(my_->close_is_wanted, false); }
+
+void Window::wake() noexcept {
+  my_->is_woken = true;
+  glfwPostEmptyEvent();
+}
+
+void Window::wants_frames(bool wanted) noexcept { my_->frames_are_wanted = wanted; }
+
+void Window::wants_iterations(bool wanted) noexcept { my_->iterations_are_wanted = wanted; }
+
+Theme& Window::theme() noexcept { return my_->theme; }
+
+float Window::zoom() const noexcept { return my_->zoom; }
+
+void Window::set_zoom(float zoom) {
+  my_->zoom = std::isfinite(zoom) ? std::clamp(zoom, 0.5f, 2.0f) : 1.0f;
+  my_->something_happened(false);
+}
+
+bool Window::second_is_open() const noexcept { return my_->second != nullptr; }
+
+void Window::close_second() { my_->second_is_unwanted = my_->second != nullptr; }
+
+void Window::save_picture(const std::filesystem::path& file, std::optional<Rect> part,
+                          std::function<void(std::string problem)> done) {
+  my_->wanted_pictures.push_back({file, part, std::move(done)});
+  my_->something_happened(true);
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/gui/ui.h"
+
+namespace jnd::app::gui {
+
+struct WindowSettings {
+  std::string title = "jnd";
+  float width = 1600;  ///< Logical pixels; less where the monitor has less.
+  float height = 1000;
+  bool dark = false;
+  float zoom = 1.0f;  ///< What the person chose, on top of the monitor's scale.
+};
+
+/// The window on the screen: GLFW, OpenGL and ImGui's renderer, of which nothing else knows. It
+/// draws when something happened and sleeps otherwise. One at a time, on the main thread.
+///
+/// With the environment variable JND_WIDGETS=FILE every frame that shows something new is also
+/// written to FILE (`widget_log.h`), for tests that click.
+class Window {
+ public:
+  /// Throws `core::Error` beginning with "no display was found", or when there is no OpenGL.
+  explicit Window(const WindowSettings& settings = {});
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  using Frame = std::function<void(Ui&)>;
+
+  /// Draws frames until `close`.
+  void run(const Frame& frame);
+  void close() noexcept;
+  /// Once for each time the person wanted to close it; the application asks, and calls `close`.
+  [[nodiscard]] bool close_requested() noexcept;
+
+  /// From any thread: there is something new to draw.
+  void wake() noexcept;
+  /// Frames even without events, at most 30 a second: something moves.
+  void wants_frames(bool wanted) noexcept;
+  /// `on_iteration` is called at least every 50 ms, drawn or not: the heartbeat.
+  void wants_iterations(bool wanted) noexcept;
+
+  /// Escape went down, in any window of ours: called before any frame is drawn. Escape then
+  /// goes the way of all keys, too.
+  std::function<void()> on_escape;
+  /// Each time the loop comes round, on the main thread.
+  std::function<void()> on_iteration;
+  /// The mouse moved, as often as the system says so: logical pixels.
+  std::function<void(float x, float y)> on_mouse_moved;
+
+  [[nodiscard]] Theme& theme() noexcept;
+  [[nodiscard]] float zoom() const noexcept;
+  /// Within 0.5 to 2; the letters follow before the next frame.
+  void set_zoom(float zoom);
+
+  /// A second window, for the participant: on another monitor and filling it where there is
+  /// one. What is drawn into it is drawn whenever the first is. Its keys count as the first
+  /// one's.
+  void open_second(const std::string& title, Frame frame);
+  void close_second();
+  [[nodiscard]] bool second_is_open() const noexcept;
+
+  /// Saves what the next frame shows, or a part of it (logical pixels), as PNG; `done` then
+  /// gets a sentence of what went wrong, "" if nothing.
+  void save_picture(const std::filesystem::path& file, std::optional<Rect> part,
+                    std::function<void(std::string problem)> done);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> my_;
+};
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,91 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "app/gui/window_keys.h"
+#include "app/gui/window_state.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr float kOutside = -1e6f;
+
+}  // namespace
+
+void Window::Implementation::on_key(int key, int scancode, int action, int mods) {
+  // Before anything else, and whatever else it means: no frame is waited for.
+  if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS && window.on_escape) window.on_escape();
+  something_happened(true);
+  // With Alt or the system's own key it is meant for others.
+  if (action != GLFW_RELEASE && (mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
+  queue.key({.chord = {.key = key_of_glfw(key, scancode),
+                       .control = (mods & GLFW_MOD_CONTROL) != 0,
+                       .shift = (mods & GLFW_MOD_SHIFT) != 0},
+             .action = action == GLFW_PRESS     ? KeyEvent::Action::kPress
+                       : action == GLFW_RELEASE ? KeyEvent::Action::kRelease
+                                                : KeyEvent::Action::kRepeat});
+}
+
+void Window::Implementation::on_mouse_moved(GLFWwindow* source, double x, double y) {
+  // The system counts in its own units, frames in pixels; here they are mostly the same.
+  int width = 0;
+  int pixels = 0;
+  glfwGetWindowSize(source, &width, nullptr);
+  glfwGetFramebufferSize(source, &pixels, nullptr);
+  const double ratio = width > 0 ? static_cast<double>(pixels) / width : 1.0;
+  const auto px = static_cast<float>(x * ratio);
+  const auto py = static_cast<float>(y * ratio);
+  queue.mouse_moved(px, py);
+  something_happened(false);
+  if (window.on_mouse_moved) window.on_mouse_moved(px / theme.scale(), py / theme.scale());
+}
+
+void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mouse) {
+  // A lambda without captures is what GLFW can call; it finds its way back by the user pointer.
+  using Self = Implementation;
+  glfwSetWindowUserPointer(target, this);
+  static constexpr auto self = [](GLFWwindow* from) -> Self& {
+    return *static_cast<Self*>(glfwGetWindowUserPointer(from));
+  };
+  glfwSetKeyCallback(target, [](GLFWwindow* from, int key, int scancode, int action, int mods) {
+    self(from).on_key(key, scancode, action, mods);
+  });
+  glfwSetCharCallback(target, [](GLFWwindow* from, unsigned code_point) {
+    self(from).queue.character(code_point);
+    self(from).something_happened(true);
+  });
+  glfwSetWindowFocusCallback(target, [](GLFWwindow* from, int is_focused) {
+    if (is_focused == GLFW_FALSE) self(from).queue.release_all();
+    self(from).something_happened(false);
+  });
+  glfwSetWindowRefreshCallback(target,
+                               [](GLFWwindow* from) { self(from).something_happened(true); });
+  glfwSetFramebufferSizeCallback(
+      target, [](GLFWwindow* from, int, int) { self(from).something_happened(false); });
+  glfwSetWindowContentScaleCallback(
+      target, [](GLFWwindow* from, float, float) { self(from).something_happened(false); });
+  glfwSetWindowCloseCallback(target, [](GLFWwindow* from) {
+    glfwSetWindowShouldClose(from, GLFW_FALSE);
+    Self& my = self(from);
+    (from == my.main ? my.close_is_wanted : my.second_is_unwanted) = true;
+    my.something_happened(true);
+  });
+  if (!with_mouse) return;
+  glfwSetCursorPosCallback(target, [](GLFWwindow* from, double x, double y) {
+    self(from).on_mouse_moved(from, x, y);
+  });
+  glfwSetCursorEnterCallback(target, [](GLFWwindow* from, int has_entered) {
+    if (has_entered == GLFW_FALSE) self(from).queue.mouse_moved(kOutside, kOutside);
+    self(from).something_happened(false);
+  });
+  glfwSetMouseButtonCallback(target, [](GLFWwindow* from, int button, int action, int) {
+    if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+    self(from).queue.mouse_button(action == GLFW_PRESS);
+    self(from).something_happened(true);
+  });
+  glfwSetScrollCallback(target, [](GLFWwindow* from, double, double steps) {
+    self(from).queue.wheel(static_cast<float>(steps));
+    self(from).something_happened(false);
+  });
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,208 @@
+#define GLFW_INCLUDE_NONE
+#include <GL/gl.h>
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "app/gui/window_state.h"
+#include "core/error.h"
+
+namespace jnd::app::gui {
+namespace {
+
+// What every view has room for, logical pixels.
+constexpr float kLeastWidth = 1024;
+constexpr float kLeastHeight = 640;
+// Of the work area, so that the window's frame and title fit, too.
+constexpr float kMostOfMonitor = 0.96f;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+int pixels(float logical, float scale) {
+  return static_cast<int>(std::lround(logical * scale));
+}
+
+}  // namespace
+
+Glfw::Glfw() {
+  // A software renderer would otherwise take every core, the haptic loop's too.
+  ::setenv("LP_NUM_THREADS", "1", 0);
+  if (glfwInit() == GLFW_TRUE) return;
+  const std::string display = environment("DISPLAY");
+  throw core::Error("no display was found: expected DISPLAY to name an X server, found " +
+                    (display.empty() ? "it unset" : "\"" + display + "\"") +
+                    "; start jnd on a desktop, or use its commands (jnd --help)");
+}
+
+Glfw::~Glfw() { glfwTerminate(); }
+
+std::string last_glfw_error() {
+  const char* description = nullptr;
+  glfwGetError(&description);
+  return description == nullptr ? "no reason given" : description;
+}
+
+ScreenArea area_of(GLFWmonitor* monitor) {
+  ScreenArea area;
+  glfwGetMonitorWorkarea(monitor, &area.x, &area.y, &area.width, &area.height);
+  return area;
+}
+
+std::vector<GLFWmonitor*> monitors() {
+  int count = 0;
+  GLFWmonitor** all = glfwGetMonitors(&count);
+  return {all, all + count};
+}
+
+GLFWmonitor* monitor_of(GLFWwindow* window) {
+  ScreenArea place;
+  glfwGetWindowPos(window, &place.x, &place.y);
+  glfwGetWindowSize(window, &place.width, &place.height);
+  for (GLFWmonitor* monitor : monitors()) {
+    if (area_of(monitor).contains(place.x + place.width / 2, place.y + place.height / 2)) {
+      return monitor;
+    }
+  }
+  return nullptr;
+}
+
+void Window::Implementation::open(const WindowSettings& settings) {
+  widget_log = WidgetLog(environment("JND_WIDGETS"));
+  zoom = settings.zoom;
+  theme.set_dark(settings.dark);
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor == nullptr) {
+    throw core::Error(
+        "no display was found: expected a monitor, found an X server without any; "
+        "connect one, or use the commands of jnd (jnd --help)");
+  }
+  float scale = 1.0f;
+  glfwGetMonitorContentScale(monitor, &scale, nullptr);
+  const ScreenArea area = area_of(monitor);
+  const auto fitting = [&](float wanted, int most) {
+    const bool is_larger = pixels(wanted, scale) > most;
+    return is_larger ? pixels(kMostOfMonitor, static_cast<float>(most)) : pixels(wanted, scale);
+  };
+  // No profile and no version: whoever else draws into our context may want the old functions.
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "jnd");
+  main = glfwCreateWindow(fitting(settings.width, area.width),
+                          fitting(settings.height, area.height), settings.title.c_str(),
+                          nullptr, nullptr);
+  if (main == nullptr) {
+    throw core::Error("the window cannot be opened: expected OpenGL 3 or newer, found none (" +
+                      last_glfw_error() + "); install libgl1-mesa-dri or a graphics driver");
+  }
+  glfwMakeContextCurrent(main);
+  // Waiting for the monitor could stop the heartbeat while the window is hidden.
+  glfwSwapInterval(0);
+  glfwSetWindowSizeLimits(main, std::min(pixels(kLeastWidth, scale), area.width),
+                          std::min(pixels(kLeastHeight, scale), area.height), GLFW_DONT_CARE,
+                          GLFW_DONT_CARE);
+
+  context = ImGui::CreateContext();
+  prepare_fonts();
+  ImGuiIO& io = ImGui::GetIO();
+  io.ClipboardUserData = main;
+  io.SetClipboardTextFn = [](void* to, const char* text) {
+    glfwSetClipboardString(static_cast<GLFWwindow*>(to), text);
+  };
+  io.GetClipboardTextFn = [](void* from) {
+    return glfwGetClipboardString(static_cast<GLFWwindow*>(from));
+  };
+  has_renderer = ImGui_ImplOpenGL3_Init("#version 130");
+  if (!has_renderer) {
+    throw core::Error(
+        "the window cannot be opened: expected OpenGL 3 or newer, found an older "
+        "one; install libgl1-mesa-dri or a graphics driver");
+  }
+  ui = std::make_unique<Ui>(theme);
+  text_cursor = glfwCreateStandardCursor(GLFW_IBEAM_CURSOR);
+  hand_cursor = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
+  install_callbacks(main, true);
+  glfwShowWindow(main);
+}
+
+void Window::open_second(const std::string& title, Frame frame) {
+  Implementation& my = *my_;
+  my.second_frame = std::move(frame);
+  my.second_is_unwanted = false;
+  my.something_happened(false);
+  if (my.second != nullptr) return;
+  GLFWmonitor* here = monitor_of(my.main);
+  GLFWmonitor* other = nullptr;
+  for (GLFWmonitor* monitor : monitors()) {
+    if (monitor != here) other = monitor;
+  }
+  // The keyboard stays with the experimenter.
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
+  glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
+  glfwWindowHint(GLFW_DECORATED, other == nullptr ? GLFW_TRUE : GLFW_FALSE);
+  const ScreenArea area = other == nullptr ? ScreenArea{0, 0, 960, 640} : area_of(other);
+  my.second = glfwCreateWindow(area.width, area.height, title.c_str(), nullptr, my.main);
+  glfwDefaultWindowHints();
+  if (my.second == nullptr) {
+    throw core::Error("the participant's window cannot be opened: " + last_glfw_error());
+  }
+  if (other != nullptr) glfwSetWindowPos(my.second, area.x, area.y);
+  glfwMakeContextCurrent(my.second);
+  glfwSwapInterval(0);
+  glfwMakeContextCurrent(my.main);
+  my.second_context = ImGui::CreateContext(my.theme.font(Font::kBody)->ContainerAtlas);
+  ImGui::SetCurrentContext(my.second_context);
+  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  my.second_ui = std::make_unique<Ui>(my.theme);
+  ImGui::SetCurrentContext(my.context);
+  my.install_callbacks(my.second, false);
+  glfwShowWindow(my.second);
+}
+
+void Window::Implementation::draw_second() {
+  // A monitor that was unplugged leaves its window where nobody sees it.
+  if (monitor_of(second) == nullptr) second_is_unwanted = true;
+  second_ui->begin_frame(no_input);
+  second_frame(*second_ui);
+  widget_log.keep_texts(second_ui->end_frame());
+  ImDrawData* data = ImGui::GetDrawData();
+  glfwMakeContextCurrent(second);
+  // The first context's renderer draws both: what it made is shared by the two windows.
+  ImGui::SetCurrentContext(context);
+  clear();
+  ImGui_ImplOpenGL3_RenderDrawData(data);
+  glfwSwapBuffers(second);
+  glfwMakeContextCurrent(main);
+}
+
+void Window::Implementation::close_second() {
+  if (second == nullptr) return;
+  second_ui.reset();
+  ImGui::DestroyContext(std::exchange(second_context, nullptr));
+  glfwDestroyWindow(std::exchange(second, nullptr));
+  second_frame = nullptr;
+  ImGui::SetCurrentContext(context);
+  glfwMakeContextCurrent(main);
+}
+
+Window::Implementation::~Implementation() {
+  if (main == nullptr) return;
+  if (context != nullptr) {
+    close_second();
+    ui.reset();
+    if (has_renderer) ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext(context);
+  }
+  if (text_cursor != nullptr) glfwDestroyCursor(text_cursor);
+  if (hand_cursor != nullptr) glfwDestroyCursor(hand_cursor);
+  glfwDestroyWindow(main);
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace jnd::app {
+
+/// What the window shows first.
+struct WindowRequest {
+  std::filesystem::path study_folder;  ///< "": the start view.
+  bool shows_results = false;          ///< Of that folder.
+  /// A session to be prepared: of this study file, in that folder, made if absent.
+  std::filesystem::path study_file;
+  std::string participant;
+  std::string device;  ///< "": chosen in the window.
+  std::optional<std::uint64_t> seed;
+  bool pilot = false;
+  bool allow_no_realtime = false;
+  /// A session to go on with.
+  std::optional<std::int64_t> resume_session;
+};
+
+/// Whether there is a display to open a window on.
+[[nodiscard]] bool has_display();
+
+/// Opens the window and returns when it is closed, with an exit code. Throws
+/// `EnvironmentError` without a display.
+[[nodiscard]] int open_window(const WindowRequest& request);
+
+}  // namespace jnd::app

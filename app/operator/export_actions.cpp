@@ -1,0 +1,143 @@
+#include "app/operator/export_actions.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "analysis/export/csv_export.h"
+#include "app/operator/figure_tables.h"
+#include "app/operator/results_model.h"
+#include "app/replay_check.h"
+#include "app/session_setup.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/storage/backup.h"
+#include "core/storage/files.h"
+#include "core/storage/integrity.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string counted(std::int64_t count, const std::string& one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string sentence_of(const core::Finding& finding) {
+  return finding.session == 0 ? finding.message
+                              : fmt::format("session {}: {}", finding.session, finding.message);
+}
+
+ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& what) {
+  ActionOutcome outcome{.ok = integrity.complete};
+  for (const core::Finding& problem : integrity.problems) {
+    outcome.problems.push_back(sentence_of(problem));
+  }
+  outcome.sentence =
+      outcome.ok ? fmt::format("{}: complete, {} with {} and {} read back", what,
+                               counted(integrity.num_sessions, "session"),
+                               counted(integrity.num_trials, "answer"),
+                               counted(integrity.num_samples, "sample"))
+                 : fmt::format("{}: {}, the first: {}", what,
+                               counted(std::ssize(outcome.problems), "problem"),
+                               outcome.problems.empty() ? "" : outcome.problems.front());
+  return outcome;
+}
+
+/// Throws `Error` unless nothing can be overwritten in it.
+void require_free(const fs::path& target) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(target, error);
+  if (!fs::exists(status)) return;
+  if (fs::is_directory(target, error) && fs::is_empty(target, error) && !error) return;
+  throw core::Error(target.string() +
+                    ": expected a new or empty folder, found something in it; choose another");
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+  std::FILE* stream = std::fopen(file.c_str(), "wx");
+  bool written = stream != nullptr;
+  if (written) {
+    written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+    written = std::fclose(stream) == 0 && written;
+  }
+  if (written) return;
+  throw core::Error(file.string() + ": expected to be written, found that it cannot be: " +
+                    std::strerror(errno));
+}
+
+}  // namespace
+
+ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
+                            WorkControl& control) {
+  const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
+  control.progress(0.1);
+  control.stop_if_cancelled();
+  analysis::export_csv(store, target, {});
+  std::int64_t answers = 0;
+  for (const core::SessionOverview& one : store.overview()) answers += one.num_answers;
+  control.progress(1.0);
+  return {.sentence = fmt::format(
+              "{} of {} are written to {}, with a codebook", counted(answers, "answer"),
+              counted(std::ssize(store.sessions()), "session"), target.string())};
+}
+
+ActionOutcome verify_study(const fs::path& folder, WorkControl& control) {
+  core::Integrity integrity;
+  try {
+    const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+    integrity = core::verify(store);
+    control.progress(0.9);
+    control.stop_if_cancelled();
+    check_replay(store, integrity);
+  } catch (const core::Error& error) {
+    // One that cannot even be opened is a finding like any other.
+    integrity = {.complete = false, .problems = {{0, error.what()}}};
+  }
+  control.progress(1.0);
+  return outcome_of(integrity, folder.filename().string());
+}
+
+ActionOutcome back_up_study(const fs::path& folder, const fs::path& target,
+                            WorkControl& control) {
+  const core::BackupReport report =
+      core::back_up(folder, target, core::SystemClock().now_ns(), [&control](double done) {
+        control.progress(0.9 * done);
+        control.stop_if_cancelled();
+      });
+  control.progress(1.0);
+  ActionOutcome outcome = outcome_of(report.integrity, "backup in " + target.string());
+  for (const std::string& remark : report.remarks) outcome.problems.push_back(remark);
+  return outcome;
+}
+
+ActionOutcome write_report(const fs::path& folder, const fs::path& target,
+                           WorkControl& control) {
+  require_free(target);
+  const ResultsModel model = results_model(folder, control);
+  control.stop_if_cancelled();
+  const fs::path figures = target / "figures";
+  core::make_private_folders(figures);
+  write_file(target / "results.txt", model.table);
+  const int num_files = 1 + write_figure_tables(model, figures);
+  return {.sentence = fmt::format("{} with every number and the data of every figure are in {}",
+                                  counted(num_files, "file"), target.string())};
+}
+
+fs::path free_folder_beside(const fs::path& study_folder, const std::string& ending) {
+  const fs::path whole = fs::absolute(study_folder).lexically_normal();
+  const fs::path parent = whole.parent_path();
+  const std::string name = whole.stem().string() + "-" + ending;
+  fs::path folder = parent / name;
+  std::error_code ignored;
+  for (int number = 2; fs::exists(fs::symlink_status(folder, ignored)); ++number) {
+    folder = parent / (name + "-" + std::to_string(number));
+  }
+  return folder;
+}
+
+}  // namespace jnd::app

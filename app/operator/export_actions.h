@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/operator/background_task.h"
+
+namespace jnd::app {
+
+/// What came of something a button began.
+struct ActionOutcome {
+  bool ok = true;
+  std::string sentence;               ///< "13 sessions and 1040 answers are in ..."
+  std::vector<std::string> problems;  ///< Of a verification, a sentence each.
+};
+
+// Each is for a `BackgroundTask`. All throw `core::Error` where it cannot be done, and leave
+// the study as it is. Not real time.
+
+/// Tables with a codebook. `target` must not exist or be empty. Refused for a double-blind
+/// study that nobody has unblinded.
+[[nodiscard]] ActionOutcome export_tables(const std::filesystem::path& folder,
+                                          const std::filesystem::path& target,
+                                          WorkControl& control);
+
+/// Reads everything back and compares it with what should be there.
+[[nodiscard]] ActionOutcome verify_study(const std::filesystem::path& folder,
+                                         WorkControl& control);
+
+/// A copy, or an earlier copy brought up to date, read back.
+[[nodiscard]] ActionOutcome back_up_study(const std::filesystem::path& folder,
+                                          const std::filesystem::path& target,
+                                          WorkControl& control);
+
+/// results.txt with every number, and figures/NAME.csv with what each figure draws. `target`
+/// must not exist or be empty. Refused like `export_tables`.
+[[nodiscard]] ActionOutcome write_report(const std::filesystem::path& folder,
+                                         const std::filesystem::path& target,
+                                         WorkControl& control);
+
+/// Beside the study: "NAME-csv", or "NAME-csv-2" and so on, whichever does not exist yet.
+[[nodiscard]] std::filesystem::path free_folder_beside(
+    const std::filesystem::path& study_folder, const std::string& ending);
+
+}  // namespace jnd::app

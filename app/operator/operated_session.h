@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "app/operator/operator_doors.h"
+#include "app/operator/operator_request.h"
+#include "app/operator/session_view.h"
+#include "app/presenter.h"
+#include "app/visit.h"
+#include "core/storage/study_store.h"
+#include "experiments/participants/laboratory.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+class LiveTrace;
+
+/// A session that an operator runs next to a participant: takes requests in their order, moves
+/// the session on and says what it waits for. Every act is on disk before the view tells of it.
+/// One thread; see `SessionWorker` for the one beside a window. Not real time.
+class OperatedSession {
+ public:
+  struct Parameters {
+    core::StudyStore& store;
+    std::int64_t session = 0;  ///< Its row is in the store already.
+    const experiments::Study& study;
+    /// Of the simulated hand; nullptr for a device that needs none.
+    const experiments::Laboratory* laboratory = nullptr;
+    OperatorDoors& doors;
+    LiveTrace* trace = nullptr;  ///< Gets every sample, unless levels are hidden.
+    std::string language;        ///< Of the study's texts; "": its first.
+    bool realtime = true;        ///< Else time passes only in `advance`: for tests.
+    bool allow_no_realtime = false;
+  };
+
+  /// Starts the device; throws `Error` if it cannot be.
+  explicit OperatedSession(const Parameters& parameters);
+
+  void request(OperatorRequest request);
+  /// Carries out what was requested and is due. Without real time, `duration_s` passes first.
+  void advance(double duration_s);
+  [[nodiscard]] SessionView view() const;
+  /// The operator has left, the session is over, or nothing more can be stored.
+  [[nodiscard]] bool over() const noexcept { return left_; }
+
+ private:
+  struct Act;  ///< One overload for each request.
+
+  /// A medium that is being felt outside of any trial.
+  struct Feeling {
+    std::int64_t first_tick = 0;
+    experiments::MediumSetting setting;
+  };
+
+  void carry_out_requests();
+  void carry_out(const OperatorRequest& request);
+  [[nodiscard]] bool must_wait(const OperatorRequest& request) const;
+  void watch_for_faults();
+  void follow_session();
+  void enter_stage();
+  [[nodiscard]] bool stage_is_complete() const;
+  void rest_before_trial();
+  void abandon_presentation();
+  void end_feeling(bool counts);
+  void give_up(const std::string& why);
+  void move_simulated_hand(double height_m);
+
+  [[nodiscard]] double now_s() const;
+  [[nodiscard]] const experiments::SessionState& state() const;
+  [[nodiscard]] const experiments::Stage* stage() const;
+  [[nodiscard]] const experiments::Block* block() const;
+  [[nodiscard]] std::optional<experiments::Exploration> next_medium() const;
+  [[nodiscard]] Step step() const;
+  [[nodiscard]] Step step_in_stage() const;
+
+  [[nodiscard]] std::string words(const experiments::Text& text) const;
+  [[nodiscard]] std::string title_of(std::size_t stage) const;
+  [[nodiscard]] std::optional<ItemView> item_view() const;
+  [[nodiscard]] ItemView question_view(const experiments::QuestionnaireItem& question,
+                                       int index) const;
+  [[nodiscard]] std::vector<ItemView> answered_items() const;
+  [[nodiscard]] TrialView trial_view(std::int64_t trial) const;
+  [[nodiscard]] MediumView medium_view(const experiments::Exploration& medium) const;
+  [[nodiscard]] std::vector<AnswerLine> answer_lines() const;
+  [[nodiscard]] std::string level_of(const experiments::TrialState& trial) const;
+  void describe_loop(SessionView& view) const;
+  void describe_progress(SessionView& view) const;
+
+  Parameters parameters_;
+  core::SessionRow row_;
+  bool hides_levels_;
+  std::string remark_;
+  Visit visit_;
+  experiments::Session& session_;
+  Presenter presenter_;
+
+  std::deque<OperatorRequest> requests_;
+  bool begun_ = false;
+  bool left_ = false;
+  core::Fault known_fault_ = core::Fault::kNone;
+  bool rearming_ = false;
+  std::string failure_;
+  std::string refusal_;
+  std::uint64_t num_refusals_ = 0;
+  std::optional<Feeling> feeling_;
+  double begun_s_ = 0.0;
+  double rest_until_s_ = 0.0;
+  std::int64_t resting_for_trial_ = 0;
+  double break_until_s_ = 0.0;
+  std::optional<double> reference_felt_s_;
+  double block_begun_s_ = 0.0;
+  std::int64_t answered_before_ = 0;  ///< In this block, before this visit.
+};
+
+}  // namespace jnd::app

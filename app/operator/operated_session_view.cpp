@@ -1,0 +1,397 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/operator/operated_session.h"
+#include "app/operator/session_words.h"
+#include "app/operator/study_outline.h"
+#include "core/safety/fault.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/session/plan.h"
+
+namespace jnd::app {
+
+using namespace experiments;
+
+namespace {
+
+constexpr std::size_t kMostAnswersShown = 50;
+
+Text instruction_of(const Stage& stage) {
+  struct Instruction {
+    Text operator()(const Explore& content) const { return content.instruction; }
+    Text operator()(const Training& content) const { return content.instruction; }
+    Text operator()(const Block& content) const { return content.instruction; }
+    Text operator()(const Break& content) const { return content.instruction; }
+    Text operator()(const Questionnaire& content) const { return content.instruction; }
+    Text operator()(const Checklist&) const { return {}; }
+    Text operator()(const Consent&) const { return {}; }
+    Text operator()(const PostExperiment&) const { return {}; }
+    Text operator()(const Counterbalance&) const { return {}; }
+  };
+  return std::visit(Instruction{}, stage.content);
+}
+
+ItemView::Kind kind_of_item(const std::string& kind) {
+  if (kind == "number") return ItemView::Kind::kNumber;
+  if (kind == "choice") return ItemView::Kind::kChoice;
+  if (kind == "yes_no") return ItemView::Kind::kYesNo;
+  if (kind == "yes_no_which") return ItemView::Kind::kYesNoWhich;
+  if (kind == "scale") return ItemView::Kind::kScale;
+  if (kind == "words") return ItemView::Kind::kWords;
+  return ItemView::Kind::kText;
+}
+
+const TrialState* current_state(const SessionState& state) {
+  const std::optional<std::int64_t> trial = state.current_trial();
+  return trial ? &state.trial(*trial) : nullptr;
+}
+
+}  // namespace
+
+std::string OperatedSession::words(const Text& text) const {
+  if (text.empty()) return "";
+  const auto chosen = text.find(parameters_.language);
+  if (chosen != text.end()) return chosen->second;
+  const auto first = text.find(parameters_.study.languages.front());
+  return first != text.end() ? first->second : text.begin()->second;
+}
+
+std::string OperatedSession::title_of(std::size_t index) const {
+  return shown_titles(session_.stages(), parameters_.language, hides_levels_).at(index);
+}
+
+/// The medium of an exploring stage that waits, or of the post-experiment item that does.
+std::optional<Exploration> OperatedSession::next_medium() const {
+  if (stage() == nullptr || !state().stage_open) return std::nullopt;
+  const auto next = static_cast<std::size_t>(state().num_explored);
+  const auto of = [&](const std::vector<Exploration>& media) -> std::optional<Exploration> {
+    if (next < media.size()) return media[next];
+    return std::nullopt;
+  };
+  if (const auto* explore = std::get_if<Explore>(&stage()->content)) return of(explore->media);
+  if (const auto* training = std::get_if<Training>(&stage()->content)) {
+    return of(training->examples);
+  }
+  if (const auto* post = std::get_if<PostExperiment>(&stage()->content)) {
+    for (const PostExperimentItem& item : post->items) {
+      if (state().answers.contains({state().stage, item.name})) continue;
+      return Exploration{.setting = item.setting, .duration_s = 0.0, .say = item.instruction};
+    }
+  }
+  return std::nullopt;
+}
+
+bool OperatedSession::stage_is_complete() const {
+  if (std::holds_alternative<Break>(stage()->content)) return now_s() >= break_until_s_;
+  if (block() != nullptr) return !state().current_trial();
+  return !item_view() && !next_medium();
+}
+
+Step OperatedSession::step() const {
+  if (!failure_.empty()) return Step::kFailed;
+  if (known_fault_ != core::Fault::kNone) return Step::kFault;
+  if (!begun_) return Step::kBegin;
+  if (state().ended) return Step::kFinished;
+  if (state().paused) return Step::kPaused;
+  if (stage() == nullptr || !state().stage_open) return Step::kStageDone;
+  return step_in_stage();
+}
+
+Step OperatedSession::step_in_stage() const {
+  if (feeling_) return Step::kFeeling;
+  if (std::holds_alternative<Break>(stage()->content)) return Step::kBreak;
+  if (block() != nullptr) {
+    const TrialState* trial = current_state(state());
+    if (trial == nullptr) return Step::kStageDone;
+    if (presenter_.under_way()) return Step::kPresenting;
+    return now_s() < rest_until_s_ ? Step::kRest : Step::kReady;
+  }
+  if (next_medium()) return Step::kMedium;
+  return item_view() ? Step::kItem : Step::kStageDone;
+}
+
+std::optional<ItemView> OperatedSession::item_view() const {
+  if (stage() == nullptr || !state().stage_open) return std::nullopt;
+  ItemView item{.stage = state().stage};
+  const auto is_answered = [&](const std::string& name) {
+    return state().answers.contains({state().stage, name});
+  };
+  if (const auto* checklist = std::get_if<Checklist>(&stage()->content)) {
+    item.count = static_cast<int>(checklist->items.size());
+    for (const ChecklistItem& tick : checklist->items) {
+      item.name = "item_" + std::to_string(item.index);
+      item.text = words(tick.text);
+      item.say = words(tick.say);
+      if (!is_answered(item.name)) return item;
+      ++item.index;
+    }
+  } else if (const auto* consent = std::get_if<Consent>(&stage()->content)) {
+    item.name = "consent";
+    item.kind = ItemView::Kind::kConsent;
+    item.text = words(consent->agreement);
+    for (const Text& paragraph : consent->paragraphs) {
+      item.paragraphs.push_back(words(paragraph));
+    }
+    if (!is_answered(item.name)) return item;
+  } else if (const auto* post = std::get_if<PostExperiment>(&stage()->content)) {
+    item.count = static_cast<int>(post->items.size());
+    for (const PostExperimentItem& question : post->items) {
+      item.name = question.name;
+      item.kind = kind_of_item(question.answer);
+      item.text = words(question.question);
+      item.num_words = question.num_words;
+      if (!is_answered(item.name)) return item;
+      ++item.index;
+    }
+  } else if (const auto* form = std::get_if<Questionnaire>(&stage()->content)) {
+    item.count = static_cast<int>(form->items.size());
+    for (const QuestionnaireItem& question : form->items) {
+      if (!is_answered(question.name)) return question_view(question, item.index);
+      ++item.index;
+    }
+  }
+  return std::nullopt;
+}
+
+ItemView OperatedSession::question_view(const QuestionnaireItem& question, int index) const {
+  const auto& form = std::get<Questionnaire>(stage()->content);
+  ItemView item{.stage = state().stage,
+                .name = question.name,
+                .kind = kind_of_item(question.kind),
+                .text = words(question.question),
+                .unit = question.unit,
+                .minimum = question.minimum,
+                .maximum = question.maximum,
+                .num_steps = question.num_steps,
+                .low_label = words(question.low_label),
+                .high_label = words(question.high_label),
+                .required = question.required,
+                .index = index,
+                .count = static_cast<int>(form.items.size())};
+  for (const Option& option : question.options) {
+    item.options.push_back({option.value, words(option.label)});
+  }
+  return item;
+}
+
+std::vector<ItemView> OperatedSession::answered_items() const {
+  std::vector<ItemView> items;
+  if (stage() == nullptr || !state().stage_open) return items;
+  const auto* form = std::get_if<Questionnaire>(&stage()->content);
+  if (form == nullptr) return items;
+  int index = 0;
+  for (const QuestionnaireItem& question : form->items) {
+    ++index;
+    const auto answer = state().answers.find({state().stage, question.name});
+    if (answer == state().answers.end()) continue;
+    items.push_back(question_view(question, index));
+    items.back().answer = answer->second;
+  }
+  return items;
+}
+
+std::string OperatedSession::level_of(const TrialState& trial) const {
+  if (hides_levels_) return "";
+  const Block& its_block =
+      std::get<Block>(session_.stages().at(static_cast<std::size_t>(trial.stage))->content);
+  const PlannedTrial& planned = trial.planned;
+  const double level = planned.intensity.value_or(
+      trial.under_way ? trial.set_intensity : planned.starting_intensity.value_or(0.0));
+  std::string level_and_more = level_words(its_block.quantity, level);
+  if (planned.reference_intensity) {
+    level_and_more +=
+        ", reference " + level_words(its_block.quantity, *planned.reference_intensity);
+  }
+  return level_and_more;
+}
+
+TrialView OperatedSession::trial_view(std::int64_t number) const {
+  const TrialState& trial = state().trial(number);
+  const TrialForm form = session_.current_form();
+  TrialView view{.trial = number,
+                 .repetition = trial.planned.repetition,
+                 .answer = form.answer,
+                 .has_reference = form.has_reference,
+                 .adjustable = form.adjustable};
+  view.num_in_block = 0;
+  for (std::size_t i = 0; i < state().trials.size(); ++i) {
+    if (state().trials[i].stage != trial.stage) continue;
+    ++view.num_in_block;
+    view.num_repetitions = std::max(view.num_repetitions, state().trials[i].planned.repetition);
+    if (static_cast<std::int64_t>(i) + 1 == number) view.in_block = view.num_in_block;
+  }
+  if (presenter_.under_way()) {
+    view.interval = trial.presentations.back().interval;
+    view.felt_s = presenter_.felt_s();
+    if (!hides_levels_) view.num_strokes = visit_.apparatus().num_metered_strokes();
+  }
+  view.reference_felt_s = reference_felt_s_;
+  view.can_answer =
+      trial.under_way &&
+      std::any_of(trial.presentations.begin(), trial.presentations.end(),
+                  [](const PresentationState& felt) { return felt.interval == "test"; });
+  view.question = words(block()->question);
+  view.yes_label = block()->yes_label.empty() ? "Yes" : words(block()->yes_label);
+  view.no_label = block()->no_label.empty() ? "No" : words(block()->no_label);
+  view.target_percent = trial.planned.target_percent;
+  view.level = level_of(trial);
+  view.rest_left_s = std::max(0.0, rest_until_s_ - now_s());
+  return view;
+}
+
+MediumView OperatedSession::medium_view(const Exploration& medium) const {
+  MediumView view{.name = hides_levels_ && medium.setting.medium != "free_space"
+                              ? "a fluid"
+                              : words_of(medium.setting),
+                  .say = words(medium.say),
+                  .duration_s = medium.duration_s,
+                  .index = static_cast<int>(state().num_explored) + 1};
+  if (const auto* explore = std::get_if<Explore>(&stage()->content)) {
+    view.count = static_cast<int>(explore->media.size());
+  } else if (const auto* training = std::get_if<Training>(&stage()->content)) {
+    view.count = static_cast<int>(training->examples.size());
+  } else if (const auto* post = std::get_if<PostExperiment>(&stage()->content)) {
+    view.count = static_cast<int>(post->items.size());
+  }
+  if (feeling_) {
+    view.felt_s = static_cast<double>(visit_.apparatus().next_tick() - feeling_->first_tick) /
+                  parameters_.study.device.rate_hz;
+  }
+  return view;
+}
+
+std::vector<AnswerLine> OperatedSession::answer_lines() const {
+  std::vector<AnswerLine> lines;
+  const std::optional<std::int64_t> last = state().last_answered_trial();
+  std::vector<int> in_block(session_.stages().size(), 0);
+  for (std::size_t i = 0; i < state().trials.size(); ++i) {
+    const TrialState& trial = state().trials[i];
+    const auto its_stage = static_cast<std::size_t>(trial.stage);
+    ++in_block[its_stage];
+    if (!trial.response) continue;
+    const Block& its_block = std::get<Block>(session_.stages().at(its_stage)->content);
+    const AnswerKind kind = procedure_named(its_block.procedure).form().answer;
+    AnswerLine line{.trial = static_cast<std::int64_t>(i) + 1,
+                    .in_block = in_block[its_stage],
+                    .block = title_of(its_stage),
+                    .kind = kind,
+                    .response_time_s = trial.response_time_s};
+    const bool hidden = hides_levels_ && kind == AnswerKind::kMatch;
+    line.answer = hidden ? "set"
+                  : kind == AnswerKind::kMatch
+                      ? level_words(its_block.quantity, *trial.response)
+                  : kind == AnswerKind::kYesNo && !its_block.yes_label.empty()
+                      ? words(*trial.response == 1.0 ? its_block.yes_label : its_block.no_label)
+                      : answer_words(kind, *trial.response);
+    line.can_undo = last == line.trial && trial.stage == state().stage && !state().ended;
+    lines.push_back(std::move(line));
+  }
+  std::reverse(lines.begin(), lines.end());
+  if (lines.size() > kMostAnswersShown) lines.resize(kMostAnswersShown);
+  return lines;
+}
+
+void OperatedSession::describe_loop(SessionView& view) const {
+  const Apparatus& apparatus = visit_.apparatus();
+  view.telemetry = apparatus.telemetry();
+  view.max_total_force_n = apparatus.max_total_force_n();
+  view.loop.rate_hz = parameters_.study.device.rate_hz;
+  view.loop.num_dropped_samples = view.telemetry.num_dropped_samples;
+  view.stop_pressed = parameters_.doors.emergency_stop.is_pressed();
+  view.num_stop_presses = parameters_.doors.emergency_stop.num_presses();
+  if (const device::RealtimeThread* thread = apparatus.realtime_thread()) {
+    const device::LoopTiming& timing = thread->timing();
+    view.loop.lateness_p99_us =
+        1e-3 * static_cast<double>(timing.lateness().percentile_ns(0.99));
+    view.loop.max_lateness_us = 1e-3 * static_cast<double>(timing.lateness().max_ns());
+    view.loop.missed_ticks = timing.missed_ticks();
+    view.loop.realtime = thread->report().realtime_scheduler && thread->report().memory_locked;
+  }
+  view.loop.scheduler = apparatus.realtime();
+  if (!hides_levels_) return;
+  // Speed and force tell the level; within the limits or not is all that may be known.
+  view.telemetry.total_force_n = {};
+  view.telemetry.hand_velocity_m_per_s = {};
+  view.telemetry.sample.tip_force_n = {};
+  view.telemetry.sample.tip_velocity_m_per_s = {};
+  view.telemetry.contact_sums = {};
+  view.telemetry.num_limited_ticks = 0;
+}
+
+void OperatedSession::describe_progress(SessionView& view) const {
+  const std::vector<const Stage*>& stages = session_.stages();
+  double done_s = 0.0;
+  double whole_s = 0.0;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const double expected_s = expected_duration_s(*stages[i]);
+    const auto index = static_cast<std::int64_t>(i);
+    whole_s += expected_s;
+    StageLine line{.title = title_of(i)};
+    if (state().ended || index < state().stage) {
+      line.status = StageLine::Status::kDone;
+      done_s += expected_s;
+    } else if (index == state().stage && begun_) {
+      line.status = StageLine::Status::kNow;
+      if (view.trial) {
+        done_s += expected_s * (view.trial->in_block - 1) / view.trial->num_in_block;
+      } else if (block() != nullptr && state().stage_open) {
+        done_s += expected_s;
+      }
+    }
+    view.stages.push_back(std::move(line));
+  }
+  view.elapsed_s = begun_ ? now_s() - begun_s_ : 0.0;
+  view.left_s = std::max(0.0, whole_s - done_s);
+  view.done_ratio = state().completed ? 1.0 : whole_s > 0.0 ? done_s / whole_s : 0.0;
+}
+
+SessionView OperatedSession::view() const {
+  SessionView view{.study = words(parameters_.study.title),
+                   .participant = row_.participant,
+                   .device = row_.device,
+                   .language = parameters_.language.empty()
+                                   ? parameters_.study.languages.front()
+                                   : parameters_.language,
+                   .pilot = row_.pilot,
+                   .simulated = row_.simulated,
+                   .blinding = parameters_.study.blinding,
+                   .hides_levels = hides_levels_};
+  view.step = step();
+  view.stage = state().stage;
+  view.last_sequence = state().last_sequence;
+  if (begun_ && state().stage_open && !state().ended) {
+    view.item = item_view();
+    view.answered_items = answered_items();
+    if (const auto medium = next_medium()) view.medium = medium_view(*medium);
+    if (const auto trial = state().current_trial(); trial && block() != nullptr) {
+      view.trial = trial_view(*trial);
+    }
+    if (const auto* rest = std::get_if<Break>(&stage()->content)) {
+      view.break_s = rest->duration_s;
+      view.break_left_s = std::max(0.0, break_until_s_ - now_s());
+    }
+  }
+  view.answers = answer_lines();
+  view.trials_on_disk = static_cast<std::int64_t>(
+      std::count_if(state().trials.begin(), state().trials.end(),
+                    [](const TrialState& trial) { return trial.response.has_value(); }));
+  view.notes = state().notes;
+  describe_loop(view);
+  describe_progress(view);
+  if (!failure_.empty()) {
+    view.fault = failure_;
+    view.fault_name = "storage_failed";
+  } else if (known_fault_ != core::Fault::kNone) {
+    view.fault = std::string(core::words(known_fault_));
+    view.fault_name = std::string(core::name(known_fault_));
+  }
+  view.refusal = refusal_;
+  view.num_refusals = num_refusals_;
+  view.remark = remark_;
+  const bool has_stage = stage() != nullptr && begun_;
+  add_words(view, has_stage ? title_of(static_cast<std::size_t>(state().stage)) : "",
+            has_stage ? words(instruction_of(*stage())) : "");
+  return view;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "experiments/session/session.h"
+
+namespace jnd::app {
+
+/// What the operator asks of a session. A view returns them, the session carries them out in
+/// their order; one that is not possible any more is refused with a sentence, never half done.
+namespace operate {
+
+/// Starts the session, or goes on after an interruption: "repeat", "restart" or "end".
+struct Begin {
+  std::string choice = "repeat";
+};
+
+/// Ticks the item, gives the consent, answers the question. `item` is what the view showed, so
+/// that a key pressed twice does not answer the next one, too.
+struct AnswerItem {
+  std::int64_t stage = 0;
+  std::string item;
+  std::string answer;
+};
+
+/// Explore, training, post-experiment: feel the medium that waits, or end feeling it.
+struct FeelMedium {};
+struct FinishMedium {};
+
+/// Leaves the stage when everything in it is done; a break earlier than its rest with a reason.
+struct FinishStage {
+  std::int64_t stage = 0;
+  std::string reason;
+};
+
+/// The medium switched: "reference", "test" or "free_space".
+struct Present {
+  std::int64_t trial = 0;
+  std::string interval;
+};
+
+/// Percent, or 1 and 0. In a production `value` is ignored: it matches.
+struct Answer {
+  std::int64_t trial = 0;
+  double value = 0.0;
+};
+
+struct Adjust {
+  std::int64_t trial = 0;
+  experiments::Direction direction = experiments::Direction::kRaise;
+  experiments::StepSize size = experiments::StepSize::kCoarse;
+  bool held = false;  ///< A held key goes on: left out while the step before is not done yet.
+};
+
+/// Takes the last answer of the block back; its trial is run again.
+struct Undo {
+  std::string reason;
+};
+/// Sets an answer of any block right, its presentations untouched.
+struct Correct {
+  std::int64_t trial = 0;
+  double value = 0.0;
+  std::string reason;
+};
+struct AddNote {
+  std::string text;
+};
+struct Pause {
+  std::string reason;
+};
+struct GoOn {};
+/// After the emergency stop or a fault: the stop released, force back, the trial run again.
+/// Nothing of it if the stop was pressed again since `num_stop_presses` was seen.
+struct Rearm {
+  std::uint64_t num_stop_presses = 0;
+};
+/// For good: not resumable.
+struct EndEarly {
+  std::string reason;
+};
+/// The session stays open and can be resumed; force to zero.
+struct Leave {
+  std::string reason;
+};
+
+}  // namespace operate
+
+using OperatorRequest =
+    std::variant<operate::Begin, operate::AnswerItem, operate::FeelMedium,
+                 operate::FinishMedium, operate::FinishStage, operate::Present, operate::Answer,
+                 operate::Adjust, operate::Undo, operate::Correct, operate::AddNote,
+                 operate::Pause, operate::GoOn, operate::Rearm, operate::EndEarly,
+                 operate::Leave>;
+
+}  // namespace jnd::app

@@ -1,0 +1,196 @@
+#include "app/operator/preflight.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "app/machine_checks.h"
+#include "app/operator/study_folder.h"
+#include "app/operator/study_outline.h"
+#include "core/error.h"
+#include "core/storage/study_store.h"
+#include "device/device_registry.h"
+
+namespace jnd::app {
+namespace {
+
+using Status = PreflightLine::Status;
+
+enum Place : std::size_t {
+  kStudyFile,
+  kFolder,
+  kDisk,
+  kPriority,
+  kMemory,
+  kDevice,
+  kStimuli,
+  kLoop,
+};
+
+/// A lack of this machine is one of the session only where somebody can be hurt.
+PreflightLine line_of(const MachineCheck& check, const std::string& name, bool must) {
+  PreflightLine line{.name = name, .found = check.ok ? "granted" : "refused"};
+  line.status = check.ok ? Status::kOk : (must ? Status::kFailed : Status::kWarning);
+  line.remedy = check.remedy;
+  return line;
+}
+
+/// Goes through everything, telling of each line as it comes.
+class Look {
+ public:
+  Look(const PreflightRequest& request, WorkControl& control,
+       const std::function<void(const std::vector<PreflightLine>&)>& on_lines)
+      : request_(request), control_(control), on_lines_(on_lines) {
+    for (const char* name : {"Study file", "Study folder", "Disk", "Real-time priority",
+                             "Memory lock", "Device", "Stimuli", "Loop"}) {
+      lines_.push_back({.name = name});
+    }
+    tell();
+  }
+
+  std::vector<PreflightLine> run() {
+    read_study();
+    put(kFolder, folder_line(request_.folder));
+    put(kDisk, disk());
+    const bool must = is_for_a_person() && !request_.allow_no_realtime;
+    put(kPriority, line_of(check_realtime_priority(), "Real-time priority", must));
+    put(kMemory, line_of(check_memory_lock(), "Memory lock", must));
+    put(kDevice,
+        device_line(request_.device, rate_hz_, study_ ? study_->device.min_contact_points : 1));
+    put(kStimuli, stimuli());
+    put(kLoop, loop());
+    return lines_;
+  }
+
+ private:
+  void tell() const {
+    if (on_lines_) on_lines_(lines_);
+  }
+  void put(Place place, PreflightLine line) {
+    lines_[place] = std::move(line);
+    tell();
+    control_.progress(kQuickRatio * static_cast<double>(place + 1) /
+                      static_cast<double>(lines_.size()));
+    control_.wake();
+    control_.stop_if_cancelled();
+  }
+
+  void read_study() {
+    put(kStudyFile, study_file_line(request_.folder));
+    try {
+      const core::StudyStore store(request_.folder, core::StudyStore::Mode::kReadOnly);
+      study_ = study_in(store);
+      rate_hz_ = study_->device.rate_hz;
+      hides_levels_ = study_->blinding == experiments::Blinding::kDouble && !store.unblinded();
+    } catch (const core::Error&) {
+      study_.reset();  // Its line says so.
+    }
+  }
+
+  [[nodiscard]] bool is_for_a_person() const try {
+    return !device::device_named(request_.device).make(rate_hz_)->capabilities().simulated;
+  } catch (const core::Error&) {
+    return true;
+  }
+
+  [[nodiscard]] PreflightLine disk() const {
+    const std::optional<double> free = free_bytes(request_.folder);
+    if (!free) return {.name = "Disk", .status = Status::kWarning, .found = "not known"};
+    constexpr double kHour_s = 3600.0;
+    return disk_line(*free, rate_hz_, study_ ? longest_session_s(*study_) : kHour_s);
+  }
+
+  [[nodiscard]] PreflightLine stimuli() const {
+    if (!study_) {
+      return {.name = "Stimuli",
+              .status = Status::kFailed,
+              .found = "not known",
+              .remedy = "mend the study first"};
+    }
+    return line_from("Stimuli", "not known", [&] {
+      const device::DeviceCapabilities can =
+          device::device_named(request_.device).make(rate_hz_)->capabilities();
+      const experiments::RangeLimits limits{.max_force_per_point_n = can.max_force_per_point_n,
+                                            .max_total_force_n = can.max_total_force_n};
+      return stimuli_line(experiments::planned_range(*study_, limits), limits, hides_levels_);
+    });
+  }
+
+  PreflightLine loop() {
+    return line_from("Loop", "does not run", [&] {
+      return loop_line(test_loop(request_, rate_hz_, [this](double done) {
+        control_.progress(kQuickRatio + (1.0 - kQuickRatio) * done);
+        control_.stop_if_cancelled();
+      }));
+    });
+  }
+
+  static constexpr double kQuickRatio = 0.2;  ///< The loop's test takes the rest of the time.
+
+  const PreflightRequest& request_;
+  WorkControl& control_;
+  const std::function<void(const std::vector<PreflightLine>&)>& on_lines_;
+  std::vector<PreflightLine> lines_;
+  std::optional<experiments::Study> study_;
+  double rate_hz_ = 1000.0;
+  bool hides_levels_ = true;
+};
+
+}  // namespace
+
+std::vector<PreflightLine> look_before_session(
+    const PreflightRequest& request, WorkControl& control,
+    const std::function<void(const std::vector<PreflightLine>&)>& on_lines) {
+  return Look(request, control, on_lines).run();
+}
+
+Preflight::Preflight(PreflightRequest request, std::function<void()> wake)
+    : work_(
+          [this, request = std::move(request)](WorkControl& control) {
+            (void)look_before_session(request, control,
+                                      [this](const std::vector<PreflightLine>& lines) {
+                                        const std::lock_guard guard(mutex_);
+                                        lines_ = lines;
+                                      });
+          },
+          std::move(wake)) {}
+
+std::vector<PreflightLine> Preflight::lines() const {
+  const std::lock_guard guard(mutex_);
+  return lines_;
+}
+
+bool Preflight::passed() const {
+  if (work_.status() != WorkStatus::kDone) return false;
+  const std::vector<PreflightLine> all = lines();
+  return std::none_of(all.begin(), all.end(), [](const PreflightLine& line) {
+    return line.status == Status::kFailed || line.status == Status::kWaiting;
+  });
+}
+
+std::vector<PreflightLine> look_at_machine() {
+  std::vector<PreflightLine> lines = {
+      line_of(check_realtime_priority(), "Real-time priority", false),
+      line_of(check_memory_lock(), "Memory lock", false)};
+  constexpr double kRate_hz = 1000.0;
+  constexpr double kSession_s = 3600.0;
+  if (const auto free = free_bytes(default_study_folder("study"))) {
+    lines.push_back(disk_line(*free, kRate_hz, kSession_s));
+  }
+  std::string real;
+  std::string simulated;
+  for (const device::DeviceEntry& entry : device::devices()) {
+    const device::DeviceCapabilities can = entry.make(kRate_hz)->capabilities();
+    if (can.simulated &&
+        device_line(std::string(entry.name), kRate_hz, 1).status != Status::kOk) {
+      continue;
+    }
+    std::string& list = can.simulated ? simulated : real;
+    list += (list.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  lines.push_back({.name = "Device",
+                   .status = real.empty() ? Status::kWarning : Status::kOk,
+                   .found = real.empty() ? "none connected; simulated: " + simulated : real});
+  return lines;
+}
+
+}  // namespace jnd::app

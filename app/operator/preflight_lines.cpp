@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <thread>
+
+#include "app/operator/preflight.h"
+#include "app/operator/study_folder.h"
+#include "core/error.h"
+#include "core/storage/study_store.h"
+#include "core/storage/writer_lock.h"
+#include "device/device_registry.h"
+#include "device/realtime_thread.h"
+
+namespace jnd::app {
+namespace {
+
+using Status = PreflightLine::Status;
+
+/// Recordings stay below this for the simulated hand, and keep room for others.
+constexpr double kBytesPerSample = 15.0;
+
+std::string size_words(double bytes) {
+  if (bytes >= 10e9) return fmt::format("{:.0f} GB", bytes / 1e9);
+  if (bytes >= 1e9) return fmt::format("{:.1f} GB", bytes / 1e9);
+  return fmt::format("{:.0f} MB", bytes / 1e6);
+}
+
+/// Two digits of a count, rounded down: "about 940".
+std::string about(double count) {
+  if (count >= 10'000.0) return "more than 10000";
+  const double step = count >= 1000.0 ? 100.0 : (count >= 100.0 ? 10.0 : 1.0);
+  return fmt::format("about {:.0f}", std::floor(count / step) * step);
+}
+
+std::string rate_words(double rate_hz) {
+  return rate_hz >= 1000.0 ? fmt::format("{:g} kHz", rate_hz / 1000.0)
+                           : fmt::format("{:g} Hz", rate_hz);
+}
+
+std::string loop_name(double rate_hz, double duration_s) {
+  return fmt::format("Loop at {} for {:g} s", rate_words(rate_hz), duration_s);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Device, loop and thread, stopped in the order that is safe whatever happens.
+struct RunningLoop {
+  RunningLoop(const PreflightRequest& request, double rate_hz)
+      : device(device::device_named(request.device).make(rate_hz)),
+        loop({.rate_hz = rate_hz}, *device, {commands, telemetry, emergency_stop, &samples}),
+        thread({}) {
+    device::start_haptics(*device, loop, thread, request.allow_no_realtime);
+  }
+  ~RunningLoop() {
+    thread.stop();
+    device->close();
+  }
+  RunningLoop(const RunningLoop&) = delete;
+  RunningLoop& operator=(const RunningLoop&) = delete;
+
+  core::LatestValue<core::HapticCommand> commands;  ///< None: free space.
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop emergency_stop;
+  core::SpscQueue<core::Sample> samples{1024};
+  std::unique_ptr<device::HapticDevice> device;
+  device::HapticLoop loop;
+  device::RealtimeThread thread;
+};
+
+}  // namespace
+
+PreflightLine line_from(const std::string& name, const std::string& failure,
+                        const std::function<PreflightLine()>& work) {
+  try {
+    return work();
+  } catch (const core::Error& error) {
+    return {.name = name, .status = Status::kFailed, .found = failure, .remedy = error.what()};
+  }
+}
+
+PreflightLine study_file_line(const std::filesystem::path& folder) {
+  const std::string name = "Study file";
+  return line_from(name, "cannot be used", [&]() -> PreflightLine {
+    const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+    const core::ProtocolRow protocol = protocol_in(store);
+    (void)study_in(store);
+    const std::filesystem::path file = study_file_of(store, protocol);
+    std::error_code ignored;
+    if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
+      return {.name = name, .status = Status::kOk, .found = "sound, kept in the folder"};
+    }
+    if (text_of(file) == protocol.text) {
+      return {.name = name, .status = Status::kOk, .found = "sound and unchanged"};
+    }
+    return {.name = name,
+            .status = Status::kWarning,
+            .found = "changed since the study began",
+            .remedy =
+                "sessions go on with the text kept in the folder; begin a new folder for "
+                "the changed one"};
+  });
+}
+
+PreflightLine folder_line(const std::filesystem::path& folder) {
+  const std::string name = "Study folder";
+  return line_from(name, "cannot be written", [&]() -> PreflightLine {
+    const core::WriterLock alone(folder);
+    const std::filesystem::path file = folder / "study.sqlite";
+    if (::access(file.c_str(), W_OK) != 0) {
+      throw core::Error(file.string() +
+                        ": expected a file that can be written, found that it cannot; look at "
+                        "its rights and its disk");
+    }
+    return {.name = name, .status = Status::kOk, .found = "ours alone to write"};
+  });
+}
+
+PreflightLine disk_line(double free_bytes, double rate_hz, double session_s) {
+  constexpr double kOtherwise_bytes = 1e6;  // Events, and the pages of the database.
+  constexpr double kFewSessions = 10.0;
+  const double sessions =
+      free_bytes / (rate_hz * session_s * kBytesPerSample + kOtherwise_bytes);
+  PreflightLine line{.name = "Disk", .status = Status::kOk};
+  const bool one = sessions >= 1.0 && sessions < 2.0;
+  line.found = size_words(free_bytes) + " free, " +
+               (sessions < 1.0 ? "less than a session"
+                               : about(sessions) + (one ? " session" : " sessions"));
+  if (sessions >= kFewSessions) return line;
+  line.status = sessions < 1.0 ? Status::kFailed : Status::kWarning;
+  line.remedy = "make room, or keep the study on another disk";
+  return line;
+}
+
+PreflightLine device_line(const std::string& device, double rate_hz, int min_contact_points) {
+  const std::string name = "Device";
+  return line_from(name, "does not start", [&]() -> PreflightLine {
+    const std::unique_ptr<device::HapticDevice> made =
+        device::device_named(device).make(rate_hz);
+    const device::DeviceCapabilities can = made->capabilities();
+    if (can.num_contact_points < min_contact_points) {
+      return {.name = name,
+              .status = Status::kFailed,
+              .found = fmt::format("holds {} of {} points of the hand", can.num_contact_points,
+                                   min_contact_points),
+              .remedy = "choose another device"};
+    }
+    // The motors of a real one turn on only after the check for real time: in the loop's test.
+    if (!can.simulated) return {.name = name, .status = Status::kOk, .found = device};
+    made->open();
+    made->close();
+    return {.name = name, .status = Status::kOk, .found = device + ", simulated"};
+  });
+}
+
+PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
+                           const experiments::RangeLimits& limits, bool hides_levels) {
+  const auto fitting =
+      std::count_if(range.begin(), range.end(), [](const auto& entry) { return entry.fits; });
+  const bool all = fitting == static_cast<std::ptrdiff_t>(range.size());
+  PreflightLine line{.name = "Stimuli", .status = all ? Status::kOk : Status::kFailed};
+  line.found = fmt::format("{} of {} within limits", fitting, range.size());
+  if (!all) {
+    line.remedy = "choose a device that can render them, or weaken the study's stimuli";
+  }
+  if (hides_levels || range.empty()) return line;
+  const auto strongest = std::max_element(
+      range.begin(), range.end(),
+      [](const auto& a, const auto& b) { return a.total_force_n < b.total_force_n; });
+  line.found +=
+      fmt::format(", the strongest {:.1f} of {:g} N at {:g} m/s", strongest->total_force_n,
+                  limits.max_total_force_n, limits.expected_speed_m_per_s);
+  return line;
+}
+
+PreflightLine loop_line(const LoopTest& test) {
+  PreflightLine line{.name = loop_name(test.rate_hz, test.duration_s), .status = Status::kOk};
+  if (!test.fault.empty()) {
+    line.status = Status::kFailed;
+    line.found = "stopped by a fault";
+    line.remedy = test.fault;
+    return line;
+  }
+  const std::string missed =
+      test.missed_ticks == 0 ? "none" : fmt::format("{} ticks", test.missed_ticks);
+  line.found =
+      test.lateness_p99_us < 10.0
+          ? fmt::format("{} missed, 99 % within {:.1f} µs", missed, test.lateness_p99_us)
+          : fmt::format("{} missed, 99 % within {:.0f} µs", missed, test.lateness_p99_us);
+  const bool late = test.lateness_p99_us > 0.2 * 1e6 / test.rate_hz;
+  if (test.missed_ticks == 0 && !late) return line;
+  line.status = test.missed_ticks > 0 && test.for_a_person ? Status::kFailed : Status::kWarning;
+  line.remedy = "close other programs, or give the loop a processor of its own";
+  return line;
+}
+
+LoopTest test_loop(const PreflightRequest& request, double rate_hz,
+                   const std::function<void(double)>& on_progress) {
+  using Clock = std::chrono::steady_clock;
+  LoopTest test{.rate_hz = rate_hz, .duration_s = request.loop_test_s};
+  RunningLoop running(request, rate_hz);
+  test.for_a_person = !running.device->capabilities().simulated;
+  const Clock::time_point begin = Clock::now();
+  for (double done = 0.0; done < 1.0;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    running.samples.drain([](const core::Sample&) {});
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
+    done = std::min(1.0, elapsed_s / request.loop_test_s);
+    if (on_progress) on_progress(done);
+  }
+  running.thread.stop();
+  running.telemetry.fetch();
+  const core::Fault fault = running.telemetry.value().fault;
+  if (fault != core::Fault::kNone) test.fault = std::string(core::words(fault));
+  const device::LoopTiming& timing = running.thread.timing();
+  test.missed_ticks = timing.missed_ticks();
+  test.lateness_p99_us = 1e-3 * static_cast<double>(timing.lateness().percentile_ns(0.99));
+  return test;
+}
+
+}  // namespace jnd::app

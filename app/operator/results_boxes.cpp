@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <set>
+
+#include "analysis/groups/summary.h"
+#include "app/operator/results_model.h"
+#include "app/operator/study_words.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace results;
+using analysis::BlockDesign;
+using analysis::ParticipantData;
+using Values = std::vector<std::pair<std::string, double>>;
+
+/// Participants' own estimates of this name, those that have one.
+Values own_values(const ResultsSource& source, const std::string& block,
+                  const std::string& estimate) {
+  Values values;
+  const analysis::ResultsSection* section = source.section(block);
+  if (section == nullptr) return values;
+  for (const analysis::ParticipantEstimate& own : section->participants) {
+    if (own.name == estimate && own.value) values.emplace_back(own.participant, *own.value);
+  }
+  return values;
+}
+
+using MovementColumn = std::optional<double> core::PresentationRow::*;
+
+Values movement_values(const ResultsSource& source, const std::string& block,
+                       MovementColumn column) {
+  Values values;
+  for (const ParticipantData& participant : source.data.participants) {
+    const auto found = participant.presentations.find(block);
+    if (found == participant.presentations.end()) continue;
+    if (const auto mean = analysis::movement_mean(found->second, column)) {
+      values.emplace_back(participant.participant, *mean);
+    }
+  }
+  return values;
+}
+
+void add_box(BoxFigure& figure, const std::string& label, const Values& values) {
+  if (!values.empty()) figure.boxes.push_back(box_of(label, values));
+}
+
+std::optional<double> whole_movement(const ParticipantData& participant,
+                                     MovementColumn column) {
+  std::vector<core::PresentationRow> all;
+  for (const auto& [block, rows] : participant.presentations) {
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return analysis::movement_mean(all, column);
+}
+
+bool is_magnitude(const BlockDesign& block) {
+  return block.procedure == "magnitude_estimation" || block.procedure == "magnitude_production";
+}
+
+/// "w Group D", "a estimation": the number, then what tells it from the others of its kind.
+std::string column_title(const ResultsSource& source, const BlockDesign& block) {
+  const auto same = std::count_if(
+      source.data.blocks.begin(), source.data.blocks.end(),
+      [&](const BlockDesign& other) { return other.procedure == block.procedure; });
+  const std::string title = short_title(source.title(block.block));
+  if (!is_magnitude(block)) return "w " + title;
+  if (same > 1) return "a " + title;
+  return block.procedure == "magnitude_estimation" ? "a estimation" : "a production";
+}
+
+/// What was left out of this person's data, each thing once.
+std::string note_of(const ResultsSource& source, const std::string& participant) {
+  std::set<std::string> known;
+  std::string note;
+  for (const analysis::ResultsSection& section : source.results.sections) {
+    for (const analysis::ExcludedParticipant& one : section.excluded) {
+      if (one.participant != participant || !known.insert(one.reason).second) continue;
+      note += (note.empty() ? "" : "; ") + source.in_titles(one.reason);
+    }
+  }
+  return note;
+}
+
+}  // namespace
+
+Box box_of(const std::string& label, const Values& values) {
+  std::vector<double> ascending;
+  for (const auto& [participant, value] : values) ascending.push_back(value);
+  std::sort(ascending.begin(), ascending.end());
+  Box box{.label = label,
+          .median = analysis::percentile(ascending, 0.5),
+          .lower_quartile = analysis::percentile(ascending, 0.25),
+          .upper_quartile = analysis::percentile(ascending, 0.75),
+          .n = static_cast<int>(values.size())};
+  constexpr double kReach = 1.5;  // Tukey 1977
+  const double reach = kReach * (box.upper_quartile - box.lower_quartile);
+  const double lowest = box.lower_quartile - reach;
+  const double highest = box.upper_quartile + reach;
+  // The quartiles lie between values within reach, so there is always one.
+  box.lower_whisker = *std::lower_bound(ascending.begin(), ascending.end(), lowest);
+  box.upper_whisker = *std::prev(std::upper_bound(ascending.begin(), ascending.end(), highest));
+  for (const auto& [participant, value] : values) {
+    if (value < lowest || value > highest) box.outliers.push_back({participant, value});
+  }
+  return box;
+}
+
+std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
+  BoxFigure weber{.name = "weber_fraction", .title = "Weber fraction", .unit = ""};
+  BoxFigure exponent{.name = "exponent", .title = "Exponent", .unit = ""};
+  BoxFigure stroke{.name = "stroke_width_m", .title = "Stroke width", .unit = "m"};
+  BoxFigure speed{.name = "max_speed_m_per_s", .title = "Largest speed", .unit = "m/s"};
+  for (const BlockDesign& block : source.data.blocks) {
+    const std::string label = short_title(source.title(block.block));
+    if (block.procedure == "constant_stimuli") {
+      add_box(weber, label, own_values(source, block.block, block.block + ".weber_fraction"));
+    }
+    if (is_magnitude(block)) {
+      add_box(exponent, label, own_values(source, block.block, block.block + ".a"));
+    }
+    add_box(stroke, label,
+            movement_values(source, block.block, &core::PresentationRow::stroke_width_m));
+    add_box(speed, label,
+            movement_values(source, block.block, &core::PresentationRow::max_speed_m_per_s));
+  }
+  std::vector<BoxFigure> figures;
+  for (BoxFigure* figure : {&weber, &exponent, &stroke, &speed}) {
+    if (!figure->boxes.empty()) figures.push_back(std::move(*figure));
+  }
+  return figures;
+}
+
+void add_table(const ResultsSource& source, ResultsModel& model) {
+  for (const BlockDesign& block : source.data.blocks) {
+    if (block.procedure == "constant_stimuli" || is_magnitude(block)) {
+      model.columns.push_back({column_title(source, block), ""});
+    }
+  }
+  model.columns.push_back({"Stroke", "m"});
+  model.columns.push_back({"Speed", "m/s"});
+  for (const ParticipantData& participant : source.data.participants) {
+    TableRow row{.participant = participant.participant};
+    for (const BlockDesign& block : source.data.blocks) {
+      const bool compares = block.procedure == "constant_stimuli";
+      if (!compares && !is_magnitude(block)) continue;
+      const analysis::ParticipantEstimate* own =
+          source.own(block.block, participant.participant,
+                     block.block + (compares ? ".weber_fraction" : ".a"));
+      row.values.push_back(own != nullptr ? own->value : std::nullopt);
+    }
+    row.values.push_back(whole_movement(participant, &core::PresentationRow::stroke_width_m));
+    row.values.push_back(
+        whole_movement(participant, &core::PresentationRow::max_speed_m_per_s));
+    row.note = note_of(source, participant.participant);
+    model.rows.push_back(std::move(row));
+  }
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,294 @@
+#include "app/operator/results_model.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "app/operator/study_folder.h"
+#include "app/operator/study_words.h"
+#include "app/results_output.h"
+#include "app/session_setup.h"
+#include "core/error.h"
+#include "core/storage/recording.h"
+#include "core/storage/study_store.h"
+#include "experiments/procedures/procedure_registry.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace results;
+using analysis::Estimate;
+using analysis::Interval;
+using Tone = QualityChip::Tone;
+
+std::string number(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}{}", value, unit.empty() || unit == "1" ? "" : " ",
+                     unit == "1" ? "" : unit);
+}
+
+/// "95 % 0.38 to 1.04"; "" where both ends are open.
+std::string interval_words(const Interval& ci95) {
+  if (!ci95.low && !ci95.high) return "";
+  if (!ci95.low) return fmt::format("95 % below {:.3g}", *ci95.high);
+  if (!ci95.high) return fmt::format("95 % above {:.3g}", *ci95.low);
+  return fmt::format("95 % {:.3g} to {:.3g}", *ci95.low, *ci95.high);
+}
+
+std::string published_words(const Estimate& estimate) {
+  if (!estimate.published) return "";
+  return number(*estimate.published, estimate.unit) +
+         (estimate.published_sd ? fmt::format(" ± {:.3g}", *estimate.published_sd) : "");
+}
+
+std::string p_words(double p_value) {
+  return p_value < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.4f}", p_value);
+}
+
+std::string comparison_words(const analysis::Comparison& c) {
+  if (c.status != analysis::FitStatus::kOk) return c.reason;
+  std::string words = interval_words(c.ci95);
+  const auto add = [&words](const std::string& part) {
+    words += (words.empty() ? "" : ", ") + part;
+  };
+  if (c.statistic && c.degrees_of_freedom) {
+    add(fmt::format("t({:.4g}) = {:.2f}", *c.degrees_of_freedom, *c.statistic));
+  }
+  if (c.p_value) add(p_words(*c.p_value));
+  return words;
+}
+
+std::string basis_of(const analysis::StudyResults& results, const Estimate& estimate) {
+  if (!results.simulated || !estimate.published) return "";
+  if (estimate.calibrated) return "calibrated";
+  return estimate.implied ? "implied" : "held out";
+}
+
+/// "group_d - group_e: stroke_width_m, paired" by titles: "Group D - Group E: stroke width [m],
+/// paired".
+std::string with_titles(const ResultsSource& source, std::string name) {
+  for (const auto& [column, words] : {std::pair{"stroke_width_m", "stroke width [m]"},
+                                      {"max_speed_m_per_s", "largest speed [m/s]"}}) {
+    const std::size_t at = name.find(column);
+    if (at != std::string::npos) name.replace(at, std::string(column).size(), words);
+  }
+  const std::size_t colon = name.find(": ");
+  const std::size_t dash = name.find(" - ");
+  if (colon == std::string::npos || dash == std::string::npos || dash > colon) return name;
+  return short_title(source.title(name.substr(0, dash))) + " - " +
+         short_title(source.title(name.substr(dash + 3, colon - dash - 3))) +
+         name.substr(colon);
+}
+
+/// A block's title; what another section is called in words.
+std::string section_words(const ResultsSource& source, const std::string& name) {
+  const auto found = source.titles.find(name);
+  return found == source.titles.end() ? name_words(name, /*as_title=*/true) : found->second;
+}
+
+void add_numbers(const ResultsSource& source, ResultsModel& model) {
+  for (const analysis::ResultsSection& section : source.results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      model.numbers.push_back({.section = section_words(source, section.name),
+                               .name = estimate.name,
+                               .value = estimate.value && std::isfinite(*estimate.value)
+                                            ? number(*estimate.value, estimate.unit)
+                                            : "",
+                               .interval = interval_words(estimate.ci95),
+                               .published = published_words(estimate),
+                               .meaning = estimate.meaning,
+                               .basis = basis_of(source.results, estimate)});
+    }
+    for (const analysis::NamedComparison& named : section.comparisons) {
+      model.comparisons.push_back({.name = with_titles(source, named.name),
+                                   .estimate = named.comparison.estimate,
+                                   .detail = comparison_words(named.comparison)});
+    }
+  }
+}
+
+std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// Trials that the sessions of a study should have answers to, whether drawn yet or not.
+std::int64_t expected_trials(const experiments::Study& study, const core::SessionRow& row) {
+  std::int64_t expected = 0;
+  for (const experiments::Stage* stage : stages_of_session(study, row.cells)) {
+    const auto* block = std::get_if<experiments::Block>(&stage->content);
+    if (block == nullptr) continue;
+    expected += experiments::procedure_named(block->procedure).expected_trials(*block);
+  }
+  return expected;
+}
+
+/// What can be said without decoding a sample; a verification says the rest.
+class Quality {
+ public:
+  Quality(const core::StudyStore& store, const experiments::Study& study) {
+    for (const core::SessionRow& row : store.sessions()) {
+      if (row.pilot) {
+        ++num_pilots_;
+        continue;
+      }
+      expected_ += expected_trials(study, row);
+      const auto all = store.trials(row.session, /*include_excluded=*/true).size();
+      answers_ += static_cast<std::int64_t>(all);
+      excluded_ += static_cast<std::int64_t>(all - store.trials(row.session).size());
+      open_ += store.finished(row.session) ? 0 : 1;
+      if (row.recorded) look_at_recording(store.recording_file(row.session));
+    }
+  }
+
+  void describe(const ResultsSource& source, std::vector<QualityChip>& chips) const {
+    const analysis::StudyResults& results = source.results;
+    if (results.simulated) {
+      chips.push_back(
+          {results.laboratory_changed ? "simulated data, laboratory changed" : "simulated data",
+           Tone::kWarning});
+    }
+    chips.push_back({fmt::format("{} of {} answers", answers_, expected_),
+                     answers_ >= expected_ ? Tone::kGood : Tone::kWarning});
+    describe_recordings(chips);
+    if (open_ > 0) {
+      chips.push_back(
+          {counted(open_, "session", "sessions") + " not finished", Tone::kWarning});
+    }
+    if (excluded_ > 0) {
+      chips.push_back({counted(excluded_, "trial", "trials") + " set aside", Tone::kWarning});
+    }
+    if (num_pilots_ > 0) {
+      chips.push_back({counted(num_pilots_, "pilot", "pilots") + " left out", Tone::kNeutral});
+    }
+    std::set<std::string> known;
+    for (const analysis::ResultsSection& section : results.sections) {
+      for (const analysis::ExcludedParticipant& one : section.excluded) {
+        const std::string text = source.in_titles(one.participant + ": " + one.reason);
+        if (known.insert(text).second) chips.push_back({text, Tone::kWarning});
+      }
+    }
+  }
+
+ private:
+  void look_at_recording(const std::filesystem::path& file) {
+    ++num_recordings_;
+    try {
+      missing_ticks_ += core::RecordingReader(file).missing_ticks();
+    } catch (const core::Error&) {
+      ++unreadable_;
+    }
+  }
+
+  void describe_recordings(std::vector<QualityChip>& chips) const {
+    if (num_recordings_ == 0) return chips.push_back({"no recordings kept", Tone::kNeutral});
+    const std::string recordings = counted(num_recordings_, "recording", "recordings");
+    if (unreadable_ > 0) {
+      chips.push_back(
+          {fmt::format("{} of {} cannot be read", unreadable_, recordings), Tone::kWarning});
+    }
+    if (missing_ticks_ > 0) {
+      chips.push_back({fmt::format("{} missing in {}",
+                                   counted(missing_ticks_, "sample", "samples"), recordings),
+                       Tone::kWarning});
+    } else if (unreadable_ == 0) {
+      chips.push_back({"no gap in " + recordings, Tone::kGood});
+    }
+  }
+
+  std::int64_t expected_ = 0, answers_ = 0, excluded_ = 0, open_ = 0, num_pilots_ = 0;
+  std::int64_t num_recordings_ = 0, missing_ticks_ = 0, unreadable_ = 0;
+};
+
+std::map<std::string, std::string> titles_of(const experiments::Study& study,
+                                             const std::vector<analysis::BlockDesign>& blocks) {
+  std::map<std::string, std::string> titles;
+  for (const analysis::BlockDesign& block : blocks) {
+    titles[block.block] = block_title(study, block.block);
+  }
+  return titles;
+}
+
+}  // namespace
+
+std::vector<double> results::logarithmic_grid(double low, double high) {
+  constexpr int kPoints = 121;
+  std::vector<double> grid;
+  for (int i = 0; i < kPoints; ++i) {
+    grid.push_back(low * std::pow(high / low, static_cast<double>(i) / (kPoints - 1)));
+  }
+  return grid;
+}
+
+std::string ResultsSource::title(const std::string& block) const {
+  const auto found = titles.find(block);
+  return found == titles.end() ? block : found->second;
+}
+
+std::string ResultsSource::in_titles(std::string sentence) const {
+  const auto is_of_a_name = [&sentence](std::size_t at) {
+    const auto letter = static_cast<unsigned char>(at < sentence.size() ? sentence[at] : ' ');
+    return std::isalnum(letter) != 0 || letter == '_';
+  };
+  for (const auto& [block, title] : titles) {
+    const std::string words = short_title(title);
+    for (std::size_t at = sentence.find(block); at != std::string::npos;
+         at = sentence.find(block, at)) {
+      const bool is_whole =
+          (at == 0 || !is_of_a_name(at - 1)) && !is_of_a_name(at + block.size());
+      if (is_whole) sentence.replace(at, block.size(), words);
+      at += is_whole ? words.size() : block.size();
+    }
+  }
+  return sentence;
+}
+
+const analysis::ResultsSection* ResultsSource::section(const std::string& name) const {
+  for (const analysis::ResultsSection& one : results.sections) {
+    if (one.name == name) return &one;
+  }
+  return nullptr;
+}
+
+const analysis::ParticipantEstimate* ResultsSource::own(const std::string& name,
+                                                        const std::string& participant,
+                                                        const std::string& estimate) const {
+  const analysis::ResultsSection* found = section(name);
+  if (found == nullptr) return nullptr;
+  for (const analysis::ParticipantEstimate& one : found->participants) {
+    if (one.participant == participant && one.name == estimate) return &one;
+  }
+  return nullptr;
+}
+
+ResultsModel results_model(const std::filesystem::path& folder, WorkControl& control) {
+  const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
+  const analysis::StudyData data = analysis::load_study(store);
+  const experiments::Study study = study_in(store);
+  control.progress(0.1);
+  control.stop_if_cancelled();
+  const analysis::StudyResults results = results_of_data(data);
+  control.progress(0.8);
+  control.stop_if_cancelled();
+  const ResultsSource source{data, results, titles_of(study, data.blocks)};
+  ResultsModel model{.study = results.study,
+                     .title = title_of(study),
+                     .simulated = results.simulated,
+                     .citation = results.citation,
+                     .num_participants = results.num_participants,
+                     .discriminations = discriminations_of(source),
+                     .magnitudes = magnitudes_of(source),
+                     .boxes = boxes_of(source),
+                     .table = to_table(results)};
+  add_table(source, model);
+  add_numbers(source, model);
+  control.progress(0.9);
+  control.stop_if_cancelled();
+  Quality(store, study).describe(source, model.quality);
+  control.progress(1.0);
+  return model;
+}
+
+}  // namespace jnd::app

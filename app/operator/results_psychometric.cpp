@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "analysis/groups/wilson_interval.h"
+#include "app/operator/results_model.h"
+#include "app/operator/study_words.h"
+#include "core/psychometric_function.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace results;
+using analysis::BlockDesign;
+using analysis::Estimate;
+using analysis::ParticipantData;
+
+/// Counts at the intensities of one or more participants.
+using Counts = std::map<double, Proportion>;
+
+void count(const ParticipantData& participant, const std::string& block, Counts& counts,
+           double& reference) {
+  for (const core::TrialRow& trial : participant.trials_in(block)) {
+    if (!trial.intensity || !trial.response || !trial.reference_intensity) continue;
+    reference = *trial.reference_intensity;
+    Proportion& level = counts[*trial.intensity];
+    level.intensity = *trial.intensity;
+    level.num_yes += *trial.response > 0.5 ? 1 : 0;
+    ++level.num_trials;
+  }
+}
+
+std::vector<Proportion> proportions(const Counts& counts) {
+  std::vector<Proportion> points;
+  for (const auto& [intensity, counted] : counts) {
+    Proportion point = counted;
+    point.ratio = static_cast<double>(point.num_yes) / static_cast<double>(point.num_trials);
+    std::tie(point.low, point.high) =
+        analysis::wilson_interval(point.num_yes, point.num_trials);
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// With the limits that an open interval stands for: a step at 0, a flat line at infinity.
+double probability(double reference, double weber_fraction, double intensity) {
+  if (!std::isfinite(weber_fraction)) return 0.5;
+  if (weber_fraction <= 0.0) {
+    return intensity < reference ? 0.0 : (intensity > reference ? 1.0 : 0.5);
+  }
+  return core::PsychometricFunction{.pse = reference, .weber_fraction = weber_fraction}
+      .probability(intensity);
+}
+
+void draw_curve(PsychometricFigure& figure, double reference, double low, double high) {
+  if (!figure.weber_fraction) return;
+  figure.weber_line = reference * (1.0 + *figure.weber_fraction);
+  const bool has_band = figure.ci95.low || figure.ci95.high;
+  const double least = figure.ci95.low.value_or(0.0);
+  const double most = figure.ci95.high.value_or(std::numeric_limits<double>::infinity());
+  for (const double x : logarithmic_grid(low, high)) {
+    figure.curve.push_back({x, probability(reference, *figure.weber_fraction, x)});
+    if (!has_band) continue;
+    const double steep = probability(reference, least, x);
+    const double flat = probability(reference, most, x);
+    figure.band.push_back({x, std::min(steep, flat), std::max(steep, flat)});
+  }
+}
+
+/// What was said of the pooled answers that have no curve: after "...: no value, ".
+std::string pooled_reason(const analysis::ResultsSection& section, const std::string& name) {
+  for (const analysis::ExcludedParticipant& one : section.excluded) {
+    const std::string start = name + ": ";
+    if (one.participant == "everyone" && one.reason.starts_with(start)) {
+      return one.reason.substr(start.size());
+    }
+  }
+  return "no value";
+}
+
+std::optional<Discrimination> discrimination_of(const ResultsSource& source,
+                                                const BlockDesign& block) {
+  const analysis::ResultsSection* section = source.section(block.block);
+  const std::string name = block.block + ".weber_fraction";
+  const Estimate* pooled = source.results.find(name);
+  if (section == nullptr || pooled == nullptr) return std::nullopt;
+  Discrimination figure{.block = block.block,
+                        .title = source.title(block.block),
+                        .quantity = quantity_words(block.quantity),
+                        .unit = quantity_unit(block.quantity),
+                        .published = pooled->published,
+                        .published_sd = pooled->published_sd};
+  Counts all;
+  std::map<std::string, std::pair<Counts, double>> own;
+  for (const ParticipantData& participant : source.data.participants) {
+    auto& [counts, reference] = own[participant.participant];
+    count(participant, block.block, counts, reference);
+    if (figure.reference == 0.0) figure.reference = reference;
+    double ignored = 0.0;
+    count(participant, block.block, all, ignored);
+  }
+  if (all.empty()) return std::nullopt;
+  const auto first =
+      std::find_if(all.begin(), all.end(), [](const auto& level) { return level.first > 0.0; });
+  const double low =
+      0.9 * (first == all.end() ? figure.reference : std::min(first->first, figure.reference));
+  const double high = 1.1 * std::max(all.rbegin()->first, figure.reference);
+  figure.pooled = {.who = kEveryone,
+                   .points = proportions(all),
+                   .weber_fraction = pooled->value,
+                   .ci95 = pooled->ci95,
+                   .reason = pooled->value ? "" : pooled_reason(*section, name)};
+  draw_curve(figure.pooled, figure.reference, low, high);
+  for (const auto& [participant, counted] : own) {
+    const analysis::ParticipantEstimate* estimate = source.own(block.block, participant, name);
+    if (estimate == nullptr) continue;
+    PsychometricFigure one{.who = participant,
+                           .points = proportions(counted.first),
+                           .weber_fraction = estimate->value,
+                           .ci95 = estimate->ci95,
+                           .reason = estimate->reason};
+    draw_curve(one, counted.second, low, high);
+    figure.participants.push_back(std::move(one));
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Discrimination> discriminations_of(const ResultsSource& source) {
+  std::vector<Discrimination> figures;
+  for (const BlockDesign& block : source.data.blocks) {
+    if (block.procedure != "constant_stimuli") continue;
+    if (auto figure = discrimination_of(source, block)) figures.push_back(std::move(*figure));
+  }
+  return figures;
+}
+
+}  // namespace jnd::app

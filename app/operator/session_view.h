@@ -1,0 +1,163 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/telemetry.h"
+#include "experiments/procedures/procedure.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// What the session waits for, and so what stands on the card in the middle.
+enum class Step {
+  kBegin,       ///< Nothing has begun, or it was interrupted: waits for `Begin`.
+  kItem,        ///< A checklist's item, the consent or a question waits for its answer.
+  kMedium,      ///< A medium waits to be felt outside of any trial.
+  kFeeling,     ///< It is being felt.
+  kBreak,       ///< Rest.
+  kRest,        ///< Free space before a trial, still running.
+  kReady,       ///< The trial waits for its first presentation.
+  kPresenting,  ///< A trial's stimulus, or free space in it, is being felt.
+  kStageDone,   ///< Everything in the stage is done; waits for `FinishStage`.
+  kPaused,
+  kFault,     ///< The loop latched a fault: no force. Waits for `Rearm`.
+  kFailed,    ///< The disk or the device gave up: nothing more can be stored. Only leaving.
+  kFinished,  ///< Every stage was run, or it was ended early.
+};
+
+/// What the experimenter shows to the participant, who hears nothing.
+enum class HandSign { kNone, kFist, kOneFinger, kReady, kRaise, kLower, kMatches, kOpenHand };
+
+struct StageLine {
+  enum class Status { kDone, kNow, kLater };
+  std::string title;  ///< "Block 1" where a name could tell the level.
+  Status status = Status::kLater;
+};
+
+/// A checklist's item, a consent or a question, waiting for an answer.
+struct ItemView {
+  enum class Kind {
+    kTick,
+    kConsent,
+    kNumber,
+    kText,
+    kWords,
+    kChoice,
+    kYesNo,
+    kYesNoWhich,
+    kScale
+  };
+  struct Option {
+    std::string value, label;
+  };
+  std::int64_t stage = 0;
+  std::string name;  ///< As in `AnswerItem`.
+  Kind kind = Kind::kTick;
+  std::string text;                     ///< What to do, or the question.
+  std::string say;                      ///< Word for word; may be empty.
+  std::vector<std::string> paragraphs;  ///< Of a consent.
+  std::string unit;
+  std::optional<double> minimum, maximum;
+  std::vector<Option> options;
+  int num_steps = 10;
+  std::string low_label, high_label;
+  int num_words = 0;
+  bool required = true;
+  int index = 1, count = 1;  ///< "item 2 of 7" of its stage.
+  std::string answer;        ///< The one that stands; "" for none yet.
+};
+
+struct TrialView {
+  std::int64_t trial = 0;              ///< In the session, as in requests.
+  int in_block = 1, num_in_block = 1;  ///< "trial 23 of 40"
+  int repetition = 1, num_repetitions = 1;
+  experiments::AnswerKind answer = experiments::AnswerKind::kYesNo;
+  bool has_reference = false;
+  bool adjustable = false;
+  std::string interval;  ///< Being felt: "test", "reference", "free_space"; "" for none.
+  double felt_s = 0.0;   ///< For how long already.
+  int num_strokes = 0;   ///< Whole ones, in this presentation.
+  std::optional<double> reference_felt_s;  ///< The last time before.
+  bool can_answer = false;                 ///< The test was felt in this attempt.
+  std::string question;
+  std::string yes_label, no_label;  ///< What the two answers are called.
+  std::optional<double> target_percent;
+  std::string level;         ///< "1.65 Pa s, reference 1.85 Pa s"; "" where it is hidden.
+  double rest_left_s = 0.0;  ///< Of the free space before.
+};
+
+struct MediumView {
+  std::string name;  ///< "water, scale 2"; "a fluid" where it is hidden.
+  std::string say;
+  double felt_s = 0.0, duration_s = 0.0;
+  int index = 1, count = 1;
+};
+
+/// An answer as it stands in the list of the last ones.
+struct AnswerLine {
+  std::int64_t trial = 0;
+  int in_block = 1;
+  std::string block;   ///< Title, or "Block 1".
+  std::string answer;  ///< "yes", "120 %", "2.4" ("set" where it is hidden).
+  experiments::AnswerKind kind = experiments::AnswerKind::kYesNo;
+  double response_time_s = 0.0;
+  bool can_undo = false;  ///< The last one of the block under way.
+};
+
+struct LoopView {
+  double rate_hz = 0.0;
+  double lateness_p99_us = 0.0, max_lateness_us = 0.0;
+  std::int64_t missed_ticks = 0;
+  std::uint64_t num_dropped_samples = 0;
+  std::string scheduler;  ///< What the system gave: "SCHED_FIFO 80, memory locked".
+  bool realtime = false;  ///< What a real device needs was given.
+};
+
+/// Everything a window may know of a session: a picture of one moment, nothing to change. What
+/// a double-blind study hides is not in it at all.
+struct SessionView {
+  std::string study, participant, device, language;
+  bool pilot = false, simulated = false;
+  experiments::Blinding blinding = experiments::Blinding::kNone;
+  bool hides_levels = false;  ///< Double-blind and nobody has unblinded the study.
+
+  Step step = Step::kBegin;
+  std::string heading;   ///< "Test fluid", "Checklist", "Break": what the card is about.
+  std::string sentence;  ///< What to do now.
+  std::string say;       ///< What to say, word for word; may be empty.
+  HandSign sign = HandSign::kNone;
+  std::string participant_text;  ///< For the participant's screen, in the study's language.
+
+  std::vector<StageLine> stages;
+  std::int64_t stage = 0;
+  std::optional<ItemView> item;
+  /// Of a questionnaire under way; answering one of them again supersedes.
+  std::vector<ItemView> answered_items;
+  std::optional<TrialView> trial;  ///< In a block, once it is drawn.
+  std::optional<MediumView> medium;
+  double break_left_s = 0.0, break_s = 0.0;
+  std::vector<AnswerLine> answers;  ///< The newest first; at most fifty.
+  std::vector<std::string> notes;
+
+  double elapsed_s = 0.0;   ///< Since this visit began.
+  double left_s = 0.0;      ///< Expected.
+  double done_ratio = 0.0;  ///< Of the session.
+
+  core::Telemetry telemetry;
+  double max_total_force_n = 0.0;
+  LoopView loop;
+  std::int64_t trials_on_disk = 0;  ///< Answers, that is.
+  std::int64_t last_sequence = 0;   ///< Of the last event on disk.
+  std::string fault;                ///< One sentence; "" for none.
+  std::string fault_name;           ///< "emergency_stop"
+  bool stop_pressed = false;
+  std::uint64_t num_stop_presses = 0;  ///< As in `Rearm`.
+  std::string refusal;             ///< Why the last request was not carried out; "" otherwise.
+  std::uint64_t num_refusals = 0;  ///< So that the same sentence twice is seen twice.
+  std::string remark;              ///< "the study file has changed since ..."; "" otherwise.
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "app/operator/session_view.h"
+
+namespace jnd::app {
+
+/// Fills in what the card says: heading, sentence, what to say, the hand sign to show, and the
+/// words for the participant's screen, from everything else in the view. `instruction`: of the
+/// stage under way, in the participant's language; may be empty.
+void add_words(SessionView& view, std::string_view stage_title, std::string_view instruction);
+
+/// "1.65 Pa s", "scale 2", "300 N/m": an intensity as it is shown. `quantity` as in studies.
+[[nodiscard]] std::string level_words(const std::string& quantity, double intensity);
+
+/// "yes", "120 %", "2.4": an answer as it is shown.
+[[nodiscard]] std::string answer_words(experiments::AnswerKind kind, double response);
+
+/// A number for people: up to three significant digits after rounding, no trailing zeros.
+[[nodiscard]] std::string number_words(double value);
+
+}  // namespace jnd::app

@@ -1,0 +1,97 @@
+#include "app/operator/session_worker.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "app/operator/operated_session.h"
+
+namespace jnd::app {
+
+namespace {
+/// How often the session looks at the loop, and a window at the session.
+constexpr auto kGlance = std::chrono::milliseconds(15);
+constexpr auto kBetweenPictures = std::chrono::milliseconds(33);
+}  // namespace
+
+SessionWorker::SessionWorker(Parameters parameters, OperatorDoors& doors)
+    : parameters_(std::move(parameters)),
+      doors_(doors),
+      trace_({.rate_hz = parameters_.study.device.rate_hz}),
+      thread_([this] { run(); }) {}
+
+SessionWorker::~SessionWorker() {
+  request(operate::Leave{.reason = "the window was closed"});
+  thread_.join();
+}
+
+void SessionWorker::request(OperatorRequest request) {
+  {
+    const std::lock_guard guard(mutex_);
+    requests_.push_back(std::move(request));
+  }
+  requested_.notify_one();
+}
+
+std::shared_ptr<const SessionView> SessionWorker::view() const {
+  const std::lock_guard guard(mutex_);
+  return view_;
+}
+
+std::string SessionWorker::failure() const {
+  const std::lock_guard guard(mutex_);
+  return failure_;
+}
+
+std::vector<OperatorRequest> SessionWorker::wait_for_requests() {
+  std::unique_lock lock(mutex_);
+  requested_.wait_for(lock, kGlance, [this] { return !requests_.empty(); });
+  return std::exchange(requests_, {});
+}
+
+void SessionWorker::publish(SessionView view) {
+  auto picture = std::make_shared<const SessionView>(std::move(view));
+  {
+    const std::lock_guard guard(mutex_);
+    view_.swap(picture);
+  }
+  if (parameters_.wake) parameters_.wake();
+}
+
+void SessionWorker::run() noexcept {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    doors_.emergency_stop.press();
+    const std::lock_guard guard(mutex_);
+    failure_ = error.what();
+  }
+  parameters_.store.reset();
+  over_.store(true, std::memory_order_release);
+  if (parameters_.wake) parameters_.wake();
+}
+
+void SessionWorker::work() {
+  OperatedSession session({.store = *parameters_.store,
+                           .session = parameters_.session,
+                           .study = parameters_.study,
+                           .laboratory = parameters_.laboratory.get(),
+                           .doors = doors_,
+                           .trace = &trace_,
+                           .language = parameters_.language,
+                           .allow_no_realtime = parameters_.allow_no_realtime});
+  auto next_picture = std::chrono::steady_clock::now();
+  while (!session.over()) {
+    const std::vector<OperatorRequest> requests = wait_for_requests();
+    for (const OperatorRequest& request : requests) session.request(request);
+    session.advance(0.0);
+    // What was asked for is shown at once, what only moves on at the window's pace.
+    const auto now = std::chrono::steady_clock::now();
+    if (requests.empty() && now < next_picture) continue;
+    publish(session.view());
+    next_picture = now + kBetweenPictures;
+  }
+  publish(session.view());
+}
+
+}  // namespace jnd::app

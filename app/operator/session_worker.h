@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/operator/live_trace.h"
+#include "app/operator/operator_doors.h"
+#include "app/operator/operator_request.h"
+#include "app/operator/session_view.h"
+#include "core/storage/study_store.h"
+#include "experiments/participants/laboratory.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// A session on a thread of its own, so that a slow disk holds up neither the window nor its
+/// heartbeat: requests in, pictures out. It owns everything that the session needs.
+class SessionWorker {
+ public:
+  struct Parameters {
+    std::unique_ptr<core::StudyStore> store;  ///< Open for writing.
+    std::int64_t session = 0;                 ///< Its row is in the store already.
+    experiments::Study study;
+    std::unique_ptr<experiments::Laboratory> laboratory;  ///< Of a simulated hand; else empty.
+    std::string language;
+    bool allow_no_realtime = false;
+    /// Called from the thread whenever there is a newer picture; may be empty.
+    std::function<void()> wake;
+  };
+
+  /// Starts; `doors` must outlive it.
+  SessionWorker(Parameters parameters, OperatorDoors& doors);
+  /// Leaves a session that is still open; it can be resumed.
+  ~SessionWorker();
+  SessionWorker(const SessionWorker&) = delete;
+  SessionWorker& operator=(const SessionWorker&) = delete;
+
+  void request(OperatorRequest request);
+  /// The newest picture; nullptr until the device has started.
+  [[nodiscard]] std::shared_ptr<const SessionView> view() const;
+  [[nodiscard]] const LiveTrace& trace() const noexcept { return trace_; }
+  /// Why the session could not be opened; "" if it could.
+  [[nodiscard]] std::string failure() const;
+  /// The thread is through: left, or never started. The store is closed then.
+  [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
+
+ private:
+  void run() noexcept;
+  void work();
+  void publish(SessionView view);
+  std::vector<OperatorRequest> wait_for_requests();
+
+  Parameters parameters_;
+  OperatorDoors& doors_;
+  LiveTrace trace_;
+  mutable std::mutex mutex_;
+  std::condition_variable requested_;
+  std::vector<OperatorRequest> requests_;
+  std::shared_ptr<const SessionView> view_;
+  std::string failure_;
+  std::atomic<bool> over_{false};
+  std::thread thread_;
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,259 @@
+#include "app/operator/study_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <set>
+
+#include "app/operator/study_words.h"
+#include "app/session_setup.h"
+#include "core/error.h"
+#include "core/storage/backup.h"
+#include "core/storage/recording.h"
+#include "experiments/order/counterbalance.h"
+#include "experiments/session/session_state.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Status = SessionLine::Status;
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+std::tm local(std::int64_t time_ns) {
+  const std::time_t seconds = time_ns / kNsPerS;
+  std::tm parts{};
+  ::localtime_r(&seconds, &parts);
+  return parts;
+}
+
+/// Days since some day, for counting from one to another.
+std::int64_t day_number(std::tm parts) {
+  constexpr std::int64_t kSecondsPerDay = 86'400;
+  return ::timegm(&parts) / kSecondsPerDay;
+}
+
+experiments::Study study_of(const core::StudyStore& store, const core::ProtocolRow& protocol) {
+  return experiments::read_study_text(protocol.text,
+                                      store.folder().string() + ": stored protocol");
+}
+
+/// What the log of an open session comes to.
+class Interruption {
+ public:
+  Interruption(const core::StudyStore& store, const experiments::Study& study,
+               bool hides_levels)
+      : store_(store), study_(study), hides_levels_(hides_levels) {}
+
+  void describe(const core::SessionRow& row, InterruptedSession& session) const {
+    experiments::SessionState state;
+    for (const core::EventRow& event : store_.events(row.session)) {
+      experiments::apply(state, experiments::event_from_row(event));
+    }
+    const std::vector<std::string> titles = shown_titles(
+        stages_of_session(study_, row.cells), study_.languages.front(), hides_levels_);
+    const auto stage = static_cast<std::size_t>(state.stage);
+    session.stage = stage < titles.size() ? titles[stage] : "";
+    if (const auto current = state.current_trial()) {
+      for (std::size_t i = 0; i < state.trials.size(); ++i) {
+        if (state.trials[i].stage != state.stage) continue;
+        ++session.num_trials;
+        if (static_cast<std::int64_t>(i) < *current) session.trial = session.num_trials;
+      }
+    }
+    const fs::path file = store_.recording_file(row.session);
+    std::error_code ignored;
+    if (row.recorded && row.rate_hz > 0.0 && fs::exists(file, ignored)) {
+      const auto samples = static_cast<double>(core::RecordingReader(file).last_tick() + 1);
+      session.recorded_min = samples / row.rate_hz / 60.0;
+    }
+  }
+
+ private:
+  const core::StudyStore& store_;
+  const experiments::Study& study_;
+  bool hides_levels_;
+};
+
+std::string cells_in_words(const experiments::Study& study, const std::string& cells) try {
+  return cell_words(experiments::cell_from_text(study, cells));
+} catch (const core::Error&) {
+  return "";
+}
+
+SessionLine line_of(const core::SessionRow& row, const core::SessionOverview& overview,
+                    std::int64_t now_ns) {
+  return {.session = row.session,
+          .participant = row.participant,
+          .status = overview.completed     ? Status::kCompleted
+                    : overview.ended_early ? Status::kEndedEarly
+                                           : Status::kOpen,
+          .pilot = row.pilot,
+          .simulated = row.simulated,
+          .device = row.device,
+          .num_answers = overview.num_answers,
+          .num_trials = overview.num_trials,
+          .when = day_in_words(overview.last_time_ns.value_or(row.started_time_ns), now_ns)};
+}
+
+void count(const SessionLine& line, std::set<std::string>& done, StudyFolder& study) {
+  ++study.num_sessions;
+  study.num_open += line.status == Status::kOpen ? 1 : 0;
+  study.num_pilots += line.pilot ? 1 : 0;
+  study.simulated |= line.simulated;
+  if (!line.pilot && line.status == Status::kCompleted) done.insert(line.participant);
+}
+
+std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+fs::path data_folder() {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  if (data != nullptr && fs::path(data).is_absolute()) return fs::path(data) / "jnd";
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && *home != '\0') return fs::path(home) / "jnd";
+  std::error_code ignored;
+  return fs::current_path(ignored) / "jnd";
+}
+
+}  // namespace
+
+std::string InterruptedSession::sentence() const {
+  const std::string begin = participant + " was interrupted";
+  if (stage.empty()) return begin;
+  if (num_trials == 0) return begin + " in " + stage;
+  return fmt::format("{} in {}, trial {} of {}", begin, stage, trial, num_trials);
+}
+
+std::string InterruptedSession::safe() const {
+  const std::string answers = counted(num_answers, "answer", "answers");
+  if (recorded_min < 1.0) {
+    return answers + (num_answers == 1 ? " is" : " are") + " safe on disk";
+  }
+  const auto minutes = static_cast<std::int64_t>(recorded_min);
+  return fmt::format("{} and {} of recording are safe on disk", answers,
+                     counted(minutes, "minute", "minutes"));
+}
+
+std::string StudyFolder::summary() const {
+  if (num_sessions == 0) return "no session yet";
+  std::string words = counted(num_participants_done, "participant", "participants") + " done";
+  if (num_open > 0) words += fmt::format(", {} open", num_open);
+  if (num_pilots > 0) words += ", " + counted(num_pilots, "pilot", "pilots");
+  if (simulated) words += " · simulated";
+  if (!last_session.empty()) words += " · last session " + last_session;
+  return words;
+}
+
+StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
+  const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  const core::ProtocolRow protocol = protocol_in(store);
+  const experiments::Study study = study_of(store, protocol);
+  StudyFolder opened{.folder = fs::absolute(folder).lexically_normal(),
+                     .name = study.name,
+                     .title = title_of(study),
+                     .blinding = study.blinding,
+                     .study_file = study_file_of(store, protocol),
+                     .backups = core::known_backups(folder)};
+  opened.hides_levels = study.blinding == experiments::Blinding::kDouble && !store.unblinded();
+  std::map<std::int64_t, core::SessionOverview> overviews;
+  for (core::SessionOverview& one : store.overview()) overviews[one.session] = one;
+  const Interruption interruption(store, study, opened.hides_levels);
+  std::set<std::string> done;
+  std::int64_t last_ns = 0;
+  for (const core::SessionRow& row : store.sessions()) {
+    const core::SessionOverview& overview = overviews[row.session];
+    SessionLine line = line_of(row, overview, now_ns);
+    if (!opened.hides_levels) line.cells = cells_in_words(study, row.cells);
+    count(line, done, opened);
+    last_ns = std::max(last_ns, overview.last_time_ns.value_or(row.started_time_ns));
+    if (line.status == Status::kOpen) {
+      InterruptedSession open{.session = row.session,
+                              .participant = row.participant,
+                              .num_answers = overview.num_answers,
+                              .when = line.when,
+                              .pilot = row.pilot,
+                              .simulated = row.simulated};
+      try {
+        interruption.describe(row, open);
+      } catch (const core::Error& error) {
+        open.problem = error.what();
+      }
+      opened.interrupted.insert(opened.interrupted.begin(), std::move(open));
+    }
+    opened.sessions.push_back(std::move(line));
+  }
+  opened.num_participants_done = static_cast<int>(done.size());
+  opened.last_session = day_in_words(last_ns, now_ns);
+  return opened;
+}
+
+core::ProtocolRow protocol_in(const core::StudyStore& store) {
+  const std::vector<core::SessionRow> sessions = store.sessions();
+  if (!sessions.empty()) return store.protocol(sessions.back().protocol_sha256);
+  std::vector<core::ProtocolRow> protocols = store.protocols();
+  if (protocols.empty()) {
+    throw core::Error(store.folder().string() +
+                      ": expected a study in this folder, found none; begin it with a study "
+                      "file in a new folder");
+  }
+  return std::move(protocols.back());
+}
+
+experiments::Study study_in(const core::StudyStore& store) {
+  return study_of(store, protocol_in(store));
+}
+
+fs::path study_file_of(const core::StudyStore& store, const core::ProtocolRow& protocol) {
+  if (protocol.relative_path.empty()) return {};
+  return (fs::absolute(store.folder()) / protocol.relative_path).lexically_normal();
+}
+
+void create_study_folder(const fs::path& study_file, const fs::path& folder) {
+  const experiments::Study study = experiments::read_study(study_file);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) {
+    throw core::Error(folder.string() +
+                      ": expected a place for a new study, found that something is there "
+                      "already; choose another name");
+  }
+  core::StudyStore store(folder, core::StudyStore::Mode::kCreate);
+  store.add_protocol(study_file.filename().string(), study.text,
+                     fs::relative(study_file, folder, error).generic_string());
+}
+
+fs::path default_study_folder(const std::string& name) {
+  const fs::path parent = data_folder();
+  fs::path folder = parent / (name + ".study");
+  std::error_code ignored;
+  for (int number = 2; fs::exists(fs::symlink_status(folder, ignored)); ++number) {
+    folder = parent / (name + "-" + std::to_string(number) + ".study");
+  }
+  return folder;
+}
+
+std::string day_in_words(std::int64_t time_ns, std::int64_t now_ns) {
+  constexpr std::int64_t kYear2000_s = 946'684'800;
+  if (time_ns / kNsPerS < kYear2000_s) return "";
+  const std::tm then = local(time_ns);
+  const std::tm now = local(now_ns);
+  const std::int64_t days = day_number(now) - day_number(then);
+  if (days == 0) return "today";
+  if (days == 1) return "yesterday";
+  constexpr std::array kMonths = {"January",   "February", "March",    "April",
+                                  "May",       "June",     "July",     "August",
+                                  "September", "October",  "November", "December"};
+  std::string words =
+      fmt::format("{} {}", then.tm_mday, kMonths[static_cast<std::size_t>(then.tm_mon)]);
+  if (then.tm_year != now.tm_year) words += fmt::format(" {}", then.tm_year + 1900);
+  return words;
+}
+
+}  // namespace jnd::app

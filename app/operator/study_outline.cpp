@@ -1,0 +1,296 @@
+#include "app/operator/study_outline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "app/session_setup.h"
+#include "core/error.h"
+#include "core/storage/study_store.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/session/plan.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace experiments;
+
+std::string counted(std::size_t count, const std::string& one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string list_of(const std::vector<double>& values, const std::string& unit) {
+  std::string list;
+  for (const double value : values)
+    list += (list.empty() ? "" : ", ") + fmt::format("{:g}", value);
+  return list + (unit.empty() ? "" : " " + unit);
+}
+
+/// Writes the lines of a study's stages, those in counterbalances further in.
+class Outliner {
+ public:
+  Outliner(const Study& study, StudyOutline& outline)
+      : language_(study.languages.front()),
+        hides_(outline.hides_levels),
+        stages_(outline.stages) {}
+
+  double add(const std::vector<Stage>& stages, int depth) {
+    double duration_s = 0.0;
+    for (const Stage& stage : stages) duration_s += add(stage, depth);
+    return duration_s;
+  }
+
+ private:
+  double add(const Stage& stage, int depth) {
+    const std::size_t place = stages_.size();
+    OutlineStage line{.title = title(stage), .depth = depth, .line = stage.line};
+    line.duration_s = expected_duration_s(stage);
+    line.only_for = only_for(stage);
+    std::visit([&](const auto& content) { describe(content, line); }, stage.content);
+    stages_.push_back(std::move(line));
+    if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
+      stages_[place].duration_s = add_arms(*counterbalance, depth + 1);
+    }
+    return stages_[place].duration_s;
+  }
+
+  double add_arms(const Counterbalance& counterbalance, int depth) {
+    double sum_s = 0.0;
+    double longest_s = 0.0;
+    int number = 0;
+    for (const Counterbalance::Arm& arm : counterbalance.arms) {
+      ++number;
+      const std::size_t place = stages_.size();
+      stages_.push_back({.title = hides_ ? fmt::format("Arm {}", number)
+                                         : name_words(arm.name, /*as_title=*/true),
+                         .kind = "Arm",
+                         .depth = depth});
+      const double arm_s = add(arm.stages, depth + 1);
+      stages_[place].duration_s = arm_s;
+      sum_s += arm_s;
+      longest_s = std::max(longest_s, arm_s);
+    }
+    if (counterbalance.method == Counterbalance::Method::kOneOf) return longest_s;
+    if (counterbalance.between.empty()) return sum_s;
+    const std::size_t place = stages_.size();
+    stages_.push_back({.title = "Between two arms", .kind = "Arm", .depth = depth});
+    const double between_s = add(counterbalance.between, depth + 1);
+    stages_[place].duration_s = between_s;
+    return sum_s + between_s * static_cast<double>(counterbalance.arms.size() - 1);
+  }
+
+  std::string title(const Stage& stage) {
+    if (hides_ && std::holds_alternative<Block>(stage.content)) {
+      return fmt::format("Block {}", ++num_blocks_);
+    }
+    if (hides_ && std::holds_alternative<Counterbalance>(stage.content)) {
+      return "Counterbalance";
+    }
+    return title_of(stage, language_);
+  }
+
+  std::string only_for(const Stage& stage) const {
+    std::string conditions;
+    for (const auto& [counterbalance, arm] : stage.only_for) {
+      conditions += (conditions.empty() ? "only where " : " and ") +
+                    name_words(counterbalance, false) + " is " + name_words(arm, false);
+    }
+    return hides_ && !conditions.empty() ? "only for some participants" : conditions;
+  }
+
+  void describe_media(const std::vector<Exploration>& media, OutlineStage& line) const {
+    for (const Exploration& medium : media) {
+      const bool hidden = hides_ && medium.setting.medium != "free_space";
+      line.details.push_back((hidden ? std::string("a fluid") : words_of(medium.setting)) +
+                             ", " + duration_words(medium.duration_s));
+    }
+  }
+
+  // One overload a kind.
+
+  void describe(const Checklist& checklist, OutlineStage& line) const {
+    line.kind = "Checklist";
+    line.what = counted(checklist.items.size(), "item");
+  }
+  void describe(const Consent& consent, OutlineStage& line) const {
+    line.kind = "Consent";
+    line.what = counted(consent.paragraphs.size(), "paragraph");
+  }
+  void describe(const Explore& explore, OutlineStage& line) const {
+    line.kind = "Exploration";
+    line.what =
+        explore.media.size() == 1 ? "1 medium" : fmt::format("{} media", explore.media.size());
+    describe_media(explore.media, line);
+  }
+  void describe(const Training& training, OutlineStage& line) const {
+    line.kind = "Training";
+    line.what = counted(training.examples.size(), "example");
+    describe_media(training.examples, line);
+  }
+  void describe(const Block& block, OutlineStage& line) const {
+    line.kind = name_words(block.procedure, /*as_title=*/true);
+    const int num_trials = procedure_named(block.procedure).expected_trials(block);
+    const std::string trials = counted(static_cast<std::size_t>(num_trials), "trial");
+    const std::size_t count = block.intensities.size();
+    if (block.target_percent.empty()) {
+      line.what = fmt::format(
+          "{} {}, {}: {}", count, count == 1 ? "stimulus" : "stimuli",
+          block.repetitions == 1 ? "once" : fmt::format("{} times", block.repetitions), trials);
+    } else {
+      line.what = counted(count, "starting value") + " for " +
+                  counted(block.target_percent.size(), "target") + ": " + trials;
+    }
+    if (hides_) {
+      line.details.emplace_back("levels hidden: double-blind");
+      return;
+    }
+    const std::string unit = quantity_unit(block.quantity);
+    const std::string name = unit.empty() ? quantity_words(block.quantity) + " " : "";
+    line.details.push_back(name_words(block.medium, false) + ", " + name +
+                           list_of(block.intensities, unit));
+    if (block.reference_intensity) {
+      line.details.push_back("reference " + name + list_of({*block.reference_intensity}, unit));
+    }
+    if (!block.target_percent.empty()) {
+      line.details.push_back("targets " + list_of(block.target_percent, "%"));
+      line.details.push_back("steps of " + list_of({block.coarse_step, block.fine_step}, unit));
+    }
+  }
+  void describe(const Break& rest, OutlineStage& line) const {
+    line.kind = "Break";
+    line.what = "at least " + duration_words(rest.duration_s);
+  }
+  void describe(const PostExperiment& post, OutlineStage& line) const {
+    line.kind = "After the experiment";
+    line.what = counted(post.items.size(), "question");
+    if (hides_) return;
+    for (const PostExperimentItem& item : post.items) {
+      line.details.push_back(words_of(item.setting));
+    }
+  }
+  void describe(const Questionnaire& questionnaire, OutlineStage& line) const {
+    line.kind = "Questionnaire";
+    line.what = counted(questionnaire.items.size(), "question");
+  }
+  void describe(const Counterbalance& counterbalance, OutlineStage& line) const {
+    const bool order = counterbalance.method == Counterbalance::Method::kOrder;
+    line.kind = order ? "Order" : "Choice";
+    line.what = order ? counted(counterbalance.arms.size(), "arm") + ", their order balanced"
+                      : "one of " + counted(counterbalance.arms.size(), "arm");
+  }
+
+  std::string language_;
+  bool hides_;
+  std::vector<OutlineStage>& stages_;
+  int num_blocks_ = 0;
+};
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : ", ") + part;
+  return all;
+}
+
+std::string blinding_words(Blinding blinding) {
+  switch (blinding) {
+    case Blinding::kNone:
+      return "not blind";
+    case Blinding::kParticipant:
+      return "the participant is blind to the levels";
+    case Blinding::kDouble:
+      return "double-blind";
+  }
+  return "";
+}
+
+/// "Group D: 2.1, 1.2 Pa s"; a production begins each target anew.
+std::string order_line(const PlannedBlock& planned, const std::string& language) {
+  const auto& block = std::get<Block>(planned.stage->content);
+  std::string line = title_of(*planned.stage, language) + ": ";
+  double target = -1.0;
+  bool first = true;
+  for (const PlannedTrial& trial : planned.trials) {
+    if (trial.target_percent && *trial.target_percent != target) {
+      target = *trial.target_percent;
+      line += fmt::format("{}to {:g} % from ", first ? "" : "; ", target);
+      first = true;
+    }
+    const std::optional<double> value =
+        trial.intensity ? trial.intensity : trial.starting_intensity;
+    line += fmt::format("{}{:g}", first ? "" : ", ", value.value_or(0.0));
+    first = false;
+  }
+  const std::string unit = quantity_unit(block.quantity);
+  return line + (unit.empty() ? "" : " " + unit);
+}
+
+}  // namespace
+
+StudyOutline outline_of(const Study& study, bool shows_levels) {
+  const std::string& language = study.languages.front();
+  StudyOutline outline{.name = study.name,
+                       .title = title_of(study),
+                       .description = in_language(study.description, language),
+                       .authors = joined(study.authors),
+                       .languages = joined(study.languages),
+                       .blinding = blinding_words(study.blinding)};
+  outline.device = fmt::format(
+      "{} or more, {:g} Hz", counted(study.device.min_contact_points, "point") + " of the hand",
+      study.device.rate_hz);
+  outline.hides_levels = study.blinding == Blinding::kDouble && !shows_levels;
+  Outliner(study, outline).add(study.stages, 0);
+  bool first = true;
+  for (const Cell& cell : cells_of(study)) {
+    double duration_s = 0.0;
+    int num_trials = 0;
+    for (const StageInstance& instance : stages_of(study, cell)) {
+      duration_s += expected_duration_s(*instance.stage);
+      const auto* block = std::get_if<Block>(&instance.stage->content);
+      if (block == nullptr) continue;
+      num_trials += procedure_named(block->procedure).expected_trials(*block);
+    }
+    outline.shortest_s = first ? duration_s : std::min(outline.shortest_s, duration_s);
+    outline.longest_s = std::max(outline.longest_s, duration_s);
+    outline.num_trials = std::max(outline.num_trials, num_trials);
+    first = false;
+  }
+  return outline;
+}
+
+StudyOutline read_outline(const std::filesystem::path& file) {
+  StudyWatch watch(file);
+  return watch.outline();
+}
+
+double longest_session_s(const Study& study) { return outline_of(study).longest_s; }
+
+std::vector<PlannedOrder> planned_orders(const Study& study, const OrdersRequest& request) {
+  PlanRequest plan{.seed = request.seed};
+  bool unblinded = false;
+  if (request.folder.empty()) {
+    plan.participants = next_participants({}, request.num_participants);
+  } else {
+    const core::StudyStore store(request.folder, core::StudyStore::Mode::kReadOnly);
+    plan.num_earlier_sessions = static_cast<std::int64_t>(store.sessions().size());
+    plan.participants = next_participants(store, request.num_participants);
+    plan.completed = completed_cells(store);
+    unblinded = store.unblinded();
+  }
+  if (study.blinding == Blinding::kDouble && !unblinded) return {};
+  std::vector<PlannedOrder> orders;
+  for (const ParticipantPlan& planned : plan_participants(study, plan)) {
+    PlannedOrder order{.participant = planned.participant,
+                       .cells = cell_words(planned.cell),
+                       .duration_s = planned.duration_s};
+    for (const PlannedBlock& block : planned.blocks) {
+      order.blocks.push_back(order_line(block, study.languages.front()));
+    }
+    orders.push_back(std::move(order));
+  }
+  return orders;
+}
+
+}  // namespace jnd::app

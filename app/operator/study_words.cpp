@@ -1,0 +1,117 @@
+#include "app/operator/study_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/operator/session_words.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace experiments;
+
+bool is_block(const Stage& stage) { return std::holds_alternative<Block>(stage.content); }
+
+const Stage* block_named(const std::vector<Stage>& stages, const std::string& name) {
+  for (const Stage& stage : stages) {
+    if (is_block(stage) && stage.name == name) return &stage;
+    const auto* counterbalance = std::get_if<Counterbalance>(&stage.content);
+    if (counterbalance == nullptr) continue;
+    for (const Counterbalance::Arm& arm : counterbalance->arms) {
+      if (const Stage* found = block_named(arm.stages, name)) return found;
+    }
+    if (const Stage* found = block_named(counterbalance->between, name)) return found;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string name_words(std::string name, bool as_title) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  if (as_title && !name.empty() && name[0] >= 'a' && name[0] <= 'z') {
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  }
+  return name;
+}
+
+std::string title_of(const Stage& stage, const std::string& language) {
+  const auto asked = stage.title.find(language);
+  const auto found = asked == stage.title.end() ? stage.title.begin() : asked;
+  if (found != stage.title.end() && !found->second.empty()) return found->second;
+  return name_words(stage.name, /*as_title=*/true);
+}
+
+const std::string& in_language(const Text& text, const std::string& language) {
+  static const std::string kNothing;
+  const auto found = text.find(language);
+  return found == text.end() ? kNothing : found->second;
+}
+
+std::vector<std::string> shown_titles(const std::vector<const Stage*>& stages,
+                                      const std::string& language, bool hides_levels) {
+  std::vector<std::string> titles;
+  int num_blocks = 0;
+  for (const Stage* stage : stages) {
+    if (hides_levels && is_block(*stage)) {
+      titles.push_back(fmt::format("Block {}", ++num_blocks));
+    } else {
+      titles.push_back(title_of(*stage, language));
+    }
+  }
+  return titles;
+}
+
+std::string title_of(const Study& study) {
+  const std::string& title = in_language(study.title, study.languages.front());
+  return title.empty() ? name_words(study.name, /*as_title=*/true) : title;
+}
+
+std::string short_title(const std::string& title) { return title.substr(0, title.find(": ")); }
+
+std::string block_title(const Study& study, const std::string& block) {
+  const Stage* stage = block_named(study.stages, block);
+  return stage == nullptr ? block : title_of(*stage, study.languages.front());
+}
+
+std::string words_of(const MediumSetting& setting) {
+  const std::string medium = name_words(setting.medium, false);
+  if (setting.quantity.empty()) return medium;
+  return medium + ", " + level_words(setting.quantity, setting.intensity);
+}
+
+std::string quantity_words(const std::string& quantity) {
+  if (quantity == "viscosity_pa_s") return "viscosity";
+  if (quantity == "stiffness_n_per_m") return "stiffness";
+  return name_words(quantity, false);
+}
+
+std::string quantity_unit(const std::string& quantity) {
+  if (quantity == "viscosity_pa_s") return "Pa s";
+  if (quantity == "stiffness_n_per_m") return "N/m";
+  return "";
+}
+
+std::string duration_words(double duration_s) {
+  if (!(duration_s >= 0.0) || duration_s > 1e9) return "unknown";
+  if (duration_s < 59.5) return fmt::format("{:.0f} s", duration_s);
+  const auto minutes = std::llround(duration_s / 60.0);
+  if (minutes < 60) return fmt::format("{} min", minutes);
+  return minutes % 60 == 0 ? fmt::format("{} h", minutes / 60)
+                           : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+std::string cell_words(const Cell& cell) {
+  std::string words;
+  for (const Assignment& assignment : cell) {
+    if (!words.empty()) words += "; ";
+    for (std::size_t i = 0; i < assignment.arms.size(); ++i) {
+      words += (i == 0 ? "" : ", then ") + name_words(assignment.arms[i], false);
+    }
+  }
+  return words;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/order/counterbalance.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// "method_order" as it is read: "method order", or "Method order" as a title.
+[[nodiscard]] std::string name_words(std::string name, bool as_title = false);
+/// "" if the text is not in this language.
+[[nodiscard]] const std::string& in_language(const experiments::Text& text,
+                                             const std::string& language);
+
+/// As the study has it, in this language or another; in words of its name where it has none.
+[[nodiscard]] std::string title_of(const experiments::Stage& stage,
+                                   const std::string& language);
+/// The titles of a session's stages. Where levels are hidden, a block has it, or its name.
+/// Where levels are hidden, a block is "Block 1", "Block 2" by its place in the list, since its
+/// name could tell the level.
+[[nodiscard]] std::vector<std::string> shown_titles(
+    const std::vector<const experiments::Stage*>& stages, const std::string& language,
+    bool hides_levels);
+
+/// In its first language; its name where it has none.
+[[nodiscard]] std::string title_of(const experiments::Study& study);
+/// Up to its colon: "Group D" of "Group D: low viscosities".
+[[nodiscard]] std::string short_title(const std::string& title);
+/// Of the block of this name, wherever it stands in the study; the name itself if nowhere.
+[[nodiscard]] std::string block_title(const experiments::Study& study,
+                                      const std::string& block);
+
+/// "water, scale 2", "free space", "viscous, 8 Pa s".
+[[nodiscard]] std::string words_of(const experiments::MediumSetting& setting);
+/// "scale", "viscosity" and "", "Pa s": what a quantity is called, and its unit.
+[[nodiscard]] std::string quantity_words(const std::string& quantity);
+[[nodiscard]] std::string quantity_unit(const std::string& quantity);
+/// "1 h 5 min", "25 min", "40 s".
+[[nodiscard]] std::string duration_words(double duration_s);
+
+/// "estimation, then production; primed" of a cell; "" for one that assigns nothing.
+[[nodiscard]] std::string cell_words(const experiments::Cell& cell);
+
+}  // namespace jnd::app

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "app/apparatus.h"
+#include "experiments/session/session.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// Presents the stimuli of trials: each from its event to its end, with what was delivered and
+/// how the hand moved in between. Whoever uses it lets the time pass. Not real time.
+class Presenter {
+ public:
+  /// The references must outlive it.
+  Presenter(Apparatus& apparatus, experiments::Session& session,
+            const experiments::DeviceNeeds& needs)
+      : apparatus_(apparatus), session_(session), needs_(needs) {}
+
+  /// What one presentation came to.
+  struct Felt {
+    /// Slope of the delivered force on speed, after the ramp; NaN if it ended before, or on a
+    /// device that does not know.
+    double delivered_damping_n_s_per_m = 0.0;
+    std::int64_t last_tick = 0;
+    double duration_s = 0.0;
+  };
+
+  /// Stores the presentation's beginning, then switches the medium: "test", "reference" or
+  /// "free_space" of the current trial.
+  void begin(const experiments::Block& block, const std::string& interval);
+  /// Whether the ramp has had its time and `ramp_is_over` is due.
+  [[nodiscard]] bool waits_for_ramp() const;
+  [[nodiscard]] bool ramp_has_passed() const;
+  /// Felt is what comes after the ramp: from here on it is measured.
+  void ramp_is_over();
+  /// Stores what it came to.
+  Felt end();
+  /// It counts for nothing: a fault, a pause. The event of the attempt's end is the caller's.
+  void abandon();
+
+  [[nodiscard]] bool under_way() const noexcept { return under_way_; }
+  [[nodiscard]] double felt_s() const noexcept;
+
+ private:
+  [[nodiscard]] const experiments::PresentationState& presentation() const;
+
+  Apparatus& apparatus_;
+  experiments::Session& session_;
+  const experiments::DeviceNeeds& needs_;
+  bool under_way_ = false;
+  bool measuring_ = false;
+  std::int64_t first_tick_ = 0;
+  std::int64_t limited_before_ = 0;
+  core::MediumAmounts amounts_;
+  core::ContactSums sums_before_;
+};
+
+}  // namespace jnd::app

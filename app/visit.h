@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/apparatus.h"
+#include "core/storage/study_store.h"
+#include "experiments/session/session.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// The disk did not take a commit: what it was asked to keep has not happened.
+class StorageError : public core::Error {
+ public:
+  using core::Error::Error;
+};
+
+/// A stored session with its apparatus, from start or resumption to its end or interruption:
+/// what a simulated participant and an operator have in common. Not thread-safe, not real time.
+class Visit {
+ public:
+  struct Parameters {
+    core::StudyStore& store;
+    std::int64_t session = 0;  ///< Its row is in the store already.
+    const experiments::Study& study;
+    /// Device, real time and doors; what the study and the session's log decide is filled in.
+    Apparatus::Parameters apparatus;
+    const experiments::Laboratory* laboratory = nullptr;  ///< Of a simulated hand.
+    std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
+  };
+
+  /// Replays the log and starts the apparatus. Throws `Error`.
+  explicit Visit(const Parameters& parameters);
+  Visit(const Visit&) = delete;
+  Visit& operator=(const Visit&) = delete;
+
+  [[nodiscard]] Apparatus& apparatus() noexcept { return apparatus_; }
+  [[nodiscard]] const Apparatus& apparatus() const noexcept { return apparatus_; }
+  [[nodiscard]] experiments::Session& session() noexcept { return session_; }
+  [[nodiscard]] const experiments::Study& study() const noexcept { return parameters_.study; }
+
+  /// Starts the session, or goes on with it: "repeat", "restart" or "end".
+  void begin(const std::string& choice);
+  /// Stores how punctual the loop has been since it was started; after every stage, so that a
+  /// crash costs one.
+  void keep_timing();
+  /// Stores the fault that the loop has latched; does nothing without one.
+  void keep_fault();
+
+ private:
+  /// Events go through the apparatus, which syncs the recording first.
+  class StoredLog final : public experiments::EventLog {
+   public:
+    explicit StoredLog(Visit& visit) : visit_(visit) {}
+    void append(const core::Commit& commit) override;
+
+   private:
+    Visit& visit_;
+  };
+
+  [[nodiscard]] Apparatus::Parameters apparatus_parameters() const;
+
+  Parameters parameters_;
+  bool recorded_samples_;
+  std::vector<core::EventRow> history_;
+  std::int64_t recorded_tick_;
+  Apparatus apparatus_;
+  StoredLog log_{*this};
+  experiments::Session session_;
+};
+
+}  // namespace jnd::app

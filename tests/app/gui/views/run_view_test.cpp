@@ -1,0 +1,367 @@
+#include "app/gui/views/run_view.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "app/gui/headless_ui.h"
+#include "app/gui/views/participant_view.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using experiments::AnswerKind;
+
+/// The test fluid of a comparison is being felt, the reference was before.
+SessionView comparison() {
+  SessionView view{.study = "Viscosity discrimination",
+                   .participant = "P07",
+                   .device = "lumped",
+                   .language = "en"};
+  view.step = Step::kPresenting;
+  view.heading = "Test fluid";
+  view.sentence = "Show one finger. At the ready sign, ask:";
+  view.say = "Does this feel thicker than the reference?";
+  view.sign = HandSign::kOneFinger;
+  view.participant_text = view.say;
+  for (const char* title : {"Checklist", "Consent", "Group D", "Break", "Group E"}) {
+    view.stages.push_back({.title = title});
+  }
+  view.stages[2].status = StageLine::Status::kNow;
+  view.stage = 2;
+  view.trial = TrialView{.trial = 23,
+                         .in_block = 23,
+                         .num_in_block = 40,
+                         .repetition = 3,
+                         .num_repetitions = 5,
+                         .answer = AnswerKind::kYesNo,
+                         .has_reference = true,
+                         .interval = "test",
+                         .felt_s = 6.4,
+                         .num_strokes = 3,
+                         .reference_felt_s = 8.1,
+                         .can_answer = true,
+                         .question = view.say,
+                         .yes_label = "Thicker",
+                         .no_label = "Not thicker",
+                         .level = "1.65 Pa s, reference 1.85 Pa s"};
+  for (int i = 22; i > 12; --i) {
+    view.answers.push_back({.trial = i,
+                            .in_block = i,
+                            .block = "Group D",
+                            .answer = "Thicker",
+                            .response_time_s = 4.2,
+                            .can_undo = i == 22});
+  }
+  view.trials_on_disk = 22;
+  view.last_sequence = 180;
+  view.loop = {.rate_hz = 1000, .lateness_p99_us = 0.03, .scheduler = "SCHED_FIFO 80"};
+  view.max_total_force_n = 30;
+  view.telemetry.sample.attached_bits = 31;
+  view.telemetry.total_force_n = {3.0, 4.0, 0.0};
+  return view;
+}
+
+SessionView estimation() {
+  SessionView view = comparison();
+  view.trial->answer = AnswerKind::kPercent;
+  view.trial->has_reference = false;
+  return view;
+}
+
+SessionView production() {
+  SessionView view = comparison();
+  view.trial->answer = AnswerKind::kMatch;
+  view.trial->has_reference = false;
+  view.trial->adjustable = true;
+  view.trial->target_percent = 100;
+  return view;
+}
+
+SessionView item_of(ItemView item) {
+  SessionView view = comparison();
+  view.trial.reset();
+  view.step = Step::kItem;
+  view.heading = "Questions";
+  view.sentence = item.text;
+  view.item = std::move(item);
+  return view;
+}
+
+class RunView : public ::testing::Test {
+ protected:
+  std::vector<OperatorRequest> draw(const SessionView& view) {
+    std::vector<OperatorRequest> requests;
+    ui_.frame([&](Ui& ui) {
+      last_ = draw_run_view(ui, view, trace_, after_, state_);
+      requests.insert(requests.end(), last_.requests.begin(), last_.requests.end());
+      stopped_ |= last_.stop;
+    });
+    return requests;
+  }
+  /// The one request that a key leads to.
+  template <typename Request>
+  Request after_key(const SessionView& view, const Chord& key) {
+    draw(view);
+    ui_.press(key);
+    return only<Request>(draw(view));
+  }
+  template <typename Request>
+  Request after_click(const SessionView& view, std::string_view widget) {
+    draw(view);
+    ui_.click(widget);
+    return only<Request>(draw(view));
+  }
+  template <typename Request>
+  static Request only(const std::vector<OperatorRequest>& requests) {
+    EXPECT_EQ(requests.size(), 1U);
+    if (requests.size() != 1 || !std::holds_alternative<Request>(requests[0])) {
+      ADD_FAILURE() << "another request";
+      return {};
+    }
+    return std::get<Request>(requests[0]);
+  }
+
+  HeadlessUi ui_;
+  RunViewState state_;
+  AfterSession after_;
+  std::vector<TracePoint> trace_;
+  RunViewResult last_;
+  bool stopped_ = false;
+};
+
+TEST_F(RunView, AnswersByKeyAndByMouseForTheTrialThatIsShown) {
+  EXPECT_EQ(after_key<operate::Answer>(comparison(), {letter('Y')}).value, 1.0);
+  EXPECT_EQ(after_key<operate::Answer>(comparison(), {letter('N')}).value, 0.0);
+  EXPECT_EQ(after_click<operate::Answer>(comparison(), "answer_yes").value, 1.0);
+  EXPECT_EQ(after_click<operate::Answer>(comparison(), "answer_no").trial, 23);
+}
+
+TEST_F(RunView, TheAnswersAreNotThereBeforeTheTestWasFelt) {
+  SessionView view = comparison();
+  view.trial->can_answer = false;
+  view.trial->interval = "reference";
+  draw(view);
+  EXPECT_EQ(ui_.drawn().find("answer_yes"), nullptr);
+  ui_.press(letter('Y'));
+  EXPECT_TRUE(draw(view).empty());
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "test");
+}
+
+TEST_F(RunView, SwitchesBackAndForthByKey) {
+  EXPECT_EQ(after_key<operate::Present>(comparison(), {letter('R')}).interval, "reference");
+  EXPECT_EQ(after_key<operate::Present>(comparison(), {letter('T')}).interval, "test");
+  EXPECT_EQ(after_key<operate::Present>(comparison(), {letter('F')}).interval, "free_space");
+}
+
+TEST_F(RunView, TakesAPercentFromTheKeypad) {
+  draw(estimation());
+  ui_.type("1250");
+  ui_.press(Key::kBackspace);
+  draw(estimation());
+  EXPECT_TRUE(ui_.drawn().shows("125 %"));
+  EXPECT_EQ(after_key<operate::Answer>(estimation(), {Key::kEnter}).value, 125.0);
+}
+
+TEST_F(RunView, WhatWasTypedForOneTrialIsNotTheNextOnesAnswer) {
+  draw(estimation());
+  ui_.type("80");
+  draw(estimation());
+  SessionView next = estimation();
+  ++next.trial->trial;
+  draw(next);
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(next).empty());
+}
+
+TEST_F(RunView, AHeldKeyAsksForStepsThatMayBeLeftOut) {
+  draw(production());
+  ui_.hold({Key::kRight}, 3);
+  const std::vector<OperatorRequest> requests = draw(production());
+  ASSERT_GE(requests.size(), 2U);
+  const auto& first = std::get<operate::Adjust>(requests[0]);
+  EXPECT_EQ(first.direction, experiments::Direction::kRaise);
+  EXPECT_EQ(first.size, experiments::StepSize::kCoarse);
+  EXPECT_FALSE(first.held);
+  EXPECT_TRUE(std::get<operate::Adjust>(requests.back()).held);
+  ui_.release({Key::kRight});
+  EXPECT_EQ(after_key<operate::Answer>(production(), {Key::kEnter}).trial, 23);
+}
+
+TEST_F(RunView, UndoAsksForAReasonAndEnterSendsIt) {
+  draw(comparison());
+  ui_.press({letter('Z'), true});
+  draw(comparison());
+  ASSERT_NE(ui_.drawn().find("dialog_do"), nullptr);
+  EXPECT_FALSE(ui_.drawn().find("dialog_do")->enabled) << "a reason is needed";
+  ui_.type("my slip");
+  EXPECT_TRUE(draw(comparison()).empty()) << "letters are words now, not answers";
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(only<operate::Undo>(draw(comparison())).reason, "my slip");
+  EXPECT_EQ(state_.dialog, RunViewState::Dialog::kNone);
+}
+
+TEST_F(RunView, ADialogIsLeftByItsPrintedKeyAndNothingHappens) {
+  draw(comparison());
+  ui_.press({letter('N'), true});
+  draw(comparison());
+  EXPECT_EQ(ui_.drawn().find("dialog_cancel")->key, "F2");
+  ui_.press(Key::kF2);
+  EXPECT_TRUE(draw(comparison()).empty());
+  EXPECT_EQ(state_.dialog, RunViewState::Dialog::kNone);
+}
+
+TEST_F(RunView, TheEmergencyStopAnswersEverywhereAlsoBehindADialog) {
+  draw(comparison());
+  ui_.click("emergency_stop");
+  draw(comparison());
+  EXPECT_TRUE(stopped_);
+}
+
+TEST_F(RunView, AFaultSaysWhatHappenedWhatIsSafeAndHowToGoOn) {
+  SessionView view = comparison();
+  view.step = Step::kFault;
+  view.heading = "Emergency stop";
+  view.stop_pressed = true;
+  view.sentence = "The emergency stop was pressed.";
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("up to trial 22 is on disk"));
+  EXPECT_TRUE(ui_.drawn().shows("Release the stop"));
+  (void)after_key<operate::Rearm>(view, {Key::kEnter, true});
+}
+
+TEST_F(RunView, TheSameAnswerCannotBeGivenOnceTheSessionIsFinished) {
+  SessionView view = comparison();
+  view.step = Step::kFinished;
+  view.trial.reset();
+  draw(view);
+  ui_.press(letter('Y'));
+  EXPECT_TRUE(draw(view).empty());
+  EXPECT_TRUE(ui_.drawn().shows("Session finished"));
+}
+
+TEST_F(RunView, ANumberOutOfRangeIsToldAndNotSent) {
+  const SessionView view = item_of({.stage = 2,
+                                    .name = "height",
+                                    .kind = ItemView::Kind::kNumber,
+                                    .text = "How tall are you?",
+                                    .unit = "m",
+                                    .minimum = 1.0,
+                                    .maximum = 2.5});
+  draw(view);
+  ui_.type("17");
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(view).empty());
+  EXPECT_TRUE(ui_.drawn().shows("expected 1 to 2.5 m"));
+  ui_.press(Key::kBackspace);
+  ui_.type(".7");
+  ui_.press(Key::kEnter);
+  const auto answer = only<operate::AnswerItem>(draw(view));
+  EXPECT_EQ(answer.answer, "1.7");
+  EXPECT_EQ(answer.item, "height");
+  EXPECT_EQ(answer.stage, 2);
+}
+
+TEST_F(RunView, AScaleIsAnsweredByItsNumber) {
+  const SessionView view = item_of({.name = "tired",
+                                    .kind = ItemView::Kind::kScale,
+                                    .text = "How tired?",
+                                    .low_label = "not at all",
+                                    .high_label = "very"});
+  EXPECT_EQ(after_key<operate::AnswerItem>(view, {static_cast<Key>('7')}).answer, "7");
+  EXPECT_EQ(after_key<operate::AnswerItem>(view, {static_cast<Key>('0')}).answer, "10");
+  EXPECT_EQ(after_click<operate::AnswerItem>(view, "scale_3").answer, "3");
+  EXPECT_TRUE(ui_.drawn().shows("not at all"));
+}
+
+TEST_F(RunView, AChoiceIsAnsweredByItsKeyWithTheStoredValue) {
+  const SessionView view = item_of({.name = "hand",
+                                    .kind = ItemView::Kind::kChoice,
+                                    .text = "Which hand?",
+                                    .options = {{"right", "the right"}, {"left", "the left"}}});
+  EXPECT_EQ(after_key<operate::AnswerItem>(view, {static_cast<Key>('2')}).answer, "left");
+}
+
+TEST_F(RunView, YesWhichAsksForTheWhich) {
+  const SessionView view = item_of(
+      {.name = "device", .kind = ItemView::Kind::kYesNoWhich, .text = "Used one before?"});
+  EXPECT_EQ(after_key<operate::AnswerItem>(view, {letter('N')}).answer, "no");
+  draw(view);
+  ui_.press(letter('Y'));
+  EXPECT_TRUE(draw(view).empty());
+  ui_.type("a glove");
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(only<operate::AnswerItem>(draw(view)).answer, "yes: a glove");
+}
+
+TEST_F(RunView, AnswersThatAreHiddenStayHidden) {
+  SessionView view = comparison();
+  view.blinding = experiments::Blinding::kDouble;
+  view.hides_levels = true;
+  view.trial->level = "";
+  view.telemetry.total_force_n = {};
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("within limits"));
+  EXPECT_TRUE(ui_.drawn().shows("levels hidden"));
+  EXPECT_FALSE(ui_.drawn().shows(" of 30 N"));
+  EXPECT_FALSE(ui_.drawn().shows("m/s"));
+  EXPECT_FALSE(ui_.drawn().shows("Pa s"));
+}
+
+TEST_F(RunView, APilotIsMarked) {
+  SessionView view = comparison();
+  view.pilot = true;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("pilot: not data"));
+}
+
+TEST_F(RunView, TheParticipantSeesTheQuestionAndNoLevel) {
+  SessionView view = comparison();
+  const Drawn& drawn = ui_.frame([&](Ui& ui) { draw_participant_view(ui, view); });
+  EXPECT_TRUE(drawn.shows("thicker than the reference"));
+  EXPECT_TRUE(drawn.shows("hand sign one finger"));
+  EXPECT_FALSE(drawn.shows("Pa s"));
+  EXPECT_FALSE(drawn.shows("trial"));
+}
+
+/// Everything that can be used lies on the screen, whatever waits and however small it is.
+class RunViewFits : public ::testing::TestWithParam<std::pair<float, float>> {};
+
+TEST_P(RunViewFits, EveryWidgetLiesOnTheScreen) {
+  const auto [width, height] = GetParam();
+  std::vector<SessionView> views = {comparison(), estimation(), production()};
+  for (const Step step : {Step::kBegin, Step::kPaused, Step::kFault, Step::kBreak,
+                          Step::kStageDone, Step::kFailed, Step::kFinished}) {
+    SessionView view = comparison();
+    view.step = step;
+    view.trial.reset();
+    views.push_back(view);
+  }
+  views.push_back(comparison());
+  views.back().device = "mouse";
+  views.push_back(production());
+  views.back().device = "mouse";
+  for (const SessionView& view : views) {
+    HeadlessUi ui(width, height);
+    RunViewState state;
+    AfterSession after;
+    const Drawn& drawn =
+        ui.frame([&](Ui& frame) { (void)draw_run_view(frame, view, {}, after, state); });
+    for (const Drawn::Widget& widget : drawn.widgets) {
+      EXPECT_GE(widget.place.x, 0) << widget.name;
+      EXPECT_GE(widget.place.y, 0) << widget.name;
+      EXPECT_LE(widget.place.right(), width) << widget.name;
+      EXPECT_LE(widget.place.bottom(), height) << widget.name;
+      EXPECT_GT(widget.place.width, 20) << widget.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Screens, RunViewFits,
+                         ::testing::Values(std::pair{1600.0f, 1000.0f},
+                                           std::pair{1280.0f, 720.0f},
+                                           std::pair{1920.0f, 1080.0f},
+                                           std::pair{1024.0f, 700.0f}));
+
+}  // namespace
+}  // namespace jnd::app::gui

@@ -1,0 +1,124 @@
+#include "app/operator/export_actions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/hand_made_study.h"
+#include "app/operator/simulated_study.h"
+#include "app/results_output.h"
+#include "core/error.h"
+#include "core/storage/backup.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExportActionsTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] fs::path target() const { return study_.temporary() / "out"; }
+  SimulatedStudy study_;
+  WorkControl control_;
+};
+
+TEST_F(ExportActionsTest, TablesAreWrittenWithACodebook) {
+  study_.simulate(2);
+  const ActionOutcome outcome = export_tables(study_.folder(), target(), control_);
+  EXPECT_TRUE(outcome.ok);
+  EXPECT_EQ(outcome.sentence, "20 answers of 2 sessions are written to " + target().string() +
+                                  ", with a codebook");
+  EXPECT_TRUE(fs::exists(target() / "trials.csv"));
+  EXPECT_TRUE(fs::exists(target() / "codebook.csv"));
+  EXPECT_EQ(control_.ratio(), 1.0);
+}
+
+TEST_F(ExportActionsTest, NothingIsEverOverwritten) {
+  study_.simulate(1);
+  fs::create_directories(target());
+  write_file(target() / "mine.txt", "x");
+  EXPECT_THROW((void)export_tables(study_.folder(), target(), control_), core::Error);
+  EXPECT_THROW((void)write_report(study_.folder(), target(), control_), core::Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(target()), {}), 1);
+}
+
+TEST_F(ExportActionsTest, AVerificationCountsWhatItReadBack) {
+  study_.simulate(1, /*record=*/true);
+  const ActionOutcome outcome = verify_study(study_.folder(), control_);
+  EXPECT_TRUE(outcome.ok) << outcome.sentence;
+  EXPECT_EQ(outcome.sentence.find("a.study: complete, 1 session with 10 answers and "), 0U)
+      << outcome.sentence;
+  EXPECT_TRUE(outcome.problems.empty());
+}
+
+TEST_F(ExportActionsTest, AVerificationTellsEveryProblem) {
+  study_.simulate(1, /*record=*/true);
+  fs::remove(study_.folder() / "recordings" / "0001.sqlite");
+  const ActionOutcome outcome = verify_study(study_.folder(), control_);
+  EXPECT_FALSE(outcome.ok);
+  ASSERT_FALSE(outcome.problems.empty());
+  EXPECT_NE(outcome.problems.front().find("session 1: "), std::string::npos);
+  EXPECT_NE(outcome.sentence.find(outcome.problems.front()), std::string::npos);
+  EXPECT_FALSE(verify_study(study_.temporary() / "none", control_).ok);
+}
+
+TEST_F(ExportActionsTest, AVerificationPlaysEveryLogAgain) {
+  // Its rows are sound, and its events have nothing in them.
+  analysis::HandMadeStudy study(kTinyStudy);
+  study.add("P01");
+  study.estimate(1.0, 100.0);
+  EXPECT_FALSE(verify_study(study.folder(), control_).ok);
+}
+
+TEST_F(ExportActionsTest, ABackupIsReadBackAndKnown) {
+  study_.simulate(1, /*record=*/true);
+  const ActionOutcome outcome = back_up_study(study_.folder(), target(), control_);
+  EXPECT_TRUE(outcome.ok);
+  EXPECT_NE(outcome.sentence.find("complete"), std::string::npos) << outcome.sentence;
+  EXPECT_EQ(core::known_backups(study_.folder()), std::vector<fs::path>{target()});
+  EXPECT_TRUE(verify_study(target(), control_).ok);
+  EXPECT_THROW((void)back_up_study(study_.folder(), study_.folder(), control_), core::Error);
+}
+
+TEST_F(ExportActionsTest, AReportHoldsTheTableAndTheDataOfEveryFigure) {
+  study_.simulate(3);
+  const ActionOutcome outcome = write_report(study_.folder(), target(), control_);
+  EXPECT_TRUE(outcome.ok);
+  EXPECT_EQ(read_file(target() / "results.txt"), to_table(results_of_folder(study_.folder())));
+  // So few answers have no curve, which leaves the header alone.
+  EXPECT_TRUE(fs::exists(target() / "figures" / "comparison_curves.csv"));
+  for (const char* name :
+       {"comparison_answers", "estimation_means", "estimation_power_laws", "boxes"}) {
+    const fs::path file = target() / "figures" / (std::string(name) + ".csv");
+    ASSERT_TRUE(fs::exists(file)) << name;
+    const std::string text = read_file(file);
+    EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 1) << name;
+  }
+  EXPECT_EQ(outcome.sentence.find("6 files "), 0U) << outcome.sentence;
+}
+
+TEST_F(ExportActionsTest, ADoubleBlindStudyGivesNothingAway) {
+  SimulatedStudy blind(kDoubleBlindStudy);
+  blind.simulate(1);
+  EXPECT_THROW((void)export_tables(blind.folder(), target(), control_), core::Error);
+  EXPECT_THROW((void)write_report(blind.folder(), target(), control_), core::Error);
+  EXPECT_FALSE(fs::exists(target()));
+}
+
+TEST_F(ExportActionsTest, WhatIsCancelledLeavesNothingBehind) {
+  study_.simulate(1);
+  control_.cancel();
+  EXPECT_THROW((void)export_tables(study_.folder(), target(), control_), WorkCancelled);
+  EXPECT_THROW((void)write_report(study_.folder(), target(), control_), WorkCancelled);
+  EXPECT_FALSE(fs::exists(target()));
+}
+
+TEST_F(ExportActionsTest, AFreeFolderLiesBesideTheStudy) {
+  const fs::path first = free_folder_beside(study_.folder(), "csv");
+  EXPECT_EQ(first, study_.temporary() / "a-csv");
+  fs::create_directories(first);
+  EXPECT_EQ(free_folder_beside(study_.folder(), "csv"), study_.temporary() / "a-csv-2");
+}
+
+}  // namespace
+}  // namespace jnd::app

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "app/operator/live_trace.h"
+#include "app/operator/operated_session.h"
+#include "app/session_setup.h"
+#include "app/tiny_study.h"
+#include "experiments/study/study_reader.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+
+/// An operator at the simulated hand, in simulated time: what is pressed is a request, what is
+/// seen is a view.
+class OperatedSessionTest : public ::testing::Test {
+ protected:
+  /// A new folder with one session, and the session opened.
+  void open(const std::string& study_text = kTinyStudy) {
+    study_ = std::make_unique<experiments::Study>(
+        experiments::read_study_text(study_text, "study.json"));
+    store_ = std::make_unique<core::StudyStore>(folder_, core::StudyStore::Mode::kCreate,
+                                                core::Durability::kAtClose);
+    session_number_ = add_sessions(*store_,
+                                   {.study = *study_,
+                                    .laboratory = &laboratory_,
+                                    .study_file = "study.json",
+                                    .seed = 7},
+                                   {"P01"})
+                          .front();
+    reopen();
+  }
+
+  /// As a program started again: the session from its log.
+  void reopen() {
+    session_.reset();
+    session_ = std::make_unique<OperatedSession>(
+        OperatedSession::Parameters{.store = *store_,
+                                    .session = session_number_,
+                                    .study = *study_,
+                                    .laboratory = &laboratory_,
+                                    .doors = doors_,
+                                    .trace = &trace_,
+                                    .realtime = false});
+    pass(0.1);
+  }
+
+  /// As beside a window: the session is looked after every now and then.
+  void pass(double duration_s) {
+    constexpr double kGlanceS = 0.010;
+    for (double passed_s = 0.0; passed_s < duration_s; passed_s += kGlanceS) {
+      session_->advance(kGlanceS);
+    }
+  }
+
+  /// The request, carried out; returns what is seen then.
+  SessionView act(OperatorRequest request) {
+    session_->request(std::move(request));
+    pass(0.01);
+    return session_->view();
+  }
+
+  SessionView view() const { return session_->view(); }
+
+  /// Begins and answers everything up to the first trial of this block.
+  SessionView run_to_block(const std::string& block) {
+    if (view().step == Step::kBegin) act(operate::Begin{});
+    for (int guard = 0; guard < 1000; ++guard) {
+      const SessionView now = view();
+      if (now.step == Step::kFinished) break;
+      if (now.trial && study_stage_name(now.stage) == block) return now;
+      step_on(now);
+    }
+    ADD_FAILURE() << "never came to " << block;
+    return view();
+  }
+
+  /// Whatever is asked, answered somehow.
+  void step_on(const SessionView& now) {
+    switch (now.step) {
+      case Step::kItem:
+        act(operate::AnswerItem{now.stage, now.item->name, "1.8"});
+        break;
+      case Step::kMedium:
+        act(operate::FeelMedium{});
+        pass(0.5);
+        break;
+      case Step::kFeeling:
+        if (now.item) {
+          act(operate::AnswerItem{now.stage, now.item->name, "yes"});
+        } else {
+          act(operate::FinishMedium{});
+        }
+        break;
+      case Step::kBreak:
+        pass(now.break_left_s + 0.1);
+        act(operate::FinishStage{now.stage, ""});
+        break;
+      case Step::kStageDone:
+        act(operate::FinishStage{now.stage, ""});
+        break;
+      case Step::kRest:
+        pass(now.trial->rest_left_s + 0.01);
+        break;
+      case Step::kReady:
+      case Step::kPresenting:
+        answer_trial(now, 1.0);
+        break;
+      default:
+        FAIL() << "nothing to do in step " << static_cast<int>(now.step);
+    }
+  }
+
+  void answer_trial(const SessionView& now, double value) {
+    const std::int64_t trial = now.trial->trial;
+    if (now.trial->has_reference) {
+      act(operate::Present{trial, "reference"});
+      pass(1.0);
+    }
+    act(operate::Present{trial, "test"});
+    pass(1.0);
+    act(operate::Answer{trial, value});
+  }
+
+  std::string study_stage_name(std::int64_t stage) const {
+    const auto stages = stages_of_session(*study_, store_->session(session_number_).cells);
+    return stages.at(static_cast<std::size_t>(stage))->name;
+  }
+
+  std::vector<std::string> kinds() const {
+    std::vector<std::string> all;
+    for (const core::EventRow& event : store_->events(session_number_)) {
+      all.push_back(event.kind);
+    }
+    return all;
+  }
+
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+  std::filesystem::path folder_ = temporary_.path() / "a.study";
+  experiments::Laboratory laboratory_ = experiments::read_laboratory(
+      std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+  OperatorDoors doors_;
+  LiveTrace trace_{LiveTrace::Parameters{}};
+  std::unique_ptr<experiments::Study> study_;
+  std::unique_ptr<core::StudyStore> store_;
+  std::int64_t session_number_ = 0;
+  std::unique_ptr<OperatedSession> session_;
+};
+
+}  // namespace jnd::app

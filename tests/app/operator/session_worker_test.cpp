@@ -1,0 +1,126 @@
+#include "app/operator/session_worker.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+
+#include "app/session_setup.h"
+#include "app/tiny_study.h"
+#include "core/storage/integrity.h"
+#include "experiments/study/study_reader.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SessionWorkerTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<SessionWorker> start(const std::string& study_text = kTinyStudy) {
+    experiments::Study study = experiments::read_study_text(study_text, "study.json");
+    auto laboratory = std::make_unique<experiments::Laboratory>(experiments::read_laboratory(
+        fs::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json"));
+    auto store = std::make_unique<core::StudyStore>(folder_, core::StudyStore::Mode::kCreate);
+    const std::int64_t session = add_sessions(*store,
+                                              {.study = study,
+                                               .laboratory = laboratory.get(),
+                                               .study_file = "study.json",
+                                               .seed = 7,
+                                               .realtime = true},
+                                              {"P01"})
+                                     .front();
+    return std::make_unique<SessionWorker>(
+        SessionWorker::Parameters{.store = std::move(store),
+                                  .session = session,
+                                  .study = std::move(study),
+                                  .laboratory = std::move(laboratory),
+                                  .allow_no_realtime = true},
+        doors_);
+  }
+
+  /// Beats the heart, as a window does, until a picture is like this.
+  std::shared_ptr<const SessionView> until(
+      SessionWorker& worker, const std::function<bool(const SessionView&)>& is_so) {
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::chrono::steady_clock::now() < patience) {
+      doors_.heartbeat.beat();
+      const auto view = worker.view();
+      if (view && is_so(*view)) return view;
+      if (worker.over()) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ADD_FAILURE() << "that picture never came; failure: " << worker.failure();
+    return std::make_shared<SessionView>();
+  }
+
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+  fs::path folder_ = temporary_.path() / "a.study";
+  OperatorDoors doors_;
+};
+
+TEST_F(SessionWorkerTest, CarriesOutRequestsAndShowsWhatCameOfThem) {
+  const auto worker = start();
+  until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
+  worker->request(operate::Begin{});
+  const auto item =
+      until(*worker, [](const SessionView& view) { return view.step == Step::kItem; });
+  worker->request(operate::AnswerItem{item->stage, item->item->name, "done"});
+  until(*worker, [](const SessionView& view) { return view.stage == 1; });
+  EXPECT_GT(worker->view()->telemetry.num_ticks, 0);
+  EXPECT_FALSE(worker->trace().snapshot().empty());
+}
+
+TEST_F(SessionWorkerTest, WhoDestroysItLeavesASessionThatCanBeResumed) {
+  {
+    const auto worker = start();
+    worker->request(operate::Begin{});
+    until(*worker, [](const SessionView& view) { return view.step == Step::kItem; });
+  }
+  const core::StudyStore store(folder_, core::StudyStore::Mode::kReadOnly);
+  EXPECT_FALSE(store.finished(1));
+  EXPECT_EQ(store.events(1).back().kind, "paused");
+  EXPECT_TRUE(core::verify(store).problems.empty());
+}
+
+TEST_F(SessionWorkerTest, AWindowThatFallsSilentStopsTheForce) {
+  const auto worker = start();
+  until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
+  // From here on nobody beats.
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (worker->view()->step != Step::kFault && std::chrono::steady_clock::now() < patience) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(worker->view()->fault_name, "heartbeat_lost");
+  worker->request(operate::Rearm{worker->view()->num_stop_presses});
+  until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
+}
+
+TEST_F(SessionWorkerTest, ADeviceThatDoesNotStartIsToldAndNothingIsStored) {
+  experiments::Study study = experiments::read_study_text(kTinyStudy, "study.json");
+  auto store = std::make_unique<core::StudyStore>(folder_, core::StudyStore::Mode::kCreate);
+  const std::int64_t session = add_sessions(*store,
+                                            {.study = study,
+                                             .study_file = "study.json",
+                                             .device = "unplugged",
+                                             .seed = 7,
+                                             .realtime = true},
+                                            {"P01"})
+                                   .front();
+  SessionWorker worker({.store = std::move(store),
+                        .session = session,
+                        .study = std::move(study),
+                        .allow_no_realtime = true},
+                       doors_);
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!worker.over() && std::chrono::steady_clock::now() < patience) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_NE(worker.failure().find("unplugged"), std::string::npos) << worker.failure();
+  const core::StudyStore read(folder_, core::StudyStore::Mode::kReadOnly);
+  EXPECT_TRUE(read.events(session).empty());
+}
+
+}  // namespace
+}  // namespace jnd::app

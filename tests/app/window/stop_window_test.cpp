@@ -1,0 +1,100 @@
+#include "app/window/window_fixture.h"
+#include "app/window/window_studies.h"
+
+namespace jnd::app {
+namespace {
+
+const std::string kAge = R"json(, {
+    "kind": "questionnaire", "name": "about_you", "instruction": {"en": "You."}, "items": [
+      {"name": "age", "kind": "number", "unit": "years", "minimum": 18, "maximum": 99,
+       "question": {"en": "How old are you?"}}]})json";
+
+class StopWindowTest : public WindowTest {
+ protected:
+  /// "4.2 N" in the footer.
+  static double force_n(const Screen& screen) {
+    const auto at = std::ranges::find(screen.texts, "Force ");
+    if (at == screen.texts.end() || at + 1 == screen.texts.end()) return -1.0;
+    return std::stod(*(at + 1));
+  }
+  void expect_stopped() const {
+    window_->wait_for_text("The force is off and stays off.");
+    window_->wait_until("no force", [](const Screen& now) { return force_n(now) == 0.0; });
+  }
+  void rearm() const {
+    window_->use("rearm");
+    window_->wait_until("force again", [](const Screen& now) {
+      return now.find("rearm") == nullptr;
+    });
+  }
+};
+
+TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItIsArmedAgain) {
+  begin(study_of(kComparison + kAge));
+  feel_test();
+  window_->wait_until("a force", [](const Screen& now) { return force_n(now) > 0.1; });
+  window_->press("Escape");
+  expect_stopped();
+  // It latches: neither the answer nor the pause brings anything back.
+  window_->press_at_once({"y", "p", "space"});
+  window_->wait_for("rearm");
+  rearm();
+
+  // From a dialog whose text is being written.
+  feel_test();
+  window_->use("note");
+  window_->wait_for_text("Write a note");
+  window_->type("he said");
+  window_->press("Escape");
+  expect_stopped();
+  EXPECT_TRUE(window_->screen().shows("Write a note")) << "what was written is not lost";
+  window_->press("Return");
+  rearm();
+
+  // By the mouse, below a dialog.
+  feel_test();
+  window_->use("note");
+  window_->wait_for_text("Write a note");
+  window_->click("emergency_stop");
+  expect_stopped();
+  window_->press("F2");
+  rearm();
+
+  for (int trial = 1; trial <= 4; ++trial) {
+    wait_for_trial(trial);
+    feel_test();
+    window_->use("answer_yes");
+  }
+  window_->use("finish_stage");
+  // From a field on the card.
+  window_->wait_for("item_text");
+  window_->type("4");
+  window_->press("Escape");
+  expect_stopped();
+  rearm();
+  window_->wait_for("item_text");
+  window_->press("ctrl+a");
+  window_->type("41");
+  window_->press("Return");
+  window_->use("finish_stage");
+  window_->wait_for_text("Session finished");
+  window_->kill();
+
+  const core::StudyStore store = stored();
+  EXPECT_TRUE(store.completed(1));
+  EXPECT_EQ(responses(store), (std::vector<double>{1, 1, 1, 1}));
+  EXPECT_EQ(store.trials(1).front().attempt, 4) << "three were cut short";
+  const auto faults = events_of(store, "fault_raised");
+  ASSERT_EQ(faults.size(), 4u);
+  for (const core::EventRow& fault : faults) {
+    EXPECT_EQ(value(fault, "fault"), "emergency_stop");
+  }
+  const auto notes = events_of(store, "note_added");
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(value(notes[0], "text"), "he said");
+  EXPECT_EQ(store.answers(1).back().answer, "41");
+  expect_verified();
+}
+
+}  // namespace
+}  // namespace jnd::app

@@ -1,0 +1,296 @@
+#include "app/window/window_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <fstream>
+#include <future>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+// The last one, for its macros are called None and Bool.
+#include <X11/Xlib.h>
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// A window that is drawn by the processor, beside another test: generous, and never slept
+// through.
+constexpr auto kPatience = std::chrono::seconds(30);
+constexpr auto kGlance = std::chrono::milliseconds(5);
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// "Ctrl Z" is ctrl+z to xdotool.
+std::string xdotool_words(const std::string& printed) {
+  static const std::map<std::string, std::string> kNames = {
+      {"Ctrl", "ctrl"},   {"Shift", "shift"},  {"Space", "space"},
+      {"Esc", "Escape"},  {"Enter", "Return"}, {"Backspace", "BackSpace"},
+      {"Del", "Delete"},  {"←", "Left"},       {"→", "Right"},
+      {"↑", "Up"},        {"↓", "Down"},       {"+", "plus"},
+      {"-", "minus"},     {".", "period"}};
+  std::istringstream words(printed);
+  std::string keys;
+  for (std::string word; words >> word;) {
+    const auto known = kNames.find(word);
+    if (known != kNames.end()) word = known->second;
+    if (word.size() == 1) word[0] = static_cast<char>(std::tolower(word[0]));
+    keys += (keys.empty() ? "" : "+") + word;
+  }
+  return keys;
+}
+
+std::string seconds(std::chrono::milliseconds duration) {
+  return std::to_string(static_cast<double>(duration.count()) / 1000.0);
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+const Screen::Widget* Screen::find(std::string_view name) const {
+  const auto found = std::ranges::find(widgets, name, &Widget::name);
+  return found == widgets.end() ? nullptr : &*found;
+}
+
+bool Screen::offers(std::string_view name) const {
+  const Widget* widget = find(name);
+  return widget != nullptr && widget->enabled && widget->width > 0 && widget->height > 0;
+}
+
+bool Screen::shows(std::string_view part) const {
+  return std::ranges::any_of(
+      texts, [&](const std::string& text) { return text.find(part) != std::string::npos; });
+}
+
+std::string Screen::text_after(std::string_view beginning) const {
+  for (const std::string& text : texts) {
+    if (text.starts_with(beginning)) return text.substr(beginning.size());
+  }
+  return "";
+}
+
+WindowDriver::WindowDriver(VirtualDisplay& display, fs::path folder)
+    : display_(display), folder_(std::move(folder)) {
+  fs::create_directories(folder_);
+}
+
+WindowDriver::~WindowDriver() = default;
+
+std::vector<std::pair<std::string, std::string>> WindowDriver::environment() const {
+  return {{"HOME", folder_.string()},
+          {"XDG_STATE_HOME", (folder_ / "state").string()},
+          {"XDG_DATA_HOME", (folder_ / "data").string()}};
+}
+
+void WindowDriver::start(const std::vector<std::string>& arguments) {
+  fs::remove(folder_ / "widgets.json");
+  window_.clear();
+  test_support::ProgramOptions options{.folder = folder_, .environment = environment()};
+  options.environment.emplace_back("DISPLAY", display_.name());
+  options.environment.emplace_back("LIBGL_ALWAYS_SOFTWARE", "1");
+  options.environment.emplace_back("JND_WIDGETS", (folder_ / "widgets.json").string());
+  program_ = std::make_unique<test_support::RunningProgram>(arguments, options);
+  wait_until("a window", [](const Screen& now) { return now.frame > 0; });
+}
+
+void WindowDriver::kill() {
+  program_->send_signal(SIGKILL);
+  (void)wait_for_exit();
+}
+
+test_support::ProgramOutcome WindowDriver::wait_for_exit() {
+  // One that hangs is ended, which its outcome tells.
+  auto waiting = std::async(std::launch::async, [this] { return program_->wait(); });
+  if (waiting.wait_for(kPatience) != std::future_status::ready) {
+    program_->send_signal(SIGKILL);
+  }
+  test_support::ProgramOutcome outcome = waiting.get();
+  program_.reset();
+  return outcome;
+}
+
+// Seeing.
+
+Screen WindowDriver::screen() const {
+  Screen screen;
+  const auto json = nlohmann::json::parse(text_of(folder_ / "widgets.json"), nullptr, false);
+  if (!json.is_object()) return screen;
+  screen.view = json.at("view");
+  screen.frame = json.at("frame");
+  screen.texts = json.at("texts");
+  for (const auto& widget : json.at("widgets")) {
+    screen.widgets.push_back({.name = widget.at("name"),
+                              .label = widget.at("label"),
+                              .key = widget.at("key"),
+                              .x = widget.at("x"),
+                              .y = widget.at("y"),
+                              .width = widget.at("width"),
+                              .height = widget.at("height"),
+                              .enabled = widget.at("enabled")});
+  }
+  return screen;
+}
+
+Screen WindowDriver::wait_until(const std::string& what, const Condition& condition) const {
+  const auto end = Clock::now() + kPatience;
+  Screen now = screen();
+  while (!condition(now)) {
+    if (Clock::now() > end) {
+      throw std::runtime_error("waited in vain for " + what + stands_there(now));
+    }
+    std::this_thread::sleep_for(kGlance);
+    now = screen();
+  }
+  return now;
+}
+
+Screen WindowDriver::wait_for(const std::string& widget) const {
+  return wait_until("the widget " + widget,
+                    [&](const Screen& now) { return now.offers(widget); });
+}
+
+Screen WindowDriver::wait_for_text(const std::string& part) const {
+  return wait_until("the words \"" + part + "\"",
+                    [&](const Screen& now) { return now.shows(part); });
+}
+
+Screen WindowDriver::wait_for_view(const std::string& view) const {
+  return wait_until("the view " + view, [&](const Screen& now) { return now.view == view; });
+}
+
+std::string WindowDriver::every_text() const { return text_of(folder_ / "widgets.json.texts"); }
+
+std::string WindowDriver::stands_there(const Screen& screen) const {
+  std::string words = "; the view " + screen.view + " shows in frame " +
+                      std::to_string(screen.frame) + ":\n";
+  for (const Screen::Widget& widget : screen.widgets) {
+    words += (widget.enabled ? " [" : " (") + widget.name + (widget.enabled ? "]" : ")");
+  }
+  words += "\n";
+  for (const std::string& text : screen.texts) words += "  " + text + "\n";
+  const fs::path file =
+      fs::path(JND_WINDOW_FAILURES) /
+      (::testing::UnitTest::GetInstance()->current_test_info()->name() + std::string(".png"));
+  fs::create_directories(file.parent_path());
+  const std::vector<std::string> take = {"import", "-window", "root", file.string()};
+  if (run_tool(take, display_.name()).exit_code == 0) words += "a picture: " + file.string();
+  return words;
+}
+
+void WindowDriver::picture(const fs::path& file) const {
+  fs::create_directories(file.parent_path());
+  if (run_tool({"import", "-window", window(), file.string()}, display_.name()).exit_code != 0) {
+    throw std::runtime_error("no picture: " + file.string());
+  }
+}
+
+std::string WindowDriver::window() const {
+  const auto end = Clock::now() + kPatience;
+  while (window_.empty()) {
+    window_ = first_line(
+        run_tool({"xdotool", "search", "--onlyvisible", "--name", "^jnd$"}, display_.name()).out);
+    if (Clock::now() > end) throw std::runtime_error("no window is called jnd");
+  }
+  return window_;
+}
+
+// Doing.
+
+void WindowDriver::xdotool(std::vector<std::string> words) const {
+  words.insert(words.begin(), "xdotool");
+  if (run_tool(words, display_.name()).exit_code == 0) return;
+  std::string all;
+  for (const std::string& word : words) all += word + " ";
+  throw std::runtime_error("refused: " + all + stands_there(screen()));
+}
+
+void WindowDriver::press_at_once(std::initializer_list<std::string> keys) const {
+  std::vector<std::string> words = {"key", "--delay", "0"};
+  words.insert(words.end(), keys.begin(), keys.end());
+  xdotool(words);
+}
+
+void WindowDriver::hold(const std::string& key, std::chrono::milliseconds duration) const {
+  xdotool({"keydown", key, "sleep", seconds(duration), "keyup", key});
+}
+
+void WindowDriver::type(const std::string& text) const {
+  xdotool({"type", "--delay", "1", text});
+}
+
+void WindowDriver::click(const std::string& widget) const {
+  hold_button(widget, std::chrono::milliseconds(0));
+}
+
+void WindowDriver::hold_button(const std::string& widget,
+                               std::chrono::milliseconds duration) const {
+  const Screen now = wait_for(widget);
+  const Screen::Widget& place = *now.find(widget);
+  xdotool({"mousemove", "--window", window(), std::to_string(place.x + place.width / 2),
+           std::to_string(place.y + place.height / 2), "mousedown", "1", "sleep",
+           seconds(duration), "mouseup", "1"});
+}
+
+void WindowDriver::use(const std::string& widget) const {
+  const Screen now = wait_for(widget);
+  const std::string key = xdotool_words(now.find(widget)->key);
+  if (hand == Hand::kMouse || key.empty()) {
+    click(widget);
+  } else {
+    press(key);
+  }
+}
+
+void WindowDriver::move_hand(int num_strokes) const {
+  const Screen now = wait_until("the pad", [](const Screen& at) { return at.offers("pad"); });
+  const Screen::Widget& pad = *now.find("pad");
+  constexpr int kSteps = 24;  // Of a stroke of a third of a second.
+  std::vector<std::string> words;
+  for (int step = 0; step <= num_strokes * kSteps; ++step) {
+    const int along = step % (2 * kSteps);
+    const int x = pad.x + pad.width / 4 +
+                  pad.width / 2 * (along <= kSteps ? along : 2 * kSteps - along) / kSteps;
+    for (const std::string& word :
+         {std::string("mousemove"), std::string("--window"), window(), std::to_string(x),
+          std::to_string(pad.y + pad.height / 2), std::string("sleep"), std::string("0.014")}) {
+      words.push_back(word);
+    }
+  }
+  xdotool(words);
+}
+
+/// What a window manager sends, of which there is none on this display.
+void WindowDriver::press_close_button() const {
+  const std::string number = window();
+  Display* display = ::XOpenDisplay(display_.name().c_str());
+  if (display == nullptr) throw std::runtime_error("no display " + display_.name());
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = std::stoul(number);
+  event.xclient.message_type = ::XInternAtom(display, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] =
+      static_cast<long>(::XInternAtom(display, "WM_DELETE_WINDOW", False));
+  event.xclient.data.l[1] = CurrentTime;
+  ::XSendEvent(display, event.xclient.window, False, NoEventMask, &event);
+  ::XCloseDisplay(display);
+}
+
+void WindowDriver::resize(int width_px, int height_px) const {
+  xdotool({"windowsize", "--sync", window(), std::to_string(width_px),
+           std::to_string(height_px)});
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/window/virtual_display.h"
+#include "support/program.h"
+
+namespace jnd::app {
+
+/// What the window shows, as it says itself.
+struct Screen {
+  struct Widget {
+    std::string name, label;
+    std::string key;  ///< As printed on it: "Ctrl Z".
+    int x = 0, y = 0, width = 0, height = 0;  ///< Pixels of the window.
+    bool enabled = false;
+  };
+  std::string view;
+  std::uint64_t frame = 0;
+  std::vector<Widget> widgets;
+  std::vector<std::string> texts;
+
+  [[nodiscard]] const Widget* find(std::string_view name) const;
+  /// It is there, to be seen and enabled.
+  [[nodiscard]] bool offers(std::string_view name) const;
+  /// Some text contains it.
+  [[nodiscard]] bool shows(std::string_view part) const;
+  /// The first text that begins with this; "" if none does.
+  [[nodiscard]] std::string text_after(std::string_view beginning) const;
+};
+
+/// A person before the window: sees what it shows, uses keyboard and mouse as they are, by
+/// xdotool. Whatever is waited for and does not come is a `std::runtime_error` that says what
+/// stands there instead, with a picture of it.
+class WindowDriver {
+ public:
+  enum class Hand { kKeyboard, kMouse };
+
+  /// `folder`: of the person, empty at first: the program's home and what it tells the test.
+  WindowDriver(VirtualDisplay& display, std::filesystem::path folder);
+  ~WindowDriver();
+  WindowDriver(const WindowDriver&) = delete;
+  WindowDriver& operator=(const WindowDriver&) = delete;
+
+  /// Starts the program and waits for its window.
+  void start(const std::vector<std::string>& arguments = {});
+  /// SIGKILL.
+  void kill();
+  /// Waits until it ends by itself.
+  [[nodiscard]] test_support::ProgramOutcome wait_for_exit();
+  /// The program's environment but for the display.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> environment() const;
+
+  // Seeing.
+  [[nodiscard]] Screen screen() const;
+  using Condition = std::function<bool(const Screen&)>;
+  Screen wait_until(const std::string& what, const Condition& condition) const;
+  /// Until the widget can be used.
+  Screen wait_for(const std::string& widget) const;
+  Screen wait_for_text(const std::string& part) const;
+  Screen wait_for_view(const std::string& view) const;
+  /// Every text that any frame of any window of any run showed, one a line.
+  [[nodiscard]] std::string every_text() const;
+  /// Saves what the window looks like.
+  void picture(const std::filesystem::path& file) const;
+
+  // Doing. Words are those of xdotool: "y", "ctrl+z", "Return".
+  void press(const std::string& key) const { press_at_once({key}); }
+  /// One right after the other, faster than a frame.
+  void press_at_once(std::initializer_list<std::string> keys) const;
+  void hold(const std::string& key, std::chrono::milliseconds duration) const;
+  /// ASCII.
+  void type(const std::string& text) const;
+  void click(const std::string& widget) const;
+  void hold_button(const std::string& widget, std::chrono::milliseconds duration) const;
+  /// Uses a widget once it can be: by the key that is printed on it or by the mouse.
+  void use(const std::string& widget) const;
+  Hand hand = Hand::kKeyboard;
+  /// Strokes on the pad, to and fro, where the mouse moves the hand.
+  void move_hand(int num_strokes) const;
+  /// The close button of the window's frame.
+  void press_close_button() const;
+  void resize(int width_px, int height_px) const;
+
+ private:
+  void xdotool(std::vector<std::string> words) const;
+  [[nodiscard]] std::string window() const;  ///< Its number on the display.
+  [[nodiscard]] std::string stands_there(const Screen& screen) const;
+
+  VirtualDisplay& display_;
+  std::filesystem::path folder_;
+  std::unique_ptr<test_support::RunningProgram> program_;
+  mutable std::string window_;
+};
+
+}  // namespace jnd::app

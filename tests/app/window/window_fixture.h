@@ -1,0 +1,102 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/tiny_study.h"
+#include "app/window/virtual_display.h"
+#include "app/window/window_driver.h"
+#include "core/storage/study_store.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+
+/// A person at the real window, on a display of the test's own. Skipped where there is no way
+/// to have one.
+class WindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string lacking = what_windows_lack(); !lacking.empty()) {
+      GTEST_SKIP() << lacking;
+    }
+    display_ = std::make_unique<VirtualDisplay>(1280, 720);
+    window_ = std::make_unique<WindowDriver>(*display_, temporary_.path() / "person");
+  }
+
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const {
+    return temporary_.path() / name;
+  }
+  [[nodiscard]] test_support::ProgramOutcome jnd(
+      const std::vector<std::string>& arguments) const {
+    return test_support::run_program(
+        arguments, {.folder = temporary_.path(), .environment = window_->environment()});
+  }
+
+  /// `jnd run` with the simulated hand, up to the card that waits for the session's begin.
+  void prepare(const std::string& study_text, const std::string& folder = "a.study") {
+    write_file(path("study.json"), study_text);
+    window_->start({"run", path("study.json").string(), "--study", path(folder).string(),
+                    "--participant", "P01", "--device", "lumped", "--seed", "7"});
+    window_->wait_for_view("prepare");
+    window_->use("start_session");
+    window_->wait_for("begin");
+  }
+  void begin(const std::string& study_text, const std::string& folder = "a.study") {
+    prepare(study_text, folder);
+    window_->use("begin");
+  }
+
+  /// The test of the trial under way is felt and can be answered.
+  void feel_test() {
+    if (window_->wait_for("present").find("present")->label == "Present the reference") {
+      window_->use("present");
+      window_->wait_until("the reference", [](const Screen& now) {
+        return now.offers("present") && now.find("present")->label == "Present the test";
+      });
+    }
+    window_->use("present");
+    window_->wait_until("the test", [](const Screen& now) { return now.shows("felt for"); });
+  }
+  void wait_for_trial(int number) {
+    window_->wait_until("trial " + std::to_string(number), [&](const Screen& now) {
+      return now.text_after("Trial " + std::to_string(number) + " of ") != "";
+    });
+  }
+
+  [[nodiscard]] core::StudyStore stored(const std::string& folder = "a.study") const {
+    return {path(folder), core::StudyStore::Mode::kReadOnly};
+  }
+  /// Of the answers that count, by trial.
+  [[nodiscard]] static std::vector<double> responses(const core::StudyStore& store) {
+    std::vector<double> all;
+    for (const core::TrialRow& trial : store.trials(1)) all.push_back(*trial.response);
+    return all;
+  }
+  [[nodiscard]] static std::vector<core::EventRow> events_of(const core::StudyStore& store,
+                                                             const std::string& kind) {
+    std::vector<core::EventRow> all;
+    for (core::EventRow& event : store.events(1)) {
+      if (event.kind == kind) all.push_back(std::move(event));
+    }
+    return all;
+  }
+  [[nodiscard]] static std::string value(const core::EventRow& event, const std::string& key) {
+    const auto data = nlohmann::json::parse(event.data);
+    return data.at(key).get<std::string>();
+  }
+  void expect_verified(const std::string& folder = "a.study") const {
+    const test_support::ProgramOutcome outcome = jnd({"verify", path(folder).string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  }
+
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+  std::unique_ptr<VirtualDisplay> display_;
+  std::unique_ptr<WindowDriver> window_;
+};
+
+}  // namespace jnd::app
