@@ -160,9 +160,16 @@ MachineCheck check_memory_lock() {
 }
 
 std::vector<MachineCheck> machine_checks() {
-  return {check_realtime_priority(), check_memory_lock(), kernel(),     timers(),
-          cpu_governor(),            idle_states(),       processors(), disk_space(),
-          display(),                 shipped_files()};
+  return {check_realtime_priority(),
+          check_memory_lock(),
+          kernel(),
+          timers(),
+          cpu_governor(),
+          idle_states(),
+          processors(),
+          disk_space(),
+          display(),
+          shipped_files()};
 }
 
 std::optional<double> free_bytes(const std::filesystem::path& path) {

@@ -84,12 +84,12 @@ Apparatus::Parameters Visit::apparatus_parameters() const {
   return apparatus;
 }
 
-void Visit::begin(const std::string& choice) {
+void Visit::begin(const std::string& choice, const std::string& language) {
   if (session_.state().started) {
     const std::int64_t last_known = session_.state().last_tick;
     session_.resume(choice, last_known + 1, std::max(recorded_tick_, last_known));
   } else {
-    session_.start();
+    session_.start(language);
   }
   const device::RealtimeThread* thread = apparatus_.realtime_thread();
   if (thread == nullptr || session_.state().ended) return;

@@ -42,8 +42,8 @@ class Visit {
   [[nodiscard]] experiments::Session& session() noexcept { return session_; }
   [[nodiscard]] const experiments::Study& study() const noexcept { return parameters_.study; }
 
-  /// Starts the session, or goes on with it: "repeat", "restart" or "end".
-  void begin(const std::string& choice);
+  /// Starts the session in this language, or goes on with it: "repeat", "restart" or "end".
+  void begin(const std::string& choice, const std::string& language = "");
   /// Stores how punctual the loop has been since it was started; after every stage, so that a
   /// crash costs one.
   void keep_timing();

@@ -16,9 +16,9 @@ int run(bool as_json) {
     nlohmann::json list = nlohmann::json::array();
     for (const MachineCheck& check : checks) {
       list.push_back({{"name", check.name},
-                        {"ok", check.ok},
-                        {"found", check.found},
-                        {"remedy", check.remedy}});
+                      {"ok", check.ok},
+                      {"found", check.found},
+                      {"remedy", check.remedy}});
     }
     std::puts(json_text(nlohmann::json{{"checks", std::move(list)}}).c_str());
     return kDone;

@@ -71,6 +71,15 @@ StartModel look_around(const RecentStudies& recent, WorkControl& control) {
   return model;
 }
 
+/// "NAME-results-1.png" beside the study, or whichever does not exist yet.
+fs::path free_picture_beside(const fs::path& study_folder) {
+  for (int number = 1;; ++number) {
+    fs::path file = study_folder.parent_path() / (study_folder.stem().string() + "-results-" +
+                                                  std::to_string(number) + ".png");
+    if (!fs::exists(file)) return file;
+  }
+}
+
 std::vector<FolderEntry> entries_of(const fs::path& folder) {
   std::vector<FolderEntry> entries;
   std::error_code error;
@@ -146,6 +155,11 @@ std::optional<fs::path> Application::take_picture_request() {
   return std::exchange(picture_, std::nullopt);
 }
 
+void Application::picture_saved(const fs::path& file, const std::string& problem) {
+  outcome_ = {.ok = problem.empty(),
+              .sentence = problem.empty() ? "The picture is in " + file.string() : problem};
+}
+
 void Application::escape() noexcept {
   if (worker_ != nullptr) doors_.emergency_stop.press();
 }
@@ -185,6 +199,7 @@ void Application::attempt(const char* title, const std::function<void()>& work) 
 void Application::draw(Ui& ui) {
   ui.fill(ui.screen(), Colour::kGround);
   collect_work();
+  run_state_.is_covered = shows_keys_ || !message_.empty();
   switch (screen_) {
     case Screen::kStart:
       draw_start(ui);
@@ -212,6 +227,9 @@ void Application::draw(Ui& ui) {
     draw_message(ui);
   } else if (shows_keys_) {
     draw_keys(ui);
+  }
+  if (screen_ == Screen::kSession && view_ && run_state_.is_covered && draw_emergency_stop(ui)) {
+    escape();
   }
 }
 
@@ -412,8 +430,7 @@ void Application::draw_results(Ui& ui) {
       return write_report(folder, free_folder_beside(folder, "report"), control);
     });
   } else if (result.save_picture) {
-    picture_ = free_folder_beside(folder, "results").string() + ".png";
-    outcome_ = {.ok = true, .sentence = "The picture is in " + picture_->string()};
+    picture_ = free_picture_beside(folder);
   } else if (result.unblind) {
     attempt("The study cannot be unblinded", [&] {
       core::StudyStore store(folder, core::StudyStore::Mode::kReadWrite);

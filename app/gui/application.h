@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -52,6 +53,8 @@ class Application {
   [[nodiscard]] float zoom() const noexcept { return zoom_; }
   /// Where the next frame shall be saved as a picture; once.
   [[nodiscard]] std::optional<std::filesystem::path> take_picture_request();
+  /// What came of it; `problem` is "" if nothing went wrong.
+  void picture_saved(const std::filesystem::path& file, const std::string& problem);
 
   /// The emergency stop; past everything else.
   void escape() noexcept;
@@ -93,6 +96,7 @@ class Application {
   void start_session(const std::string& participant, const std::string& device);
   void resume_session(const std::filesystem::path& folder, std::int64_t session);
   void run(std::unique_ptr<core::StudyStore> store, std::int64_t session);
+  void hold_input(Ui& ui, bool is_behind, bool requests_wait) const;
   void after_session();
   void close_session();
   void begin_work(const char* name, std::function<ActionOutcome(WorkControl&)> work);
@@ -125,6 +129,7 @@ class Application {
 
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;
+  std::chrono::steady_clock::time_point requested_at_;  ///< The last time.
   std::filesystem::path session_folder_;
   RunViewState run_state_;
   AfterSession after_;

@@ -92,8 +92,21 @@ void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t sess
   screen_ = Screen::kSession;
 }
 
+/// Keys pressed while an act is being carried out are meant for what it leads to. A disk that
+/// hangs or a long rest must not keep the operator from everything else, though.
+void Application::hold_input(Ui& ui, bool is_behind, bool requests_wait) const {
+  constexpr auto kMostForTheDisk = std::chrono::seconds(1);
+  constexpr auto kMostForARamp = std::chrono::milliseconds(300);
+  const auto waited = std::chrono::steady_clock::now() - requested_at_;
+  if ((is_behind && waited < kMostForTheDisk) || (requests_wait && waited < kMostForARamp)) {
+    ui.hold_input();
+  }
+}
+
 void Application::draw_session(Ui& ui) {
   if (worker_) {
+    // Before the view, which then shows at least as much.
+    hold_input(ui, worker_->is_behind(), worker_->has_waiting_requests());
     if (auto newest = worker_->view()) view_ = std::move(newest);
     if (worker_->over()) close_session();
   }
@@ -109,6 +122,7 @@ void Application::draw_session(Ui& ui) {
   const RunViewResult result = draw_run_view(ui, *view_, trace, after_, run_state_);
   if (result.stop) escape();
   if (worker_) {
+    if (!result.requests.empty()) requested_at_ = std::chrono::steady_clock::now();
     for (const OperatorRequest& request : result.requests) worker_->request(request);
   }
   if (closing_ && run_state_.dialog == RunViewState::Dialog::kNone && !result.to_sessions) {

@@ -78,7 +78,7 @@ Part joined(std::initializer_list<Part> parts) {
 }
 
 Drawing fist() {
-  const Part palm = {{{{29, 58}, {73, 58}, {66, 78}, {38, 78}}, 13}};
+  const Part palm = {{{{31.2f, 60}, {68.9f, 60}, {64, 80}, {38, 80}}, 11}};
   return {.parts = {palm,
                     {{{{72.5f, 38}, {72.5f, 57}}, 7.4f}},
                     {{{{58.5f, 33}, {58.5f, 57}}, 7.6f}},
@@ -89,12 +89,12 @@ Drawing fist() {
 }
 
 Drawing one_finger() {
-  const Part palm_and_index = {{{{29, 62}, {73, 62}, {66, 80}, {38, 80}}, 13},
-                               {{{30, 16}, {30, 62}}, 8.2f}};
-  return {.parts = {palm_and_index,
+  const Part palm = {{{{32, 63}, {69.5f, 63}, {64, 82}, {39, 82}}, 11.5f}};
+  return {.parts = {palm,
                     {{{{74, 45}, {74, 59}}, 7.2f}},
                     {{{{60.5f, 41}, {60.5f, 60}}, 7.5f}},
                     {{{{46.5f, 40}, {46.5f, 60}}, 7.7f}},
+                    {{{{30.5f, 15}, {30.5f, 64}}, 8.2f}},
                     {{{{27, 74}, {54, 68}}, 7.8f}}},
           .creases = {}};
 }
@@ -105,7 +105,7 @@ Drawing okay() {
       {{{54, 58}, {50, 16}}, 6.6f}, {{{64, 58}, {68, 14}}, 6.6f}, {{{72, 62}, {86, 26}}, 6.3f}};
   // Index and thumb are one ring; where their tips meet, a line tells them apart.
   const Part ring = bent_finger({31, 57}, 16, 0, 360, 6.6f);
-  const Part thumb = {{{{38, 71}, {54, 80}}, 7.5f}};
+  const Part thumb = {{{{42, 71.5f}, {54, 80}}, 7.5f}};
   return {.parts = {joined({palm, fingers, thumb, ring})},
           .creases = {{{{8.5f, 59.5f}, {20, 57}}, kStroke / 2}}};
 }
@@ -117,10 +117,10 @@ Drawing thumb_up() {
                                {{{34, 60}, {44, 42}}, 8.2f}};
   return {.parts = {cuff,
                     hand_and_thumb,
-                    {{{{60, 86}, {72, 86}}, 6.2f}},
-                    {{{{58, 73.5f}, {76, 73.5f}}, 6.8f}},
-                    {{{{58, 60.5f}, {79, 60.5f}}, 6.8f}},
-                    {{{{60, 47}, {79, 47}}, 6.8f}}},
+                    {{{{57, 86}, {72, 86}}, 6.2f}},
+                    {{{{55, 73.5f}, {76, 73.5f}}, 6.8f}},
+                    {{{{54, 60.5f}, {79, 60.5f}}, 6.8f}},
+                    {{{{55, 47}, {79, 47}}, 6.8f}}},
           .creases = {}};
 }
 

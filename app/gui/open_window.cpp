@@ -20,9 +20,22 @@ bool has_display() {
 
 namespace {
 
+/// Opens and closes the participant's window as wanted; one closed by hand is wanted no more.
+void show_participant(gui::Window& window, gui::Application& application, bool& was_open) {
+  if (was_open && !window.second_is_open()) application.hide_participant();
+  if (application.shows_participant() && !window.second_is_open()) {
+    window.open_second("jnd: participant",
+                       [&](gui::Ui& second) { application.draw_participant(second); });
+  } else if (!application.shows_participant() && window.second_is_open()) {
+    window.close_second();
+  }
+  was_open = window.second_is_open();
+}
+
 /// Lets the window and the application know of each other.
 void show(gui::Window& window, const WindowRequest& request) {
   gui::Application application(request, [&window] { window.wake(); });
+  bool second_was_open = false;
   window.on_escape = [&] { application.escape(); };
   window.on_iteration = [&] {
     application.beat();
@@ -34,16 +47,11 @@ void show(gui::Window& window, const WindowRequest& request) {
     if (window.close_requested()) application.ask_to_close();
     ui.set_view(application.view_name());
     application.draw(ui);
-    if (application.shows_participant() != window.second_is_open()) {
-      if (application.shows_participant()) {
-        window.open_second("jnd: participant",
-                           [&](gui::Ui& second) { application.draw_participant(second); });
-      } else {
-        window.close_second();
-      }
-    }
+    show_participant(window, application, second_was_open);
     if (const auto file = application.take_picture_request()) {
-      window.save_picture(*file, std::nullopt, [](const std::string&) {});
+      window.save_picture(*file, std::nullopt, [&, file](const std::string& problem) {
+        application.picture_saved(*file, problem);
+      });
     }
     if (application.zoom() != window.zoom()) window.set_zoom(application.zoom());
     if (application.closed()) window.close();

@@ -17,7 +17,6 @@ struct Nearest {
 
 std::string with_unit(double value, const std::string& unit) {
   std::string text = short_number(value);
-  // In English a percent sign follows its number at once; units do not.
   if (!unit.empty()) text += " " + unit;
   return text;
 }
@@ -31,15 +30,16 @@ class Search {
  public:
   Search(const Ui& ui, const PlotArea& area) : ui_(ui), area_(area) {}
 
-  /// True where the point is the nearest so far; its words are asked for only then.
-  bool is_nearer(double x, double y) {
+  /// True where the point is the nearest so far; its words are asked for only then. `weight`:
+  /// less than 1 for what is rather meant.
+  bool is_nearer(double x, double y, float weight = 1.0f) {
     if (!area_.can_show(x, y)) return false;
     const float there_x = area_.x(x);
     const float there_y = area_.y(y);
     if (!area_.place.inset(-6).contains(there_x, there_y)) return false;
     const float distance = std::hypot(there_x - ui_.mouse_x(), there_y - ui_.mouse_y());
-    if (!(distance < nearest_.distance)) return false;
-    nearest_ = {.distance = distance, .x = there_x, .y = there_y};
+    if (!(distance < kReach && weight * distance < nearest_.distance)) return false;
+    nearest_ = {.distance = weight * distance, .x = there_x, .y = there_y};
     return true;
   }
   Nearest& nearest() { return nearest_; }
@@ -51,9 +51,11 @@ class Search {
 };
 
 void search_series(Search& search, const PlotSeries& series, const PlotModel& model) {
+  // A measured point, not the curve that passes beside it.
+  const float weight = series.style == PlotSeries::Style::kPoints ? 0.1f : 1.0f;
   std::size_t best = std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-    if (search.is_nearer(series.x[i], series.y[i])) best = i;
+    if (search.is_nearer(series.x[i], series.y[i], weight)) best = i;
   }
   if (best == std::numeric_limits<std::size_t>::max()) return;
   const std::string& name = best < series.names.size() ? series.names[best] : series.name;

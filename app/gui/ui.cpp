@@ -51,8 +51,10 @@ void Ui::begin_frame(InputQueue& queue) {
   Implementation& my = *my_;
   ImGui::SetCurrentContext(my.context);
   // What was just used may open a dialog or a field, for which the next key is meant.
-  const bool is_ready = !std::exchange(my.was_used, false) && !my.is_waiting_for_focus();
-  if (my.again.has_value()) {
+  const bool is_held = std::exchange(my.is_held, false);
+  const bool is_ready =
+      !std::exchange(my.was_used, false) && !my.is_waiting_for_focus() && !is_held;
+  if (my.again.has_value() && !is_held) {
     my.input = *std::exchange(my.again, std::nullopt);
   } else if (is_ready) {
     my.input = queue.next_frame(!my.active_before.empty());
@@ -131,9 +133,12 @@ const Drawn& Ui::end_frame() {
 }
 
 bool Ui::wants_another_frame() const noexcept {
-  return my_->has_more || my_->was_used || my_->is_waiting_for_focus() || my_->is_repeating ||
-         my_->again.has_value() || my_->dialog_is_new;
+  const bool has_input = my_->has_more || my_->again.has_value();
+  return (has_input && !my_->is_held) || my_->was_used || my_->is_waiting_for_focus() ||
+         my_->is_repeating || my_->dialog_is_new;
 }
+
+void Ui::hold_input() noexcept { my_->is_held = true; }
 
 void Ui::set_view(std::string_view name) { my_->drawn.view = name; }
 

@@ -110,6 +110,10 @@ class Ui {
   /// The next frame should be drawn at once, not only after an event.
   [[nodiscard]] bool wants_another_frame() const noexcept;
 
+  /// What is typed and clicked waits for a frame after one in which this was not called: what
+  /// it is meant for is on its way.
+  void hold_input() noexcept;
+
   /// Names what is on screen, for tests.
   void set_view(std::string_view name);
   /// What was drawn in this frame so far.

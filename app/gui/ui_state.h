@@ -23,6 +23,7 @@ struct Ui::Implementation {
   std::optional<FrameInput> again;  ///< Input that went to no one, for the next frame.
   bool was_held = false;            ///< The last control that answered goes on.
   bool was_used = false;            ///< A control answered in this frame.
+  bool is_held = false;             ///< What was used has not come to anything yet.
   bool has_more = false;            ///< The queue is not empty.
 
   // The mouse, logical pixels.

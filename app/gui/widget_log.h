@@ -15,9 +15,9 @@ namespace jnd::app::gui {
 ///      ["..."]}
 [[nodiscard]] std::string widgets_json(const Drawn& drawn, float scale);
 
-/// Writes a frame that shows something new, whole or not at all: the file is replaced. FILE.texts
-/// beside it grows by each text that no frame before has shown, one a line: whatever stood on
-/// the screen however shortly.
+/// Writes a frame that shows something new, whole or not at all: the file is replaced.
+/// FILE.texts beside it grows by each text that no frame before has shown, one a line: whatever
+/// stood on the screen however shortly.
 class WidgetLog {
  public:
   /// An empty path switches it off.

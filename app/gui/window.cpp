@@ -70,16 +70,22 @@ void Window::Implementation::draw(const Frame& frame) {
     io.DisplaySize = ImVec2(static_cast<float>(its_width), static_cast<float>(its_height));
     io.DeltaTime = passed_s;
   };
+  frame_times.begin_frame();
   set_up(context, width, height);
   ImGui_ImplOpenGL3_NewFrame();
   ui->begin_frame(queue);
   frame(*ui);
   const Drawn& drawn = ui->end_frame();
+  frame_times.end(FrameTimes::Part::kDraw);
   show_cursor();
   clear();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (frame_times.wanted()) glFinish();
+  frame_times.end(FrameTimes::Part::kRender);
   if (!wanted_pictures.empty()) save_wanted_pictures(width, height);
   glfwSwapBuffers(main);
+  frame_times.end(FrameTimes::Part::kShow);
+  frame_times.end_frame(drawn.view);
   widget_log.write(drawn, theme.scale());
 
   if (second == nullptr) return;
@@ -196,8 +202,8 @@ Theme& Window::theme() noexcept { return my_->theme; }
 float Window::zoom() const noexcept { return my_->zoom; }
 
 void Window::set_zoom(float zoom) {
-  my_->zoom = std::isfinite(zoom) ? std::clamp(zoom, 0.5f, 2.0f) : 1.0f;
-  my_->something_happened(false);
+  const float wanted = std::isfinite(zoom) ? std::clamp(zoom, 0.5f, 2.0f) : 1.0f;
+  if (std::exchange(my_->zoom, wanted) != wanted) my_->something_happened(false);
 }
 
 bool Window::second_is_open() const noexcept { return my_->second != nullptr; }

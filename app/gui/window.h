@@ -22,7 +22,8 @@ struct WindowSettings {
 /// draws when something happened and sleeps otherwise. One at a time, on the main thread.
 ///
 /// With the environment variable JND_WIDGETS=FILE every frame that shows something new is also
-/// written to FILE (`widget_log.h`), for tests that click.
+/// written to FILE (`widget_log.h`), for tests that click. With JND_FRAME_TIMES=FILE
+/// what each frame cost is appended to FILE (`frame_times.h`); each then waits for OpenGL.
 class Window {
  public:
   /// Throws `core::Error` beginning with "no display was found", or when there is no OpenGL.

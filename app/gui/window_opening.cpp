@@ -76,6 +76,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 
 void Window::Implementation::open(const WindowSettings& settings) {
   widget_log = WidgetLog(environment("JND_WIDGETS"));
+  frame_times = FrameTimes(environment("JND_FRAME_TIMES"));
   zoom = settings.zoom;
   theme.set_dark(settings.dark);
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/frame_times.h"
 #include "app/gui/input_queue.h"
 #include "app/gui/theme.h"
 #include "app/gui/widget_log.h"
@@ -80,6 +81,7 @@ struct Window::Implementation {
   std::unique_ptr<Ui> ui;
   InputQueue queue;
   WidgetLog widget_log{""};
+  FrameTimes frame_times{""};
   GLFWcursor* text_cursor = nullptr;
   GLFWcursor* hand_cursor = nullptr;
   int shown_cursor = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include "analysis/export/csv_export.h"
 #include "app/operator/figure_tables.h"
 #include "app/operator/results_model.h"
+#include "app/reopened_session.h"
 #include "app/replay_check.h"
 #include "app/session_setup.h"
 #include "core/clock.h"
@@ -29,6 +31,12 @@ std::string counted(std::int64_t count, const std::string& one) {
 std::string sentence_of(const core::Finding& finding) {
   return finding.session == 0 ? finding.message
                               : fmt::format("session {}: {}", finding.session, finding.message);
+}
+
+bool is_unblinded(const core::StudyStore& store, std::int64_t session) {
+  const std::vector<core::EventRow> events = store.events(session);
+  return std::any_of(events.begin(), events.end(),
+                     [](const core::EventRow& event) { return event.kind == "unblinded"; });
 }
 
 ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& what) {
@@ -126,6 +134,29 @@ ActionOutcome write_report(const fs::path& folder, const fs::path& target,
   const int num_files = 1 + write_figure_tables(model, figures);
   return {.sentence = fmt::format("{} with every number and the data of every figure are in {}",
                                   counted(num_files, "file"), target.string())};
+}
+
+ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {
+  core::StudyStore store(folder, core::StudyStore::Mode::kReadWrite);
+  const std::vector<core::SessionRow> sessions = store.sessions();
+  if (sessions.empty()) {
+    throw core::Error(folder.string() + ": expected a session to unblind, found none");
+  }
+  const bool blind = std::any_of(sessions.begin(), sessions.end(), [&](const auto& row) {
+    return stored_study(store, row.session).blinding == experiments::Blinding::kDouble;
+  });
+  if (!blind) {
+    throw core::Error(folder.string() +
+                      ": expected a double-blind study, found one whose levels may be seen");
+  }
+  store.add_unblinding(core::SystemClock().now_ns(), reason);
+  // Every session keeps the moment: answers after it were no longer given blind.
+  for (const core::SessionRow& row : sessions) {
+    if (is_unblinded(store, row.session)) continue;  // By a run that was interrupted.
+    ReopenedSession(store, row).session().unblind(reason);
+  }
+  return {.sentence = fmt::format("{}: unblinded, and so written in the log of its {}",
+                                  folder.string(), counted(std::ssize(sessions), "session"))};
 }
 
 fs::path free_folder_beside(const fs::path& study_folder, const std::string& ending) {

@@ -39,6 +39,12 @@ struct ActionOutcome {
                                          const std::filesystem::path& target,
                                          WorkControl& control);
 
+/// Levels, orders and results may be seen from now on; when and why is stored with the study
+/// and in the log of every session. Throws `core::Error` for a study that is not double-blind
+/// or has no session yet.
+[[nodiscard]] ActionOutcome unblind_study(const std::filesystem::path& folder,
+                                          const std::string& reason);
+
 /// Beside the study: "NAME-csv", or "NAME-csv-2" and so on, whichever does not exist yet.
 [[nodiscard]] std::filesystem::path free_folder_beside(
     const std::filesystem::path& study_folder, const std::string& ending);

@@ -68,6 +68,10 @@ OperatedSession::OperatedSession(const Parameters& parameters)
       session_(visit_.session()),
       presenter_(visit_.apparatus(), session_, parameters.study.device) {
   visit_.apparatus().render(core::free_space());
+  // A session goes on in the language that it was begun in.
+  language_ = !state().language.empty()      ? state().language
+              : !parameters.language.empty() ? parameters.language
+                                             : parameters.study.languages.front();
 }
 
 const SessionState& OperatedSession::state() const { return session_.state(); }
@@ -158,7 +162,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Begin& begin) const {
     if (my.begun_) refuse("the session has begun already");
-    my.visit_.begin(begin.choice);
+    my.visit_.begin(begin.choice, my.language_);
     my.begun_ = true;
     my.begun_s_ = my.now_s();
   }

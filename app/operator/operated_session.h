@@ -45,6 +45,8 @@ class OperatedSession {
   [[nodiscard]] SessionView view() const;
   /// The operator has left, the session is over, or nothing more can be stored.
   [[nodiscard]] bool over() const noexcept { return left_; }
+  /// Something requested has to wait: for a ramp, or the rest before a trial.
+  [[nodiscard]] bool has_waiting_requests() const noexcept { return !requests_.empty(); }
 
  private:
   struct Act;  ///< One overload for each request.
@@ -68,6 +70,7 @@ class OperatedSession {
   void give_up(const std::string& why);
   void move_simulated_hand(double height_m);
 
+  [[nodiscard]] bool is_alone() const { return row_.device == "mouse"; }
   [[nodiscard]] double now_s() const;
   [[nodiscard]] const experiments::SessionState& state() const;
   [[nodiscard]] const experiments::Stage* stage() const;
@@ -98,6 +101,7 @@ class OperatedSession {
   Presenter presenter_;
 
   std::deque<OperatorRequest> requests_;
+  std::string language_;
   bool begun_ = false;
   bool left_ = false;
   core::Fault known_fault_ = core::Fault::kNone;

@@ -50,14 +50,14 @@ const TrialState* current_state(const SessionState& state) {
 
 std::string OperatedSession::words(const Text& text) const {
   if (text.empty()) return "";
-  const auto chosen = text.find(parameters_.language);
+  const auto chosen = text.find(language_);
   if (chosen != text.end()) return chosen->second;
   const auto first = text.find(parameters_.study.languages.front());
   return first != text.end() ? first->second : text.begin()->second;
 }
 
 std::string OperatedSession::title_of(std::size_t index) const {
-  return shown_titles(session_.stages(), parameters_.language, hides_levels_).at(index);
+  return shown_titles(session_.stages(), language_, hides_levels_).at(index);
 }
 
 /// The medium of an exploring stage that waits, or of the post-experiment item that does.
@@ -191,7 +191,7 @@ std::vector<ItemView> OperatedSession::answered_items() const {
 }
 
 std::string OperatedSession::level_of(const TrialState& trial) const {
-  if (hides_levels_) return "";
+  if (hides_levels_ || is_alone()) return "";
   const Block& its_block =
       std::get<Block>(session_.stages().at(static_cast<std::size_t>(trial.stage))->content);
   const PlannedTrial& planned = trial.planned;
@@ -276,7 +276,7 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
                     .block = title_of(its_stage),
                     .kind = kind,
                     .response_time_s = trial.response_time_s};
-    const bool hidden = hides_levels_ && kind == AnswerKind::kMatch;
+    const bool hidden = (hides_levels_ || is_alone()) && kind == AnswerKind::kMatch;
     line.answer = hidden ? "set"
                   : kind == AnswerKind::kMatch
                       ? level_words(its_block.quantity, *trial.response)
@@ -349,13 +349,12 @@ SessionView OperatedSession::view() const {
   SessionView view{.study = words(parameters_.study.title),
                    .participant = row_.participant,
                    .device = row_.device,
-                   .language = parameters_.language.empty()
-                                   ? parameters_.study.languages.front()
-                                   : parameters_.language,
+                   .language = language_,
                    .pilot = row_.pilot,
                    .simulated = row_.simulated,
                    .blinding = parameters_.study.blinding,
-                   .hides_levels = hides_levels_};
+                   .hides_levels = hides_levels_,
+                   .is_alone = is_alone()};
   view.step = step();
   view.stage = state().stage;
   view.last_sequence = state().last_sequence;

@@ -175,9 +175,8 @@ PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
   const auto strongest = std::max_element(
       range.begin(), range.end(),
       [](const auto& a, const auto& b) { return a.total_force_n < b.total_force_n; });
-  line.found +=
-      fmt::format(", the strongest {:.1f} of {:g} N at {:g} m/s", strongest->total_force_n,
-                  limits.max_total_force_n, limits.expected_speed_m_per_s);
+  line.found += fmt::format(", up to {:.1f} of {:g} N", strongest->total_force_n,
+                            limits.max_total_force_n);
   return line;
 }
 

@@ -88,10 +88,17 @@ std::string section_words(const ResultsSource& source, const std::string& name) 
   return found == source.titles.end() ? name_words(name, /*as_title=*/true) : found->second;
 }
 
+/// "group_d.weber_fraction" within its section.
+std::string label_of(const std::string& section, const std::string& name) {
+  const bool is_own = name.starts_with(section + ".");
+  return name_words(is_own ? name.substr(section.size() + 1) : name, /*as_title=*/true);
+}
+
 void add_numbers(const ResultsSource& source, ResultsModel& model) {
   for (const analysis::ResultsSection& section : source.results.sections) {
     for (const Estimate& estimate : section.estimates) {
       model.numbers.push_back({.section = section_words(source, section.name),
+                               .label = label_of(section.name, estimate.name),
                                .name = estimate.name,
                                .value = estimate.value && std::isfinite(*estimate.value)
                                             ? number(*estimate.value, estimate.unit)

@@ -142,7 +142,8 @@ struct ComparisonLine {
 
 /// One number with what was published.
 struct NumberLine {
-  std::string section, name;
+  std::string section, label;              ///< In words: "Group D", "Weber fraction".
+  std::string name;                        ///< "group_d.weber_fraction"
   std::string value, interval, published;  ///< In words; "" for what there is not.
   std::string meaning;
   std::string basis;  ///< Simulated and published: "calibrated", "implied", "held out".

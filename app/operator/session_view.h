@@ -123,6 +123,8 @@ struct SessionView {
   bool pilot = false, simulated = false;
   experiments::Blinding blinding = experiments::Blinding::kNone;
   bool hides_levels = false;  ///< Double-blind and nobody has unblinded the study.
+  /// Who moves the mouse is the participant and sees this screen: no level is on it.
+  bool is_alone = false;
 
   Step step = Step::kBegin;
   std::string heading;   ///< "Test fluid", "Checklist", "Break": what the card is about.

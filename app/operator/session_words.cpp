@@ -23,9 +23,6 @@ std::string own_words(Own what, const std::string& language) {
                                 : known->second)[static_cast<std::size_t>(what)];
 }
 
-/// Who moves the mouse is the participant, and runs the session, too.
-bool is_alone(const SessionView& view) { return view.device == "mouse"; }
-
 /// The sentences of a trial for two people, and for one alone.
 struct TrialSentences {
   const char *present_reference, *present_fluid, *resting;
@@ -51,7 +48,7 @@ constexpr TrialSentences kForOne = {"Present the reference.",
 
 void add_trial_words(SessionView& view, std::string_view instruction) {
   const TrialView& trial = *view.trial;
-  const TrialSentences& sentences = is_alone(view) ? kForOne : kForTwo;
+  const TrialSentences& sentences = view.is_alone ? kForOne : kForTwo;
   const bool first = trial.in_block == 1;
   const std::string target =
       trial.target_percent
@@ -113,7 +110,7 @@ void add_item_words(SessionView& view) {
 void add_begin_words(SessionView& view) {
   view.heading = view.last_sequence > 0 ? "Interrupted" : "Ready to begin";
   view.sentence = view.last_sequence > 0 ? "Choose how the session goes on."
-                  : is_alone(view)
+                  : view.is_alone
                       ? "Feel virtual fluids with the mouse: they hold your hand back."
                       : "The loop runs and renders free space. Begin when you are ready.";
 }
@@ -123,8 +120,8 @@ void add_medium_words(SessionView& view, std::string_view instruction) {
   view.participant_text = std::string(instruction);
   view.say = medium.say.empty() && medium.index == 1 ? std::string(instruction) : medium.say;
   view.sentence = view.step == Step::kMedium ? "Present " + medium.name + "."
-                  : is_alone(view) ? "Feel " + medium.name + ": move the mouse to and fro."
-                                   : "The participant feels " + medium.name + ".";
+                  : view.is_alone ? "Feel " + medium.name + ": move the mouse to and fro."
+                                  : "The participant feels " + medium.name + ".";
   view.sign = HandSign::kOpenHand;
 }
 

@@ -29,6 +29,7 @@ void SessionWorker::request(OperatorRequest request) {
   {
     const std::lock_guard guard(mutex_);
     requests_.push_back(std::move(request));
+    ++num_requested_;
   }
   requested_.notify_one();
 }
@@ -36,6 +37,16 @@ void SessionWorker::request(OperatorRequest request) {
 std::shared_ptr<const SessionView> SessionWorker::view() const {
   const std::lock_guard guard(mutex_);
   return view_;
+}
+
+bool SessionWorker::is_behind() const {
+  const std::lock_guard guard(mutex_);
+  return num_shown_ < num_requested_;
+}
+
+bool SessionWorker::has_waiting_requests() const {
+  const std::lock_guard guard(mutex_);
+  return requests_wait_;
 }
 
 std::string SessionWorker::failure() const {
@@ -46,14 +57,17 @@ std::string SessionWorker::failure() const {
 std::vector<OperatorRequest> SessionWorker::wait_for_requests() {
   std::unique_lock lock(mutex_);
   requested_.wait_for(lock, kGlance, [this] { return !requests_.empty(); });
+  num_taken_ = num_requested_;
   return std::exchange(requests_, {});
 }
 
-void SessionWorker::publish(SessionView view) {
-  auto picture = std::make_shared<const SessionView>(std::move(view));
+void SessionWorker::publish(const OperatedSession& session) {
+  auto picture = std::make_shared<const SessionView>(session.view());
   {
     const std::lock_guard guard(mutex_);
     view_.swap(picture);
+    num_shown_ = num_taken_;
+    requests_wait_ = session.has_waiting_requests();
   }
   if (parameters_.wake) parameters_.wake();
 }
@@ -88,10 +102,10 @@ void SessionWorker::work() {
     // What was asked for is shown at once, what only moves on at the window's pace.
     const auto now = std::chrono::steady_clock::now();
     if (requests.empty() && now < next_picture) continue;
-    publish(session.view());
+    publish(session);
     next_picture = now + kBetweenPictures;
   }
-  publish(session.view());
+  publish(session);
 }
 
 }  // namespace jnd::app

@@ -20,6 +20,8 @@
 
 namespace jnd::app {
 
+class OperatedSession;
+
 /// A session on a thread of its own, so that a slow disk holds up neither the window nor its
 /// heartbeat: requests in, pictures out. It owns everything that the session needs.
 class SessionWorker {
@@ -45,6 +47,10 @@ class SessionWorker {
   void request(OperatorRequest request);
   /// The newest picture; nullptr until the device has started.
   [[nodiscard]] std::shared_ptr<const SessionView> view() const;
+  /// What is asked for has not been looked at yet; else `view` shows what it came to.
+  [[nodiscard]] bool is_behind() const;
+  /// It was looked at and has to wait, for a ramp or a rest.
+  [[nodiscard]] bool has_waiting_requests() const;
   [[nodiscard]] const LiveTrace& trace() const noexcept { return trace_; }
   /// Why the session could not be opened; "" if it could.
   [[nodiscard]] std::string failure() const;
@@ -54,7 +60,7 @@ class SessionWorker {
  private:
   void run() noexcept;
   void work();
-  void publish(SessionView view);
+  void publish(const OperatedSession& session);
   std::vector<OperatorRequest> wait_for_requests();
 
   Parameters parameters_;
@@ -63,6 +69,8 @@ class SessionWorker {
   mutable std::mutex mutex_;
   std::condition_variable requested_;
   std::vector<OperatorRequest> requests_;
+  std::uint64_t num_requested_ = 0, num_taken_ = 0, num_shown_ = 0;
+  bool requests_wait_ = false;
   std::shared_ptr<const SessionView> view_;
   std::string failure_;
   std::atomic<bool> over_{false};

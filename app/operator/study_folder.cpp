@@ -126,7 +126,7 @@ fs::path data_folder() {
 }  // namespace
 
 std::string InterruptedSession::sentence() const {
-  const std::string begin = participant + " was interrupted";
+  std::string begin = participant + " was interrupted";
   if (stage.empty()) return begin;
   if (num_trials == 0) return begin + " in " + stage;
   return fmt::format("{} in {}, trial {} of {}", begin, stage, trial, num_trials);

@@ -69,8 +69,9 @@ struct OrdersRequest {
 /// files, so one that is missing or empty for a moment is no change yet.
 class StudyWatch {
  public:
-  /// Reads it at once. Never throws for what is wrong with the file.
-  explicit StudyWatch(std::filesystem::path file);
+  /// Reads it at once. Never throws for what is wrong with the file. `shows_levels` as in
+  /// `outline_of`.
+  explicit StudyWatch(std::filesystem::path file, bool shows_levels = false);
 
   /// Looks whether the file changed, twice a second at most. True if there is a new outline.
   /// `now_s`: seconds on any clock that goes forward.
@@ -94,6 +95,7 @@ class StudyWatch {
   void read();
 
   std::filesystem::path file_;
+  bool shows_levels_;
   std::optional<Stamp> stamp_;
   std::optional<double> looked_s_, missing_since_s_;
   StudyOutline outline_;

@@ -8,7 +8,8 @@
 
 namespace jnd::app {
 
-StudyWatch::StudyWatch(std::filesystem::path file) : file_(std::move(file)), stamp_(stamp()) {
+StudyWatch::StudyWatch(std::filesystem::path file, bool shows_levels)
+    : file_(std::move(file)), shows_levels_(shows_levels), stamp_(stamp()) {
   read();
 }
 
@@ -45,7 +46,7 @@ void StudyWatch::read() {
   outline_ = {};
   try {
     study_ = experiments::read_study(file_);
-    outline_ = outline_of(*study_);
+    outline_ = outline_of(*study_, shows_levels_);
   } catch (const experiments::ProtocolError& error) {
     outline_.problems = error.problems();
   } catch (const core::Error& error) {

@@ -77,7 +77,7 @@ std::string block_title(const Study& study, const std::string& block) {
 }
 
 std::string words_of(const MediumSetting& setting) {
-  const std::string medium = name_words(setting.medium, false);
+  std::string medium = name_words(setting.medium, false);
   if (setting.quantity.empty()) return medium;
   return medium + ", " + level_words(setting.quantity, setting.intensity);
 }

@@ -107,7 +107,9 @@ struct Writer {
   core::EventRow& row;
   json& data;
 
-  void operator()(const SessionStarted&) const {}
+  void operator()(const SessionStarted& e) const {
+    if (!e.language.empty()) data = {{"language", e.language}};
+  }
   void operator()(const StageEntered& e) const { row.stage = e.stage; }
   void operator()(const ItemAnswered& e) const {
     row.stage = e.stage;
@@ -220,7 +222,9 @@ struct Reader {
   const core::EventRow& row;
   const json& data;
 
-  void operator()(SessionStarted&) const {}
+  void operator()(SessionStarted& e) const {
+    if (data.contains("language")) e.language = data.at("language").get<std::string>();
+  }
   void operator()(StageEntered& e) const { e.stage = column(row.stage, "stage"); }
   void operator()(ItemAnswered& e) const {
     e.stage = column(row.stage, "stage");

@@ -14,7 +14,10 @@ namespace jnd::experiments {
 /// Everything that can happen in a session, as data. A session is the list of its events; its
 /// state is what `apply` makes of them. Each event is one row, committed before it counts.
 
-struct SessionStarted {};
+struct SessionStarted {
+  /// Of the texts that the participant gets: "de". "": of a simulated one, or unknown.
+  std::string language;
+};
 
 struct StageEntered {
   std::int64_t stage = 0;  ///< Index into the participant's own list of stages, from 0.

@@ -51,9 +51,9 @@ TrialForm Session::current_form() const {
   return procedure_named(current_block().procedure).form();
 }
 
-void Session::start() {
+void Session::start(const std::string& language) {
   if (state_.started) cannot("start", "a session that has not begun");
-  commit(SessionStarted{});
+  commit(SessionStarted{language});
 }
 
 void Session::enter_stage() {

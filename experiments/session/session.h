@@ -55,7 +55,8 @@ class Session {
   [[nodiscard]] const Block& current_block() const;
   [[nodiscard]] TrialForm current_form() const;
 
-  void start();
+  /// `language`: of the texts that the participant gets; "" for a simulated one.
+  void start(const std::string& language = "");
   /// Entering a block draws its order.
   void enter_stage();
   void answer_item(const std::string& item, const std::string& answer);

@@ -11,7 +11,10 @@ struct Fold {
   SessionState& state;
   const Event& event;
 
-  void operator()(const SessionStarted&) const { state.started = true; }
+  void operator()(const SessionStarted& e) const {
+    state.started = true;
+    state.language = e.language;
+  }
   void operator()(const StageEntered& e) const {
     state.stage = e.stage;
     state.stage_open = true;

@@ -37,6 +37,7 @@ struct TrialState {
 /// What a session has come to: the fold of its events. Never changed by anything but `apply`.
 struct SessionState {
   bool started = false;
+  std::string language;  ///< As in `SessionStarted`.
   bool ended = false;
   bool completed = false;
   bool paused = false;

@@ -160,7 +160,8 @@ class ItemCard {
                                                                  : range_words(item_);
       const bool entered =
           ui_.text_field("item_text", row, state_.typed, hint, state_.item_is_new);
-      state_.item_is_new = false;
+      // Below a dialog, also one that closes in this frame, it cannot get the keyboard yet.
+      if (ui_.drawn().find("item_text")->enabled) state_.item_is_new = false;
       if (!ui_.button("item_store", button, "Store", style) && !entered) return;
       state_.item_problem = problem_with(item_, state_.typed);
       if (!state_.item_problem.empty()) {

@@ -13,17 +13,17 @@ Rect draw_card(Ui& ui, const Rect& place, std::string_view heading, std::string_
   return inside;
 }
 
-std::vector<Rect> cells_of(const Rect& line, const std::vector<ColumnLook>& columns) {
-  constexpr float kBetween = 18;
+std::vector<Rect> cells_of(const Rect& line, const std::vector<ColumnLook>& columns,
+                           float between) {
   float shares = 0;
   for (const ColumnLook& column : columns) shares += column.share;
-  const float room = line.width - kBetween * static_cast<float>(columns.size() - 1);
+  const float room = line.width - between * static_cast<float>(columns.size() - 1);
   std::vector<Rect> cells;
   float x = line.x;
   for (const ColumnLook& column : columns) {
     const float width = room * column.share / shares;
     cells.push_back({x, line.y, width, line.height});
-    x += width + kBetween;
+    x += width + between;
   }
   return cells;
 }

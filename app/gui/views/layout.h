@@ -31,7 +31,8 @@ struct ColumnLook {
 
 /// The cells of a line, a little apart.
 [[nodiscard]] std::vector<Rect> cells_of(const Rect& line,
-                                         const std::vector<ColumnLook>& columns);
+                                         const std::vector<ColumnLook>& columns,
+                                         float between = 18);
 /// The titles with a line below. Takes 30 px off `place`.
 void draw_table_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& columns);
 

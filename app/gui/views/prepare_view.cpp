@@ -61,7 +61,7 @@ void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {
   ui.heading(inside.take_top(18, 6), "Kind of session");
   Rect line = inside.take_top(46, 6);
   const float half = std::min(220.0f, (line.width - 12) / 2);
-  if (ui.button("real_session", line.take_left(half, 12), "Real session",
+  if (ui.button("real_session", line.take_left(half, 12), "Real",
                 {.key = {letter('R')}, .selected = !state.pilot})) {
     state.pilot = false;
   }

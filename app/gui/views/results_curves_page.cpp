@@ -83,8 +83,9 @@ std::vector<KeyFigure> key_figures(const ResultsModel& results) {
   // The first compares what the study is about where there are curves; else movements.
   if (!results.discriminations.empty() && !results.comparisons.empty()) {
     const ComparisonLine& first = results.comparisons.front();
-    figures.push_back(
-        {first.name, first.estimate ? two_digits(*first.estimate) : "none", first.detail});
+    // Who is left out of it stands on the page of tests.
+    figures.push_back({first.name.substr(0, first.name.find(", without")),
+                       first.estimate ? two_digits(*first.estimate) : "none", first.detail});
   }
   add_number(results, "trial_correlation_median", "Correlation of repetitions", figures);
   add_number(results, "max_speed_m_per_s", "Largest speed", figures);
@@ -135,10 +136,9 @@ std::string law_words(double k, double a) {
 }
 
 /// As high as what is in it, while the figures keep enough.
-float summary_height(const Rect& place, const ResultsViewState& state) {
-  constexpr float kFigures = 280;
+float summary_height(const Rect& place, float figures, const ResultsViewState& state) {
   const float wanted = state.summary_height + 28 + 2 * kPadding;
-  return std::clamp(wanted, 120.0f, std::max(120.0f, place.height - kFigures - kGap));
+  return std::clamp(wanted, 120.0f, std::max(120.0f, place.height - figures - kGap));
 }
 
 struct Law {
@@ -234,7 +234,7 @@ std::string interval_words(const analysis::Interval& ci95) {
 
 void draw_curves_page(Ui& ui, Rect place, const ResultsModel& results,
                       ResultsViewState& state) {
-  draw_summary(ui, place.take_bottom(summary_height(place, state), kGap), results, state);
+  draw_summary(ui, place.take_bottom(summary_height(place, 280, state), kGap), results, state);
   const std::string who = shown_participant(results, state);
   draw_grid(ui, place, results.discriminations, 340, 270,
             [&](const Rect& card, const Discrimination& block) {
@@ -246,7 +246,8 @@ void draw_magnitudes_page(Ui& ui, Rect place, const ResultsModel& results,
                           ResultsViewState& state) {
   const bool has_chips_elsewhere = !results.discriminations.empty();
   if (!has_chips_elsewhere) {
-    draw_summary(ui, place.take_bottom(summary_height(place, state), kGap), results, state);
+    draw_summary(ui, place.take_bottom(summary_height(place, 410, state), kGap), results,
+                 state);
   }
   const std::string who = shown_participant(results, state);
   draw_grid(ui, place, results.magnitudes, 480, 330,

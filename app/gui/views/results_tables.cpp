@@ -12,6 +12,7 @@ namespace {
 using namespace results;
 
 constexpr float kLine = 36;
+constexpr float kBetweenNumbers = 8;
 
 Colour colour_of(QualityChip::Tone tone) {
   switch (tone) {
@@ -26,7 +27,7 @@ Colour colour_of(QualityChip::Tone tone) {
 }
 
 std::vector<ColumnLook> columns_of(const ResultsModel& results) {
-  std::vector<ColumnLook> columns = {{"", 0.9f}};
+  std::vector<ColumnLook> columns = {{"", 0.85f}};
   for (const TableColumn& column : results.columns) {
     columns.push_back({column.title, 1.0f, Align::kRight, column.unit});
   }
@@ -37,7 +38,7 @@ std::vector<ColumnLook> columns_of(const ResultsModel& results) {
 void draw_participants_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& columns) {
   constexpr float kHead = 44;
   const Rect head = place.take_top(kHead);
-  const std::vector<Rect> cells = cells_of(head, columns);
+  const std::vector<Rect> cells = cells_of(head, columns, kBetweenNumbers);
   for (std::size_t i = 1; i < columns.size(); ++i) {
     Rect cell = cells[i];
     const TextStyle style{.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kRight};
@@ -53,7 +54,7 @@ void draw_participants_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& 
 
 void draw_participant(Ui& ui, const Rect& row, const TableRow& line,
                       const std::vector<ColumnLook>& columns, bool selected) {
-  const std::vector<Rect> cells = cells_of(row, columns);
+  const std::vector<Rect> cells = cells_of(row, columns, kBetweenNumbers);
   Rect name = cells[0];
   ui.text(name, line.participant,
           {.font = selected ? Font::kStrong : Font::kBody,
@@ -145,7 +146,7 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
     const TextStyle small{.font = Font::kSmall};
     const TextStyle number{.font = Font::kMono, .align = Align::kRight};
     const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight};
-    ui.text(cells[0], line.name, small);
+    ui.text(cells[0], line.label, small);
     ui.text(cells[1], line.value.empty() ? "-" : line.value, number);
     const std::string start = "95 % ";
     const bool plain = line.interval.starts_with(start);

@@ -98,10 +98,11 @@ void draw_unblind_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& res
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 16), words, soft);
   const bool entered = ui.text_field("unblind_reason", inside.take_top(46), state.reason,
                                      "reason", state.dialog_is_new);
-  state.dialog_is_new = false;
   const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), "Unblind",
                                                   !state.reason.empty(), entered);
   ui.end_dialog();
+  // Enter ends a field; where something is missing yet, it goes on.
+  state.dialog_is_new = entered && !choice.done;
   result.unblind = choice.done;
   if (choice.done || choice.cancelled) state.asks_to_unblind = false;
 }

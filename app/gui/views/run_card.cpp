@@ -72,8 +72,8 @@ void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
   Stack stack(ui);
   add_heading(ui, stack, view);
   const bool feeling = view.step == Step::kFeeling;
-  if (view.device == "mouse") {
-    stack.add(std::max(110.0f, place.height - 350), 14, [&](const Rect& strip) {
+  if (view.is_alone) {
+    stack.add(std::max(90.0f, place.height - 360), 14, [&](const Rect& strip) {
       draw_pad(ui, strip.middle(strip.width - 48, strip.height), view, trace, state);
     });
   } else if (place.height > 420) {
@@ -82,8 +82,8 @@ void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
     });
   }
   const float width = std::min(720.0f, place.width - 48);
-  stack.add_text(view.sentence, view.device == "mouse" ? Font::kLarge : Font::kTitle,
-                 Colour::kInk, width, 10);
+  stack.add_text(view.sentence, view.is_alone ? Font::kLarge : Font::kTitle, Colour::kInk,
+                 width, 10);
   stack.add_text(in_quotes(view.say), Font::kLarge, Colour::kInk, width, 16);
   if (feeling && view.medium && view.medium->duration_s > 0) {
     stack.add(8, 20, [&](const Rect& strip) {
@@ -156,9 +156,12 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
   Rect inside = place;
   ui.outline(place, Colour::kRed, 10, 3);
   Stack stack(ui);
-  stack.add_text(view.heading, Font::kHuge, Colour::kRed, inside.width - 48, 16);
+  const bool roomy = inside.height > 420;
+  stack.add_text(view.heading, roomy ? Font::kHuge : Font::kTitle, Colour::kRed,
+                 inside.width - 48, 16);
   const float width = std::min(720.0f, inside.width - 48);
-  stack.add_text("The force is off and stays off.", Font::kTitle, Colour::kInk, width, 12);
+  stack.add_text("The force is off and stays off.", roomy ? Font::kTitle : Font::kLarge,
+                 Colour::kInk, width, 12);
   stack.add_text(view.sentence, Font::kLarge, Colour::kInk, width, 12);
   stack.add_text("Every answer up to trial " + std::to_string(view.trials_on_disk) +
                      " is on disk. The trial under way will be run again.",
@@ -172,7 +175,7 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
           [&] { result.requests.push_back(operate::Rearm{view.num_stop_presses}); }}},
         360);
   });
-  stack.draw(inside);
+  stack.draw(inside.inset(10));
 }
 
 }  // namespace
@@ -257,22 +260,25 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
       Font::kLarge, Colour::kInk, width, 22);
   const auto outcome = [&](const char* what, bool running, const std::string& sentence,
                            bool failed) {
-    stack.add(28, 10, [&ui, &after, width, what, running, sentence, failed](const Rect& strip) {
-      Rect line = strip.middle(width, 26);
-      ui.dot(line.x + 6, line.y + 13, 5,
-             running            ? Colour::kBlue
-             : sentence.empty() ? Colour::kLine
-             : failed           ? Colour::kRed
+    const std::string words = sentence.empty() || running ? what : sentence;
+    const TextStyle style{.colour = sentence.empty() || running ? Colour::kSoft : Colour::kInk,
+                          .wrap = true};
+    const float height = ui.text_height(width - 22, words, style);
+    stack.add(height, 10,
+              [&ui, &after, width, words, style, running, failed, height,
+               told = !sentence.empty()](const Rect& strip) {
+                Rect line = strip.middle(width, height);
+                ui.dot(line.x + 6, line.y + 11, 5,
+                       running  ? Colour::kBlue
+                       : !told  ? Colour::kLine
+                       : failed ? Colour::kRed
                                 : Colour::kGreen);
-      line.take_left(22);
-      if (running) {
-        ui.text(line, what, {.colour = Colour::kSoft});
-        ui.progress({line.right() - 160, line.y + 9, 160, 8}, after.progress);
-      } else {
-        ui.text(line, sentence.empty() ? what : sentence,
-                {.colour = sentence.empty() ? Colour::kSoft : Colour::kInk});
-      }
-    });
+                line.take_left(22);
+                ui.text(line, words, style);
+                if (running) {
+                  ui.progress({line.right() - 160, line.y + 9, 160, 8}, after.progress);
+                }
+              });
   };
   outcome("Checking that everything is on disk …", after.checking, after.check,
           after.check_failed);
@@ -290,7 +296,7 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
     draw_button_row(
         ui, strip,
         {{"to_sessions",
-          "Next participant",
+          view.is_alone ? "Back to the study" : "Next participant",
           {.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true},
           [&] { result.to_sessions = true; }},
          {"to_results",

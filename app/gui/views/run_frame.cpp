@@ -9,23 +9,28 @@
 namespace jnd::app::gui {
 namespace {
 
+/// It does not wait for the mouse to be released.
+constexpr ButtonStyle kStop{.tone = Tone::kDanger, .key = {Key::kEscape}, .at_once = true};
+constexpr const char* kStopLabel = "Emergency stop";
+constexpr float kStopMargin = 20;
+
 std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-/// Chips from the left; returns where the next would start.
-float draw_chips(Ui& ui, float x, float y, const SessionView& view) {
-  constexpr float kBetween = 10;
-  x += ui.chip(x, y, view.participant, Colour::kBlue) + kBetween;
-  if (view.blinding != experiments::Blinding::kNone) {
-    x += ui.chip(x, y, view.hides_levels ? "levels hidden" : "levels shown", Colour::kBlue) +
-         kBetween;
-  }
-  if (view.pilot) x += ui.chip(x, y, "pilot: not data", Colour::kPilot) + kBetween;
-  if (view.simulated) x += ui.chip(x, y, "simulated hand", Colour::kAmber) + kBetween;
-  return x;
+/// Chips from the left, as many as there is room for.
+void draw_chips(Ui& ui, float x, float y, float right, const SessionView& view) {
+  const auto chip = [&](bool wanted, std::string_view words, Colour colour) {
+    if (!wanted || x + ui.chip_width(words) > right) return;
+    x += ui.chip(x, y, words, colour) + 10;
+  };
+  chip(true, view.participant, Colour::kBlue);
+  chip(view.pilot, "pilot: not data", Colour::kPilot);
+  chip(view.blinding != experiments::Blinding::kNone,
+       view.hides_levels ? "levels hidden" : "levels shown", Colour::kBlue);
+  chip(view.simulated, "simulated hand", Colour::kAmber);
 }
 
 /// A dot, then words of which `strong` stands out; returns the width.
@@ -50,19 +55,20 @@ float draw_health(Ui& ui, float x, const Rect& strip, Colour dot, std::string_vi
 
 }  // namespace
 
-void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
-                     RunViewResult& result) {
+bool draw_emergency_stop(Ui& ui) {
+  Rect strip = ui.screen().take_top(kRunHeader);
+  strip.take_right(kStopMargin);
+  const Rect place = strip.take_right(ui.button_width(kStopLabel, kStop));
+  return ui.button("emergency_stop", place.middle(place.width, 38), kStopLabel, kStop);
+}
+
+void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
   ui.fill(place, Colour::kCard);
   ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
   Rect strip = place.inset(0);
   strip.take_left(20);
-  strip.take_right(20);
-  const ButtonStyle stop{.tone = Tone::kDanger, .key = {Key::kEscape}};
-  const Rect stop_place = strip.take_right(ui.button_width("Emergency stop", stop), 10);
-  if (ui.button("emergency_stop", stop_place.middle(stop_place.width, 38), "Emergency stop",
-                stop)) {
-    result.stop = true;
-  }
+  strip.take_right(kStopMargin);
+  strip.take_right(ui.button_width(kStopLabel, kStop), 10);  // Drawn last, above every dialog.
   using Dialog = RunViewState::Dialog;
   const bool running = view.step != Step::kFailed && view.step != Step::kFinished;
   const bool begun = running && view.step != Step::kBegin;
@@ -99,7 +105,7 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
   strip.take_left(ui.text_width("jnd", Font::kLarge), 18);
   const float title = std::min(ui.text_width(view.study, Font::kBody) + 2, strip.width);
   ui.text({strip.x, middle - ui.line_height(Font::kBody) / 2, title, 24}, view.study, {});
-  if (strip.width - title > 120) draw_chips(ui, strip.x + title + 18, middle - 14, view);
+  draw_chips(ui, strip.x + title + 18, middle - 13, strip.right() - 8, view);
 }
 
 void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
@@ -116,7 +122,7 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                    formatted(" · late %.2f µs", loop.lateness_p99_us) +
                        formatted(" · missed %.0f", static_cast<double>(loop.missed_ticks)) +
                        (loop.num_dropped_samples > 0 ? " · samples lost" : ""));
-  if (view.hides_levels) {
+  if (view.hides_levels || view.is_alone) {
     x += draw_health(ui, x, place, Colour::kGreen, "Force ", "within limits", "");
   } else {
     const core::PlainVector& force = view.telemetry.total_force_n;

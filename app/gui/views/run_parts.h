@@ -11,8 +11,9 @@ namespace jnd::app::gui {
 
 // The parts of the run view, a file each.
 
-void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
-                     RunViewResult& result);
+inline constexpr float kRunHeader = 56;
+
+void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state);
 void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view);
 void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view);
 void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view);

@@ -9,13 +9,14 @@ namespace jnd::app::gui {
 
 namespace {
 
-constexpr float kHeader = 56;
 constexpr float kFooter = 40;
 constexpr float kGap = 16;
 
 /// The sides give way before the card in the middle does.
-float left_width(float width) { return width < 1400 ? 204.0f : 236.0f; }
-float right_width(float width) { return std::clamp(width * 0.282f, 300.0f, 480.0f); }
+float left_width(float width) { return width < 1400 ? 188.0f : 236.0f; }
+float right_width(float width) {
+  return width < 1400 ? 280.0f : std::min(width * 0.282f, 480.0f);
+}
 
 }  // namespace
 
@@ -54,21 +55,30 @@ RunViewResult draw_run_view(Ui& ui, const SessionView& view,
   RunViewResult result;
   Rect rest = ui.screen();
   state.pad = {};
-  const Rect header = rest.take_top(kHeader);
+  const Rect header = rest.take_top(kRunHeader);
   const Rect footer = rest.take_bottom(kFooter);
   rest = rest.inset(kGap);
   draw_stage_list(ui, rest.take_left(left_width(ui.screen().width), kGap), view);
-  if (ui.screen().width >= 1000) {
+  // Who is alone would read the answer from it.
+  if (ui.screen().width >= 1000 && !view.is_alone) {
     draw_live_panel(ui, rest.take_right(right_width(ui.screen().width), kGap), view, trace);
   }
   draw_progress_card(ui, rest.take_top(64, kGap), view);
-  draw_answers(ui, rest.take_bottom(std::clamp(rest.height * 0.235f, 96.0f, 196.0f), kGap),
+  draw_answers(ui,
+               rest.take_bottom(std::clamp(rest.height * 0.235f - 40.0f, 96.0f, 196.0f), kGap),
                view, state);
   draw_run_card(ui, rest, view, trace, after, state, result);
-  draw_run_header(ui, header, view, state, result);
+  draw_run_header(ui, header, view, state);
   draw_run_footer(ui, footer, view);
   if (view.pilot) ui.outline(ui.screen().inset(2), Colour::kPilot, 0, 4);
   if (state.dialog != RunViewState::Dialog::kNone) draw_run_dialog(ui, view, state, result);
+  if (!state.is_covered) result.stop = draw_emergency_stop(ui);
+  // A field that comes back, after a stop or from below a dialog, takes the keyboard again.
+  const bool has_item =
+      view.step == Step::kItem || view.step == Step::kFeeling || view.step == Step::kStageDone;
+  if (!has_item || state.is_covered || state.dialog != RunViewState::Dialog::kNone) {
+    state.item_is_new = true;
+  }
   return result;
 }
 

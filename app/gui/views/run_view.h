@@ -16,6 +16,7 @@ struct RunViewState {
   enum class Dialog { kNone, kUndo, kCorrect, kNote, kPause, kEndEarly, kLeave, kGoOnEarly };
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;      ///< Its first field takes the keyboard.
+  bool is_covered = false;  ///< By a dialog of the application, which then draws the stop.
   std::string reason;              ///< Or the note.
   std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
   experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
@@ -57,6 +58,10 @@ struct RunViewResult {
 [[nodiscard]] RunViewResult draw_run_view(Ui& ui, const SessionView& view,
                                           const std::vector<TracePoint>& trace,
                                           AfterSession& after, RunViewState& state);
+
+/// The button at the right of the header, to be drawn after any dialog: what is drawn below one
+/// cannot be used. True when it was pressed.
+[[nodiscard]] bool draw_emergency_stop(Ui& ui);
 
 /// Asks whether to leave a session that goes on, as when the window is being closed.
 void ask_to_leave(RunViewState& state);

@@ -207,10 +207,11 @@ void draw_backup_dialog(Ui& ui, SessionsViewState& state, SessionsViewResult& re
           {.colour = Colour::kSoft});
   const bool entered = ui.text_field("backup_folder", inside.take_top(46), state.backup_folder,
                                      "folder of the copy", state.dialog_is_new);
-  state.dialog_is_new = false;
   const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), "Back up",
                                                   !state.backup_folder.empty(), entered);
   ui.end_dialog();
+  // Enter ends a field; where something is missing yet, it goes on.
+  state.dialog_is_new = entered && !choice.done;
   result.back_up = choice.done;
   if (choice.done || choice.cancelled) state.asks_for_backup = false;
 }

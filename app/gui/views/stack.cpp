@@ -25,10 +25,17 @@ float Stack::height() const noexcept {
 }
 
 void Stack::draw(const Rect& card) {
-  float y = card.y + std::max(0.0f, (card.height - height()) / 2);
+  // Where room is short the gaps give way first.
+  float gaps = 0;
+  for (std::size_t i = 0; i + 1 < parts_.size(); ++i) gaps += parts_[i].gap_after;
+  const float missing = std::max(0.0f, height() - card.height);
+  constexpr float kLeastGap = 0.2f;
+  const float shrink = gaps > 0 ? std::max(kLeastGap, 1.0f - missing / gaps) : 1.0f;
+  const float whole = height() - gaps * (1.0f - shrink);
+  float y = card.y + std::max(0.0f, (card.height - whole) / 2);
   for (const Part& part : parts_) {
     part.draw({card.x, y, card.width, part.height});
-    y += part.height + part.gap_after;
+    y += part.height + part.gap_after * shrink;
   }
 }
 

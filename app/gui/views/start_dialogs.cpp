@@ -127,17 +127,18 @@ void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
   ui.end_scroll();
   ui.heading(inside.take_top(18, 6), "Or a study file");
   bool entered = ui.text_field("study_file", inside.take_top(46, 14), state.study_file,
-                               "path of a study file");
+                               "path of a study file", state.dialog_is_new);
   ui.heading(inside.take_top(18, 6), "Folder of the new study");
   propose_folder(model, state);
   entered |= ui.text_field("new_folder", inside.take_top(46, 10), state.new_folder,
                            "path of a folder that does not exist yet");
-  state.dialog_is_new = false;
   const bool ready = !name_of(model, state).empty() && !state.new_folder.empty();
   const Rect buttons = inside.take_bottom(48, 8);
   draw_problem(ui, inside, state.problem);
   const DialogChoice choice = draw_dialog_buttons(ui, buttons, "Begin", ready, entered);
   ui.end_dialog();
+  // Enter ends a field; where something is missing yet, it goes on.
+  state.dialog_is_new = entered && !choice.done;
   if (choice.done) {
     result.create = {state.study_file.empty() ? model.shipped[state.chosen_shipped]
                                               : typed_path(state.study_file).string(),
@@ -154,7 +155,6 @@ void draw_open_dialog(
   ui.text(inside.take_top(34, 8), "Open a study", {.font = Font::kLarge});
   const bool entered = ui.text_field("open_path", inside.take_top(46, 14), state.open_path,
                                      "path of a study folder or file", state.dialog_is_new);
-  state.dialog_is_new = false;
   const Rect buttons = inside.take_bottom(48, 12);
   draw_problem(ui, inside, state.problem);
   Rect where = inside.take_top(40, 6);
@@ -191,6 +191,7 @@ void draw_open_dialog(
   const DialogChoice choice =
       draw_dialog_buttons(ui, buttons, "Open", !state.open_path.empty(), entered);
   ui.end_dialog();
+  state.dialog_is_new = entered && !choice.done;
   if (choice.done) chosen = typed_path(state.open_path);
   if (chosen) result.open = chosen;
   if (chosen || choice.cancelled) state.dialog = StartViewState::Dialog::kNone;

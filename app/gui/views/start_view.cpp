@@ -81,8 +81,9 @@ float draw_resume_cards(Ui& ui, Rect column, const StartModel& model, StartViewR
   if (all.size() <= most_resumes(ui)) return height;
   const std::size_t others = all.size() - most_resumes(ui);
   ui.text(column.take_top(24),
-          std::to_string(others) + (others == 1 ? " more session is" : " more sessions are") +
-              " open: open their studies to resume them.",
+          others == 1
+              ? "1 more session can be resumed from its study."
+              : std::to_string(others) + " more sessions can be resumed from their studies.",
           {.font = Font::kSmall, .colour = Colour::kSoft});
   return height + 24;
 }

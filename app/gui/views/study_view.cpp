@@ -160,9 +160,8 @@ void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewSta
                 "Fewer", fewer)) {
     --state.num_participants;
   }
-  state.num_participants = std::clamp(state.num_participants, 1, kMostParticipants);
   result.orders_changed = state.num_participants != before;
-  ui.heading(head, "Orders of the next " + counted(state.num_participants, "participant"));
+  ui.heading(head, "Orders of the next " + std::to_string(state.num_participants));
   if (!model.orders_problem.empty()) {
     const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
     ui.text(inside.take_top(ui.text_height(inside.width, model.orders_problem, soft)),

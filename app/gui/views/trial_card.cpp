@@ -53,8 +53,15 @@ void type_percent(Ui& ui, const TrialView& trial, RunViewState& state) {
 
 class TrialCard {
  public:
-  TrialCard(Ui& ui, const SessionView& view, RunViewState& state, RunViewResult& result)
-      : ui_(ui), view_(view), trial_(*view.trial), state_(state), result_(result) {}
+  /// `width`: of the card.
+  TrialCard(Ui& ui, float width, const SessionView& view, RunViewState& state,
+            RunViewResult& result)
+      : ui_(ui),
+        width_(width),
+        view_(view),
+        trial_(*view.trial),
+        state_(state),
+        result_(result) {}
 
   void add_controls(Stack& stack) {
     if (view_.step != Step::kPresenting) {
@@ -68,7 +75,7 @@ class TrialCard {
       type_percent(ui_, trial_, state_);
       stack.add(kLargeButton, 18, [this](const Rect& place) { draw_percent(place); });
     } else if (trial_.answer == AnswerKind::kMatch && test) {
-      stack.add(kLargeButton, 14, [this](const Rect& place) { draw_steps(place); });
+      add_steps(stack);
     } else {
       stack.add(kLargeButton, 18, [this](const Rect& place) { draw_next(place); });
     }
@@ -104,6 +111,8 @@ class TrialCard {
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
                       [&] { present(to_reference ? "reference" : "test"); }}},
                     320);
+    // As the test is called everywhere else.
+    if (!to_reference && ui_.pressed({letter('T')})) present("test");
   }
 
   void draw_yes_no(const Rect& place) {
@@ -137,28 +146,40 @@ class TrialCard {
     }
   }
 
-  void draw_steps(const Rect& place) {
-    const auto step = [&](Direction direction, StepSize size) {
-      result_.requests.push_back(
-          operate::Adjust{trial_.trial, direction, size, ui_.was_held()});
-    };
-    const auto button = [&](const char* name, const char* label, Key key, Direction direction,
-                            StepSize size) {
-      return RowButton{name, label, {.key = {key}, .repeats = true}, [step, direction, size] {
-                         step(direction, size);
-                       }};
-    };
-    draw_button_row(
-        ui_, place,
-        {button("lower_coarse", "Lower", Key::kLeft, Direction::kLower, StepSize::kCoarse),
-         button("lower_fine", "A bit lower", Key::kDown, Direction::kLower, StepSize::kFine),
-         {"matches",
-          "Matches",
-          {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
-          [&] { answer(0.0); }},
-         button("raise_fine", "A bit higher", Key::kUp, Direction::kRaise, StepSize::kFine),
-         button("raise_coarse", "Raise", Key::kRight, Direction::kRaise, StepSize::kCoarse)},
-        std::min(150.0f, (place.width - 90) / 5));
+  RowButton step_button(const char* name, const char* label, Key key, Direction direction,
+                        StepSize size) {
+    return {name, label, {.key = {key}, .repeats = true}, [this, direction, size] {
+              result_.requests.push_back(
+                  operate::Adjust{trial_.trial, direction, size, ui_.was_held()});
+            }};
+  }
+
+  /// In one row with "Matches" in the middle; on a narrow card below it.
+  void add_steps(Stack& stack) {
+    const RowButton matches{"matches",
+                            "Matches",
+                            {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
+                            [this] { answer(0.0); }};
+    std::vector<RowButton> steps = {
+        step_button("lower_coarse", "Lower", Key::kLeft, Direction::kLower, StepSize::kCoarse),
+        step_button("lower_fine", "A bit lower", Key::kDown, Direction::kLower,
+                    StepSize::kFine),
+        step_button("raise_fine", "A bit higher", Key::kUp, Direction::kRaise, StepSize::kFine),
+        step_button("raise_coarse", "Raise", Key::kRight, Direction::kRaise,
+                    StepSize::kCoarse)};
+    constexpr float kWide = 800;
+    if (width_ >= kWide) {
+      steps.insert(steps.begin() + 2, matches);
+      stack.add(kLargeButton, 14, [this, steps](const Rect& place) {
+        draw_button_row(ui_, place, steps, std::min(150.0f, (place.width - 90) / 5));
+      });
+      return;
+    }
+    stack.add(kLargeButton - 26, 10, [this, matches](const Rect& place) {
+      draw_button_row(ui_, place, {matches}, 260);
+    });
+    stack.add(kSmallButton, 10,
+              [this, steps](const Rect& place) { draw_button_row(ui_, place, steps, 110); });
   }
 
   void draw_switches(const Rect& place) {
@@ -185,6 +206,7 @@ class TrialCard {
   }
 
   Ui& ui_;
+  float width_;
   const SessionView& view_;
   const TrialView& trial_;
   RunViewState& state_;
@@ -198,31 +220,32 @@ void draw_trial_card(Ui& ui, const Rect& place, const SessionView& view,
                      RunViewResult& result) {
   const float words_width = std::min(720.0f, place.width - 48);
   const bool roomy = place.height > 460;
+  Rect card = place.inset(12);
   Stack stack(ui);
-  stack.add(18, roomy ? 18 : 8, [&ui, &view](const Rect& strip) {
-    ui.heading(strip, view.heading, "", Align::kCentre);
-  });
-  const bool with_pad = view.device == "mouse";
-  if (with_pad) {
-    // Everything else first: the pad takes what is left.
-    const float fixed = roomy ? 330 : 268;
-    stack.add(std::max(110.0f, place.height - fixed), 12, [&](const Rect& strip) {
-      draw_pad(ui, strip.middle(strip.width - 48, strip.height), view, trace, state);
+  if (!view.is_alone) {
+    stack.add(18, roomy ? 18 : 8, [&ui, &view](const Rect& strip) {
+      ui.heading(strip, view.heading, "", Align::kCentre);
     });
-  } else if (view.sign != HandSign::kNone && place.height > 330) {
-    const float size = roomy ? 140.0f : 84.0f;
-    stack.add(size, roomy ? 20 : 8, [&ui, &view, size](const Rect& strip) {
-      draw_hand_sign(ui, strip.middle(size, size), view.sign);
-    });
+    if (view.sign != HandSign::kNone && place.height > 320) {
+      const float size = roomy ? 140.0f : 60.0f;
+      stack.add(size, roomy ? 20 : 8, [&ui, &view, size](const Rect& strip) {
+        draw_hand_sign(ui, strip.middle(size, size), view.sign);
+      });
+    }
   }
-  const Font large = with_pad || !roomy ? Font::kLarge : Font::kTitle;
+  const Font large = view.is_alone || !roomy ? Font::kLarge : Font::kTitle;
   stack.add_text(view.sentence, large, Colour::kInk, words_width, 6);
   stack.add_text(in_quotes(view.say), large, Colour::kInk, words_width, 10);
   stack.add_text(felt_words(*view.trial), Font::kBody, Colour::kSoft, words_width,
                  roomy ? 24 : 12);
-  TrialCard controls(ui, view, state, result);
+  TrialCard controls(ui, place.width, view, state, result);
   controls.add_controls(stack);
-  stack.draw(place.inset(12));
+  if (view.is_alone) {
+    // The pad takes what is left.
+    const float pad_height = std::max(90.0f, card.height - stack.height() - 14);
+    draw_pad(ui, card.take_top(pad_height, 14), view, trace, state);
+  }
+  stack.draw(card);
 }
 
 }  // namespace jnd::app::gui

@@ -194,6 +194,29 @@ TEST(Plot, SaysTheValueUnderTheMouseAndNothingElsewhere) {
   EXPECT_FALSE(ui.drawn().shows("at "));
 }
 
+TEST(Plot, AMeasuredPointIsMeantRatherThanTheCurveBesideIt) {
+  HeadlessUi ui;
+  PlotModel model;
+  model.x = {.minimum = 0.0, .maximum = 10.0};
+  model.y = {.minimum = 0.0, .maximum = 10.0};
+  PlotSeries curve = {.name = "fit"};
+  for (int i = 0; i <= 1000; ++i) {
+    curve.x.push_back(0.01 * i);
+    curve.y.push_back(0.01 * i);
+  }
+  model.series = {
+      curve, {.style = PlotSeries::Style::kPoints, .name = "answers", .x = {5}, .y = {5.1}}};
+  PlotArea area;
+  const auto draw = [&](Ui& frame) { area = draw_plot(frame, kPlace, model); };
+  ui.frame(draw);
+  ui.move(area.x(5) + 6, area.y(5.1) + 2);
+  ui.frame(draw);
+  EXPECT_TRUE(ui.drawn().shows("answers:"));
+  ui.move(area.x(5) + 60, area.y(5) - 40);
+  ui.frame(draw);
+  EXPECT_FALSE(ui.drawn().shows("answers:"));
+}
+
 TEST(Plot, BelowADialogItSaysNothing) {
   HeadlessUi ui;
   PlotModel model = line_of(10);

@@ -105,6 +105,25 @@ TEST_F(ExportActionsTest, ADoubleBlindStudyGivesNothingAway) {
   EXPECT_FALSE(fs::exists(target()));
 }
 
+TEST_F(ExportActionsTest, AnUnblindingIsInTheLogOfEverySessionOnce) {
+  SimulatedStudy blind(kDoubleBlindStudy);
+  EXPECT_THROW((void)unblind_study(blind.folder(), "too early"), core::Error);
+  blind.simulate(2);
+  (void)unblind_study(blind.folder(), "all sessions done");
+  (void)unblind_study(blind.folder(), "asked again");
+  const core::StudyStore store(blind.folder(), core::StudyStore::Mode::kReadOnly);
+  EXPECT_TRUE(store.unblinded());
+  for (const std::int64_t session : {1, 2}) {
+    const std::vector<core::EventRow> events = store.events(session);
+    EXPECT_EQ(events.back().kind, "unblinded");
+    EXPECT_NE(events.back().data.find("all sessions done"), std::string::npos);
+    EXPECT_NE(events[events.size() - 2].kind, "unblinded");
+  }
+  EXPECT_TRUE(verify_study(blind.folder(), control_).ok);
+  study_.simulate(1);
+  EXPECT_THROW((void)unblind_study(study_.folder(), "not blind"), core::Error);
+}
+
 TEST_F(ExportActionsTest, WhatIsCancelledLeavesNothingBehind) {
   study_.simulate(1);
   control_.cancel();

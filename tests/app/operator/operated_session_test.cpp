@@ -229,6 +229,15 @@ TEST_F(OperatedSessionTest, WhoLeavesFindsTheSessionAgainAndRepeatsTheTrial) {
   EXPECT_TRUE(core::verify(*store_).problems.empty());
 }
 
+TEST_F(OperatedSessionTest, ASessionGoesOnInTheLanguageItWasBegunIn) {
+  open();
+  EXPECT_EQ(view().language, "en");
+  act(operate::Begin{});
+  EXPECT_EQ(store_->events(session_number_).front().data, R"({"language":"en"})");
+  reopen();
+  EXPECT_EQ(view().language, "en");
+}
+
 TEST_F(OperatedSessionTest, ABreakIsLeftEarlyOnlyWithAReason) {
   open();
   act(operate::Begin{});

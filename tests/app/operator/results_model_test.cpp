@@ -268,10 +268,9 @@ TEST(ResultsModel, BoxesAndTableHoldWhatTheMeansOfMovementRestOn) {
   EXPECT_EQ(speed->boxes.size(), 3U);
   EXPECT_EQ(speed->boxes[0].label, "Comparison");
   EXPECT_EQ(speed->boxes[0].n, 5);
-  const auto column =
-      std::find_if(model.columns.begin(), model.columns.end(),
-                   [](const auto& one) { return one.title == "Speed"; }) -
-      model.columns.begin();
+  const auto column = std::find_if(model.columns.begin(), model.columns.end(),
+                                   [](const auto& one) { return one.title == "Speed"; }) -
+                      model.columns.begin();
   double sum = 0.0;
   ASSERT_EQ(model.rows.size(), 5U);
   for (const TableRow& row : model.rows) {

@@ -276,6 +276,12 @@ TEST_F(StudyWatchTest, AFileThatIsGoneOrEmptyForAMomentIsNoErrorYet) {
   EXPECT_TRUE(watch_.study().has_value());
 }
 
+TEST_F(StudyWatchTest, ShowsTheLevelsOfABlindStudyToWhomItWasUnblindedFor) {
+  save(kDoubleBlindStudy);
+  EXPECT_TRUE(StudyWatch(file_).outline().hides_levels);
+  EXPECT_FALSE(StudyWatch(file_, /*shows_levels=*/true).outline().hides_levels);
+}
+
 TEST_F(StudyWatchTest, ProblemsComeAndGoWithTheFile) {
   save(replaced(kTinyStudy, "\"tiny\"", "7"));
   EXPECT_TRUE(watch_.look(1.0));

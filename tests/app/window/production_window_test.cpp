@@ -19,9 +19,20 @@ class ProductionWindowTest : public WindowTest {
     return -1.0;
   }
   double level() const { return level_on(window_->screen()); }
+  /// It shows three digits.
+  static bool shows_level(const Screen& screen, double wanted) {
+    return std::abs(level_on(screen) - wanted) < 0.06;
+  }
   void wait_for_level(double wanted) const {
     window_->wait_until("scale " + std::to_string(wanted),
-                        [&](const Screen& now) { return level_on(now) == wanted; });
+                        [&](const Screen& now) { return shows_level(now, wanted); });
+  }
+  /// Keys are obeyed in their order: once this one is, all before it are.
+  void wait_for_all_steps() const {
+    window_->press("ctrl+n");
+    window_->wait_for_text("Write a note");
+    window_->press("F2");
+    window_->wait_for("matches");
   }
   /// Steps of the trial that were stored, with what they led to.
   static std::vector<double> steps_of(const core::StudyStore& store, std::int64_t trial) {
@@ -40,15 +51,12 @@ TEST_F(ProductionWindowTest, HeldKeysAndButtonsGoOnStepByStepAndSingleOnesAreNot
   ASSERT_TRUE(start == 1.0 || start == 2.0) << start;
 
   window_->hold("Right", milliseconds(1200));
-  // The last step may still be on its way.
-  window_->press("Right");
-  double raised = 0.0;
-  window_->wait_until("what the screen shows to be what is stored", [&](const Screen& now) {
-    const std::vector<double> steps = steps_of(stored(), 1);
-    raised = level_on(now);
-    return !steps.empty() && steps.back() == raised;
-  });
-  const auto num_raised = steps_of(stored(), 1).size();
+  wait_for_all_steps();
+  const std::vector<double> steps = steps_of(stored(), 1);
+  const auto num_raised = steps.size();
+  ASSERT_GT(num_raised, 0u);
+  const double raised = steps.back();
+  wait_for_level(raised);
   EXPECT_EQ(raised, start + 0.5 * static_cast<double>(num_raised));
   EXPECT_GE(num_raised, 5u) << "a held key goes on";
   EXPECT_LE(num_raised, 27u) << "not faster than it repeats";
@@ -63,15 +71,11 @@ TEST_F(ProductionWindowTest, HeldKeysAndButtonsGoOnStepByStepAndSingleOnesAreNot
   const double second = level();
   EXPECT_EQ(second, 3.0 - start);
   window_->hold_button("raise_fine", milliseconds(1200));
-  window_->wait_until("three steps", [&](const Screen& now) {
-    return level_on(now) >= second + 0.75;
-  });
+  wait_for_all_steps();
+  const double held = steps_of(stored(), 2).back();
+  EXPECT_GE(held, second + 0.75) << "a held button goes on, too";
   window_->use("lower_coarse");
-  window_->wait_until("the step down", [&](const Screen&) {
-    const std::vector<double> steps = steps_of(stored(), 2);
-    return steps.size() >= 2 && steps[steps.size() - 1] == steps[steps.size() - 2] - 0.5;
-  });
-  const double set = steps_of(stored(), 2).back();
+  const double set = held - 0.5;
   wait_for_level(set);
   window_->use("matches");
   window_->use("finish_stage");

@@ -76,7 +76,7 @@ class WindowDriver {
 
   // Doing. Words are those of xdotool: "y", "ctrl+z", "Return".
   void press(const std::string& key) const { press_at_once({key}); }
-  /// One right after the other, faster than a frame.
+  /// One right after the other, several in a frame.
   void press_at_once(std::initializer_list<std::string> keys) const;
   void hold(const std::string& key, std::chrono::milliseconds duration) const;
   /// ASCII.

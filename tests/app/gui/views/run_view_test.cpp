@@ -213,6 +213,9 @@ TEST_F(RunView, ADialogIsLeftByItsPrintedKeyAndNothingHappens) {
 
 TEST_F(RunView, TheEmergencyStopAnswersEverywhereAlsoBehindADialog) {
   draw(comparison());
+  ui_.press({letter('N'), true});
+  draw(comparison());
+  ASSERT_NE(ui_.drawn().find("dialog_cancel"), nullptr);
   ui_.click("emergency_stop");
   draw(comparison());
   EXPECT_TRUE(stopped_);
@@ -338,9 +341,9 @@ TEST_P(RunViewFits, EveryWidgetLiesOnTheScreen) {
     views.push_back(view);
   }
   views.push_back(comparison());
-  views.back().device = "mouse";
+  views.back().is_alone = true;
   views.push_back(production());
-  views.back().device = "mouse";
+  views.back().is_alone = true;
   for (const SessionView& view : views) {
     HeadlessUi ui(width, height);
     RunViewState state;
@@ -353,6 +356,15 @@ TEST_P(RunViewFits, EveryWidgetLiesOnTheScreen) {
       EXPECT_LE(widget.place.right(), width) << widget.name;
       EXPECT_LE(widget.place.bottom(), height) << widget.name;
       EXPECT_GT(widget.place.width, 20) << widget.name;
+      for (const Drawn::Widget& other : drawn.widgets) {
+        if (&other == &widget) continue;
+        const bool apart = other.place.x >= widget.place.right() - 0.5f ||
+                           widget.place.x >= other.place.right() - 0.5f ||
+                           other.place.y >= widget.place.bottom() - 0.5f ||
+                           widget.place.y >= other.place.bottom() - 0.5f;
+        EXPECT_TRUE(apart) << widget.name << " lies over " << other.name << " in step "
+                           << static_cast<int>(view.step) << " at " << width;
+      }
     }
   }
 }

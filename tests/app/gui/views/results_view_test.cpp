@@ -1,0 +1,172 @@
+#include "app/gui/views/results_view.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/hand_made_study.h"
+#include "app/gui/headless_ui.h"
+#include "app/gui/views/results_parts.h"
+#include "app/gui/views/results_plots.h"
+#include "app/gui/views/study_fixtures.h"
+#include "app/tiny_study.h"
+
+namespace jnd::app::gui {
+namespace {
+
+ResultsModel some_results() {
+  analysis::HandMadeStudy study(kTinyStudy);
+  for (const char* name : {"P01", "P02", "P03"}) {
+    study.add(name);
+    study.compare_ten("comparison", 6 + name[2] - '0');
+    for (const double intensity : {1.0, 2.0, 4.0}) study.estimate(intensity, 50.0 * intensity);
+    study.produce(100.0, 2.0);
+    study.produce(200.0, 4.0 + name[2] - '0');
+  }
+  study.add("P04");
+  study.compare_ten("comparison", 10);
+  WorkControl control;
+  return results_model(study.folder(), control);
+}
+
+class ResultsViewTest : public ::testing::Test {
+ protected:
+  ResultsViewResult draw(HeadlessUi& ui) {
+    ResultsViewResult all;
+    ui.frame([&](Ui& now) {
+      const ResultsViewResult result = draw_results_view(now, model_, state_);
+      if (result.tab != StudyTab::kNone) all.tab = result.tab;
+      all.export_tables |= result.export_tables;
+      all.write_report |= result.write_report;
+      all.save_picture |= result.save_picture;
+      all.cancel |= result.cancel;
+      all.unblind |= result.unblind;
+    });
+    return all;
+  }
+  ResultsViewResult after_key(const Chord& key) {
+    (void)draw(ui_);
+    ui_.press(key);
+    return draw(ui_);
+  }
+
+  static const ResultsModel& results() {
+    static const ResultsModel kResults = some_results();
+    return kResults;
+  }
+  StudyFolder study_ = some_study();
+  ResultsViewModel model_{.study = study_, .results = &results()};
+  ResultsViewState state_;
+  HeadlessUi ui_;
+};
+
+TEST_F(ResultsViewTest, ShowsTheFractionWithItsIntervalAndTheTable) {
+  (void)draw(ui_);
+  const auto& figure = results().discriminations.front();
+  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*figure.pooled.weber_fraction)));
+  for (const char* words : {"All participants", "P01", "P04", "p (1 + w)"}) {
+    EXPECT_TRUE(ui_.drawn().shows(words)) << words;
+  }
+}
+
+TEST_F(ResultsViewTest, ArrowsShowOneParticipantAfterTheOther) {
+  (void)after_key({Key::kDown});
+  EXPECT_EQ(shown_participant(results(), state_), "P01");
+  const auto& own = results().discriminations.front().participants.front();
+  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*own.weber_fraction)));
+  EXPECT_TRUE(ui_.drawn().shows(interval_words(own.ci95)));
+  (void)after_key({Key::kUp});
+  (void)after_key({Key::kUp});
+  EXPECT_EQ(shown_participant(results(), state_), "P04");
+  EXPECT_TRUE(ui_.drawn().shows("No curve: ")) << all_texts(ui_.drawn());
+  ui_.click("participant_2");
+  (void)draw(ui_);
+  EXPECT_EQ(shown_participant(results(), state_), "P02");
+}
+
+TEST_F(ResultsViewTest, EveryPageIsReachedByItsNumber) {
+  const std::vector<ResultsPageLook> pages = pages_of(results());
+  ASSERT_EQ(pages.size(), 5U);
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    (void)after_key({letter(static_cast<char>('1' + i))});
+    EXPECT_EQ(state_.page, i);
+  }
+  EXPECT_TRUE(ui_.drawn().shows("Weber fraction"));
+  (void)after_key({letter('2')});
+  EXPECT_TRUE(ui_.drawn().shows("combined"));
+}
+
+TEST_F(ResultsViewTest, EveryActionHasItsKey) {
+  EXPECT_TRUE(after_key({.key = letter('E'), .control = true}).export_tables);
+  EXPECT_TRUE(after_key({.key = letter('R'), .control = true}).write_report);
+  EXPECT_TRUE(after_key({.key = letter('S'), .control = true}).save_picture);
+  EXPECT_EQ(after_key({.key = letter('1'), .control = true}).tab, StudyTab::kSessions);
+}
+
+TEST_F(ResultsViewTest, WorkUnderWayIsShownAndKeepsTheButtonsAway) {
+  model_.work = {.running = "Exporting", .progress = 0.5};
+  EXPECT_FALSE(after_key({.key = letter('E'), .control = true}).export_tables);
+  EXPECT_TRUE(ui_.drawn().shows("Exporting · 50 %"));
+  EXPECT_TRUE(after_key({Key::kF2}).cancel);
+}
+
+TEST_F(ResultsViewTest, WhileTheyAreComputedThereIsProgressAndNothingToExport) {
+  model_.results = nullptr;
+  EXPECT_FALSE(after_key({.key = letter('E'), .control = true}).export_tables);
+  EXPECT_TRUE(ui_.drawn().shows("Computing the results"));
+}
+
+TEST_F(ResultsViewTest, ABlindedStudyShowsTheSentenceAndUnblindsForAReasonAlone) {
+  model_.results = nullptr;
+  model_.is_blinded = true;
+  model_.problem = "expected a study whose levels may be seen, found a double-blind one";
+  (void)draw(ui_);
+  EXPECT_TRUE(ui_.drawn().shows(model_.problem));
+  (void)after_key({.key = letter('U'), .control = true});
+  ui_.press(Key::kEnter);
+  EXPECT_FALSE(draw(ui_).unblind) << "without a reason";
+  ui_.type("paper");
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(ui_).unblind);
+  EXPECT_EQ(state_.reason, "paper");
+}
+
+TEST_F(ResultsViewTest, AProblemThatIsNoBlindingHasNothingToUnblind) {
+  model_.results = nullptr;
+  model_.problem = "expected sessions with participants, found none to analyse";
+  (void)draw(ui_);
+  EXPECT_TRUE(ui_.drawn().shows(model_.problem));
+  EXPECT_EQ(ui_.drawn().find("unblind"), nullptr);
+}
+
+TEST_F(ResultsViewTest, SimulatedDataAreMarkedOnEveryPageOfEveryWindow) {
+  ResultsModel simulated = results();
+  simulated.simulated = true;
+  model_.results = &simulated;
+  HeadlessUi small(1280, 720);
+  for (std::size_t page = 0; page < 5; ++page) {
+    state_.page = page;
+    (void)draw(small);
+    EXPECT_TRUE(small.drawn().shows("simulated data")) << page;
+    EXPECT_TRUE(all_on_screen(small.drawn(), 1280, 720)) << page;
+    for (const ResultsPageLook& look : pages_of(simulated)) {
+      ASSERT_NE(small.drawn().find(look.name), nullptr);
+      EXPECT_GT(small.drawn().find(look.name)->place.width, 60) << look.name;
+    }
+  }
+}
+
+TEST_F(ResultsViewTest, APlotHoldsTheModelsPointsCurveAndLine) {
+  const auto& block = results().discriminations.front();
+  const PlotModel plot = psychometric_plot(block, block.pooled);
+  EXPECT_TRUE(plot.x.logarithmic);
+  const PlotSeries& points = plot.series.back();
+  ASSERT_EQ(points.x.size(), block.pooled.points.size());
+  EXPECT_DOUBLE_EQ(points.y[0], 100.0 * block.pooled.points[0].ratio);
+  ASSERT_EQ(plot.marks.size(), 2U);
+  EXPECT_DOUBLE_EQ(plot.marks[1].at, *block.pooled.weber_line);
+  const PlotModel boxes = box_plot(results().boxes.front());
+  EXPECT_EQ(boxes.boxes.size(), results().boxes.front().boxes.size());
+  EXPECT_EQ(boxes.x.ticks.front().label, results().boxes.front().boxes.front().label);
+}
+
+}  // namespace
+}  // namespace jnd::app::gui

@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+
+#include "app/window/window_fixture.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every name and number in it that could tell a level is a word that nothing else says.
+const std::string kBlindStudy = R"json({
+  "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
+  "authors": ["A. Author"], "blinding": "double", "comment": "treacly",
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+  "stages": [
+    {"kind": "training", "name": "training", "instruction": {"en": "Feel."},
+     "examples": [{"medium": "viscous", "viscosity_pa_s": 0.1371, "duration_s": 0.2}]},
+    {"kind": "counterbalance", "name": "gluey_order", "title": {"en": "Gluey first or last"},
+     "method": "order", "arms": [
+      {"name": "honeyed", "stages": [
+        {"kind": "block", "name": "syrupy", "title": {"en": "The tarry group"},
+         "procedure": "constant_stimuli", "medium": "viscous",
+         "viscosity_pa_s": [0.1372, 0.2719], "reference_viscosity_pa_s": 0.1913,
+         "repetitions": 1, "free_space_between_s": 0, "instruction": {"en": "Compare."},
+         "question": {"en": "More?"}, "expected_trial_s": 5}]},
+      {"name": "watery", "stages": [
+        {"kind": "block", "name": "brothy", "title": {"en": "The soupy group"},
+         "procedure": "magnitude_production", "medium": "water", "scale": [0.8317],
+         "target_percent": [100], "coarse_step_scale": 0.0537, "fine_step_scale": 0.0119,
+         "free_space_between_s": 0, "instruction": {"en": "Set it."},
+         "question": {"en": "So?"}, "expected_trial_s": 5}]}]}
+  ]
+})json";
+
+std::vector<std::string> telltales() {
+  return {"treacly", "gluey",  "Gluey",  "honeyed", "syrupy", "tarry",   "watery",
+          "brothy",  "soupy",  "0.137",  "0.1372",  "0.272",  "0.2719",  "0.191",
+          "0.1913",  "0.832",  "0.8317", "0.885",   "0.0537", "0.0119",  "viscous",
+          "Pa s",    "scale "};
+}
+
+/// The telltale words in a text, each with its line.
+std::vector<std::string> told_by(const std::string& text) {
+  std::vector<std::string> told;
+  for (const std::string& word : telltales()) {
+    const std::size_t at = text.find(word);
+    if (at == std::string::npos) continue;
+    const std::size_t start = text.rfind('\n', at) + 1;
+    told.push_back(word + " in: " + text.substr(start, text.find('\n', at) - start));
+  }
+  return told;
+}
+
+class BlindWindowTest : public WindowTest {
+ protected:
+  /// The whole session, with the participant's screen beside it.
+  void run_session() {
+    begin(kBlindStudy);
+    window_->press("F9");
+    window_->use("feel_medium");
+    window_->use("finish_medium");
+    for (int block = 0; block < 2; ++block) {
+      const Screen first = window_->wait_for("present");
+      const bool compares = first.find("present")->label == "Present the reference";
+      for (int trial = 1; trial <= (compares ? 2 : 1); ++trial) {
+        wait_for_trial(trial);
+        feel_test();
+        if (!compares) {
+          window_->use("raise_coarse");
+          window_->use("matches");
+        } else {
+          window_->use("answer_yes");
+        }
+      }
+      window_->use("finish_stage");
+      window_->wait_until("the next", [](const Screen& now) { return !now.find("finish_stage"); });
+    }
+    window_->wait_for_text("Session finished");
+    window_->wait_for_text("complete");
+    window_->press("F9");
+  }
+  /// Every other view of the study.
+  void look_around() {
+    window_->use("to_sessions");
+    window_->wait_for_view("sessions");
+    for (const char* tab : {"tab_results", "tab_study", "tab_sessions"}) {
+      window_->use(tab);
+      window_->wait_for_view(std::string(tab).substr(4));
+      window_->press("F1");
+      window_->wait_for("keys_close");
+      window_->press("F1");
+      window_->wait_until("the dialog's end",
+                          [](const Screen& now) { return !now.find("keys_close"); });
+    }
+    window_->use("new_session");
+    window_->wait_for_view("prepare");
+    window_->wait_for("start_session");
+  }
+  [[nodiscard]] std::string texts_of_all_files_in(const fs::path& folder) const {
+    std::string all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.is_regular_file()) all += entry.path().string() + "\n" + read_file(entry.path());
+    }
+    return all;
+  }
+};
+
+TEST_F(BlindWindowTest, NothingThatIsDrawnPrintedKeptOrExportedTellsALevelUntilTheStudyIsUnblinded) {
+  run_session();
+  look_around();
+  window_->press_close_button();
+  const test_support::ProgramOutcome outcome = window_->wait_for_exit();
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(told_by(outcome.out), ::testing::IsEmpty());
+  EXPECT_THAT(told_by(outcome.err), ::testing::IsEmpty());
+  const std::string seen = window_->every_text();
+  EXPECT_THAT(told_by(seen), ::testing::IsEmpty());
+  for (const char* view : {"Block 1", "Block 2", "So?", "More?", "Session finished",
+                           "Thank you!"}) {
+    EXPECT_NE(seen.find(view), std::string::npos) << view << ": the log is whole";
+  }
+  EXPECT_THAT(told_by(texts_of_all_files_in(path("person/state"))), ::testing::IsEmpty());
+  for (const char* format : {"csv"}) {
+    const auto refused = jnd({"export", format, path("a.study").string(), "--out",
+                              path("exported").string()});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(told_by(refused.out + refused.err), ::testing::IsEmpty());
+    EXPECT_FALSE(fs::exists(path("exported")));
+  }
+  EXPECT_FALSE(fs::exists(path("a-csv")));
+  EXPECT_FALSE(fs::exists(path("a-report")));
+
+  // The other way round: these words are what is looked for.
+  ASSERT_EQ(jnd({"unblind", path("a.study").string(), "--reason", "done"}).exit_code, 0);
+  window_->start({"run", path("study.json").string(), "--study", path("a.study").string(),
+                  "--participant", "P02", "--device", "lumped"});
+  window_->use("tab_study");
+  window_->wait_for_text("0.2719");
+  EXPECT_GE(told_by(window_->every_text()).size(), 6u);
+}
+
+}  // namespace
+}  // namespace jnd::app

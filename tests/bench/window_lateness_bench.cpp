@@ -1,0 +1,124 @@
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/tiny_study.h"
+#include "app/window/window_studies.h"
+#include "bench/measured_window.h"
+#include "core/storage/study_store.h"
+#include "support/program.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One medium, felt for that long by the simulated hand.
+std::string study_of_one_medium(int seconds) {
+  return study_of(R"json({
+    "kind": "explore", "name": "feel", "instruction": {"en": "Move."},
+    "media": [{"medium": "viscous", "viscosity_pa_s": 8, "duration_s": )json" +
+                  std::to_string(seconds) + "}]}");
+}
+
+struct Lateness {
+  double p50_us = 0.0, p99_us = 0.0, p999_us = 0.0;
+  double missed_ticks = 0.0;
+};
+
+/// Of the whole session, as it was stored with it.
+Lateness stored_lateness(const fs::path& study) {
+  const core::StudyStore store(study, core::StudyStore::Mode::kReadOnly);
+  std::optional<nlohmann::json> measured;
+  for (const core::EventRow& event : store.events(1)) {
+    const auto data = nlohmann::json::parse(event.data, nullptr, false);
+    if (event.kind == "loop_started" && data.at("scheduler") != "SCHED_FIFO 80") {
+      throw std::runtime_error("the right to SCHED_FIFO is missing: see jnd doctor");
+    }
+    if (event.kind == "loop_measured") measured = data;
+  }
+  if (!measured) throw std::runtime_error("the session says nothing of its loop");
+  const double total = measured->at("num_ticks");
+  const auto at_us = [&](double ratio) {
+    double seen = 0.0;
+    double up_to_ns = 0.0;
+    for (const auto& bucket : measured->at("lateness_ns")) {
+      up_to_ns = bucket.at(0);
+      seen += bucket.at(1).get<double>();
+      if (seen >= ratio * total) break;
+    }
+    return 1e-3 * up_to_ns;
+  };
+  return {at_us(0.5), at_us(0.99), at_us(0.999), measured->at("missed_ticks")};
+}
+
+Lateness without_window(int seconds) {
+  const test_support::TemporaryFolder folder(test_support::memory_folder());
+  write_file(folder.path() / "study.json", study_of_one_medium(seconds));
+  const test_support::ProgramOutcome outcome =
+      test_support::run_program({"run", "study.json", "--study", "a.study", "--participant",
+                                 "P01", "--headless", "--realtime"},
+                                {.folder = folder.path()});
+  if (outcome.exit_code != 0) throw std::runtime_error("jnd run: " + outcome.err);
+  return stored_lateness(folder.path() / "a.study");
+}
+
+/// Thirty frames a second, with live plots.
+Lateness with_window(int seconds) {
+  MeasuredWindow window(false);
+  write_file(window.path("study.json"), study_of_one_medium(seconds));
+  WindowDriver& person = window.person();
+  person.start({"run", window.path("study.json").string(), "--study",
+                window.path("a.study").string(), "--participant", "P01", "--device", "lumped"});
+  person.use("start_session");
+  person.use("begin");
+  person.use("feel_medium");
+  sleep_s(seconds);
+  person.use("finish_medium");
+  person.wait_for_text("Session finished");
+  person.kill();
+  return stored_lateness(window.path("a.study"));
+}
+
+int seconds_a_round() {
+  const char* text = std::getenv("JND_BENCH_SECONDS");
+  return std::max(text == nullptr ? 20 : std::atoi(text), 1);
+}
+
+/// A real-time session with the simulated hand, by turns with the window and without, three
+/// rounds of JND_BENCH_SECONDS (default 20) each: from when a tick was due until its force was
+/// written. Medians of the rounds, and their ratios.
+void loop_beside_window(benchmark::State& state) {
+  constexpr int kNumRounds = 3;
+  const int seconds = seconds_a_round();
+  std::vector<Lateness> with, without;
+  measure(state, [&] {
+    for (int round = 0; round < kNumRounds; ++round) {
+      without.push_back(without_window(seconds));
+      with.push_back(with_window(seconds));
+    }
+    const auto tell = [&](const std::string& name, double Lateness::*percentile_us) {
+      std::vector<double> ours, theirs;
+      for (const Lateness& run : with) ours.push_back(run.*percentile_us);
+      for (const Lateness& run : without) theirs.push_back(run.*percentile_us);
+      state.counters["with_" + name + "_us"] = median(ours);
+      state.counters["without_" + name + "_us"] = median(theirs);
+      state.counters["ratio_" + name] = median(ours) / median(theirs);
+    };
+    tell("p50", &Lateness::p50_us);
+    tell("p99", &Lateness::p99_us);
+    tell("p999", &Lateness::p999_us);
+    double missed = 0.0;
+    for (const Lateness& run : with) missed += run.missed_ticks;
+    state.counters["missed_ticks"] = missed;
+    state.counters["seconds_a_round"] = seconds;
+  });
+}
+BENCHMARK(loop_beside_window)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
+
+}  // namespace
+}  // namespace jnd::app
