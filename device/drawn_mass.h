@@ -27,9 +27,8 @@ class DrawnMass {
  public:
   /// `rate_hz` > 0 and finite. Not real time.
   DrawnMass(double rate_hz, const Eigen::Vector3d& position_m) noexcept
-      : period_s_(1.0 / rate_hz),
-        period_ns_(std::llround(1e9 / rate_hz)),
-        position_m_(position_m) {
+      : period_s_(1.0 / rate_hz), period_ns_(std::llround(1e9 / rate_hz)) {
+    rest_at(position_m);
     (void)lumped_hand_tips_m();  // Made now and not in the first tick.
   }
 

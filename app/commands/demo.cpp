@@ -109,8 +109,8 @@ int run(const Options& options) {
       out.string().c_str(), out.string().c_str(), kStudies[1]);
   if (!has_display()) return kDone;
   std::fflush(stdout);
-  return open_window({.study_folder = out / (std::string(kStudies[1]) + ".study"),
-                      .shows_results = true});
+  return open_window(
+      {.study_folder = out / (std::string(kStudies[1]) + ".study"), .shows_results = true});
 }
 
 }  // namespace

@@ -53,7 +53,8 @@ StartModel::Study start_study(const fs::path& path) {
       study.summary = outline.problems.empty()
                           ? "study file · no session yet"
                           : "draft · " + std::to_string(outline.problems.size()) +
-                                " problems in the study file";
+                                (outline.problems.size() == 1 ? " problem" : " problems") +
+                                " in the study file";
     }
   } catch (const std::exception& error) {
     study.summary = error.what();
@@ -147,8 +148,7 @@ const char* Application::view_name() const noexcept {
 bool Application::works() const noexcept {
   return (start_task_ && start_task_->running()) || (work_ && work_->running()) ||
          (results_task_ && results_task_->running()) || (preflight_ && preflight_->running()) ||
-         (check_ && check_->running()) || (backup_ && backup_->running()) ||
-         screen_ == Screen::kStudy;
+         (check_ && check_->running()) || (backup_ && backup_->running());
 }
 
 std::optional<fs::path> Application::take_picture_request() {
@@ -197,7 +197,6 @@ void Application::attempt(const char* title, const std::function<void()>& work) 
 }
 
 void Application::draw(Ui& ui) {
-  ui.fill(ui.screen(), Colour::kGround);
   collect_work();
   run_state_.is_covered = shows_keys_ || !message_.empty();
   switch (screen_) {
@@ -228,7 +227,8 @@ void Application::draw(Ui& ui) {
   } else if (shows_keys_) {
     draw_keys(ui);
   }
-  if (screen_ == Screen::kSession && view_ && run_state_.is_covered && draw_emergency_stop(ui)) {
+  if (screen_ == Screen::kSession && view_ && run_state_.is_covered &&
+      draw_emergency_stop(ui)) {
     escape();
   }
 }
@@ -432,10 +432,8 @@ void Application::draw_results(Ui& ui) {
   } else if (result.save_picture) {
     picture_ = free_picture_beside(folder);
   } else if (result.unblind) {
-    attempt("The study cannot be unblinded", [&] {
-      core::StudyStore store(folder, core::StudyStore::Mode::kReadWrite);
-      store.add_unblinding(core::SystemClock().now_ns(), results_state_.reason);
-    });
+    attempt("The study cannot be unblinded",
+            [&] { outcome_ = unblind_study(folder, results_state_.reason); });
     if (message_.empty()) show_results();
   } else {
     go_to(result.tab);
@@ -450,10 +448,10 @@ void Application::show_study() {
                         ": expected its study file, found that it is not where it was; open "
                         "the file itself");
     }
-    watch_ = std::make_unique<StudyWatch>(file);
+    watch_ = std::make_unique<StudyWatch>(file, !folder_->hides_levels);
   }
   screen_ = Screen::kStudy;
-  reloaded_s_ = now_s();
+  reloaded_s_ = age_shown_s_ = now_s();
   orders_.clear();
   orders_problem_ = "";
   if (!watch_->study()) return;
@@ -467,8 +465,22 @@ void Application::show_study() {
   }
 }
 
+bool Application::look_beside() {
+  if (screen_ != Screen::kStudy || watch_ == nullptr) return false;
+  const double now = now_s();
+  if (watch_->look(now)) {
+    show_study();
+    return true;
+  }
+  // How long ago that was: in seconds, then in minutes.
+  if (watch_->num_reloads() == 0 || now < age_shown_s_ + (now < reloaded_s_ + 60 ? 1 : 60)) {
+    return false;
+  }
+  age_shown_s_ = now;
+  return true;
+}
+
 void Application::draw_study(Ui& ui) {
-  if (watch_->look(now_s())) show_study();
   const StudyViewResult result = draw_study_view(ui,
                                                  {.study = folder_ ? &*folder_ : nullptr,
                                                   .outline = watch_->outline(),

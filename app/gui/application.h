@@ -46,6 +46,9 @@ class Application {
   /// A session is under way: frames at the pace of its pictures, and a heartbeat.
   [[nodiscard]] bool is_live() const noexcept { return worker_ != nullptr; }
   [[nodiscard]] bool works() const noexcept;
+  /// Looks at what changes beside the window, the file of the study on screen: once a second
+  /// or more often. True if a frame should show it.
+  [[nodiscard]] bool look_beside();
   [[nodiscard]] bool shows_participant() const noexcept { return shows_participant_; }
   void hide_participant() noexcept { shows_participant_ = false; }
   [[nodiscard]] bool closed() const noexcept { return closed_; }
@@ -108,7 +111,7 @@ class Application {
   RecentStudies recent_;
   OperatorDoors doors_;
   Screen screen_ = Screen::kStart;
-  bool closed_ = false, closing_ = false;
+  bool closed_ = false, closing_ = false, leaving_ = false;
   bool shows_participant_ = false;
   bool shows_keys_ = false;
   float zoom_ = 1.0f;
@@ -149,7 +152,7 @@ class Application {
   std::vector<PlannedOrder> orders_;
   std::string orders_problem_;
   StudyViewState study_state_;
-  double reloaded_s_ = 0.0;
+  double reloaded_s_ = 0.0, age_shown_s_ = 0.0;
   std::vector<Drawn::Widget> last_widgets_;
 };
 

@@ -76,7 +76,7 @@ void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t sess
   run_state_ = {};
   view_.reset();
   finished_ = false;
-  closing_ = false;
+  closing_ = leaving_ = false;
   session_folder_ = store->folder();
   // A stop pressed in an earlier session must not meet this one.
   (void)doors_.emergency_stop.release(doors_.emergency_stop.num_presses());
@@ -125,7 +125,9 @@ void Application::draw_session(Ui& ui) {
     if (!result.requests.empty()) requested_at_ = std::chrono::steady_clock::now();
     for (const OperatorRequest& request : result.requests) worker_->request(request);
   }
-  if (closing_ && run_state_.dialog == RunViewState::Dialog::kNone && !result.to_sessions) {
+  // It takes the session a moment to be left.
+  if (result.to_sessions) leaving_ = true;
+  if (closing_ && run_state_.dialog == RunViewState::Dialog::kNone && !leaving_) {
     closing_ = false;  // They stay.
   }
   if (result.back_up && backup_ == nullptr) {

@@ -2,10 +2,20 @@
 
 #include <array>
 #include <cstdio>
+#include <ctime>
 
 #include "core/error.h"
 
 namespace jnd::app::gui {
+namespace {
+
+double process_cpu_ms() {
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return 1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec);
+}
+
+}  // namespace
 
 FrameTimes::FrameTimes(const std::filesystem::path& file) {
   if (file.empty()) return;
@@ -18,7 +28,9 @@ FrameTimes::FrameTimes(const std::filesystem::path& file) {
 }
 
 void FrameTimes::begin_frame() {
-  if (wanted()) part_began_ = std::chrono::steady_clock::now();
+  if (!wanted()) return;
+  cpu_began_ms_ = process_cpu_ms();
+  part_began_ = std::chrono::steady_clock::now();
 }
 
 void FrameTimes::end(Part part) {
@@ -32,7 +44,8 @@ void FrameTimes::end(Part part) {
 void FrameTimes::end_frame(std::string_view view) {
   if (!wanted()) return;
   std::array<char, 96> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), " %.3f %.3f %.3f", ms_[0], ms_[1], ms_[2]);
+  std::snprintf(numbers.data(), numbers.size(), " %.3f %.3f %.3f %.3f", ms_[0], ms_[1], ms_[2],
+                process_cpu_ms() - cpu_began_ms_);
   out_ << view << numbers.data() << std::endl;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +29,8 @@ class FrameTimes {
  private:
   std::ofstream out_;
   std::chrono::steady_clock::time_point part_began_;
-  double ms_[3] = {};
+  double cpu_began_ms_ = 0.0;
+  std::array<double, 3> ms_{};
 };
 
 }  // namespace jnd::app::gui

@@ -39,6 +39,7 @@ void show(gui::Window& window, const WindowRequest& request) {
   window.on_escape = [&] { application.escape(); };
   window.on_iteration = [&] {
     application.beat();
+    if (application.look_beside()) window.wake();
     window.wants_iterations(application.is_live());
     window.wants_frames(application.is_live() || application.works());
   };

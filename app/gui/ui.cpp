@@ -37,6 +37,8 @@ Ui::Ui(Theme& theme) : theme_(theme), my_(std::make_unique<Implementation>()) {
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   Implementation::map_keys(io);
   ImGuiStyle& style = ImGui::GetStyle();
+  // Lines as shapes: the window does not smooth the letters' texture, which holds ImGui's.
+  style.AntiAliasedLinesUseTex = false;
   style.WindowPadding = style.WindowMinSize = ImVec2(1, 1);
   style.WindowBorderSize = style.ChildBorderSize = style.FrameBorderSize = 0;
   style.ItemSpacing = ImVec2(0, 0);

@@ -74,7 +74,15 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
     self(from).on_mouse_moved(from, x, y);
   });
   glfwSetCursorEnterCallback(target, [](GLFWwindow* from, int has_entered) {
-    if (has_entered == GLFW_FALSE) self(from).queue.mouse_moved(kOutside, kOutside);
+    if (has_entered == GLFW_FALSE) {
+      self(from).queue.mouse_moved(kOutside, kOutside);
+    } else {
+      // GLFW does not tell of a mouse that comes back to where it was.
+      double x = 0.0;
+      double y = 0.0;
+      glfwGetCursorPos(from, &x, &y);
+      self(from).on_mouse_moved(from, x, y);
+    }
     self(from).something_happened(false);
   });
   glfwSetMouseButtonCallback(target, [](GLFWwindow* from, int button, int action, int) {

@@ -125,6 +125,8 @@ void Window::Implementation::open(const WindowSettings& settings) {
         "the window cannot be opened: expected OpenGL 3 or newer, found an older "
         "one; install libgl1-mesa-dri or a graphics driver");
   }
+  ImGui_ImplOpenGL3_CreateDeviceObjects();
+  sharpen_letters();
   ui = std::make_unique<Ui>(theme);
   text_cursor = glfwCreateStandardCursor(GLFW_IBEAM_CURSOR);
   hand_cursor = glfwCreateStandardCursor(GLFW_HAND_CURSOR);

@@ -61,6 +61,8 @@ struct Window::Implementation {
   void something_happened(bool urgent);
 
   void prepare_fonts();
+  /// Once their texture is made.
+  static void sharpen_letters();
   void draw(const Frame& frame);
   void draw_second();
   /// The ground, without the cost of drawing it.

@@ -159,17 +159,22 @@ MagnitudeFigure own_figure(const ResultsSource& source, const Magnitude& magnitu
   return figure;
 }
 
-Magnitude magnitude_of(const ResultsSource& source, const BlockDesign* estimation,
-                       const BlockDesign* production) {
-  const BlockDesign& either = estimation != nullptr ? *estimation : *production;
-  Magnitude magnitude{.title = source.title(either.block),
-                      .quantity = quantity_words(either.quantity),
-                      .unit = quantity_unit(either.quantity),
-                      .estimation_block = estimation != nullptr ? estimation->block : "",
-                      .production_block = production != nullptr ? production->block : ""};
-  if (estimation != nullptr && production != nullptr) {
-    magnitude.title += " and " + source.title(production->block);
+/// Of an estimation, of a production, or of both.
+Magnitude magnitude_of(const ResultsSource& source,
+                       const std::vector<const BlockDesign*>& estimations,
+                       const std::vector<const BlockDesign*>& productions) {
+  const BlockDesign* estimation = estimations.empty() ? nullptr : estimations.front();
+  const BlockDesign* production = productions.empty() ? nullptr : productions.front();
+  Magnitude magnitude;
+  for (const BlockDesign* block : {production, estimation}) {
+    if (block == nullptr) continue;
+    const std::string title = source.title(block->block);
+    magnitude.title = title + (magnitude.title.empty() ? "" : " and " + magnitude.title);
+    magnitude.quantity = quantity_words(block->quantity);
+    magnitude.unit = quantity_unit(block->quantity);
   }
+  if (estimation != nullptr) magnitude.estimation_block = estimation->block;
+  if (production != nullptr) magnitude.production_block = production->block;
   Samples estimated;
   Samples produced;
   for (const ParticipantData& participant : source.data.participants) {
@@ -213,14 +218,14 @@ std::vector<Magnitude> magnitudes_of(const ResultsSource& source) {
   // The two that results combine stand in one figure.
   if (estimations.size() == 1 && productions.size() == 1 &&
       estimations[0]->quantity == productions[0]->quantity) {
-    return {magnitude_of(source, estimations[0], productions[0])};
+    return {magnitude_of(source, estimations, productions)};
   }
   std::vector<Magnitude> figures;
   for (const BlockDesign* block : estimations) {
-    figures.push_back(magnitude_of(source, block, nullptr));
+    figures.push_back(magnitude_of(source, {block}, {}));
   }
   for (const BlockDesign* block : productions) {
-    figures.push_back(magnitude_of(source, nullptr, block));
+    figures.push_back(magnitude_of(source, {}, {block}));
   }
   return figures;
 }

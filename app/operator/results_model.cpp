@@ -258,10 +258,10 @@ const analysis::ResultsSection* ResultsSource::section(const std::string& name) 
   return nullptr;
 }
 
-const analysis::ParticipantEstimate* ResultsSource::own(const std::string& name,
+const analysis::ParticipantEstimate* ResultsSource::own(const std::string& section_name,
                                                         const std::string& participant,
                                                         const std::string& estimate) const {
-  const analysis::ResultsSection* found = section(name);
+  const analysis::ResultsSection* found = section(section_name);
   if (found == nullptr) return nullptr;
   for (const analysis::ParticipantEstimate& one : found->participants) {
     if (one.participant == participant && one.name == estimate) return &one;

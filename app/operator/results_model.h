@@ -193,7 +193,7 @@ struct ResultsSource {
   [[nodiscard]] std::string in_titles(std::string sentence) const;
   /// Nothing for a block without results.
   [[nodiscard]] const analysis::ResultsSection* section(const std::string& name) const;
-  [[nodiscard]] const analysis::ParticipantEstimate* own(const std::string& section,
+  [[nodiscard]] const analysis::ParticipantEstimate* own(const std::string& section_name,
                                                          const std::string& participant,
                                                          const std::string& estimate) const;
 };

@@ -50,7 +50,8 @@ inline void measure(benchmark::State& state, const std::function<void()>& work) 
       if (!lacking.empty()) throw std::runtime_error(lacking);
       work();
     } catch (const std::exception& error) {
-      state.SkipWithError(error.what());
+      const std::string what = error.what();  // The first line says what, others what it saw.
+      state.SkipWithError(what.substr(0, what.find('\n')).c_str());
       return;
     }
   }
@@ -62,7 +63,7 @@ class MeasuredWindow {
  public:
   struct Frame {
     std::string view;
-    double draw_ms = 0.0, render_ms = 0.0, show_ms = 0.0;
+    double draw_ms = 0.0, render_ms = 0.0, show_ms = 0.0, cpu_ms = 0.0;
 
     [[nodiscard]] double ms() const { return draw_ms + render_ms + show_ms; }
   };
@@ -84,7 +85,8 @@ class MeasuredWindow {
     std::vector<Frame> all;
     std::ifstream lines(frame_file());
     Frame frame;
-    while (lines >> frame.view >> frame.draw_ms >> frame.render_ms >> frame.show_ms) {
+    while (lines >> frame.view >> frame.draw_ms >> frame.render_ms >> frame.show_ms >>
+           frame.cpu_ms) {
       all.push_back(frame);
     }
     return all;

@@ -117,6 +117,12 @@ std::optional<std::string> RunningProgram::read_line() {
   }
 }
 
+bool RunningProgram::has_ended() const {
+  siginfo_t ended{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         ended.si_pid == pid_;
+}
+
 void RunningProgram::send_signal(int number) const { ::kill(pid_, number); }
 
 ProgramOutcome RunningProgram::wait() {

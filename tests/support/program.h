@@ -40,6 +40,8 @@ class RunningProgram {
   /// The next line of stdout without its end; none at the end of the stream.
   [[nodiscard]] std::optional<std::string> read_line();
   void send_signal(int number) const;
+  /// It needs no waiting for any more.
+  [[nodiscard]] bool has_ended() const;
   /// Closes the reading end of its stdout, as `head` does.
   void stop_reading();
   [[nodiscard]] ProgramOutcome wait();

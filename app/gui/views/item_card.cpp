@@ -106,7 +106,7 @@ class ItemCard {
 
  private:
   void give(const std::string& answer) {
-    result_.requests.push_back(operate::AnswerItem{item_.stage, item_.name, answer});
+    result_.requests.emplace_back(operate::AnswerItem{item_.stage, item_.name, answer});
     state_.item.clear();
   }
 
@@ -270,7 +270,7 @@ void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewS
                         "Go on",
                         {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                         [&] {
-                          result.requests.push_back(operate::FinishStage{view.stage, ""});
+                          result.requests.emplace_back(operate::FinishStage{view.stage, ""});
                         }}},
                       260);
     });

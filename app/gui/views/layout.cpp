@@ -28,6 +28,21 @@ std::vector<Rect> cells_of(const Rect& line, const std::vector<ColumnLook>& colu
   return cells;
 }
 
+std::vector<Rect> grid_of(const Rect& place, int count, int columns, float row_height) {
+  const auto gaps = static_cast<float>(columns - 1);
+  const float width = (place.width - kGap * gaps) / static_cast<float>(columns);
+  std::vector<Rect> places;
+  for (int i = 0; i < count; ++i) {
+    const int row = i / columns;
+    const int column = i % columns;
+    const bool is_alone = column == 0 && i + 1 == count;
+    places.push_back({place.x + static_cast<float>(column) * (width + kGap),
+                      place.y + static_cast<float>(row) * (row_height + kGap),
+                      is_alone ? place.width : width, row_height});
+  }
+  return places;
+}
+
 void draw_table_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& columns) {
   const Rect head = place.take_top(30);
   const std::vector<Rect> cells = cells_of(head, columns);

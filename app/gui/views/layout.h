@@ -33,6 +33,10 @@ struct ColumnLook {
 [[nodiscard]] std::vector<Rect> cells_of(const Rect& line,
                                          const std::vector<ColumnLook>& columns,
                                          float between = 18);
+/// The places of a grid with so many columns, row by row; a lone last one is as wide as a row.
+[[nodiscard]] std::vector<Rect> grid_of(const Rect& place, int count, int columns,
+                                        float row_height);
+
 /// The titles with a line below. Takes 30 px off `place`.
 void draw_table_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& columns);
 

@@ -9,7 +9,6 @@ namespace jnd::app::gui {
 
 void draw_participant_view(Ui& ui, const SessionView& view) {
   Rect screen = ui.screen();
-  ui.fill(screen, Colour::kGround);
   Rect foot = screen.take_bottom(48);
   ui.progress(foot.middle(foot.width * 0.6f, 10), view.done_ratio);
   Stack stack(ui);

@@ -28,7 +28,7 @@ std::string participant_problem(const PrepareModel& model, const std::string& pa
 
 /// Why the session cannot start; "" if it can.
 std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
-  const std::string participant = participant_problem(model, state.participant);
+  std::string participant = participant_problem(model, state.participant);
   if (!participant.empty()) return participant;
   std::string failed;
   for (const PreflightLine& line : model.lines) {

@@ -200,19 +200,12 @@ void draw_grid(Ui& ui, const Rect& place, const std::vector<Item>& items, float 
   const auto count = static_cast<int>(items.size());
   const int most = std::max(1, static_cast<int>((place.width + kGap) / (least_width + kGap)));
   const int columns = std::min(count, most);
-  const int rows = (count + columns - 1) / columns;
-  const float free =
-      (place.height - kGap * static_cast<float>(rows - 1)) / static_cast<float>(rows);
-  const float height = std::max(least_height, free);
-  const float content = static_cast<float>(rows) * (height + kGap) - kGap;
-  const Rect inside = ui.begin_scroll("figures", place, content);
-  const float width =
-      (inside.width - kGap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
-  for (int i = 0; i < count; ++i) {
-    draw(Rect{inside.x + static_cast<float>(i % columns) * (width + kGap),
-              inside.y + static_cast<float>(i / columns) * (height + kGap), width, height},
-         items[static_cast<std::size_t>(i)]);
-  }
+  const int num_rows = (count + columns - 1) / columns;
+  const auto rows = static_cast<float>(num_rows);
+  const float height = std::max(least_height, (place.height - kGap * (rows - 1)) / rows);
+  const Rect inside = ui.begin_scroll("figures", place, rows * (height + kGap) - kGap);
+  const std::vector<Rect> cards = grid_of(inside, count, columns, height);
+  for (std::size_t i = 0; i < cards.size(); ++i) draw(cards[i], items[i]);
   ui.end_scroll();
 }
 

@@ -27,7 +27,8 @@ void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, R
 void draw_curves_page(Ui& ui, Rect place, const ResultsModel& results, ResultsViewState& state);
 void draw_magnitudes_page(Ui& ui, Rect place, const ResultsModel& results,
                           ResultsViewState& state);
-void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results,
+/// `marks`: says here that the data are simulated, for the header has no room to.
+void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, bool marks,
                        ResultsViewState& state);
 /// How good the data are, as many lines of chips as it takes. Returns their height.
 float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results);

@@ -116,7 +116,7 @@ PlotModel psychometric_plot(const results::Discrimination& block,
 
 PlotModel magnitude_plot(const results::Magnitude& magnitude,
                          const results::MagnitudeFigure& figure) {
-  PlotModel plot{.title = magnitude.title, .unit = "magnitude, water of scale 1 being 1"};
+  PlotModel plot{.title = magnitude.title, .unit = "magnitude, 100 % being 1"};
   plot.x = {.label = axis_label("intensity,", magnitude.quantity),
             .unit = magnitude.unit,
             .logarithmic = true};

@@ -78,19 +78,13 @@ void draw_participant(Ui& ui, const Rect& row, const TableRow& line,
 void draw_boxes_page(Ui& ui, const Rect& place, const ResultsModel& results) {
   const auto count = static_cast<int>(results.boxes.size());
   const int columns = count > 1 ? 2 : 1;
-  const int rows = (count + columns - 1) / columns;
-  const float width =
-      (place.width - kGap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
-  const float height =
-      (place.height - kGap * static_cast<float>(rows - 1)) / static_cast<float>(rows);
-  for (int i = 0; i < count; ++i) {
-    const bool is_alone = i + 1 == count && i % columns == 0;
-    const Rect card{place.x + static_cast<float>(i % columns) * (width + kGap),
-                    place.y + static_cast<float>(i / columns) * (height + kGap),
-                    is_alone ? place.width : width, height};
-    ui.card(card);
-    (void)draw_plot(ui, card.inset(kPadding),
-                    box_plot(results.boxes[static_cast<std::size_t>(i)]));
+  const int num_rows = (count + columns - 1) / columns;
+  const auto rows = static_cast<float>(num_rows);
+  const float height = (place.height - kGap * (rows - 1)) / rows;
+  const std::vector<Rect> cards = grid_of(place, count, columns, height);
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    ui.card(cards[i]);
+    (void)draw_plot(ui, cards[i].inset(kPadding), box_plot(results.boxes[i]));
   }
 }
 
@@ -199,11 +193,10 @@ void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, R
   }
 }
 
-void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results,
+void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, bool marks,
                        ResultsViewState& state) {
   Rect inside = draw_card(ui, place, "Participants");
-  if (results.simulated) {
-    // Here on every page, for the header has no room for it in a small window.
+  if (marks) {
     const float width = ui.chip_width("simulated data");
     ui.chip(inside.right() - width, place.y + 14, "simulated data", Colour::kAmber);
   }

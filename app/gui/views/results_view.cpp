@@ -146,7 +146,8 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
     state.participant = std::min(state.participant, results.rows.size());
     const float table = std::clamp(150.0f + 84.0f * static_cast<float>(results.columns.size()),
                                    340.0f, rest.width * 0.36f);
-    draw_participants(ui, rest.take_right(table, kGap), results, state);
+    draw_participants(ui, rest.take_right(table, kGap), results,
+                      results.simulated && !header.shows_marks, state);
     draw_strip(ui, rest.take_top(40, kGap), pages, results, state, result);
     draw_results_page(ui, rest, results, pages[state.page].page, state);
   }

@@ -27,7 +27,7 @@ void draw_begin(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
   add_heading(ui, stack, view);
   add_words(stack, view, place);
   const auto begin = [&](const char* choice) {
-    result.requests.push_back(operate::Begin{choice});
+    result.requests.emplace_back(operate::Begin{choice});
   };
   if (view.last_sequence == 0) {
     stack.add(kLargeButton, 0, [&](const Rect& strip) {
@@ -101,9 +101,9 @@ void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
                        .large = true},
                       [&] {
                         if (feeling) {
-                          result.requests.push_back(operate::FinishMedium{});
+                          result.requests.emplace_back(operate::FinishMedium{});
                         } else {
-                          result.requests.push_back(operate::FeelMedium{});
+                          result.requests.emplace_back(operate::FeelMedium{});
                         }
                       }}},
                     260);
@@ -127,7 +127,7 @@ void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState
           {.tone = over ? Tone::kPrimary : Tone::kPlain, .key = {Key::kEnter}, .large = true},
           [&] {
             if (over) {
-              result.requests.push_back(operate::FinishStage{view.stage, ""});
+              result.requests.emplace_back(operate::FinishStage{view.stage, ""});
             } else {
               open_dialog(state, RunViewState::Dialog::kGoOnEarly);
             }
@@ -172,7 +172,7 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
         {{"rearm",
           view.stop_pressed ? "Release the stop and arm again" : "Arm again",
           {.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true},
-          [&] { result.requests.push_back(operate::Rearm{view.num_stop_presses}); }}},
+          [&] { result.requests.emplace_back(operate::Rearm{view.num_stop_presses}); }}},
         360);
   });
   stack.draw(inside.inset(10));
@@ -225,14 +225,14 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
                           "Go on",
                           {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                           [&] {
-                            result.requests.push_back(operate::FinishStage{view.stage, ""});
+                            result.requests.emplace_back(operate::FinishStage{view.stage, ""});
                           }});
     case Step::kPaused:
       return draw_simple(ui, inside, view,
                          {"go_on",
                           "Go on",
                           {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
-                          [&] { result.requests.push_back(operate::GoOn{}); }});
+                          [&] { result.requests.emplace_back(operate::GoOn{}); }});
     case Step::kFault:
       return draw_fault(ui, inside, view, result);
     case Step::kFailed:
@@ -242,7 +242,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
                           "Leave the session",
                           {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                           [&] {
-                            result.requests.push_back(operate::Leave{});
+                            result.requests.emplace_back(operate::Leave{});
                             result.to_sessions = true;
                           }});
     case Step::kFinished:

@@ -67,27 +67,27 @@ double corrected_value(const RunViewState& state) {
 void request(const SessionView& view, const RunViewState& state, RunViewResult& result) {
   switch (state.dialog) {
     case Dialog::kUndo:
-      result.requests.push_back(operate::Undo{state.reason});
+      result.requests.emplace_back(operate::Undo{state.reason});
       break;
     case Dialog::kCorrect:
-      result.requests.push_back(
+      result.requests.emplace_back(
           operate::Correct{state.correct_trial, corrected_value(state), state.reason});
       break;
     case Dialog::kNote:
-      result.requests.push_back(operate::AddNote{state.reason});
+      result.requests.emplace_back(operate::AddNote{state.reason});
       break;
     case Dialog::kPause:
-      result.requests.push_back(operate::Pause{state.reason});
+      result.requests.emplace_back(operate::Pause{state.reason});
       break;
     case Dialog::kEndEarly:
-      result.requests.push_back(operate::EndEarly{state.reason});
+      result.requests.emplace_back(operate::EndEarly{state.reason});
       break;
     case Dialog::kLeave:
-      result.requests.push_back(operate::Leave{state.reason});
+      result.requests.emplace_back(operate::Leave{state.reason});
       result.to_sessions = true;
       break;
     case Dialog::kGoOnEarly:
-      result.requests.push_back(operate::FinishStage{view.stage, state.reason});
+      result.requests.emplace_back(operate::FinishStage{view.stage, state.reason});
       break;
     case Dialog::kNone:
       break;
@@ -117,7 +117,6 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
     entered = ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint,
                             state.dialog_is_new);
   }
-  state.dialog_is_new = false;
   const bool ready = (!words.needs_text || !state.reason.empty()) &&
                      (!corrects || !std::isnan(corrected_value(state)));
   Rect row = inside.take_bottom(48);
@@ -128,6 +127,8 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   const bool done = ui.button("dialog_do", verb_place, words.verb, verb) || (entered && ready);
   const bool cancelled = ui.button("dialog_cancel", cancel_place, "Cancel", cancel);
   ui.end_dialog();
+  // Enter without what is needed: the field keeps the keyboard.
+  state.dialog_is_new = entered && !done;
   if (done) request(view, state, result);
   if (done || cancelled) state.dialog = Dialog::kNone;
 }

@@ -15,9 +15,9 @@ namespace jnd::app::gui {
 struct RunViewState {
   enum class Dialog { kNone, kUndo, kCorrect, kNote, kPause, kEndEarly, kLeave, kGoOnEarly };
   Dialog dialog = Dialog::kNone;
-  bool dialog_is_new = false;      ///< Its first field takes the keyboard.
-  bool is_covered = false;  ///< By a dialog of the application, which then draws the stop.
-  std::string reason;              ///< Or the note.
+  bool dialog_is_new = false;  ///< Its first field takes the keyboard.
+  bool is_covered = false;     ///< By a dialog of the application, which then draws the stop.
+  std::string reason;          ///< Or the note.
   std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
   experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
   std::string correct_value;

@@ -13,10 +13,11 @@ struct Tab {
   const char *name, *label;
   char digit;
 };
-constexpr std::array kTabs = {Tab{StudyTab::kStart, "tab_start", "Start", '0'},
-                              Tab{StudyTab::kSessions, "tab_sessions", "Sessions", '1'},
+/// From the right.
+constexpr std::array kTabs = {Tab{StudyTab::kStudy, "tab_study", "Study", '3'},
                               Tab{StudyTab::kResults, "tab_results", "Results", '2'},
-                              Tab{StudyTab::kStudy, "tab_study", "Study", '3'}};
+                              Tab{StudyTab::kSessions, "tab_sessions", "Sessions", '1'},
+                              Tab{StudyTab::kStart, "tab_start", "Start", '0'}};
 
 struct Chip {
   const char* words;
@@ -43,13 +44,13 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   strip.take_left(20);
   strip.take_right(20);
   if (own_width > 0) header.own_buttons = strip.take_right(own_width, 12);
-  for (auto tab = kTabs.rbegin(); tab != kTabs.rend(); ++tab) {
+  for (const Tab& tab : kTabs) {
     const ButtonStyle style{.tone = Tone::kQuiet,
-                            .key = {.key = letter(tab->digit), .control = true},
-                            .selected = tab->tab == current};
-    const Rect its = strip.take_right(ui.button_width(tab->label, style));
-    if (ui.button(tab->name, its.middle(its.width, 36), tab->label, style)) {
-      header.chosen = tab->tab;
+                            .key = {.key = letter(tab.digit), .control = true},
+                            .selected = tab.tab == current};
+    const Rect its = strip.take_right(ui.button_width(tab.label, style));
+    if (ui.button(tab.name, its.middle(its.width, 36), tab.label, style)) {
+      header.chosen = tab.tab;
     }
   }
   ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
@@ -63,6 +64,7 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   const float room = has_chips ? strip.width - chips - 8 : strip.width;
   const Rect words = strip.take_left(std::min(title, room), 18);
   ui.text(words, study.title, {});
+  header.shows_marks = has_chips && study.simulated;
   if (!has_chips) return header;
   float x = strip.x;
   for (const Chip& chip : chips_of(study)) {

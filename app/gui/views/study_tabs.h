@@ -15,6 +15,7 @@ enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy };
 struct StudyHeader {
   StudyTab chosen = StudyTab::kNone;
   Rect own_buttons;
+  bool shows_marks = false;  ///< There was room to say that the data are simulated.
 };
 /// `own_width`: how wide the view's own buttons are together.
 [[nodiscard]] StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& study,

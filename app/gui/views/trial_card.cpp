@@ -84,10 +84,10 @@ class TrialCard {
 
  private:
   void present(const char* interval) {
-    result_.requests.push_back(operate::Present{trial_.trial, interval});
+    result_.requests.emplace_back(operate::Present{trial_.trial, interval});
   }
   void answer(double value) {
-    result_.requests.push_back(operate::Answer{trial_.trial, value});
+    result_.requests.emplace_back(operate::Answer{trial_.trial, value});
   }
 
   void draw_first(const Rect& place) {
@@ -149,7 +149,7 @@ class TrialCard {
   RowButton step_button(const char* name, const char* label, Key key, Direction direction,
                         StepSize size) {
     return {name, label, {.key = {key}, .repeats = true}, [this, direction, size] {
-              result_.requests.push_back(
+              result_.requests.emplace_back(
                   operate::Adjust{trial_.trial, direction, size, ui_.was_held()});
             }};
   }

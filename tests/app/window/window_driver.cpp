@@ -6,7 +6,6 @@
 #include <cctype>
 #include <csignal>
 #include <fstream>
-#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -35,11 +34,11 @@ std::string text_of(const fs::path& file) {
 /// "Ctrl Z" is ctrl+z to xdotool.
 std::string xdotool_words(const std::string& printed) {
   static const std::map<std::string, std::string> kNames = {
-      {"Ctrl", "ctrl"},   {"Shift", "shift"},  {"Space", "space"},
-      {"Esc", "Escape"},  {"Enter", "Return"}, {"Backspace", "BackSpace"},
-      {"Del", "Delete"},  {"←", "Left"},       {"→", "Right"},
-      {"↑", "Up"},        {"↓", "Down"},       {"+", "plus"},
-      {"-", "minus"},     {".", "period"}};
+      {"Ctrl", "ctrl"},  {"Shift", "shift"},  {"Space", "space"},
+      {"Esc", "Escape"}, {"Enter", "Return"}, {"Backspace", "BackSpace"},
+      {"Del", "Delete"}, {"←", "Left"},       {"→", "Right"},
+      {"↑", "Up"},       {"↓", "Down"},       {"+", "plus"},
+      {"-", "minus"},    {".", "period"}};
   std::istringstream words(printed);
   std::string keys;
   for (std::string word; words >> word;) {
@@ -89,9 +88,12 @@ WindowDriver::WindowDriver(VirtualDisplay& display, fs::path folder)
 WindowDriver::~WindowDriver() = default;
 
 std::vector<std::pair<std::string, std::string>> WindowDriver::environment() const {
-  return {{"HOME", folder_.string()},
-          {"XDG_STATE_HOME", (folder_ / "state").string()},
-          {"XDG_DATA_HOME", (folder_ / "data").string()}};
+  std::vector<std::pair<std::string, std::string>> variables = {
+      {"HOME", folder_.string()},
+      {"XDG_STATE_HOME", (folder_ / "state").string()},
+      {"XDG_DATA_HOME", (folder_ / "data").string()}};
+  if (!share.empty()) variables.emplace_back("JND_SHARE", share.string());
+  return variables;
 }
 
 void WindowDriver::start(const std::vector<std::string>& arguments) {
@@ -111,12 +113,14 @@ void WindowDriver::kill() {
 }
 
 test_support::ProgramOutcome WindowDriver::wait_for_exit() {
-  // One that hangs is ended, which its outcome tells.
-  auto waiting = std::async(std::launch::async, [this] { return program_->wait(); });
-  if (waiting.wait_for(kPatience) != std::future_status::ready) {
-    program_->send_signal(SIGKILL);
+  const auto end = Clock::now() + kPatience;
+  while (!program_->has_ended()) {
+    if (Clock::now() > end) {
+      throw std::runtime_error("the program does not end" + stands_there(screen()));
+    }
+    std::this_thread::sleep_for(kGlance);
   }
-  test_support::ProgramOutcome outcome = waiting.get();
+  test_support::ProgramOutcome outcome = program_->wait();
   program_.reset();
   return outcome;
 }
@@ -147,11 +151,16 @@ Screen WindowDriver::wait_until(const std::string& what, const Condition& condit
   const auto end = Clock::now() + kPatience;
   Screen now = screen();
   while (!condition(now)) {
-    if (Clock::now() > end) {
-      throw std::runtime_error("waited in vain for " + what + stands_there(now));
+    const bool has_ended = program_ == nullptr || program_->has_ended();
+    if (has_ended || Clock::now() > end) {
+      const std::string why = has_ended ? "the program ended before " : "waited in vain for ";
+      throw std::runtime_error(why + what + stands_there(now));
     }
     std::this_thread::sleep_for(kGlance);
     now = screen();
+    if (forgives_stalls && now.offers("rearm") && now.shows("window stopped answering")) {
+      press("ctrl+Return");
+    }
   }
   return now;
 }
@@ -173,8 +182,13 @@ Screen WindowDriver::wait_for_view(const std::string& view) const {
 std::string WindowDriver::every_text() const { return text_of(folder_ / "widgets.json.texts"); }
 
 std::string WindowDriver::stands_there(const Screen& screen) const {
-  std::string words = "; the view " + screen.view + " shows in frame " +
-                      std::to_string(screen.frame) + ":\n";
+  if (program_ != nullptr && program_->has_ended()) {
+    const test_support::ProgramOutcome outcome = program_->wait();
+    return " with exit code " + std::to_string(outcome.exit_code) + ", signal " +
+           std::to_string(outcome.signal) + ": " + outcome.err;
+  }
+  std::string words =
+      "; the view " + screen.view + " shows in frame " + std::to_string(screen.frame) + ":\n";
   for (const Screen::Widget& widget : screen.widgets) {
     words += (widget.enabled ? " [" : " (") + widget.name + (widget.enabled ? "]" : ")");
   }
@@ -190,18 +204,40 @@ std::string WindowDriver::stands_there(const Screen& screen) const {
   return words;
 }
 
-void WindowDriver::picture(const fs::path& file) const {
+void WindowDriver::picture(const fs::path& file, const std::string& title) const {
   fs::create_directories(file.parent_path());
-  if (run_tool({"import", "-window", window(), file.string()}, display_.name()).exit_code != 0) {
+  const std::string number = title == "jnd" ? window() : find_window(title);
+  const std::vector<std::string> take = {
+      "import", "-window", number, "-define", "png:compression-level=3", file.string()};
+  if (run_tool(take, display_.name()).exit_code != 0) {
     throw std::runtime_error("no picture: " + file.string());
   }
+}
+
+bool WindowDriver::is_dark() const {
+  const ToolOutcome pixel = run_tool({"import", "-window", window(), "-gravity", "SouthWest",
+                                      "-crop", "1x1+12+12", "-depth", "8", "gray:-"},
+                                     display_.name());
+  if (pixel.out.size() != 1) throw std::runtime_error("no pixel of the window can be seen");
+  constexpr unsigned char kMiddle = 70;  // Below a dialog the light one is half as light.
+  return static_cast<unsigned char>(pixel.out[0]) < kMiddle;
+}
+
+std::string WindowDriver::find_window(const std::string& title) const {
+  return first_line(
+      run_tool({"xdotool", "search", "--onlyvisible", "--name", "^" + title + "$"},
+               display_.name())
+          .out);
+}
+
+bool WindowDriver::has_window(const std::string& title) const {
+  return !find_window(title).empty();
 }
 
 std::string WindowDriver::window() const {
   const auto end = Clock::now() + kPatience;
   while (window_.empty()) {
-    window_ = first_line(
-        run_tool({"xdotool", "search", "--onlyvisible", "--name", "^jnd$"}, display_.name()).out);
+    window_ = find_window("jnd");
     if (Clock::now() > end) throw std::runtime_error("no window is called jnd");
   }
   return window_;
@@ -291,8 +327,13 @@ void WindowDriver::press_close_button() const {
 }
 
 void WindowDriver::resize(int width_px, int height_px) const {
-  xdotool({"windowsize", "--sync", window(), std::to_string(width_px),
-           std::to_string(height_px)});
+  xdotool({"windowsize", window(), std::to_string(width_px), std::to_string(height_px)});
+  // In every view some button stands in the lower right corner.
+  wait_until("the new size", [&](const Screen& now) {
+    const Screen::Widget* corner = now.find("keys");
+    return corner != nullptr && std::abs(corner->x + corner->width - width_px) < 40 &&
+           std::abs(corner->y + corner->height - height_px) < 40;
+  });
 }
 
 }  // namespace jnd::app

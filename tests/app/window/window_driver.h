@@ -21,7 +21,7 @@ namespace jnd::app {
 struct Screen {
   struct Widget {
     std::string name, label;
-    std::string key;  ///< As printed on it: "Ctrl Z".
+    std::string key;                          ///< As printed on it: "Ctrl Z".
     int x = 0, y = 0, width = 0, height = 0;  ///< Pixels of the window.
     bool enabled = false;
   };
@@ -58,6 +58,8 @@ class WindowDriver {
   void kill();
   /// Waits until it ends by itself.
   [[nodiscard]] test_support::ProgramOutcome wait_for_exit();
+  /// Where the program finds its studies; its own else.
+  std::filesystem::path share;
   /// The program's environment but for the display.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> environment() const;
 
@@ -71,8 +73,11 @@ class WindowDriver {
   Screen wait_for_view(const std::string& view) const;
   /// Every text that any frame of any window of any run showed, one a line.
   [[nodiscard]] std::string every_text() const;
-  /// Saves what the window looks like.
-  void picture(const std::filesystem::path& file) const;
+  /// Saves what a window looks like.
+  void picture(const std::filesystem::path& file, const std::string& title = "jnd") const;
+  [[nodiscard]] bool has_window(const std::string& title) const;
+  /// By its pixels: dark letters on light, or the other way round.
+  [[nodiscard]] bool is_dark() const;
 
   // Doing. Words are those of xdotool: "y", "ctrl+z", "Return".
   void press(const std::string& key) const { press_at_once({key}); }
@@ -91,10 +96,15 @@ class WindowDriver {
   /// The close button of the window's frame.
   void press_close_button() const;
   void resize(int width_px, int height_px) const;
+  /// Large windows drawn by a busy processor may stop for longer than the heartbeat allows;
+  /// then the session is armed again and the trial felt once more.
+  bool forgives_stalls = false;
 
  private:
   void xdotool(std::vector<std::string> words) const;
-  [[nodiscard]] std::string window() const;  ///< Its number on the display.
+  /// Its number on the display; "" if there is none.
+  [[nodiscard]] std::string find_window(const std::string& title) const;
+  [[nodiscard]] std::string window() const;  ///< The main one's.
   [[nodiscard]] std::string stands_there(const Screen& screen) const;
 
   VirtualDisplay& display_;

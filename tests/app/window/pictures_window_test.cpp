@@ -1,0 +1,307 @@
+// Not what is stored but what is seen: pictures of every view, large and small, light and dark,
+// for whoever looks through them and for the documents.
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/window/window_fixture.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kStalled = "window stopped answering";
+
+class PicturesWindowTest : public WindowTest {
+ protected:
+  void SetUp() override {
+    WindowTest::SetUp();
+    if (IsSkipped()) return;
+    display_ = std::make_unique<VirtualDisplay>(1600, 1000);
+    window_ = std::make_unique<WindowDriver>(*display_, path("home"));
+    window_->forgives_stalls = true;
+    // No path of this machine shall stand in a picture.
+    window_->share = path("jnd");
+    fs::create_directory(window_->share);
+    for (const char* part : {"protocols", "data"}) {
+      fs::copy(fs::path(JND_SOURCE_DIR) / part, window_->share / part,
+               fs::copy_options::recursive);
+    }
+  }
+
+  /// NAME-1600x1000-light.png and so on.
+  void take(const std::string& name) { take(name, 2); }
+  void take(const std::string& name, int num_shades) {
+    if (!taken_.insert(name).second) return;
+    for (const bool small : {false, true}) {
+      window_->resize(small ? 1280 : 1600, small ? 720 : 1000);
+      for (int shade = 0; shade < num_shades; ++shade) {
+        const bool dark = window_->is_dark();
+        const fs::path file =
+            fs::path(JND_PICTURES) /
+            (name + (small ? "-1280x720" : "-1600x1000") + (dark ? "-dark.png" : "-light.png"));
+        window_->picture(file);
+        EXPECT_GT(fs::file_size(file), 5000u) << file << " shows next to nothing";
+        if (num_shades == 1) continue;
+        window_->press("ctrl+d");
+        window_->wait_until("the other shade",
+                            [&](const Screen&) { return window_->is_dark() != dark; });
+      }
+    }
+    window_->resize(1600, 1000);
+    // Of a session that had stopped meanwhile: once more, when this card comes again.
+    if (window_->screen().shows(kStalled)) taken_.erase(name);
+  }
+  void close() {
+    window_->press_close_button();
+    EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
+  }
+
+  static json shipped(const std::string& name) {
+    return json::parse(read_file(fs::path(JND_SOURCE_DIR) / "protocols" / (name + ".json")));
+  }
+
+  std::set<std::string> taken_;
+};
+
+/// A shipped study with everything in it that is in a long session, but few of each.
+class SessionPicturesTest : public PicturesWindowTest {
+ protected:
+  static std::string short_study(const std::string& blinding = "participant") {
+    json study = shipped("viscosity_discrimination");
+    const json tour = shipped("short_tour");
+    study["blinding"] = blinding;
+    json& stages = study["stages"];
+    std::set<std::string> kinds;
+    json few = json::array();
+    for (json& stage : stages) {
+      const std::string kind = stage.at("kind");
+      if (kind == "checklist" && !kinds.insert(kind).second) continue;
+      if (kind == "counterbalance") {
+        for (const json& tour_stage : tour.at("stages")) {
+          if (tour_stage.at("kind") == "block") few.push_back(tour_stage);
+        }
+        few.push_back({{"kind", "break"},
+                       {"name", "rest"},
+                       {"instruction",
+                        {{"en", "Let the participant drink something."},
+                         {"de", "Etwas zu trinken anbieten."}}},
+                       {"duration_s", 300}});
+        continue;
+      }
+      few.push_back(stage);
+    }
+    stages = few;
+    for (json& stage : stages) {
+      if (stage.at("kind") == "checklist" && stage.at("items").size() > 3) {
+        stage["items"].erase(stage["items"].begin() + 3, stage["items"].end());
+      }
+      if (stage.at("kind") != "block") continue;
+      stage["free_space_between_s"] = 0;
+      if (stage.contains("repetitions")) stage["repetitions"] = 1;
+      for (const char* levels : {"scale", "viscosity_pa_s"}) {
+        if (!stage.contains(levels)) continue;
+        json& all = stage[levels];
+        all = {all.front(), all.back()};
+      }
+    }
+    return study.dump(1);
+  }
+
+  /// What stands there but for numbers, which change all the time.
+  static std::vector<std::string> words_of(const Screen& screen) {
+    std::vector<std::string> words;
+    for (const std::string& text : screen.texts) {
+      if (text.find_first_of("0123456789") == std::string::npos) words.push_back(text);
+    }
+    return words;
+  }
+
+  /// Does what the card asks for, after a picture of every kind of card; false at the end.
+  bool step_on() {
+    static const std::vector<std::string> kCards = {
+        "begin",       "item_done", "consent_given",  "item_text",    "item_yes",
+        "feel_medium", "scale_7",   "finish_medium",  "finish_break", "present",
+        "answer_yes",  "matches",   "answer_percent", "finish_stage", "to_results"};
+    std::string card;
+    const Screen now = window_->wait_until("a card", [&](const Screen& at) {
+      for (const std::string& name : kCards) {
+        if (at.find(name) != nullptr) card = name;
+      }
+      for (const Screen::Widget& widget : at.widgets) {
+        if (widget.name.starts_with("option_")) card = widget.name;
+      }
+      return !card.empty() && at.find("dialog_do") == nullptr;
+    });
+    const bool to_test = card == "present" && now.find(card)->label == "Present the test";
+    const std::string kind = card.starts_with("option_") ? "option" : card;
+    take("session-" + kind + (to_test ? "-test" : ""));
+    if (card == "to_results") return false;
+    const Screen then = window_->wait_until("the card", [&](const Screen& at) {
+      return at.find(card) != nullptr || at.offers("present") || at.offers("feel_medium");
+    });
+    if (then.find(card) == nullptr) return true;
+    answer(card, now);
+    window_->wait_until("the next card",
+                        [&](const Screen& at) { return words_of(at) != words_of(now); });
+    return true;
+  }
+
+  void answer(const std::string& card, const Screen& now) {
+    if (card == "item_text") {
+      window_->press("ctrl+a");
+      window_->type(now.shows("word, word") ? "calm, soft, thick"
+                    : now.shows("1 to 2.5") ? "1.78"
+                                            : "42");
+      window_->press("Return");
+    } else if (card == "answer_percent") {
+      window_->type("120");
+      window_->wait_for(card);
+      take("session-percent");
+      window_->use(card);
+    } else if (card == "finish_break") {
+      window_->use(card);
+      window_->wait_for_text("Go on before the rest is over");
+      window_->type("enough");
+      window_->press("Return");
+    } else {
+      window_->use(card);
+    }
+  }
+
+  /// A dialog and how it is left.
+  void take_dialog(const std::string& name, const std::string& key, const std::string& widget) {
+    window_->press(key);
+    window_->wait_for(widget);
+    take(name, key == "F1" ? 1 : 2);
+    window_->press(key == "F1" ? key : "F2");
+    window_->wait_until("the dialog's end",
+                        [&](const Screen& now) { return !now.find(widget); });
+  }
+};
+
+TEST_F(SessionPicturesTest, OfASessionFromItsPreparationToItsEnd) {
+  write_file(path("study.json"), short_study());
+  window_->start({"run", path("study.json").string(), "--study",
+                  path("viscosity.study").string(), "--participant", "P07", "--device",
+                  "lumped", "--seed", "7"});
+  window_->wait_for("start_session");
+  take("prepare");
+  window_->use("start_session");
+  while (step_on()) {
+  }
+  window_->wait_for_text("complete");
+  take("session-finished");
+  window_->kill();
+}
+
+TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
+  write_file(path("study.json"), short_study("double"));
+  window_->start({"run", path("study.json").string(), "--study", path("blind.study").string(),
+                  "--participant", "P08", "--device", "lumped", "--seed", "7", "--pilot"});
+  taken_ = {"session-begin",        "session-item_done", "session-consent_given",
+            "session-item_text",    "session-option",    "session-feel_medium",
+            "session-finish_medium"};
+  window_->use("start_session");
+  while (window_->screen().find("answer_percent") == nullptr) ASSERT_TRUE(step_on());
+  take("session-blind");
+  window_->press("F9");
+  const fs::path second = fs::path(JND_PICTURES) / "participant.png";
+  window_->wait_until("the participant's window",
+                      [&](const Screen&) { return window_->has_window("jnd: participant"); });
+  window_->picture(second, "jnd: participant");
+  window_->press("F9");
+  take_dialog("session-keys", "F1", "keys_close");
+  take_dialog("session-note", "ctrl+n", "dialog_cancel");
+  take_dialog("session-leave", "ctrl+w", "dialog_cancel");
+  do {
+    window_->use("pause");
+    window_->wait_for("dialog_cancel");
+    take("session-pause");
+    window_->press("Return");
+    // Refused where the window has stalled meanwhile.
+    window_->wait_until("a pause", [](const Screen& now) {
+      return now.offers("go_on") || now.offers("pause");
+    });
+  } while (!window_->screen().offers("go_on"));
+  take("session-paused");
+  window_->use("go_on");
+  feel_test();
+  window_->press("Escape");
+  window_->wait_for("rearm");
+  take("session-stopped");
+  window_->press("ctrl+w");
+  window_->wait_for_text("Leave the session");
+  window_->press("Return");
+  window_->wait_for_view("sessions");
+  take("sessions-blind");
+  window_->use("tab_results");
+  window_->wait_for_view("results");
+  window_->wait_for("unblind");
+  take("results-blind");
+  window_->use("tab_start");
+  window_->wait_for("resume_1");
+  take("start-interrupted");
+  close();
+}
+
+class StudyPicturesTest : public PicturesWindowTest {
+ protected:
+  void open(const fs::path& study) {
+    window_->wait_for_view("start");
+    window_->use("open_study");
+    window_->wait_for("open_path");
+    window_->press("ctrl+a");
+    window_->type(study.string());
+    window_->press("Return");
+  }
+};
+
+TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles) {
+  ASSERT_EQ(jnd({"demo", "--fast", "--out", path("demo").string()}).exit_code, 0);
+  window_->start();
+  take("start-first");
+  window_->use("new_study");
+  window_->wait_for("new_folder");
+  take("start-new");
+  window_->press("F2");
+  window_->use("open_study");
+  window_->wait_for("open_path");
+  take("start-open");
+  window_->press("F2");
+
+  write_file(path("draft.json"), replaced(shipped("short_tour").dump(1), R"("repetitions": 1)",
+                                          R"("repetitons": 1)"));
+  open(path("draft.json"));
+  window_->wait_for_text("repetitons");
+  take("study-problems");
+  window_->use("tab_start");
+  for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {
+    open(path("demo") / (std::string(study) + ".study"));
+    window_->wait_for_view("sessions");
+    take(std::string("sessions-") + study);
+    window_->use("tab_results");
+    const Screen results = window_->wait_for("export");
+    for (const Screen::Widget& widget : results.widgets) {
+      if (!widget.name.starts_with("page_")) continue;
+      window_->use(widget.name);
+      take(std::string("results-") + study + "-" + widget.name.substr(5));
+    }
+    window_->use("participant_3");
+    window_->use(results.find("page_curves") != nullptr ? "page_curves" : "page_magnitudes");
+    take(std::string("results-") + study + "-one");
+    window_->use("tab_study");
+    window_->wait_for_view("study");
+    take(std::string("study-") + study);
+    window_->use("tab_start");
+  }
+  window_->wait_for_view("start");
+  window_->wait_for("study_3");
+  take("start");
+  close();
+}
+
+}  // namespace
+}  // namespace jnd::app
