@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <random>
 #include <utility>
 
 #include "app/gui/views/participant_view.h"
@@ -11,6 +10,7 @@
 #include "app/share.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/random_stream.h"
 #include "device/device_registry.h"
 #include "experiments/study/study_reader.h"
 
@@ -79,6 +79,11 @@ fs::path free_picture_beside(const fs::path& study_folder) {
                                                   std::to_string(number) + ".png");
     if (!fs::exists(file)) return file;
   }
+}
+
+/// One for each study folder, so that the orders shown are those its sessions will draw.
+std::uint64_t seed_of(const core::StudyStore& store) {
+  return core::derived_seed(0, "study/" + store.study_id());
 }
 
 std::vector<FolderEntry> entries_of(const fs::path& folder) {
@@ -344,7 +349,7 @@ void Application::show_prepare() {
   for (const core::WithdrawalRow& gone : store.withdrawals()) {
     taken_.push_back(gone.participant);
   }
-  seed_ = request_.seed ? *request_.seed : std::random_device{}();
+  seed_ = request_.seed ? *request_.seed : seed_of(store);
   assigned_.clear();
   if (!folder_->hides_levels) {
     const std::vector<experiments::Cell> cells =
@@ -456,9 +461,13 @@ void Application::show_study() {
   orders_problem_ = "";
   if (!watch_->study()) return;
   try {
-    orders_ =
-        planned_orders(*watch_->study(), {.folder = folder_ ? folder_->folder : fs::path(),
-                                          .num_participants = study_state_.num_participants});
+    OrdersRequest request{.num_participants = study_state_.num_participants};
+    if (folder_) {
+      request.folder = folder_->folder;
+      const core::StudyStore store(folder_->folder, core::StudyStore::Mode::kReadOnly);
+      request.seed = seed_of(store);
+    }
+    orders_ = planned_orders(*watch_->study(), request);
     if (orders_.empty()) orders_problem_ = "The study is double-blind: its orders are hidden.";
   } catch (const core::Error& error) {
     orders_problem_ = error.what();

@@ -97,7 +97,9 @@ std::vector<KeyFigure> key_figures(const ResultsModel& results) {
 void draw_summary(Ui& ui, const Rect& place, const ResultsModel& results,
                   ResultsViewState& state) {
   Rect inside =
-      draw_card(ui, place, std::to_string(results.num_participants) + " participants");
+      draw_card(ui, place,
+                std::to_string(results.num_participants) +
+                    (results.num_participants == 1 ? " participant" : " participants"));
   inside = ui.begin_scroll("summary", inside, state.summary_height);
   const float top = inside.y;
   const std::vector<KeyFigure> figures = key_figures(results);

@@ -231,7 +231,8 @@ SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const St
   draw_study_card(ui, column, study);
   draw_actions(ui, column, study, work, state, result);
   draw_study_footer(ui, footer, work.outcome.sentence,
-                    std::to_string(study.num_sessions) + " sessions");
+                    std::to_string(study.num_sessions) +
+                        (study.num_sessions == 1 ? " session" : " sessions"));
   if (state.asks_for_backup) draw_backup_dialog(ui, state, result);
   return result;
 }

@@ -37,6 +37,26 @@ TEST(Button, AnswersToItsKeyExactlyOnce) {
   EXPECT_EQ(answers.no, 0);
 }
 
+TEST(Button, IsNotReachedByWhatIsTypedAndClickedWhileInputIsHeld) {
+  HeadlessUi ui;
+  Answers answers;
+  bool is_held = true;
+  const auto draw = [&](Ui& frame) {
+    answers.draw(frame);
+    if (is_held) frame.hold_input();
+  };
+  ui.one_frame(draw);
+  ui.press(kYes);
+  ui.click("no");
+  for (int i = 0; i < 5; ++i) ui.one_frame(draw);
+  EXPECT_EQ(answers.yes + answers.no, 0);
+  EXPECT_FALSE(ui.ui().wants_another_frame()) << "nothing can happen before it is let go";
+  is_held = false;
+  ui.frame(draw);
+  EXPECT_EQ(answers.yes, 1);
+  EXPECT_EQ(answers.no, 1);
+}
+
 TEST(Button, AnswersToAClickExactlyOnceAtEveryScale) {
   for (const float scale : {1.0f, 1.5f}) {
     HeadlessUi ui(1280, 720, scale);

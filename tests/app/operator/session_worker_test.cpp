@@ -72,6 +72,21 @@ TEST_F(SessionWorkerTest, CarriesOutRequestsAndShowsWhatCameOfThem) {
   EXPECT_FALSE(worker->trace().snapshot().empty());
 }
 
+TEST_F(SessionWorkerTest, IsBehindUntilItsPictureShowsWhatCameOfARequest) {
+  const auto worker = start();
+  until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
+  EXPECT_FALSE(worker->is_behind());
+  worker->request(operate::Begin{});
+  EXPECT_TRUE(worker->is_behind() || worker->view()->step == Step::kItem);
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (worker->is_behind() && std::chrono::steady_clock::now() < patience) {
+    doors_.heartbeat.beat();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(worker->view()->step, Step::kItem);
+  EXPECT_FALSE(worker->has_waiting_requests());
+}
+
 TEST_F(SessionWorkerTest, WhoDestroysItLeavesASessionThatCanBeResumed) {
   {
     const auto worker = start();

@@ -221,6 +221,34 @@ TEST_F(RunView, TheEmergencyStopAnswersEverywhereAlsoBehindADialog) {
   EXPECT_TRUE(stopped_);
 }
 
+TEST_F(RunView, AFieldOnTheCardTakesTheKeyboardAgainAfterAStopAndAfterADialog) {
+  const SessionView asked =
+      item_of({.name = "age", .kind = ItemView::Kind::kNumber, .text = "How old are you?"});
+  draw(asked);
+  ui_.type("4");
+  draw(asked);
+  SessionView stopped = asked;
+  stopped.step = Step::kFault;
+  draw(stopped);
+  draw(asked);
+  ui_.press({letter('N'), true});
+  draw(asked);
+  ui_.press(Key::kF2);
+  draw(asked);
+  draw(asked);
+  ui_.press(Key::kEnd);
+  ui_.type("2");
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(only<operate::AnswerItem>(draw(asked)).answer, "42");
+}
+
+TEST_F(RunView, TheTestHasItsKeyAlsoBeforeItWasFelt) {
+  SessionView view = comparison();
+  view.trial->interval = "reference";
+  view.trial->can_answer = false;
+  EXPECT_EQ(after_key<operate::Present>(view, {letter('T')}).interval, "test");
+}
+
 TEST_F(RunView, AFaultSaysWhatHappenedWhatIsSafeAndHowToGoOn) {
   SessionView view = comparison();
   view.step = Step::kFault;
