@@ -33,10 +33,9 @@ const std::string kBlindStudy = R"json({
 })json";
 
 std::vector<std::string> telltales() {
-  return {"treacly", "gluey",  "Gluey",  "honeyed", "syrupy", "tarry",   "watery",
-          "brothy",  "soupy",  "0.137",  "0.1372",  "0.272",  "0.2719",  "0.191",
-          "0.1913",  "0.832",  "0.8317", "0.885",   "0.0537", "0.0119",  "viscous",
-          "Pa s",    "scale "};
+  return {"treacly", "gluey", "Gluey",  "honeyed", "syrupy",  "tarry", "watery", "brothy",
+          "soupy",   "0.137", "0.1372", "0.272",   "0.2719",  "0.191", "0.1913", "0.832",
+          "0.8317",  "0.885", "0.0537", "0.0119",  "viscous", "Pa s",  "scale "};
 }
 
 /// The telltale words in a text, each with its line.
@@ -73,7 +72,8 @@ class BlindWindowTest : public WindowTest {
         }
       }
       window_->use("finish_stage");
-      window_->wait_until("the next", [](const Screen& now) { return !now.find("finish_stage"); });
+      window_->wait_until("the next",
+                          [](const Screen& now) { return !now.find("finish_stage"); });
     }
     window_->wait_for_text("Session finished");
     window_->wait_for_text("complete");
@@ -99,13 +99,15 @@ class BlindWindowTest : public WindowTest {
   [[nodiscard]] std::string texts_of_all_files_in(const fs::path& folder) const {
     std::string all;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      if (entry.is_regular_file()) all += entry.path().string() + "\n" + read_file(entry.path());
+      if (entry.is_regular_file())
+        all += entry.path().string() + "\n" + read_file(entry.path());
     }
     return all;
   }
 };
 
-TEST_F(BlindWindowTest, NothingThatIsDrawnPrintedKeptOrExportedTellsALevelUntilTheStudyIsUnblinded) {
+TEST_F(BlindWindowTest,
+       NothingThatIsDrawnPrintedKeptOrExportedTellsALevelUntilTheStudyIsUnblinded) {
   run_session();
   look_around();
   window_->press_close_button();
@@ -115,14 +117,14 @@ TEST_F(BlindWindowTest, NothingThatIsDrawnPrintedKeptOrExportedTellsALevelUntilT
   EXPECT_THAT(told_by(outcome.err), ::testing::IsEmpty());
   const std::string seen = window_->every_text();
   EXPECT_THAT(told_by(seen), ::testing::IsEmpty());
-  for (const char* view : {"Block 1", "Block 2", "So?", "More?", "Session finished",
-                           "Thank you!"}) {
+  for (const char* view :
+       {"Block 1", "Block 2", "So?", "More?", "Session finished", "Thank you!"}) {
     EXPECT_NE(seen.find(view), std::string::npos) << view << ": the log is whole";
   }
   EXPECT_THAT(told_by(texts_of_all_files_in(path("person/state"))), ::testing::IsEmpty());
   for (const char* format : {"csv"}) {
-    const auto refused = jnd({"export", format, path("a.study").string(), "--out",
-                              path("exported").string()});
+    const auto refused =
+        jnd({"export", format, path("a.study").string(), "--out", path("exported").string()});
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(told_by(refused.out + refused.err), ::testing::IsEmpty());
     EXPECT_FALSE(fs::exists(path("exported")));

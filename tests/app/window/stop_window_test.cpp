@@ -25,9 +25,8 @@ class StopWindowTest : public WindowTest {
   }
   void rearm() const {
     window_->use("rearm");
-    window_->wait_until("force again", [](const Screen& now) {
-      return now.find("rearm") == nullptr;
-    });
+    window_->wait_until("force again",
+                        [](const Screen& now) { return now.find("rearm") == nullptr; });
   }
 };
 
@@ -53,14 +52,18 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   window_->press("Return");
   rearm();
 
-  // By the mouse, below a dialog.
-  feel_test();
-  window_->use("note");
-  window_->wait_for_text("Write a note");
-  window_->click("emergency_stop");
-  expect_stopped();
-  window_->press("F2");
-  rearm();
+  // By the mouse, beside a dialog of the session and one of the program.
+  for (const auto& [opens, closes] : {std::pair("ctrl+n", "F2"), std::pair("F1", "F1")}) {
+    feel_test();
+    window_->press(opens);
+    window_->wait_until("a dialog", [](const Screen& now) {
+      return now.offers("dialog_cancel") || now.offers("keys_close");
+    });
+    window_->click("emergency_stop");
+    expect_stopped();
+    window_->press(closes);
+    rearm();
+  }
 
   for (int trial = 1; trial <= 4; ++trial) {
     wait_for_trial(trial);
@@ -85,9 +88,9 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   const core::StudyStore store = stored();
   EXPECT_TRUE(store.completed(1));
   EXPECT_EQ(responses(store), (std::vector<double>{1, 1, 1, 1}));
-  EXPECT_EQ(store.trials(1).front().attempt, 4) << "three were cut short";
+  EXPECT_EQ(store.trials(1).front().attempt, 5) << "four were cut short";
   const auto faults = events_of(store, "fault_raised");
-  ASSERT_EQ(faults.size(), 4u);
+  ASSERT_EQ(faults.size(), 5u);
   for (const core::EventRow& fault : faults) {
     EXPECT_THAT(value(fault, "fault"), ::testing::StartsWith("The emergency stop was pressed"));
   }

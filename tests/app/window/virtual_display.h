@@ -17,6 +17,12 @@ struct ToolOutcome {
 [[nodiscard]] ToolOutcome run_tool(const std::vector<std::string>& words,
                                    const std::string& display);
 
+/// Has this process and whatever it starts run before others, where the system allows it: a
+/// window that is not drawn for 250 ms stops the force, and on a machine full of compilers one
+/// without a graphics card would be such a window. Into a session of its own, for a shell's
+/// would stay like that.
+void go_first();
+
 /// Why no window can be driven here: "" if one can.
 [[nodiscard]] std::string what_windows_lack();
 

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -25,11 +24,6 @@ using Clock = std::chrono::steady_clock;
 // through.
 constexpr auto kPatience = std::chrono::seconds(30);
 constexpr auto kGlance = std::chrono::milliseconds(5);
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// "Ctrl Z" is ctrl+z to xdotool.
 std::string xdotool_words(const std::string& printed) {
@@ -57,28 +51,6 @@ std::string seconds(std::chrono::milliseconds duration) {
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
-
-const Screen::Widget* Screen::find(std::string_view name) const {
-  const auto found = std::ranges::find(widgets, name, &Widget::name);
-  return found == widgets.end() ? nullptr : &*found;
-}
-
-bool Screen::offers(std::string_view name) const {
-  const Widget* widget = find(name);
-  return widget != nullptr && widget->enabled && widget->width > 0 && widget->height > 0;
-}
-
-bool Screen::shows(std::string_view part) const {
-  return std::ranges::any_of(
-      texts, [&](const std::string& text) { return text.find(part) != std::string::npos; });
-}
-
-std::string Screen::text_after(std::string_view beginning) const {
-  for (const std::string& text : texts) {
-    if (text.starts_with(beginning)) return text.substr(beginning.size());
-  }
-  return "";
-}
 
 WindowDriver::WindowDriver(VirtualDisplay& display, fs::path folder)
     : display_(display), folder_(std::move(folder)) {
@@ -127,25 +99,7 @@ test_support::ProgramOutcome WindowDriver::wait_for_exit() {
 
 // Seeing.
 
-Screen WindowDriver::screen() const {
-  Screen screen;
-  const auto json = nlohmann::json::parse(text_of(folder_ / "widgets.json"), nullptr, false);
-  if (!json.is_object()) return screen;
-  screen.view = json.at("view");
-  screen.frame = json.at("frame");
-  screen.texts = json.at("texts");
-  for (const auto& widget : json.at("widgets")) {
-    screen.widgets.push_back({.name = widget.at("name"),
-                              .label = widget.at("label"),
-                              .key = widget.at("key"),
-                              .x = widget.at("x"),
-                              .y = widget.at("y"),
-                              .width = widget.at("width"),
-                              .height = widget.at("height"),
-                              .enabled = widget.at("enabled")});
-  }
-  return screen;
-}
+Screen WindowDriver::screen() const { return read_screen(folder_ / "widgets.json"); }
 
 Screen WindowDriver::wait_until(const std::string& what, const Condition& condition) const {
   const auto end = Clock::now() + kPatience;
@@ -179,7 +133,10 @@ Screen WindowDriver::wait_for_view(const std::string& view) const {
   return wait_until("the view " + view, [&](const Screen& now) { return now.view == view; });
 }
 
-std::string WindowDriver::every_text() const { return text_of(folder_ / "widgets.json.texts"); }
+std::string WindowDriver::every_text() const {
+  std::ifstream stream(folder_ / "widgets.json.texts", std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 std::string WindowDriver::stands_there(const Screen& screen) const {
   if (program_ != nullptr && program_->has_ended()) {
@@ -187,13 +144,7 @@ std::string WindowDriver::stands_there(const Screen& screen) const {
     return " with exit code " + std::to_string(outcome.exit_code) + ", signal " +
            std::to_string(outcome.signal) + ": " + outcome.err;
   }
-  std::string words =
-      "; the view " + screen.view + " shows in frame " + std::to_string(screen.frame) + ":\n";
-  for (const Screen::Widget& widget : screen.widgets) {
-    words += (widget.enabled ? " [" : " (") + widget.name + (widget.enabled ? "]" : ")");
-  }
-  words += "\n";
-  for (const std::string& text : screen.texts) words += "  " + text + "\n";
+  std::string words = "; " + described(screen);
   // None is under way where it is measured.
   const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const fs::path file = fs::path(JND_WINDOW_FAILURES) /

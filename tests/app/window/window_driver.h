@@ -1,43 +1,19 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/window/screen.h"
 #include "app/window/virtual_display.h"
 #include "support/program.h"
 
 namespace jnd::app {
-
-/// What the window shows, as it says itself.
-struct Screen {
-  struct Widget {
-    std::string name, label;
-    std::string key;                          ///< As printed on it: "Ctrl Z".
-    int x = 0, y = 0, width = 0, height = 0;  ///< Pixels of the window.
-    bool enabled = false;
-  };
-  std::string view;
-  std::uint64_t frame = 0;
-  std::vector<Widget> widgets;
-  std::vector<std::string> texts;
-
-  [[nodiscard]] const Widget* find(std::string_view name) const;
-  /// It is there, to be seen and enabled.
-  [[nodiscard]] bool offers(std::string_view name) const;
-  /// Some text contains it.
-  [[nodiscard]] bool shows(std::string_view part) const;
-  /// The first text that begins with this; "" if none does.
-  [[nodiscard]] std::string text_after(std::string_view beginning) const;
-};
 
 /// A person before the window: sees what it shows, uses keyboard and mouse as they are, by
 /// xdotool. Whatever is waited for and does not come is a `std::runtime_error` that says what

@@ -24,6 +24,7 @@ class WindowTest : public ::testing::Test {
     if (const std::string lacking = what_windows_lack(); !lacking.empty()) {
       GTEST_SKIP() << lacking;
     }
+    go_first();
     display_ = std::make_unique<VirtualDisplay>(1280, 720);
     window_ = std::make_unique<WindowDriver>(*display_, temporary_.path() / "person");
   }

@@ -1,70 +1,10 @@
-// Not what is stored but what is seen: pictures of every view, large and small, light and dark,
-// for whoever looks through them and for the documents.
-
-#include <nlohmann/json.hpp>
-#include <set>
-
-#include "app/window/window_fixture.h"
+#include "app/window/pictures_fixture.h"
 
 namespace jnd::app {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr const char* kStalled = "window stopped answering";
-
-class PicturesWindowTest : public WindowTest {
- protected:
-  void SetUp() override {
-    WindowTest::SetUp();
-    if (IsSkipped()) return;
-    display_ = std::make_unique<VirtualDisplay>(1600, 1000);
-    window_ = std::make_unique<WindowDriver>(*display_, path("home"));
-    window_->forgives_stalls = true;
-    // No path of this machine shall stand in a picture.
-    window_->share = path("jnd");
-    fs::create_directory(window_->share);
-    for (const char* part : {"protocols", "data"}) {
-      fs::copy(fs::path(JND_SOURCE_DIR) / part, window_->share / part,
-               fs::copy_options::recursive);
-    }
-  }
-
-  /// NAME-1600x1000-light.png and so on.
-  void take(const std::string& name) { take(name, 2); }
-  void take(const std::string& name, int num_shades) {
-    if (!taken_.insert(name).second) return;
-    for (const bool small : {false, true}) {
-      window_->resize(small ? 1280 : 1600, small ? 720 : 1000);
-      for (int shade = 0; shade < num_shades; ++shade) {
-        const bool dark = window_->is_dark();
-        const fs::path file =
-            fs::path(JND_PICTURES) /
-            (name + (small ? "-1280x720" : "-1600x1000") + (dark ? "-dark.png" : "-light.png"));
-        window_->picture(file);
-        EXPECT_GT(fs::file_size(file), 5000u) << file << " shows next to nothing";
-        if (num_shades == 1) continue;
-        window_->press("ctrl+d");
-        window_->wait_until("the other shade",
-                            [&](const Screen&) { return window_->is_dark() != dark; });
-      }
-    }
-    window_->resize(1600, 1000);
-    // Of a session that had stopped meanwhile: once more, when this card comes again.
-    if (window_->screen().shows(kStalled)) taken_.erase(name);
-  }
-  void close() {
-    window_->press_close_button();
-    EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
-  }
-
-  static json shipped(const std::string& name) {
-    return json::parse(read_file(fs::path(JND_SOURCE_DIR) / "protocols" / (name + ".json")));
-  }
-
-  std::set<std::string> taken_;
-};
 
 /// A shipped study with everything in it that is in a long session, but few of each.
 class SessionPicturesTest : public PicturesWindowTest {
@@ -244,62 +184,6 @@ TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
   window_->use("tab_start");
   window_->wait_for("resume_1");
   take("start-interrupted");
-  close();
-}
-
-class StudyPicturesTest : public PicturesWindowTest {
- protected:
-  void open(const fs::path& study) {
-    window_->wait_for_view("start");
-    window_->use("open_study");
-    window_->wait_for("open_path");
-    window_->press("ctrl+a");
-    window_->type(study.string());
-    window_->press("Return");
-  }
-};
-
-TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles) {
-  ASSERT_EQ(jnd({"demo", "--fast", "--out", path("demo").string()}).exit_code, 0);
-  window_->start();
-  take("start-first");
-  window_->use("new_study");
-  window_->wait_for("new_folder");
-  take("start-new");
-  window_->press("F2");
-  window_->use("open_study");
-  window_->wait_for("open_path");
-  take("start-open");
-  window_->press("F2");
-
-  write_file(path("draft.json"), replaced(shipped("short_tour").dump(1), R"("repetitions": 1)",
-                                          R"("repetitons": 1)"));
-  open(path("draft.json"));
-  window_->wait_for_text("repetitons");
-  take("study-problems");
-  window_->use("tab_start");
-  for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {
-    open(path("demo") / (std::string(study) + ".study"));
-    window_->wait_for_view("sessions");
-    take(std::string("sessions-") + study);
-    window_->use("tab_results");
-    const Screen results = window_->wait_for("export");
-    for (const Screen::Widget& widget : results.widgets) {
-      if (!widget.name.starts_with("page_")) continue;
-      window_->use(widget.name);
-      take(std::string("results-") + study + "-" + widget.name.substr(5));
-    }
-    window_->use("participant_3");
-    window_->use(results.find("page_curves") != nullptr ? "page_curves" : "page_magnitudes");
-    take(std::string("results-") + study + "-one");
-    window_->use("tab_study");
-    window_->wait_for_view("study");
-    take(std::string("study-") + study);
-    window_->use("tab_start");
-  }
-  window_->wait_for_view("start");
-  window_->wait_for("study_3");
-  take("start");
   close();
 }
 

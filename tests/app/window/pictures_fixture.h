@@ -1,0 +1,67 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/window/window_fixture.h"
+
+namespace jnd::app {
+
+inline constexpr const char* kStalled = "window stopped answering";
+
+/// Not what is stored but what is seen: pictures of every view, large and small, light and
+/// dark, for whoever looks through them and for the documents.
+class PicturesWindowTest : public WindowTest {
+ protected:
+  void SetUp() override {
+    WindowTest::SetUp();
+    if (IsSkipped()) return;
+    display_ = std::make_unique<VirtualDisplay>(1600, 1000);
+    window_ = std::make_unique<WindowDriver>(*display_, path("home"));
+    window_->forgives_stalls = true;
+    // No path of this machine shall stand in a picture.
+    window_->share = path("jnd");
+    std::filesystem::create_directory(window_->share);
+    for (const char* part : {"protocols", "data"}) {
+      std::filesystem::copy(std::filesystem::path(JND_SOURCE_DIR) / part, window_->share / part,
+                            std::filesystem::copy_options::recursive);
+    }
+  }
+
+  /// NAME-1600x1000-light.png and so on.
+  void take(const std::string& name) { take(name, 2); }
+  void take(const std::string& name, int num_shades) {
+    if (!taken_.insert(name).second) return;
+    for (const bool small : {false, true}) {
+      window_->resize(small ? 1280 : 1600, small ? 720 : 1000);
+      for (int shade = 0; shade < num_shades; ++shade) {
+        const bool dark = window_->is_dark();
+        const std::filesystem::path file =
+            std::filesystem::path(JND_PICTURES) /
+            (name + (small ? "-1280x720" : "-1600x1000") + (dark ? "-dark.png" : "-light.png"));
+        window_->picture(file);
+        EXPECT_GT(std::filesystem::file_size(file), 5000u) << file << " shows next to nothing";
+        if (num_shades == 1) continue;
+        window_->press("ctrl+d");
+        window_->wait_until("the other shade",
+                            [&](const Screen&) { return window_->is_dark() != dark; });
+      }
+    }
+    window_->resize(1600, 1000);
+    // Of a session that had stopped meanwhile: once more, when this card comes again.
+    if (window_->screen().shows(kStalled)) taken_.erase(name);
+  }
+  void close() {
+    window_->press_close_button();
+    EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
+  }
+
+  static nlohmann::json shipped(const std::string& name) {
+    return nlohmann::json::parse(
+        read_file(std::filesystem::path(JND_SOURCE_DIR) / "protocols" / (name + ".json")));
+  }
+
+  std::set<std::string> taken_;
+};
+
+}  // namespace jnd::app
