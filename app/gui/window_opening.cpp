@@ -5,7 +5,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
@@ -24,6 +26,20 @@ constexpr float kMostOfMonitor = 0.96f;
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
+}
+
+std::atomic<bool> is_open = false;
+
+/// Xlib ends the program when the display goes. Then other threads are in the middle of a
+/// session, and nothing they use may be taken down: what counts is on disk already.
+void end_at_once_while_open() {
+  if (!is_open) return;
+  std::fputs(
+      "jnd: the display was lost; every answer is on disk, and a session under way can be "
+      "resumed\n",
+      stderr);
+  constexpr int kEnvironmentLacks = 3;
+  std::_Exit(kEnvironmentLacks);
 }
 
 int pixels(float logical, float scale) {
@@ -103,6 +119,8 @@ void Window::Implementation::open(const WindowSettings& settings) {
                       last_glfw_error() + "); install libgl1-mesa-dri or a graphics driver");
   }
   glfwMakeContextCurrent(main);
+  // After everything that the libraries want to have done at an exit, and so before it.
+  if (!is_open.exchange(true)) std::atexit(end_at_once_while_open);
   // Waiting for the monitor could stop the heartbeat while the window is hidden.
   glfwSwapInterval(0);
   glfwSetWindowSizeLimits(main, std::min(pixels(kLeastWidth, scale), area.width),
@@ -196,6 +214,7 @@ void Window::Implementation::close_second() {
 }
 
 Window::Implementation::~Implementation() {
+  is_open = false;
   if (main == nullptr) return;
   if (context != nullptr) {
     close_second();

@@ -1,5 +1,7 @@
 // A session that is cut short, by whatever, goes on from where it was.
 
+#include <gmock/gmock.h>
+
 #include <fstream>
 
 #include "app/sentence.h"
@@ -87,7 +89,9 @@ TEST_F(InterruptionWindowTest, ALostDisplayEndsTheProgramAndNotTheSession) {
   run_into_trial_2();
   display_->lose();
   const ProgramOutcome outcome = window_->wait_for_exit();
-  EXPECT_EQ(outcome.signal, 0) << "it ends, and does not fall";
+  EXPECT_EQ(outcome.exit_code, 3) << "signal " << outcome.signal;
+  EXPECT_THAT(outcome.err, ::testing::EndsWith("jnd: the display was lost; every answer is on "
+                                               "disk, and a session under way can be resumed\n"));
   expect_verified();
   EXPECT_EQ(responses(stored()), (std::vector<double>{1}));
   display_ = std::make_unique<VirtualDisplay>(1280, 720);

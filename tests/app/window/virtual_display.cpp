@@ -59,6 +59,7 @@ Child start(std::vector<std::string> words, const std::string& display, int numb
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, pipe[1], number);
+  if (number == STDOUT_FILENO) posix_spawn_file_actions_adddup2(&actions, pipe[1], 2);
   std::vector<std::string> environment = environment_on(display);
   Child child{.output = pipe[0]};
   if (::posix_spawnp(&child.pid, words.front().c_str(), &actions, nullptr,
@@ -70,15 +71,25 @@ Child start(std::vector<std::string> words, const std::string& display, int numb
   return child;
 }
 
-/// Up to `end`, or all there is.
-std::string read_until(int descriptor, char end) {
+std::string read_line(int descriptor) {
   std::string text;
   char letter = 0;
   for (;;) {
     const ssize_t count = ::read(descriptor, &letter, 1);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0 || letter == end) return text;
+    if (count <= 0 || letter == '\n') return text;
     text += letter;
+  }
+}
+
+std::string read_all(int descriptor) {
+  std::string text;
+  std::array<char, 4096> bytes;
+  for (;;) {
+    const ssize_t count = ::read(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(bytes.data(), static_cast<std::size_t>(count));
   }
 }
 
@@ -95,7 +106,7 @@ ToolOutcome run_tool(const std::vector<std::string>& words, const std::string& d
   const Child child = start(words, display, STDOUT_FILENO);
   ToolOutcome outcome;
   if (child.pid > 0) {
-    outcome.out = read_until(child.output, '\0');
+    outcome.out = read_all(child.output);
     outcome.exit_code = wait_for(child.pid);
   }
   ::close(child.output);
@@ -125,7 +136,7 @@ VirtualDisplay::VirtualDisplay(int width_px, int height_px) {
              "-nolisten", "tcp", "-noreset", "-ardelay", "250", "-arinterval", "40"},
             "", kTellsItsName);
   pid_ = child.pid;
-  const std::string number = pid_ > 0 ? read_until(child.output, '\n') : "";
+  const std::string number = pid_ > 0 ? read_line(child.output) : "";
   ::close(child.output);
   if (number.empty()) {
     lose();

@@ -10,7 +10,7 @@ namespace jnd::app {
 /// What a tool came to.
 struct ToolOutcome {
   int exit_code = -1;  ///< -1 if it could not be started, or a signal ended it.
-  std::string out;
+  std::string out;     ///< All it wrote, complaints included.
 };
 
 /// Runs a program of the system to its end, on this display; "" for none.

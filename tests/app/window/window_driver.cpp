@@ -166,12 +166,18 @@ void WindowDriver::picture(const fs::path& file, const std::string& title) const
 }
 
 bool WindowDriver::is_dark() const {
-  const ToolOutcome pixel = run_tool({"import", "-window", window(), "-gravity", "SouthWest",
-                                      "-crop", "1x1+12+12", "-depth", "8", "gray:-"},
-                                     display_.name());
-  if (pixel.out.size() != 1) throw std::runtime_error("no pixel of the window can be seen");
-  constexpr unsigned char kMiddle = 70;  // Below a dialog the light one is half as light.
-  return static_cast<unsigned char>(pixel.out[0]) < kMiddle;
+  const auto end = Clock::now() + kPatience;
+  while (Clock::now() < end) {
+    const ToolOutcome pixel =
+        run_tool({"import", "-window", window(), "-gravity", "SouthWest", "-crop", "1x1+12+12",
+                  "-depth", "8", "gray:-"},
+                 display_.name());
+    // What has grown and is not drawn yet is black; nothing of ours is quite.
+    if (pixel.out.size() != 1 || pixel.out[0] == 0) continue;
+    constexpr unsigned char kMiddle = 70;  // Below a dialog the light one is half as light.
+    return static_cast<unsigned char>(pixel.out[0]) < kMiddle;
+  }
+  throw std::runtime_error("no pixel of the window can be seen");
 }
 
 std::string WindowDriver::find_window(const std::string& title) const {
@@ -198,8 +204,9 @@ std::string WindowDriver::window() const {
 
 void WindowDriver::xdotool(std::vector<std::string> words) const {
   words.insert(words.begin(), "xdotool");
-  if (run_tool(words, display_.name()).exit_code == 0) return;
-  std::string all;
+  const ToolOutcome outcome = run_tool(words, display_.name());
+  if (outcome.exit_code == 0) return;
+  std::string all = std::to_string(outcome.exit_code) + " " + outcome.out + " ";
   for (const std::string& word : words) all += word + " ";
   throw std::runtime_error("refused: " + all + stands_there(screen()));
 }
