@@ -15,10 +15,13 @@
 #include "core/safety/fault.h"
 #include "core/storage/recording.h"
 #include "device/device_registry.h"
+#include "device/exoskeleton/exoskeleton_device.h"
+#include "device/fault_injection.h"
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
 #include "device/mouse_device.h"
 #include "device/realtime_thread.h"
+#include "device/simulated_hand.h"
 
 namespace jnd::app {
 namespace {
@@ -29,7 +32,16 @@ constexpr std::size_t kRealtimeQueueCapacity = 32768;
 constexpr std::size_t kSimulatedQueueCapacity = 256;
 
 constexpr std::string_view kLumped = "lumped";
+constexpr std::string_view kExoskeleton = "exoskeleton";
 constexpr std::string_view kMouse = "mouse";
+
+device::StrokingArm::Parameters arm_parameters(const Apparatus::Parameters& parameters,
+                                               const experiments::Laboratory& laboratory) {
+  return {.stiffness_n_per_m = laboratory.arm.stiffness_n_per_m,
+          .damping_n_s_per_m = laboratory.arm.damping_n_s_per_m,
+          .home_z_m = parameters.home_height_m,
+          .home_s = laboratory.arm.home_s};
+}
 
 device::LumpedHandDevice::Parameters lumped_parameters(
     const Apparatus::Parameters& parameters, const experiments::Laboratory& laboratory) {
@@ -40,10 +52,7 @@ device::LumpedHandDevice::Parameters lumped_parameters(
   device.dry_friction_n = laboratory.device.dry_friction_n;
   device.max_force_per_point_n = laboratory.device.max_force_per_point_n;
   device.max_total_force_n = laboratory.device.max_total_force_n;
-  device.arm.stiffness_n_per_m = laboratory.arm.stiffness_n_per_m;
-  device.arm.damping_n_s_per_m = laboratory.arm.damping_n_s_per_m;
-  device.arm.home_s = laboratory.arm.home_s;
-  device.arm.home_z_m = parameters.home_height_m;
+  device.arm = arm_parameters(parameters, laboratory);
   return device;
 }
 
@@ -53,18 +62,25 @@ std::unique_ptr<device::HapticDevice> make_device(const Apparatus::Parameters& p
     return std::make_unique<device::LumpedHandDevice>(
         lumped_parameters(parameters, *laboratory));
   }
+  if (parameters.device == kExoskeleton && laboratory != nullptr) {
+    return std::make_unique<device::ExoskeletonDevice>(device::ExoskeletonDevice::Parameters{
+        .rate_hz = parameters.rate_hz, .arm = arm_parameters(parameters, *laboratory)});
+  }
   if (parameters.device == kMouse) {
     return std::make_unique<device::MouseDevice>(
         device::MouseDevice::Parameters{.rate_hz = parameters.rate_hz,
                                         .height_m = parameters.home_height_m},
         parameters.doors != nullptr ? &parameters.doors->pointer : nullptr);
   }
-  return device::device_named(parameters.device).make(parameters.rate_hz);
+  return device::make_device(parameters.device, parameters.rate_hz);
 }
 
 device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& parameters,
-                                               const experiments::Laboratory* laboratory) {
+                                               const experiments::Laboratory* laboratory,
+                                               const device::DeviceCapabilities& device) {
   device::HapticLoop::Parameters loop;
+  loop.heartbeat_timeout_s = device.heartbeat_timeout_s;
+  loop.force_map = parameters.force_map.get();
   loop.rate_hz = parameters.rate_hz;
   loop.first_tick = parameters.first_tick;
   if (laboratory != nullptr) {
@@ -75,18 +91,28 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
   return loop;
 }
 
+/// Takes the device over, or borrows it.
+std::unique_ptr<device::HapticDevice> with_faults(
+    std::unique_ptr<device::HapticDevice>& bare,
+    const std::vector<device::ScheduledFault>& faults) {
+  if (faults.empty()) return std::move(bare);
+  return std::make_unique<device::FaultInjectingDevice>(*bare, faults);
+}
+
 }  // namespace
 
 struct Apparatus::Implementation {
   Implementation(Parameters the_parameters, const experiments::Laboratory* laboratory)
       : parameters(std::move(the_parameters)),
         doors(parameters.doors != nullptr ? *parameters.doors : own_doors),
-        device(make_device(parameters, laboratory)),
-        simulated_hand(dynamic_cast<device::LumpedHandDevice*>(device.get())),
+        bare_device(make_device(parameters, laboratory)),
+        device(with_faults(bare_device, parameters.injected_faults)),
+        simulated_hand(device->simulated_hand()),
         samples(parameters.realtime ? kRealtimeQueueCapacity : kSimulatedQueueCapacity),
-        max_total_force_n(std::min(loop_parameters(parameters, laboratory).limits.total_n,
-                                   device->capabilities().max_total_force_n)),
-        loop(loop_parameters(parameters, laboratory), *device,
+        max_total_force_n(std::min(
+            loop_parameters(parameters, laboratory, device->capabilities()).limits.total_n,
+            device->capabilities().max_total_force_n)),
+        loop(loop_parameters(parameters, laboratory, device->capabilities()), *device,
              {.commands = commands,
               .telemetry = telemetry,
               .emergency_stop = doors.emergency_stop,
@@ -103,7 +129,7 @@ struct Apparatus::Implementation {
                 }};
     if (parameters.realtime) {
       storage.emplace(samples, consumer);
-      thread.emplace(device::RealtimeThread::Parameters{});
+      thread.emplace(device::RealtimeThread::Parameters{.clear_cpu = true});
       device::start_haptics(*device, loop, *thread, parameters.allow_no_realtime);
     } else {
       device->open();
@@ -141,14 +167,23 @@ struct Apparatus::Implementation {
   void feed_meter(const core::Sample& sample) noexcept {
     Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
+    Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
     for (int point = 0; point < core::kNumContactPoints; ++point) {
       for (int axis = 0; axis < 3; ++axis) {
         position_m[axis] += sample.tip_position_m[point][axis];
         velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis];
+        force_n[axis] += sample.tip_force_n[point][axis];
       }
     }
-    meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s / core::kNumContactPoints,
-               loop.period_s());
+    velocity_m_per_s /= core::kNumContactPoints;
+    meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s, loop.period_s());
+    const double speed_m_per_s = velocity_m_per_s.norm();
+    ++sums.num_ticks;
+    sums.speed_m_per_s += speed_m_per_s;
+    if (speed_m_per_s > 0.0) {
+      sums.rendered_opposing_n -= force_n.dot(velocity_m_per_s) / speed_m_per_s;
+      sums.opposing_n = sums.rendered_opposing_n;
+    }
     num_metered_strokes.store(meter.num_strokes(), std::memory_order_relaxed);
   }
 
@@ -178,8 +213,9 @@ struct Apparatus::Implementation {
   Parameters parameters;
   OperatorDoors own_doors;  ///< Used where there is no window.
   OperatorDoors& doors;
+  std::unique_ptr<device::HapticDevice> bare_device;  ///< Where faults are injected into it.
   std::unique_ptr<device::HapticDevice> device;
-  device::LumpedHandDevice* simulated_hand;  ///< The device, where an arm moves it.
+  device::SimulatedHand* simulated_hand;  ///< Where a simulated arm moves the hand.
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::SpscQueue<core::Sample> samples;
@@ -188,6 +224,7 @@ struct Apparatus::Implementation {
   device::HapticLoop loop;
   std::optional<core::RecordingWriter> recording;
   analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
+  core::ContactSums sums;  ///< Since the meter was started.
   bool metering = false;
   std::atomic<int> num_metered_strokes{0};
   std::optional<core::StorageThread> storage;
@@ -208,7 +245,7 @@ Apparatus::~Apparatus() = default;
 void Apparatus::render(const core::MediumAmounts& medium) {
   Implementation& my = *implementation_;
   ++my.command.sequence;
-  my.command.medium = medium;
+  my.command.medium = medium + my.parameters.surroundings;
   my.command.immersion = my.parameters.immersion;
   my.command.ramp_s = my.parameters.ramp_s;
   my.commands.publish(my.command);
@@ -220,6 +257,12 @@ void Apparatus::begin_strokes(const device::StrokePlan& plan,
   if (my.simulated_hand != nullptr) my.simulated_hand->begin_strokes(plan, random);
 }
 
+void Apparatus::put_fingers_back() {
+  if (implementation_->simulated_hand != nullptr) {
+    implementation_->simulated_hand->put_fingers_back();
+  }
+}
+
 void Apparatus::go_home() {
   Implementation& my = *implementation_;
   if (my.simulated_hand != nullptr) my.simulated_hand->go_home();
@@ -227,7 +270,8 @@ void Apparatus::go_home() {
 
 std::int64_t Apparatus::strokes_finished() const noexcept {
   const Implementation& my = *implementation_;
-  return my.simulated_hand != nullptr ? my.simulated_hand->strokes_finished() : 0;
+  return my.simulated_hand != nullptr ? my.simulated_hand->strokes_finished()
+                                      : num_metered_strokes();
 }
 
 void Apparatus::run_for(double duration_s) {
@@ -246,6 +290,11 @@ void Apparatus::run_for(double duration_s) {
 
 void Apparatus::rearm() { implementation_->loop.rearm(); }
 
+std::vector<core::Sample> Apparatus::flight_record() const {
+  const core::FlightRecorder& recorder = implementation_->loop.flight_recorder();
+  return recorder.is_frozen() ? recorder.contents() : std::vector<core::Sample>();
+}
+
 std::int64_t Apparatus::next_tick() const noexcept {
   Implementation& my = *implementation_;
   my.telemetry.fetch();
@@ -258,6 +307,10 @@ const core::Telemetry& Apparatus::telemetry() const noexcept {
   return implementation_->telemetry.value();
 }
 
+bool Apparatus::is_laboratory_hand() const noexcept {
+  return implementation_->parameters.device == kLumped;
+}
+
 double Apparatus::max_total_force_n() const noexcept {
   return implementation_->max_total_force_n;
 }
@@ -266,6 +319,7 @@ void Apparatus::meter_strokes() {
   Implementation& my = *implementation_;
   my.after_samples(next_tick() - 1, [&my] {
     (void)my.meter.finish();
+    my.sums = {};
     my.num_metered_strokes = 0;
     my.metering = true;
   });
@@ -290,6 +344,10 @@ void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
   Implementation& my = *implementation_;
   if (my.storage) return my.storage->commit(store, commit, my.beats_while_waiting());
   my.consumer.commit(store, commit);
+}
+
+const core::ContactSums& Apparatus::metered_sums() const noexcept {
+  return implementation_->sums;
 }
 
 const device::RealtimeThread* Apparatus::realtime_thread() const noexcept {

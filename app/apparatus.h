@@ -6,14 +6,17 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/movement/strokes.h"
 #include "app/operator/operator_doors.h"
 #include "core/clock.h"
 #include "core/haptic_command.h"
+#include "core/media/force_map.h"
 #include "core/storage/storage_thread.h"
 #include "core/storage/study_store.h"
 #include "core/telemetry.h"
+#include "device/fault_injection.h"
 #include "device/realtime_thread.h"
 #include "device/stroking_arm.h"
 #include "experiments/participants/laboratory.h"
@@ -31,6 +34,8 @@ class Apparatus {
     double rate_hz = 1000.0;
     double ramp_s = 0.050;
     core::Immersion immersion;
+    core::MediumAmounts surroundings;  ///< Felt besides every medium: a container's walls.
+    std::shared_ptr<const core::ForceMap> force_map;  ///< nullptr: the thesis's fit.
     double home_height_m = -0.15;    ///< Of the hand at rest, workspace frame.
     std::int64_t first_tick = 0;     ///< A resumed session counts on.
     std::int64_t first_time_ns = 0;  ///< Of the simulated clock, likewise.
@@ -42,6 +47,9 @@ class Apparatus {
     /// Of a window, which then beats the heartbeat and keeps them alive. nullptr: `run_for`
     /// and whatever waits for the disk beat it.
     OperatorDoors* doors = nullptr;
+    /// What goes wrong with the device, at ticks counted from its start: for tests and
+    /// rehearsals.
+    std::vector<device::ScheduledFault> injected_faults;
     /// Called for every sample, in order, by the thread that stores them; simulated, by the one
     /// that calls `run_for`. May be empty.
     std::function<void(const core::Sample&)> on_sample;
@@ -58,10 +66,13 @@ class Apparatus {
 
   /// Changes the medium by a ramp.
   void render(const core::MediumAmounts& medium);
-  // Of the simulated arm; a hand that a person moves takes no orders and has finished none.
+  // Of the simulated arm; a hand that a person moves takes no orders.
   void begin_strokes(const device::StrokePlan& plan, const core::RandomStream& random);
   void go_home();
-  /// Whole strokes since the last `begin_strokes`.
+  /// Fingers that came off, likewise; a person's are put back by a person.
+  void put_fingers_back();
+  /// Whole strokes since the last `begin_strokes`; of a hand that takes no orders, those since
+  /// `meter_strokes`.
   [[nodiscard]] std::int64_t strokes_finished() const noexcept;
 
   /// Lets this much time pass. Throws `Error` if the loop latched a fault.
@@ -71,9 +82,15 @@ class Apparatus {
   /// Telemetry tells whether it came: what is still wrong latches again.
   void rearm();
 
+  /// The last second before the fault that the loop has latched, the fault's tick last; empty
+  /// without one. Before `rearm`.
+  [[nodiscard]] std::vector<core::Sample> flight_record() const;
+
   /// Number of the next sample.
   [[nodiscard]] std::int64_t next_tick() const noexcept;
   [[nodiscard]] const core::Telemetry& telemetry() const noexcept;
+  /// The laboratory's own lumped hand, and no device with mechanics of its own.
+  [[nodiscard]] bool is_laboratory_hand() const noexcept;
   /// The most that the points together ever get: the least of the limiter's and the device's.
   [[nodiscard]] double max_total_force_n() const noexcept;
   /// Strokes from now on until `finish_strokes`.
@@ -82,6 +99,9 @@ class Apparatus {
   /// metered. Any thread.
   [[nodiscard]] int num_metered_strokes() const noexcept;
   [[nodiscard]] analysis::StrokeSummary finish_strokes();
+  /// What was sent while the strokes finished last were metered, for devices that do not know
+  /// what their hand has been through: nothing but the rendered force is in it.
+  [[nodiscard]] const core::ContactSums& metered_sums() const noexcept;
   /// The recording up to the commit's last tick is on disk before the commit is, and both are
   /// when this returns.
   void commit(core::StudyStore& store, const core::Commit& commit);

@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/storage/study_store.h"
+#include "device/fault_injection.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
 
@@ -17,8 +19,9 @@ struct LaboratoryRun {
   const experiments::Study& study;
   const experiments::Laboratory& laboratory;
   core::StudyStore& store;
-  std::int64_t session = 0;        ///< Its row is in the store already.
-  bool realtime = false;           ///< Paced by the clock; else as fast as it goes.
+  std::int64_t session = 0;  ///< Its row is in the store already.
+  bool realtime = false;     ///< Paced by the clock; else as fast as it goes.
+  std::vector<device::ScheduledFault> injected_faults = {};  ///< For tests and rehearsals.
   bool allow_no_realtime = false;  ///< A real device also without real-time rights.
   core::Durability durability = core::Durability::kEveryCommit;
   /// How an interrupted session goes on: "repeat", "restart" or "end".

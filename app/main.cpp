@@ -15,6 +15,7 @@
 #include "app/open_window.h"
 #include "app/usage_message.h"
 #include "core/error.h"
+#include "device/haptic_device.h"
 
 namespace {
 
@@ -64,6 +65,8 @@ int invoke(int argc, char** argv) {
     return failed(app::kEnvironmentLacks, error.what());
   } catch (const app::UsageError& error) {
     return failed(app::kWrongUsage, error.what());
+  } catch (const device::DeviceUnreachable& error) {
+    return failed(app::kEnvironmentLacks, error.what());
   } catch (const core::Error& error) {
     if (asks_for_json(argc, argv)) std::puts(app::error_json(error).c_str());
     return failed(app::kHasProblems, error.what());

@@ -15,8 +15,7 @@ const PresentationState& Presenter::presentation() const {
 void Presenter::begin(const Block& block, const std::string& interval) {
   first_tick_ = apparatus_.next_tick();
   session_.begin_presentation(interval, first_tick_);
-  amounts_ = amounts_of(interval == "free_space" ? "free_space" : block.medium,
-                        presentation().intensity);
+  amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
   limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
   apparatus_.render(amounts_);
   under_way_ = true;
@@ -35,20 +34,23 @@ void Presenter::ramp_is_over() {
 
 Presenter::Felt Presenter::end() {
   PresentationSummary summary;
-  Felt felt{.delivered_damping_n_s_per_m = std::numeric_limits<double>::quiet_NaN()};
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  Felt felt{.delivered_damping_n_s_per_m = kUnknown, .device_damping_n_s_per_m = kUnknown};
   if (measuring_) {
-    const core::ContactSums sums = apparatus_.telemetry().contact_sums - sums_before_;
+    core::ContactSums sums = apparatus_.telemetry().contact_sums - sums_before_;
     const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
     summary.stroke_width_m = strokes.stroke_width_m;
     summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
     summary.mean_height_m = strokes.mean_height_m;
     summary.num_strokes = strokes.num_strokes;
-    if (sums.num_ticks > 0) {  // Else the device does not know.
-      felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
-      summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
-    }
+    if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
+    felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
+    // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
+    felt.device_damping_n_s_per_m =
+        apparatus_.telemetry().contact_sums.device_damping_n_s_per_m();
+    summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
   }
-  if (amounts_.quadratic_kg_per_m == 0.0) {
+  if (amounts_.is_plain_damping()) {
     summary.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
   }
   summary.limited_ticks =

@@ -20,9 +20,11 @@ class Presenter {
 
   /// What one presentation came to.
   struct Felt {
-    /// Slope of the delivered force on speed, after the ramp; NaN if it ended before, or on a
-    /// device that does not know.
+    /// Slope of the delivered force on speed, after the ramp; NaN if it ended before. As the
+    /// device knows it, or else as the loop sent it.
     double delivered_damping_n_s_per_m = 0.0;
+    /// What the device itself has added since it was opened; 0 from one that does not know.
+    double device_damping_n_s_per_m = 0.0;
     std::int64_t last_tick = 0;
     double duration_s = 0.0;
   };

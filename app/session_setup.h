@@ -35,6 +35,13 @@ void require_device(const std::string& name);
 /// the name is from, "--device mouse".
 void require_device_moves_by_itself(const std::string& name, const std::string& place);
 
+/// Whether a session on it runs in real time whatever was asked for.
+[[nodiscard]] bool has_own_clock(const std::string& device);
+
+/// For many sessions as fast as they go: throws `UsageError` for a device with a clock of its
+/// own. `place` as above.
+void require_device_keeps_pace(const std::string& name, const std::string& place);
+
 /// Opens a simulated device once and closes it, so that nothing is stored for a session that
 /// cannot begin; a real one is left alone, for its motors may turn on. Throws
 /// `EnvironmentError` with what the device says.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/error.h"
 #include "core/random_stream.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/stimulus.h"
@@ -26,8 +27,56 @@ void TrialPlayer::wait(double duration_s) {
   }
 }
 
+/// Thrown out of the middle of what is felt: these points came off.
+struct TrialPlayer::CameOff {
+  std::uint8_t bits;
+};
+
+void TrialPlayer::stop_if_loose() const {
+  const std::uint8_t loose =
+      attachment_.loose_bits(apparatus_.telemetry().sample.attached_bits);
+  if (loose != 0) throw CameOff{loose};
+}
+
+/// What the experimenter and the person do about it; what was felt counts for nothing.
+void TrialPlayer::put_fingers_back(std::uint8_t loose_bits) {
+  constexpr double kPatienceS = 20.0;
+  constexpr double kGlanceS = 0.020;
+  presenter_.abandon();
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  const std::optional<std::int64_t> trial = session_.state().current_trial();
+  const std::string reason = came_off_reason(loose_bits);
+  if (trial && session_.state().trial(*trial).under_way) session_.discard_attempt(reason);
+  session_.pause(reason);
+  apparatus_.put_fingers_back();
+  double waited_s = 0.0;
+  while (attachment_.loose_bits(apparatus_.telemetry().sample.attached_bits) != 0) {
+    stop_if_cancelled(run_);
+    if (waited_s >= kPatienceS) {
+      throw core::Error("device: expected " + words_of_points(loose_bits) +
+                        " to hold again within 20 s, found that it does not; look at the "
+                        "device, then resume the session");
+    }
+    apparatus_.run_for(kGlanceS);
+    waited_s += kGlanceS;
+  }
+  session_.go_on();
+}
+
 void TrialPlayer::explore(const Exploration& exploration) {
+  while (true) {
+    try {
+      return feel(exploration);
+    } catch (const CameOff& off) {
+      put_fingers_back(off.bits);
+    }
+  }
+}
+
+void TrialPlayer::feel(const Exploration& exploration) {
   stop_if_cancelled(run_);
+  attachment_.begin(apparatus_.telemetry().sample.attached_bits);
   const std::int64_t first_tick = apparatus_.next_tick();
   apparatus_.render(amounts_of(exploration.setting));
   StrokeIntent intent = participant_.strokes("");
@@ -35,6 +84,7 @@ void TrialPlayer::explore(const Exploration& exploration) {
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(0, session_.state().stage, session_.state().num_explored));
   wait(exploration.duration_s);
+  stop_if_loose();
   session_.explored(exploration.setting.medium, exploration.setting.intensity, first_tick,
                     apparatus_.next_tick() - 1);
 }
@@ -71,11 +121,15 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent) {
     stop_if_cancelled(run_);
     apparatus_.run_for(kGlanceS);
     elapsed_s += kGlanceS;
+    stop_if_loose();
   }
   apparatus_.run_for(0.2 + 0.1 * intent.period_s);
+  stop_if_loose();
 }
 
 TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
+  attachment_.begin(apparatus_.telemetry().sample.attached_bits);
+  stop_if_loose();
   presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
@@ -87,11 +141,17 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   presenter_.ramp_is_over();
   run_strokes(intent);
   const Presenter::Felt felt = presenter_.end();
-  // What was delivered and the device's own viscosity; dry friction is felt as something else.
-  return {.damping_n_s_per_m = felt.delivered_damping_n_s_per_m +
-                               run_.laboratory.device.mechanical_viscosity_n_s_per_m,
+  return {.damping_n_s_per_m = felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
           .duration_s = felt.duration_s};
+}
+
+/// What the hand feels besides the medium. The lumped hand's is the laboratory's viscosity: its
+/// dry friction is felt as something else. A device with mechanics of its own adds whatever
+/// opposed the hand.
+double TrialPlayer::device_damping(const Presenter::Felt& felt) const {
+  return apparatus_.is_laboratory_hand() ? run_.laboratory.device.mechanical_viscosity_n_s_per_m
+                                         : felt.device_damping_n_s_per_m;
 }
 
 Moment TrialPlayer::moment(const Block& block) const {
@@ -114,6 +174,14 @@ void TrialPlayer::run_trial(const Block& block) {
   const std::int64_t trial = *session_.state().current_trial();
   rest(block.free_space_between_s);
   session_.start_trial(apparatus_.next_tick());
+  try {
+    play_trial(block, trial);
+  } catch (const CameOff& off) {
+    put_fingers_back(off.bits);
+  }
+}
+
+void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
   const TrialForm form = procedure_named(block.procedure).form();
   if (form.adjustable) return produce(block, trial);
   if (form.answer == AnswerKind::kYesNo) return compare(block);

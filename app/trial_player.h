@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "app/apparatus.h"
+#include "app/attachment_watch.h"
 #include "app/laboratory_run.h"
 #include "app/presenter.h"
 #include "experiments/participants/simulated_participant.h"
@@ -32,7 +33,8 @@ class TrialPlayer {
 
   /// A medium outside of any trial.
   void explore(const experiments::Exploration& exploration);
-  /// The session's current trial, to its answer.
+  /// The session's current trial, to its answer; or to where a finger came off, which is put
+  /// back: then it is still the current one.
   void run_trial(const experiments::Block& block);
 
  private:
@@ -42,6 +44,13 @@ class TrialPlayer {
     double duration_s = 0.0;
   };
 
+  [[nodiscard]] double device_damping(const Presenter::Felt& felt) const;
+  struct CameOff;
+
+  void feel(const experiments::Exploration& exploration);
+  void stop_if_loose() const;
+  void put_fingers_back(std::uint8_t loose_bits);
+  void play_trial(const experiments::Block& block, std::int64_t trial);
   void wait(double duration_s);
   void rest(double duration_s);
   [[nodiscard]] device::StrokePlan plan_of(const experiments::StrokeIntent& intent) const;
@@ -60,6 +69,7 @@ class TrialPlayer {
   experiments::Session& session_;
   const experiments::SimulatedParticipant& participant_;
   Presenter presenter_;
+  AttachmentWatch attachment_;
 };
 
 }  // namespace jnd::app

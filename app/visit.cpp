@@ -5,7 +5,9 @@
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/safety/fault.h"
+#include "core/storage/flight_record.h"
 #include "core/storage/recording.h"
+#include "experiments/session/stimulus.h"
 
 namespace jnd::app {
 namespace {
@@ -76,6 +78,8 @@ Apparatus::Parameters Visit::apparatus_parameters() const {
   apparatus.rate_hz = parameters_.study.device.rate_hz;
   apparatus.ramp_s = parameters_.study.device.ramp_s;
   apparatus.immersion = parameters_.study.device.immersion;
+  apparatus.surroundings = experiments::surroundings_of(parameters_.study.device);
+  apparatus.force_map = experiments::force_map_of(parameters_.study.device);
   apparatus.first_tick = std::max(recorded_tick_, last_tick_in(history_)) + 1;
   apparatus.first_time_ns = last_time_ns(history_);
   if (recorded_samples_) {
@@ -116,7 +120,16 @@ void Visit::keep_timing() {
 
 void Visit::keep_fault() {
   const core::Fault fault = apparatus_.telemetry().fault;
-  if (fault != core::Fault::kNone) session_.fault(std::string(words(fault)));
+  if (fault == core::Fault::kNone) return;
+  session_.fault(std::string(words(fault)));
+  const std::vector<core::Sample> last_second = apparatus_.flight_record();
+  if (last_second.empty()) return;
+  try {
+    core::write_flight_record(parameters_.store.recording_file(parameters_.session),
+                              last_second);
+  } catch (const core::Error& error) {
+    session_.note(error.what());
+  }
 }
 
 }  // namespace jnd::app

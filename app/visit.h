@@ -47,7 +47,8 @@ class Visit {
   /// Stores how punctual the loop has been since it was started; after every stage, so that a
   /// crash costs one.
   void keep_timing();
-  /// Stores the fault that the loop has latched; does nothing without one.
+  /// Stores the fault that the loop has latched, and the last second before it; does nothing
+  /// without one.
   void keep_fault();
 
  private:

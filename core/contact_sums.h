@@ -29,6 +29,12 @@ struct ContactSums {
   [[nodiscard]] double delivered_damping_n_s_per_m() const noexcept {
     return speed_m_per_s > 0.0 ? rendered_opposing_n / speed_m_per_s : 0.0;
   }
+
+  /// What the device adds by itself: all that opposed the hand beyond the rendered force, over
+  /// mean speed. Over whole strokes the hand's pushing and being pushed by masses cancel out.
+  [[nodiscard]] double device_damping_n_s_per_m() const noexcept {
+    return speed_m_per_s > 0.0 ? (opposing_n - rendered_opposing_n) / speed_m_per_s : 0.0;
+  }
 };
 
 static_assert(std::is_trivially_copyable_v<ContactSums>);

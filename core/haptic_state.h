@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/hand.h"
+#include "core/joints.h"
 
 namespace jnd::core {
 
@@ -20,6 +21,8 @@ struct HapticState {
   /// Whether the point is held to the hand. A point that came off gets no force.
   std::array<bool, kNumContactPoints> attached{true, true, true, true, true};
   Eigen::Vector3d end_effector_position_m = Eigen::Vector3d::Zero();  ///< Of the carrying arm.
+  std::array<double, kNumJoints> joint_position_rad{};  ///< 0 from a device without joints.
+  std::array<double, kNumJoints> joint_torque_n_m{};    ///< As its sensors say; likewise.
 };
 
 }  // namespace jnd::core

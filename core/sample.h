@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/hand.h"
+#include "core/joints.h"
 
 namespace jnd::core {
 
@@ -25,6 +26,9 @@ struct Sample {
   /// Force on the hand as sent to the device, after every limit.
   std::array<PlainVector, kNumContactPoints> tip_force_n{};
   PlainVector end_effector_position_m{};
+  // All 0 from a device without joints.
+  std::array<float, kNumJoints> joint_position_rad{};
+  std::array<float, kNumJoints> joint_torque_n_m{};  ///< As the device's sensors say.
 };
 
 static_assert(std::is_trivially_copyable_v<Sample>);

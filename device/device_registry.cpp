@@ -1,49 +1,101 @@
 #include "device/device_registry.h"
 
 #include <array>
+#include <random>
 #include <string>
 
 #include "core/error.h"
+#include "device/exoskeleton/exoskeleton_device.h"
 #include "device/lumped_hand_device.h"
 #include "device/mouse_device.h"
+#include "device/network/network_device.h"
+#include "device/network/udp_port.h"
 #include "device/unplugged_device.h"
 
 namespace jnd::device {
 namespace {
 
+/// Asked what it can do, unless there is no address: then it is there to be listed.
+std::unique_ptr<HapticDevice> network_device(std::string_view argument, double rate_hz) {
+  const Endpoint endpoint =
+      argument.empty() ? Endpoint{.host = "127.0.0.1", .port = 1} : endpoint_of(argument);
+  const Address server = resolved(endpoint);
+  std::random_device draw;
+  auto device = std::make_unique<NetworkDevice>(
+      std::make_unique<UdpPort>(any_address_for(server)), server,
+      NetworkDevice::Parameters{.rate_hz = rate_hz,
+                                .token = std::uint64_t{draw()} << 32 | draw()});
+  if (!argument.empty()) device->ask();
+  return device;
+}
+
 constexpr std::array kDevices = {
     DeviceEntry{.name = "lumped",
+                .argument = "",
                 .description = "a simulated hand: one mass drawn through the medium by a "
                                "simulated arm",
-                .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
+                .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<LumpedHandDevice>(
                       LumpedHandDevice::Parameters{.rate_hz = rate_hz});
                 }},
+    DeviceEntry{.name = "exoskeleton",
+                .argument = "",
+                .description =
+                    "the simulated hand exoskeleton on its arm, 22 degrees of freedom, "
+                    "with a simulated hand on it",
+                .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
+                  return std::make_unique<ExoskeletonDevice>(
+                      ExoskeletonDevice::Parameters{.rate_hz = rate_hz});
+                }},
     DeviceEntry{.name = "mouse",
+                .argument = "",
                 .description = "a hand that a person draws with the mouse and sees lag behind, "
                                "for trying things out without a robot",
-                .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
+                .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<MouseDevice>(
                       MouseDevice::Parameters{.rate_hz = rate_hz});
                 }},
+    DeviceEntry{.name = "network",
+                .argument = "HOST:PORT",
+                .description = "a device that another program serves, such as "
+                               "`jnd device-simulator`; it says what it can do when asked",
+                .make = network_device},
     DeviceEntry{.name = "unplugged",
+                .argument = "",
                 .description = "a device that never starts, to rehearse what happens then",
-                .make = [](double rate_hz) -> std::unique_ptr<HapticDevice> {
+                .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<UnpluggedDevice>(rate_hz);
                 }},
 };
+
+/// What follows the colon.
+std::string_view argument_of(std::string_view name) noexcept {
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? std::string_view() : name.substr(colon + 1);
+}
 
 }  // namespace
 
 std::span<const DeviceEntry> devices() noexcept { return kDevices; }
 
 const DeviceEntry& device_named(std::string_view name) {
+  const std::string_view kind = name.substr(0, name.find(':'));
   std::string known;
   for (const DeviceEntry& entry : kDevices) {
-    if (entry.name == name) return entry;
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    const std::string spelling =
+        std::string(entry.name) +
+        (entry.argument.empty() ? "" : ":" + std::string(entry.argument));
+    if (entry.name == kind) {
+      if (entry.argument.empty() == argument_of(name).empty()) return entry;
+      throw core::Error("device: expected " + spelling + ", found " + std::string(name));
+    }
+    known += (known.empty() ? "" : ", ") + spelling;
   }
   throw core::Error("device: expected one of " + known + ", found " + std::string(name));
+}
+
+std::unique_ptr<HapticDevice> make_device(std::string_view name, double rate_hz) {
+  return device_named(name).make(argument_of(name), rate_hz);
 }
 
 }  // namespace jnd::device

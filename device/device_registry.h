@@ -11,16 +11,22 @@ namespace jnd::device {
 /// One line of the table of devices.
 struct DeviceEntry {
   std::string_view name;         ///< As after `--device`.
+  std::string_view argument;     ///< What follows the name and a colon, "HOST:PORT"; or "".
   std::string_view description;  ///< One phrase for people.
   /// The device with its default settings, not opened, for a loop of this rate. Throws
-  /// `core::Error` for a rate it cannot do. Not real time.
-  std::unique_ptr<HapticDevice> (*make)(double rate_hz);
+  /// `core::Error` for an argument or a rate it cannot do. Not real time.
+  std::unique_ptr<HapticDevice> (*make)(std::string_view argument, double rate_hz);
 };
 
 /// Every device of this program; the first is the default.
 [[nodiscard]] std::span<const DeviceEntry> devices() noexcept;
 
-/// Throws `core::Error`, listing the names there are. Not real time.
+/// The entry for "lumped" or "network:127.0.0.1:4700". Throws `core::Error`, listing the names
+/// there are, or saying which argument is wanted. Not real time.
 [[nodiscard]] const DeviceEntry& device_named(std::string_view name);
+
+/// Throws as `device_named` and the entry's `make` do, and `DeviceUnreachable` for one that has
+/// to be asked what it can do and does not answer. Not real time.
+[[nodiscard]] std::unique_ptr<HapticDevice> make_device(std::string_view name, double rate_hz);
 
 }  // namespace jnd::device

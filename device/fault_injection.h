@@ -48,6 +48,11 @@ class FaultInjectingDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override { inner_.close(); }
+  [[nodiscard]] core::Fault fault() const noexcept override { return inner_.fault(); }
+  void halt() noexcept override { inner_.halt(); }
+  [[nodiscard]] SimulatedHand* simulated_hand() noexcept override {
+    return inner_.simulated_hand();
+  }
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
     return inner_.contact_sums();
   }

@@ -3,16 +3,34 @@
 #include <string_view>
 
 #include "core/contact_sums.h"
+#include "core/error.h"
 #include "core/haptic_state.h"
+#include "core/safety/fault.h"
 
 namespace jnd::device {
+
+class SimulatedHand;
+
+/// The device is not there, or not to be had now: nothing is wrong with what was asked for.
+class DeviceUnreachable final : public core::Error {
+ public:
+  using core::Error::Error;
+};
 
 struct DeviceCapabilities {
   int num_contact_points = core::kNumContactPoints;
   double rate_hz = 1000.0;              ///< Of its control loop.
   double max_force_per_point_n = 10.0;  ///< What it can render at one point.
   double max_total_force_n = 30.0;      ///< Sum over the points.
+  /// For how long its last measurement may stand in for one that did not come.
+  double max_stale_s = 0.005;
+  /// How long the window may be silent before the force fades. Longer only where nobody feels
+  /// it.
+  double heartbeat_timeout_s = 0.250;
+  /// It lives at its own pace: a session on it runs in real time, also if it is simulated.
+  bool has_own_clock = false;
   bool simulated = false;               ///< No person can be hurt by it.
+  int num_joints = 0;                   ///< It tells of: 0 or `core::kNumJoints`.
   bool moves_by_itself = false;         ///< By a simulated arm: nobody has to be there.
 };
 
@@ -42,6 +60,17 @@ class HapticDevice {
 
   /// Zero force, motors off. May be called twice. Not real time.
   virtual void close() noexcept = 0;
+
+  /// Why the last `read` or `write` returned false, where the device knows better than that it
+  /// did. Real time.
+  [[nodiscard]] virtual core::Fault fault() const noexcept { return core::Fault::kNone; }
+
+  /// Zero force at once and until the next `write`: the watchdog's, which may call it from any
+  /// thread, also while the loop's thread is stuck in the middle of the device. Real time.
+  virtual void halt() noexcept {}
+
+  /// The simulated person on it; nullptr: the hand is moved by somebody else.
+  [[nodiscard]] virtual SimulatedHand* simulated_hand() noexcept { return nullptr; }
 
   /// What the hand has been through, where the device knows it: a simulation. Real time.
   [[nodiscard]] virtual core::ContactSums contact_sums() const noexcept { return {}; }

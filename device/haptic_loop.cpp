@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/media/solid_plane.h"
+#include "core/media/fluid_force.h"
 #include "core/require.h"
-#include "core/safety/force_distribution.h"
 
 namespace jnd::device {
 namespace {
@@ -38,13 +37,18 @@ core::PlainVector plain(const Eigen::Vector3d& vector) noexcept {
   return {vector.x(), vector.y(), vector.z()};
 }
 
-bool is_finite(const core::HapticState& state) noexcept {
+bool is_finite(const core::HapticState& state, bool has_joints) noexcept {
   // A sum is finite only if every term is; overflow would need coordinates of 1e307.
   Eigen::Vector3d sum = state.end_effector_position_m;
   for (int i = 0; i < kNumContactPoints; ++i) {
     sum += state.tip_position_m[i] + state.tip_velocity_m_per_s[i];
   }
-  return std::isfinite(sum.x() + sum.y() + sum.z());
+  double joints = 0.0;
+  for (int i = 0; has_joints && i < core::kNumJoints; ++i) {
+    joints += std::abs(state.joint_position_rad[i]) + std::abs(state.joint_torque_n_m[i]);
+  }
+  // Joints are recorded as `float`, which overflows far beyond this.
+  return std::isfinite(sum.x() + sum.y() + sum.z()) && joints < 1e30;
 }
 
 }  // namespace
@@ -54,7 +58,10 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       device_(device),
       doors_(doors),
       period_s_(period_of(parameters.rate_hz)),
-      max_stale_ticks_(ticks(parameters.max_stale_s, parameters.rate_hz)),
+      has_joints_(device.capabilities().num_joints > 0),
+      max_stale_ticks_(
+          ticks(std::max(parameters.max_stale_s, device.capabilities().max_stale_s),
+                parameters.rate_hz)),
       heartbeat_(doors.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
@@ -66,6 +73,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
   require_positive(parameters.rearm_s, "rearm_s");
   core::require(parameters.max_stale_s >= 0.0 && std::isfinite(parameters.max_stale_s),
                 "max_stale_s", "a finite number >= 0", parameters.max_stale_s);
+  core::require_bounded(parameters.workspace);
   require_positive(parameters.max_jump_m, "max_jump_m");
   require_positive(parameters.flight_recorder_s, "flight_recorder_s");
   telemetry_.sample.tick = parameters.first_tick - 1;
@@ -83,7 +91,9 @@ void HapticLoop::render() noexcept {
   if (found != Fault::kNone) latch(found);
   take_command();
   compute_force();
-  if (!device_.write(force_on_hand_n_)) latch(Fault::kDeviceWriteFailed);
+  if (!device_.write(force_on_hand_n_)) {
+    latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
+  }
 }
 
 void HapticLoop::latch(Fault fault) noexcept {
@@ -103,8 +113,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   authority_ratio_ = 0.0;
   limiter_.rearm();
   passivity_.reset();
-  // A ramp that had met a value that is no number would never get rid of it.
-  ramp_.start(doors_.commands.value().medium, 0.0);
+  solids_.release();
   has_last_state_ = false;
   num_stale_ticks_ = 0;
   flight_recorder_.thaw();
@@ -122,19 +131,22 @@ Fault HapticLoop::read_device() noexcept {
   last_state_ = state_;
   if (!device_.read(state_)) {
     state_ = last_state_;
-    return Fault::kDeviceReadFailed;
+    return device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceReadFailed;
   }
-  if (!is_finite(state_)) {
+  if (!is_finite(state_, has_joints_)) {
     // Recordings and telemetry get the last state that was one.
     state_ = last_state_;
     return Fault::kNonFiniteState;
   }
-  const Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
+  Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
   has_last_state_ = true;
   attached_bits_ = 0;
   for (int i = 0; i < kNumContactPoints; ++i) {
-    attached_bits_ =
-        static_cast<std::uint8_t>(attached_bits_ | (state_.attached[i] ? 1 : 0) << i);
+    if (!state_.attached[i]) continue;
+    attached_bits_ = static_cast<std::uint8_t>(attached_bits_ | 1 << i);
+    if (found == Fault::kNone && !parameters_.workspace.contains(state_.tip_position_m[i])) {
+      found = Fault::kOutsideWorkspace;
+    }
   }
   return found;
 }
@@ -169,8 +181,11 @@ Fault HapticLoop::check_against_last() noexcept {
 void HapticLoop::take_command() noexcept {
   if (doors_.commands.fetch()) {
     const core::HapticCommand& command = doors_.commands.value();
-    ramp_.start(command.medium, command.ramp_s);
+    command_is_finite_ = command.medium.is_finite();
+    // A ramp that had met a value that is no number would never get rid of it.
+    if (command_is_finite_) ramp_.start(command.medium, command.ramp_s);
   }
+  if (!command_is_finite_) latch(Fault::kNonFiniteForce);
 }
 
 void HapticLoop::compute_force() noexcept {
@@ -178,7 +193,13 @@ void HapticLoop::compute_force() noexcept {
   const core::MediumAmounts& medium = ramp_.advance(period_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
-  immersed_bits_ = 0;
+  const bool is_solid = core::SolidSurfaces::are_there(medium);
+  if (is_solid) {
+    solids_.render(medium, command.immersion, state_, period_s_, solid_force_n_);
+  } else {
+    solids_.release();
+  }
+  immersed_bits_ = is_solid ? solids_.held_bits() : std::uint8_t{0};
   for (int i = 0; i < kNumContactPoints; ++i) {
     const int inside = command.immersion.contains(state_.tip_position_m[i]) ? 1 : 0;
     immersed_bits_ = static_cast<std::uint8_t>(immersed_bits_ | inside << i);
@@ -189,18 +210,11 @@ void HapticLoop::compute_force() noexcept {
     force_on_hand_n_ = core::zero_vectors();
     return;
   }
-  core::distribute_drag(medium.drag_n(motion_), state_, immersed_bits_,
-                        parameters_.fade_speed_m_per_s, force_on_hand_n_);
-  if (medium.plane_stiffness_n_per_m != 0.0 || medium.plane_damping_n_s_per_m != 0.0) {
-    for (int i = 0; i < kNumContactPoints; ++i) {
-      if (!state_.attached[i]) continue;
-      force_on_hand_n_[i].z() +=
-          core::kAreaShareRatio[i] *
-          core::SolidPlane::force_n(medium.plane_stiffness_n_per_m,
-                                    medium.plane_damping_n_s_per_m,
-                                    command.immersion.origin_z_m - state_.tip_position_m[i].z(),
-                                    state_.tip_velocity_m_per_s[i].z());
-    }
+  core::add_up_fluid_force(medium, parameters_.force_map, motion_, state_, immersed_bits_,
+                           command.immersion.origin_z_m, parameters_.fade_speed_m_per_s,
+                           force_on_hand_n_);
+  if (is_solid) {
+    for (int i = 0; i < kNumContactPoints; ++i) force_on_hand_n_[i] += solid_force_n_[i];
   }
   if (authority_ratio_ < 1.0) {
     for (Eigen::Vector3d& force : force_on_hand_n_) force *= authority_ratio_;
@@ -230,6 +244,12 @@ void HapticLoop::report() noexcept {
     force_sum += force_on_hand_n_[i];
   }
   sample.end_effector_position_m = plain(state_.end_effector_position_m);
+  if (has_joints_) {
+    for (int i = 0; i < core::kNumJoints; ++i) {
+      sample.joint_position_rad[i] = static_cast<float>(state_.joint_position_rad[i]);
+      sample.joint_torque_n_m[i] = static_cast<float>(state_.joint_torque_n_m[i]);
+    }
+  }
 
   flight_recorder_.record(sample);
   if (fault_ != Fault::kNone) flight_recorder_.freeze();

@@ -7,10 +7,13 @@
 #include "core/doors/latest_value.h"
 #include "core/doors/spsc_queue.h"
 #include "core/haptic_command.h"
+#include "core/media/force_map.h"
+#include "core/media/solid_surfaces.h"
 #include "core/safety/emergency_stop.h"
 #include "core/safety/force_limiter.h"
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
+#include "core/safety/workspace.h"
 #include "core/telemetry.h"
 #include "device/haptic_device.h"
 
@@ -18,7 +21,7 @@ namespace jnd::device {
 
 /// One tick of haptics over a device and a command:
 ///
-///     emergency stop -> read -> command, ramp -> kinematics -> immersion -> drag, plane
+///     emergency stop -> read -> command, ramp -> kinematics -> solids, immersion -> fluid
 ///     -> distribution -> passivity -> limiter -> write -> sample, telemetry
 ///
 /// It knows no wall clock: a real-time thread drives it by absolute time, a simulation and a
@@ -35,7 +38,12 @@ class HapticLoop {
     double heartbeat_timeout_s = 0.250;  ///< > 0.
     double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
     double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
-    double max_stale_s = 0.005;      ///< For how long the last measurement may stand in, >= 0.
+    /// For how long the last measurement may stand in, >= 0; the device may ask for longer.
+    double max_stale_s = 0.005;
+    /// Left by an attached point, there is no force until the loop is armed again inside.
+    core::Workspace workspace;
+    /// For media that need one; borrowed, nullptr: the thesis's C_D and no lift.
+    const core::ForceMap* force_map = nullptr;
     double max_jump_m = 0.005;       ///< Of a point between ticks beyond its top speed, > 0.
     double flight_recorder_s = 1.0;  ///< > 0.
     std::int64_t first_tick = 0;  ///< Number of the first sample: a resumed recording goes on.
@@ -91,6 +99,7 @@ class HapticLoop {
   HapticDevice& device_;
   Doors doors_;
   double period_s_;
+  bool has_joints_;
   std::int64_t max_stale_ticks_;
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;
@@ -101,6 +110,9 @@ class HapticLoop {
   core::Fault fault_ = core::Fault::kNone;
   double authority_ratio_ = 1.0;
   core::MediumRamp ramp_;
+  bool command_is_finite_ = true;
+  core::SolidSurfaces solids_;
+  core::PointVectors solid_force_n_ = core::zero_vectors();
   core::HapticState state_;
   core::HapticState last_state_;
   bool has_last_state_ = false;

@@ -28,7 +28,7 @@ LumpedHandDevice::LumpedHandDevice(const Parameters& parameters)
     : parameters_(parameters),
       period_s_(period_of(parameters.rate_hz)),
       arm_(parameters.arm, period_s_),
-      hand_(parameters.rate_hz, arm_.reference_m()) {
+      hand_(parameters.rate_hz, arm_.arm().reference_m()) {
   require_positive(parameters.mass_kg, "mass_kg");
   require_not_negative(parameters.mechanical_viscosity_n_s_per_m,
                        "mechanical_viscosity_n_s_per_m");
@@ -54,8 +54,8 @@ DeviceCapabilities LumpedHandDevice::capabilities() const noexcept {
 }
 
 void LumpedHandDevice::open() {
-  arm_ = StrokingArm(parameters_.arm, period_s_);
-  hand_.rest_at(arm_.reference_m());
+  arm_.reset();
+  hand_.rest_at(arm_.arm().reference_m());
 }
 
 bool LumpedHandDevice::read(core::HapticState& state) noexcept {
@@ -64,7 +64,7 @@ bool LumpedHandDevice::read(core::HapticState& state) noexcept {
 }
 
 bool LumpedHandDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
-  follow_orders();
+  arm_.follow_orders();
   const Eigen::Vector3d rendered_n = total_of(force_on_hand_n);
   const Eigen::Vector3d velocity_m_per_s = hand_.velocity_m_per_s();
   double damping_n_s_per_m = parameters_.mechanical_viscosity_n_s_per_m;
@@ -78,54 +78,9 @@ bool LumpedHandDevice::write(const core::PointVectors& force_on_hand_n) noexcept
 
   arm_.advance();
   const Eigen::Vector3d force_n = rendered_n - damping_n_s_per_m * velocity_m_per_s +
-                                  arm_.force_n(hand_.position_m(), velocity_m_per_s);
+                                  arm_.arm().force_n(hand_.position_m(), velocity_m_per_s);
   hand_.move_at(velocity_m_per_s + (period_s_ / parameters_.mass_kg) * force_n);
-  report_progress();
   return true;
-}
-
-void LumpedHandDevice::begin_strokes(const StrokePlan& plan, const core::RandomStream& random) {
-  require_valid(plan);
-  give({.stroke = true, .plan = plan, .random = random});
-}
-
-void LumpedHandDevice::go_home() noexcept { give({}); }
-
-void LumpedHandDevice::give(const ArmOrder& order) noexcept {
-  ArmOrder numbered = order;
-  numbered.number = ++last_order_;
-  if (order.stroke) last_stroke_order_ = last_order_;
-  orders_.publish(numbered);
-}
-
-void LumpedHandDevice::follow_orders() noexcept {
-  if (!orders_.fetch()) return;
-  const ArmOrder& order = orders_.value();
-  if (order.stroke) {
-    arm_.begin_strokes(order.plan, order.random);
-  } else {
-    arm_.go_home();
-  }
-}
-
-void LumpedHandDevice::report_progress() noexcept {
-  const std::uint64_t home = arm_.is_home() ? 1 : 0;
-  const auto strokes = static_cast<std::uint64_t>(arm_.strokes_finished());
-  const std::uint64_t order = orders_.value().number;
-  progress_.store(order << 32 | strokes << 1 | home, std::memory_order_relaxed);
-}
-
-// An order that the loop has not taken yet has no strokes to show: what is there belongs to the
-// order before.
-std::int64_t LumpedHandDevice::strokes_finished() const noexcept {
-  const std::uint64_t progress = progress_.load(std::memory_order_relaxed);
-  const bool in_force = progress >> 32 >= last_stroke_order_;
-  return in_force ? static_cast<std::int64_t>((progress & 0xffffffff) >> 1) : 0;
-}
-
-bool LumpedHandDevice::is_home() const noexcept {
-  const std::uint64_t progress = progress_.load(std::memory_order_relaxed);
-  return progress >> 32 == last_order_ && (progress & 1) == 1;
 }
 
 }  // namespace jnd::device

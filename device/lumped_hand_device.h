@@ -1,11 +1,8 @@
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-
-#include "core/doors/latest_value.h"
 #include "device/drawn_mass.h"
 #include "device/haptic_device.h"
+#include "device/ordered_arm.h"
 #include "device/stroking_arm.h"
 
 namespace jnd::device {
@@ -14,8 +11,8 @@ namespace jnd::device {
 ///
 ///     mass a = rendered force + arm force - viscosity v - friction v / sqrt(|v|^2 + v0^2).
 ///
-/// `read`, `write` and `contact_sums` belong to the loop's thread; `begin_strokes`, `go_home`,
-/// `strokes_finished` and `is_home` to one other, which may be the same.
+/// All of it belongs to the loop's thread but for the `simulated_hand`, which one other thread
+/// may order about.
 class LumpedHandDevice final : public HapticDevice {
  public:
   struct Parameters {
@@ -44,36 +41,13 @@ class LumpedHandDevice final : public HapticDevice {
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
     return hand_.sums();
   }
-
-  /// Throws `core::Error` for a plan out of range. Takes effect in the next tick.
-  void begin_strokes(const StrokePlan& plan, const core::RandomStream& random);
-  void go_home() noexcept;
-  /// Whole strokes since the last `begin_strokes`.
-  [[nodiscard]] std::int64_t strokes_finished() const noexcept;
-  /// The arm has come to rest at home since the last order.
-  [[nodiscard]] bool is_home() const noexcept;
+  [[nodiscard]] SimulatedHand* simulated_hand() noexcept override { return &arm_; }
 
  private:
-  struct ArmOrder {
-    std::uint32_t number = 0;
-    bool stroke = false;  ///< Else go home.
-    StrokePlan plan;
-    core::RandomStream random{0, "stroke"};
-  };
-  void give(const ArmOrder& order) noexcept;
-  void follow_orders() noexcept;
-  void report_progress() noexcept;
-
   Parameters parameters_;
   double period_s_;
-  StrokingArm arm_;
+  OrderedArm arm_;
   DrawnMass hand_;
-
-  core::LatestValue<ArmOrder> orders_;
-  std::uint32_t last_order_ = 0;
-  std::uint32_t last_stroke_order_ = 0;
-  /// Number of the order in force in the upper half, 2 * strokes + home in the lower.
-  std::atomic<std::uint64_t> progress_{1};
 };
 
 }  // namespace jnd::device

@@ -1,5 +1,6 @@
 #include "device/realtime_report.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
@@ -10,6 +11,7 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 
 namespace jnd::device {
@@ -39,6 +41,24 @@ std::string words(int policy, int priority) {
 
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Calls `change(CPUs)` for every thread of this program but the calling one, and gives it what
+/// is left of them, if anything is.
+template <typename Change>
+void change_cpus_of_other_threads(Change&& change) noexcept {
+  DIR* tasks = ::opendir("/proc/self/task");
+  if (tasks == nullptr) return;
+  const pid_t own = ::gettid();
+  while (const dirent* entry = ::readdir(tasks)) {
+    const auto thread = static_cast<pid_t>(std::atol(entry->d_name));
+    cpu_set_t cpus;
+    if (thread <= 0 || thread == own) continue;
+    if (sched_getaffinity(thread, sizeof cpus, &cpus) != 0) continue;
+    change(cpus);
+    if (CPU_COUNT(&cpus) > 0) sched_setaffinity(thread, sizeof cpus, &cpus);
+  }
+  ::closedir(tasks);
 }
 
 }  // namespace
@@ -115,6 +135,30 @@ void AwakeCpus::obtain(RealtimeReport& report) noexcept {
 void AwakeCpus::release() noexcept {
   if (file_ >= 0) ::close(file_);
   file_ = -1;
+}
+
+void ClearedCpu::obtain(RealtimeReport& report) noexcept {
+  cpu_set_t allowed;
+  if (!report.realtime_scheduler || cpu_ >= 0) return;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) < 2) return;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (CPU_ISSET(cpu, &allowed)) cpu_ = cpu;
+  }
+  change_cpus_of_other_threads([this](cpu_set_t& cpus) { CPU_CLR(cpu_, &cpus); });
+  // There now, and free to go: a real-time thread stays where it is as long as it may run
+  // there.
+  cpu_set_t there;
+  CPU_ZERO(&there);
+  CPU_SET(cpu_, &there);
+  sched_setaffinity(0, sizeof there, &there);
+  sched_setaffinity(0, sizeof allowed, &allowed);
+  report.cleared_cpu = cpu_;
+}
+
+void ClearedCpu::release() noexcept {
+  if (cpu_ < 0) return;
+  change_cpus_of_other_threads([this](cpu_set_t& cpus) { CPU_SET(cpu_, &cpus); });
+  cpu_ = -1;
 }
 
 }  // namespace jnd::device

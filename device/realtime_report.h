@@ -15,7 +15,8 @@ struct RealtimeReport {
   bool pinned = false;              ///< To the CPU asked for; false if none was.
   std::vector<int> cpus;            ///< Those the thread may run on, ascending.
   bool cpus_kept_awake = false;     ///< Idle CPUs do not fall asleep deeply.
-  std::string lacks;  ///< What was asked for and not given, and how to get it; else empty.
+  int cleared_cpu = -1;  ///< From which the program's other threads are kept; -1: none.
+  std::string lacks;     ///< What was asked for and not given, and how to get it; else empty.
 };
 
 /// What a thread has used up. Real time.
@@ -54,6 +55,26 @@ class AwakeCpus {
 
  private:
   int file_ = -1;
+};
+
+/// Keeps all other threads of this program, and what they start, off one CPU while it lives,
+/// and moves the calling thread there: drawing a window costs no cache that the loop's next
+/// tick needs. Not pinned: where another program's loop is on that CPU, the system still may
+/// move this one.
+class ClearedCpu {
+ public:
+  ClearedCpu() = default;
+  ~ClearedCpu() { release(); }
+  ClearedCpu(const ClearedCpu&) = delete;
+  ClearedCpu& operator=(const ClearedCpu&) = delete;
+
+  /// The last of the CPUs that the calling thread may run on; nothing where it is the only one,
+  /// or the thread has no real-time scheduler to get away from a busy one. Not real time.
+  void obtain(RealtimeReport& report) noexcept;
+  void release() noexcept;
+
+ private:
+  int cpu_ = -1;
 };
 
 }  // namespace jnd::device

@@ -70,6 +70,7 @@ void RealtimeThread::stop() noexcept {
   if (loop_ == nullptr) go_.release();
   thread_.join();
   awake_cpus_.release();
+  cleared_cpu_.release();
   if (report_.memory_locked) munlockall();
 }
 
@@ -77,6 +78,7 @@ void RealtimeThread::prepare() noexcept {
   obtain_scheduler(parameters_.priority, report_);
   if (parameters_.lock_memory) obtain_locked_memory(report_);
   obtain_cpu(parameters_.cpu, report_);
+  if (parameters_.clear_cpu && parameters_.cpu < 0) cleared_cpu_.obtain(report_);
   if (parameters_.keep_cpus_awake) awake_cpus_.obtain(report_);
   prefault_stack();
   // The page of the kernel's clock is missing until it is read: locking leaves it out.

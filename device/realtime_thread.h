@@ -25,6 +25,8 @@ class RealtimeThread {
     /// Spun before each tick instead of slept, at most, >= 0; 0: sleep only. Never more than
     /// half a period.
     double max_spin_s = 200e-6;
+    /// Where `cpu` is -1, until `stop`: see `ClearedCpu`.
+    bool clear_cpu = false;
     bool keep_cpus_awake = true;  ///< Where it is allowed, until `stop`: see `AwakeCpus`.
   };
 
@@ -54,6 +56,7 @@ class RealtimeThread {
   Parameters parameters_;
   RealtimeReport report_;
   AwakeCpus awake_cpus_;
+  ClearedCpu cleared_cpu_;
   LoopTiming timing_;
   ThreadUse use_;
   HapticLoop* loop_ = nullptr;

@@ -6,6 +6,7 @@
 #include "analysis/export/csv_table_writer.h"
 #include "core/error.h"
 #include "core/hand.h"
+#include "core/sample_table.h"
 #include "core/storage/recording.h"
 
 namespace jnd::analysis {
@@ -97,25 +98,28 @@ const std::vector<CsvColumn> kAnswerColumns = {
     {"answer", "", "As it was given; the last one if corrected"},
 };
 
-std::vector<CsvColumn> sample_columns(std::vector<std::string>& names) {
-  // The names are kept by the caller, for columns hold only pointers.
-  for (const std::string_view point : core::kContactPointNames) {
-    for (const char* quantity : {"_position_", "_velocity_", "_force_"}) {
-      for (const char* axis : {"x", "y", "z"}) {
-        const std::string unit = quantity[1] == 'p'   ? "_m"
-                                 : quantity[1] == 'v' ? "_m_per_s"
-                                                      : "_n";
-        names.push_back(std::string(point) + quantity + axis + unit);
-      }
-    }
+std::string unit_of(std::string_view name) {
+  if (name == "tick") return "tick";
+  if (name.ends_with("_n_m")) return "N m";
+  if (name.ends_with("_rad")) return "rad";
+  if (name.ends_with("_m_per_s")) return "m/s";
+  if (name.ends_with("_m")) return "m";
+  if (name.ends_with("_n")) return "N";
+  return "";
+}
+
+std::string meaning_of(std::string_view name) {
+  if (name == "tick") return "Counted from 0 in the session";
+  if (name == "attached_bits") return "Bit i: point i holds the hand";
+  if (name == "immersed_bits") return "Bit i: point i is in the medium";
+  if (name == "limited") return "1: the force limiter changed the force";
+  if (name == "fault") return "0: none";
+  if (name.ends_with("_rad")) return "Only from a device with joints; by its encoder";
+  if (name.ends_with("_n_m")) return "Only from a device with joints; by its torque sensor";
+  if (name.starts_with("end_effector")) {
+    return "Of the arm that carries the fingers; workspace frame: x right, y away, z up";
   }
-  std::vector<CsvColumn> columns = {{"tick", "tick", "Counted from 0 in the session"}};
-  for (const std::string& name : names) columns.push_back({name.c_str(), "", ""});
-  columns.push_back({"attached_bits", "", "Bit i: point i holds the hand"});
-  columns.push_back({"immersed_bits", "", "Bit i: point i is in the medium"});
-  columns.push_back({"limited", "", "1: the force limiter changed the force"});
-  columns.push_back({"fault", "", "0: none"});
-  return columns;
+  return "Workspace frame: x right, y away, z up; force on the hand after every limit";
 }
 
 class Export {
@@ -220,21 +224,18 @@ class Export {
 
   void write_recordings() {
     fs::create_directories(folder_ / "recordings");
-    std::vector<std::string> names;
-    const std::vector<CsvColumn> columns = sample_columns(names);
     for (const core::SessionRow& session : sessions_) {
       const fs::path file = store_.recording_file(session.session);
       if (!fs::exists(file)) continue;
+      const core::RecordingReader reader(file);
+      const bool with_joints = reader.has_joints();
+      const std::vector<std::string> names = core::sample_column_names(with_joints);
+      std::vector<CsvColumn> columns;
+      for (const std::string& name : names) columns.push_back({name.c_str(), "", ""});
       CsvTableWriter table(folder_ / "recordings" / file.stem().concat(".csv"), columns);
-      core::RecordingReader(file).read(0, INT64_MAX, [&](const core::Sample& sample) {
-        table.cell(sample.tick);
-        for (int point = 0; point < core::kNumContactPoints; ++point) {
-          for (const double value : sample.tip_position_m[point]) table.cell(value);
-          for (const double value : sample.tip_velocity_m_per_s[point]) table.cell(value);
-          for (const double value : sample.tip_force_n[point]) table.cell(value);
-        }
-        table.cell(std::int64_t{sample.attached_bits}).cell(std::int64_t{sample.immersed_bits});
-        table.cell(std::int64_t{sample.limited}).cell(std::int64_t{sample.fault}).end_row();
+      reader.read(0, INT64_MAX, [&](const core::Sample& sample) {
+        for (const double value : core::sample_values(sample, with_joints)) table.cell(value);
+        table.end_row();
       });
       table.finish();
     }
@@ -257,18 +258,9 @@ class Export {
       }
     }
     if (options_.recordings) {
-      std::vector<std::string> names;
-      for (const CsvColumn& column : sample_columns(names)) {
-        const std::string name = column.name;
-        const std::string unit = name.ends_with("_m")         ? "m"
-                                 : name.ends_with("_m_per_s") ? "m/s"
-                                 : name.ends_with("_n")       ? "N"
-                                                              : column.unit;
-        table.cell(std::string("recordings/*.csv")).cell(name).cell(unit);
-        table.cell(*column.meaning != '\0' ? std::string(column.meaning)
-                                           : "Workspace frame: x right, y away, z up; force on "
-                                             "the hand after every limit");
-        table.end_row();
+      for (const std::string& name : core::sample_column_names(true)) {
+        table.cell(std::string("recordings/*.csv")).cell(name).cell(unit_of(name));
+        table.cell(meaning_of(name)).end_row();
       }
     }
     table.finish();

@@ -43,6 +43,7 @@ fs::path fresh_folder() {
 int run(const Options& options) {
   require_device(options.device);
   require_device_moves_by_itself(options.device, "--device " + options.device);
+  require_device_keeps_pace(options.device, "--device " + options.device);
   require_device_starts(options.device, 1000.0);
   const fs::path out = options.out.empty() ? fresh_folder() : fs::path(options.out);
   for (const char* name : kStudies) {
@@ -71,6 +72,7 @@ int run(const Options& options) {
                        {.study = study,
                         .laboratory = &laboratory,
                         .study_file = file,
+                        .device = options.device,
                         .seed = options.seed,
                         .record = !options.fast},
                        next_participants(store, kParticipants));

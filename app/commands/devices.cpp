@@ -15,7 +15,7 @@ constexpr double kUsualRateHz = 1000.0;
 int run(bool json) {
   auto list = nlohmann::ordered_json::array();
   for (const device::DeviceEntry& entry : device::devices()) {
-    const device::DeviceCapabilities can = entry.make(kUsualRateHz)->capabilities();
+    const device::DeviceCapabilities can = entry.make("", kUsualRateHz)->capabilities();
     if (!json) {
       fmt::print(
           "{:<12} {}\n{:<12} {}, {} contact points, {:g} Hz, at most {:g} N at a point and "

@@ -15,8 +15,8 @@
 #include "core/storage/storage_thread.h"
 #include "device/device_registry.h"
 #include "device/haptic_loop.h"
-#include "device/lumped_hand_device.h"
 #include "device/realtime_thread.h"
+#include "device/simulated_hand.h"
 
 namespace jnd::app {
 namespace {
@@ -119,10 +119,12 @@ void print_json(const Outcome& outcome) {
 /// Whatever is wrong with the arguments is found here, before anything runs.
 struct Setup {
   explicit Setup(const Options& options) try
-      : device(device::device_named(options.device).make(options.rate_hz)),
+      : device(device::make_device(options.device, options.rate_hz)),
         loop({.rate_hz = options.rate_hz}, *device,
              {commands, telemetry, emergency_stop, &samples}),
         thread({.cpu = options.cpu}) {
+  } catch (const device::DeviceUnreachable&) {
+    throw;
   } catch (const core::Error& error) {
     throw UsageError(error.what());
   }
@@ -159,7 +161,7 @@ int run(const Options& options) {
     }
     // A hand that strokes through water: a tick with everything in it.
     setup.commands.publish({.sequence = 1, .medium = core::water({})});
-    if (auto* hand = dynamic_cast<device::LumpedHandDevice*>(setup.device.get())) {
+    if (device::SimulatedHand* hand = setup.device->simulated_hand()) {
       hand->begin_strokes({}, core::RandomStream(1, "loop"));
     }
     std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));

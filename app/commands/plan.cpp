@@ -17,6 +17,7 @@
 #include "app/option_checks.h"
 #include "app/session_setup.h"
 #include "app/share.h"
+#include "app/stability_limits.h"
 #include "core/error.h"
 #include "device/device_registry.h"
 #include "experiments/study/study_reader.h"
@@ -44,6 +45,7 @@ struct Outcome {
   std::vector<std::string> completed;  ///< Cells.
   device::DeviceCapabilities device;
   experiments::RangeLimits limits{};
+  std::optional<StabilityCheck> stability;  ///< None: the device has no map.
   double duration_s = 0.0;  ///< Of the longest session.
 };
 
@@ -72,11 +74,15 @@ Outcome outcome_of(const Options& options) {
     outcome.duration_s = std::max(outcome.duration_s, plan.duration_s);
   }
   outcome.device =
-      device::device_named(options.device).make(outcome.study.device.rate_hz)->capabilities();
+      device::make_device(options.device, outcome.study.device.rate_hz)->capabilities();
   outcome.limits = {.max_force_per_point_n = outcome.device.max_force_per_point_n,
                     .max_total_force_n = outcome.device.max_total_force_n,
                     .expected_speed_m_per_s = options.speed_m_per_s};
   outcome.range = experiments::planned_range(outcome.study, outcome.limits);
+  if (const auto map = shipped_stability_map(options.device)) {
+    outcome.stability =
+        check_stability(*map, outcome.study, outcome.range, options.speed_m_per_s);
+  }
   return outcome;
 }
 
@@ -134,6 +140,22 @@ ordered_json to_json(const experiments::RangeEntry& entry) {
   return json;
 }
 
+ordered_json to_json(const device::ExoskeletonStability& limits) {
+  return {{"viscosity_pa_s", limits.viscosity_pa_s.value},
+          {"viscosity_is_at_least", limits.viscosity_pa_s.is_beyond_ladder},
+          {"stiffness_n_per_m", limits.stiffness_n_per_m.value},
+          {"stiffness_is_at_least", limits.stiffness_n_per_m.is_beyond_ladder}};
+}
+
+/// null for a device without a map.
+ordered_json stability_json(const Outcome& outcome) {
+  if (!outcome.stability) return nullptr;
+  return {{"rate_hz", outcome.stability->rate_hz},
+          {"attached", to_json(outcome.stability->attached)},
+          {"detached", to_json(outcome.stability->detached)},
+          {"remark", detached_remark(*outcome.stability)}};
+}
+
 ordered_json to_json(const Outcome& outcome, const Options& options) {
   auto participants = ordered_json::array();
   for (const auto& plan : outcome.plans) participants.push_back(to_json(plan));
@@ -143,7 +165,12 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
         {{"cells", cell}, {"num_completed", counts.first}, {"num_planned", counts.second}});
   }
   auto range = ordered_json::array();
-  for (const auto& entry : outcome.range) range.push_back(to_json(entry));
+  for (std::size_t i = 0; i < outcome.range.size(); ++i) {
+    range.push_back(to_json(outcome.range[i]));
+    if (!outcome.stability) continue;
+    range.back()["stable"] = static_cast<bool>(outcome.stability->is_stable[i]);
+    range.back()["needs_the_hand"] = static_cast<bool>(outcome.stability->needs_the_hand[i]);
+  }
   return {{"study", outcome.study.name},
           {"seed", options.seed},
           {"participants", std::move(participants)},
@@ -155,6 +182,7 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
             {"max_total_force_n", outcome.limits.max_total_force_n},
             {"expected_speed_m_per_s", outcome.limits.expected_speed_m_per_s},
             {"expected_depth_m", outcome.limits.expected_depth_m}}},
+          {"stability", stability_json(outcome)},
           {"range", std::move(range)}};
 }
 
@@ -194,6 +222,12 @@ void print_range(const Outcome& outcome, const Options& options) {
                    : "",
                entry.fits ? "" : "  TOO STRONG");
   }
+  if (!outcome.stability) return;
+  fmt::print("Stable at {:g} Hz on the hand up to {} and {}.\n", outcome.stability->rate_hz,
+             words_of(outcome.stability->attached.viscosity_pa_s, "Pa s"),
+             words_of(outcome.stability->attached.stiffness_n_per_m, "N/m"));
+  const std::string remark = detached_remark(*outcome.stability);
+  if (!remark.empty()) fmt::print("{}.\n", remark);
 }
 
 void print(const Outcome& outcome, const Options& options) {
@@ -222,6 +256,11 @@ std::vector<std::string> problems_of(const Outcome& outcome, const Options& opti
         "weaken them or plan for another device",
         options.file, options.device, outcome.limits.expected_speed_m_per_s, too_strong,
         outcome.range.size()));
+  }
+  if (outcome.stability && outcome.stability->num_unstable() > 0) {
+    problems.push_back(
+        options.file + ": " + unstable_words(*outcome.stability, options.device) +
+        "; weaken them, or raise the study's rate");
   }
   const int needed = outcome.study.device.min_contact_points;
   if (outcome.device.num_contact_points < needed) {

@@ -12,6 +12,7 @@ const std::vector<Registration>& registrations() {
       add_results,  add_export,                              // What came of it.
       add_fit,      add_compare,                             // Other people's data.
       add_force,    add_loop,     add_devices,  add_doctor,  // The apparatus.
+      add_device_simulator, add_stability, add_characterize,
   };
   return kAll;
 }

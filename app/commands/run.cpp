@@ -116,7 +116,7 @@ void require_pseudonym(const std::string& participant) {
       one_line(participant.substr(0, kMostLetters)) + "`");
 }
 
-int run(const Options& options) {
+int run(Options options) {
   require_device(options.device);
   require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
@@ -132,6 +132,7 @@ int run(const Options& options) {
   }
   require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_starts(options.device, study.device.rate_hz);
+  options.realtime |= has_own_clock(options.device);
   const experiments::Laboratory laboratory =
       experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate);
@@ -183,11 +184,11 @@ experiments::Laboratory laboratory_of(const Options& options, const core::Sessio
   return experiments::parse_laboratory(row.laboratory, options.folder + ": laboratory");
 }
 
-int resume_headless(const Options& options, core::StudyStore& store,
-                    const core::SessionRow& row) {
+int resume_headless(Options options, core::StudyStore& store, const core::SessionRow& row) {
   const experiments::Study study = stored_study(store, row.session);
   require_device_starts(row.device, row.rate_hz);
   require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
+  options.realtime |= has_own_clock(row.device);
   if (const std::string remark = changed_study_remark(store, row); !remark.empty()) {
     std::fprintf(stderr, "jnd: %s\n", remark.c_str());
   }

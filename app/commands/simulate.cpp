@@ -31,6 +31,7 @@ struct Options {
 int run(const Options& options) {
   require_device(options.device);
   require_device_moves_by_itself(options.device, "--device " + options.device);
+  require_device_keeps_pace(options.device, "--device " + options.device);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
   require_device_starts(options.device, study.device.rate_hz);
@@ -43,6 +44,7 @@ int run(const Options& options) {
                                                           {.study = study,
                                                            .laboratory = &laboratory,
                                                            .study_file = file,
+                                                           .device = options.device,
                                                            .seed = options.seed,
                                                            .record = !options.fast},
                                                           participants);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -24,6 +25,22 @@ constexpr float kZoomStep = 1.1f;
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+/// Those that need no address, and the one that was asked for. Not for every frame: a simulated
+/// device is a world of its own.
+std::vector<PrepareModel::Device> devices_to_choose(const std::string& asked, double rate_hz) {
+  std::vector<PrepareModel::Device> all;
+  const auto add = [&](const std::string& name, std::string_view description) {
+    all.push_back({name, std::string(description),
+                   device::make_device(name, rate_hz)->capabilities().simulated});
+  };
+  for (const device::DeviceEntry& entry : device::devices()) {
+    if (entry.argument.empty()) add(std::string(entry.name), entry.description);
+  }
+  const device::DeviceEntry& entry = device::device_named(asked);
+  if (!entry.argument.empty()) add(asked, entry.description);
+  return all;
 }
 
 std::vector<std::string> shipped_studies() {
@@ -139,7 +156,7 @@ const char* Application::view_name() const noexcept {
     case Screen::kPrepare:
       return "prepare";
     case Screen::kSession:
-      return "session";
+      return run_state_.shows_apparatus ? "apparatus" : "session";
     case Screen::kSessions:
       return "sessions";
     case Screen::kResults:
@@ -167,6 +184,19 @@ void Application::picture_saved(const fs::path& file, const std::string& problem
 
 void Application::escape() noexcept {
   if (worker_ != nullptr) doors_.emergency_stop.press();
+}
+
+void Application::mouse_pressed(float x, float y) noexcept {
+  if (stop_place_.contains(x, y)) escape();
+}
+
+void Application::end_soon() {
+  if (worker_ == nullptr) {
+    closed_ = true;
+  } else if (!std::exchange(closing_, true)) {
+    leaving_ = true;
+    worker_->request(operate::Leave{"the program was told to end"});
+  }
 }
 
 void Application::cursor(float x, float y) noexcept {
@@ -236,10 +266,17 @@ void Application::draw(Ui& ui) {
       draw_emergency_stop(ui)) {
     escape();
   }
+  const auto& widgets = ui.drawn().widgets;
+  const auto stop = std::ranges::find(widgets, "emergency_stop", &Drawn::Widget::name);
+  stop_place_ = stop == widgets.end() ? Rect{} : stop->place;
 }
 
 void Application::draw_participant(Ui& ui) {
-  if (view_) draw_participant_view(ui, *view_);
+  if (view_) return draw_participant_view(ui, *view_);
+  ui.text(
+      ui.screen().middle(ui.screen().width * 0.8f, 60),
+      "What the participant is to see comes here with a session.",
+      {.font = Font::kLarge, .colour = Colour::kSoft, .align = Align::kCentre, .wrap = true});
 }
 
 // The views, one after the other: what they show, and what their requests do.
@@ -365,6 +402,7 @@ void Application::show_prepare() {
     prepare_state_.device =
         request_.device.empty() ? std::string(device::devices().front().name) : request_.device;
   }
+  devices_ = devices_to_choose(prepare_state_.device, study_->device.rate_hz);
   prepare_state_.language = study_->languages.front();
   screen_ = Screen::kPrepare;
   look_before();
@@ -387,10 +425,7 @@ void Application::draw_prepare(Ui& ui) {
                      .lines = preflight_->lines(),
                      .looking = preflight_->running(),
                      .progress = preflight_->progress()};
-  for (const device::DeviceEntry& entry : device::devices()) {
-    model.devices.push_back({std::string(entry.name), std::string(entry.description),
-                             entry.make(study_->device.rate_hz)->capabilities().simulated});
-  }
+  model.devices = devices_;
   const PrepareViewResult result = draw_prepare_view(ui, model, prepare_state_);
   if (result.start) {
     attempt("The session cannot be started", [this] {
@@ -566,6 +601,7 @@ void Application::take_global_keys(Ui& ui) {
   if (ui.pressed({Key::kMinus, true})) zoom_ /= kZoomStep;
   zoom_ = std::clamp(zoom_, 0.5f, 2.0f);
   if (ui.pressed({Key::kF9})) shows_participant_ = !shows_participant_;
+  if (ui.pressed({letter('Q'), true})) ask_to_close();
 }
 
 void Application::draw_message(Ui& ui) {
@@ -591,8 +627,14 @@ void Application::draw_keys(Ui& ui) {
                              {"Ctrl +  Ctrl -", "Larger, smaller"},
                              {"Ctrl D", "Dark or light"},
                              {"F9", "The participant's screen"},
-                             {"F2", "Leave a dialog"}};
-  for (const Drawn::Widget& widget : last_widgets_) {
+                             {"F2", "Leave a dialog"},
+                             {"Ctrl Q", "Leave the program"}};
+  // As one reads: line by line, from the left.
+  std::vector<Drawn::Widget> widgets = last_widgets_;
+  std::ranges::stable_sort(widgets, {}, [](const Drawn::Widget& widget) {
+    return std::pair(std::round(widget.place.y / 20), widget.place.x);
+  });
+  for (const Drawn::Widget& widget : widgets) {
     if (!widget.key.empty()) lines.push_back({widget.key, widget.label});
   }
   const float height = 110 + 30 * static_cast<float>(lines.size());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/gui/ui.h"
+#include "app/gui/views/apparatus_view.h"
 #include "app/gui/views/prepare_view.h"
 #include "app/gui/views/results_view.h"
 #include "app/gui/views/run_view.h"
@@ -40,6 +41,8 @@ class Application {
 
   void draw(Ui& ui);
   void draw_participant(Ui& ui);
+  /// Draws the apparatus, where somebody can; what it throws is told in its place.
+  std::function<std::uintptr_t(const SceneRequest&)> paint_scene;
 
   // What the window asks and tells.
   [[nodiscard]] const char* view_name() const noexcept;
@@ -61,6 +64,10 @@ class Application {
 
   /// The emergency stop; past everything else.
   void escape() noexcept;
+  /// The mouse went down there, logical pixels: the stop does not wait for a frame either.
+  void mouse_pressed(float x, float y) noexcept;
+  /// The system asks the program to end: a session is left as it is, to be resumed.
+  void end_soon();
   void beat() noexcept { doors_.heartbeat.beat(); }
   /// Of the mouse, logical pixels, whenever it moves.
   void cursor(float x, float y) noexcept;
@@ -73,6 +80,8 @@ class Application {
   void draw_start(Ui& ui);
   void draw_prepare(Ui& ui);
   void draw_session(Ui& ui);
+  [[nodiscard]] RunViewResult draw_session_view(Ui& ui);
+  [[nodiscard]] ApparatusSources apparatus_sources();
   void draw_sessions(Ui& ui);
   void draw_results(Ui& ui);
   void draw_study(Ui& ui);
@@ -125,6 +134,7 @@ class Application {
   std::optional<StudyFolder> folder_;
   std::optional<experiments::Study> study_;  ///< Of the folder.
   PrepareViewState prepare_state_;
+  std::vector<PrepareModel::Device> devices_;
   std::unique_ptr<Preflight> preflight_;
   std::vector<std::string> taken_;
   std::string assigned_;
@@ -134,7 +144,10 @@ class Application {
   std::shared_ptr<const SessionView> view_;
   std::chrono::steady_clock::time_point requested_at_;  ///< The last time.
   std::filesystem::path session_folder_;
+  Rect stop_place_;  ///< Of the stop's button in the last frame; empty without.
   RunViewState run_state_;
+  ApparatusViewState apparatus_state_;
+  std::string paint_problem_;
   AfterSession after_;
   std::unique_ptr<BackgroundTask<ActionOutcome>> check_, backup_;
   bool finished_ = false;

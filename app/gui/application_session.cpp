@@ -1,5 +1,6 @@
 // A session in the window: from its start or resumption to the check and copy after it.
 
+#include <exception>
 #include <utility>
 
 #include "app/gui/application.h"
@@ -19,8 +20,7 @@ namespace {
 /// Of a hand that moves by itself; nothing where a person moves it.
 std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& device,
                                                         double rate_hz) {
-  const device::DeviceEntry& entry = device::device_named(device);
-  if (!entry.make(rate_hz)->capabilities().moves_by_itself) return nullptr;
+  if (!device::make_device(device, rate_hz)->capabilities().moves_by_itself) return nullptr;
   return std::make_unique<experiments::Laboratory>(
       experiments::read_laboratory(user_or_shipped("thesis", "data/laboratories")));
 }
@@ -74,6 +74,8 @@ void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t sess
   backup_.reset();
   after_ = {};
   run_state_ = {};
+  apparatus_state_.held.reset();
+  apparatus_state_.scopes.choosing.reset();
   view_.reset();
   finished_ = false;
   closing_ = leaving_ = false;
@@ -117,9 +119,7 @@ void Application::draw_session(Ui& ui) {
     return;
   }
   after_session();
-  const std::vector<TracePoint> trace =
-      worker_ && !view_->hides_levels ? worker_->trace().snapshot() : std::vector<TracePoint>{};
-  const RunViewResult result = draw_run_view(ui, *view_, trace, after_, run_state_);
+  const RunViewResult result = draw_session_view(ui);
   if (result.stop) escape();
   if (worker_) {
     if (!result.requests.empty()) requested_at_ = std::chrono::steady_clock::now();
@@ -141,6 +141,38 @@ void Application::draw_session(Ui& ui) {
   } else if (worker_ == nullptr && result.to_sessions) {
     go_to(StudyTab::kSessions);
   }
+}
+
+RunViewResult Application::draw_session_view(Ui& ui) {
+  const bool is_over = view_->step == Step::kFinished || view_->step == Step::kFailed;
+  if (is_over || view_->is_alone) run_state_.shows_apparatus = false;
+  if (run_state_.shows_apparatus) {
+    return draw_apparatus_view(ui, *view_, apparatus_sources(), run_state_, apparatus_state_);
+  }
+  apparatus_state_.held.reset();
+  const std::vector<TracePoint> trace =
+      worker_ && !view_->hides_levels ? worker_->trace().snapshot() : std::vector<TracePoint>{};
+  return draw_run_view(ui, *view_, trace, after_, run_state_);
+}
+
+ApparatusSources Application::apparatus_sources() {
+  ApparatusSources sources{.paint_problem = paint_problem_};
+  if (worker_) {
+    sources.scopes = [this](const std::vector<std::string>& names) {
+      return worker_->scopes().snapshot(names);
+    };
+  }
+  if (paint_scene && paint_problem_.empty()) {
+    sources.paint = [this](const SceneRequest& request) -> std::uintptr_t {
+      try {
+        return paint_scene(request);
+      } catch (const std::exception& error) {
+        paint_problem_ = error.what();
+        return 0;
+      }
+    };
+  }
+  return sources;
 }
 
 /// The session is over and its folder closed: left, failed, or finished.

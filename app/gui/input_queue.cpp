@@ -90,6 +90,7 @@ void InputQueue::key(const KeyEvent& event) {
   if (key == Key::kNone) return;
   const auto held = std::ranges::find(held_, key);
   if (is_press(event)) {
+    if (presses_ >= kMostPresses) return;
     if (held == held_.end()) held_.push_back(key);
   } else {
     // Pressed elsewhere, or released already when the window lost the keyboard.
@@ -103,6 +104,7 @@ void InputQueue::key(const KeyEvent& event) {
     });
     if (one_waits) return;
   }
+  if (is_press(event)) ++presses_;
   events_.push_back({.kind = Entry::Kind::kKey, .key = event});
 }
 
@@ -157,6 +159,7 @@ bool InputQueue::fits(const Entry& entry, const Share& share) const {
 void InputQueue::take(const Entry& entry, Share& share) {
   switch (entry.kind) {
     case Entry::Kind::kKey:
+      if (is_press(entry.key)) --presses_;
       if (share.is_letter_of_text(entry.key)) {
         // Its release may be that of a shortcut whose Control was let go first.
         if (is_press(entry.key) || share.has(entry.key.chord.key)) break;

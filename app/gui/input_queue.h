@@ -122,7 +122,12 @@ class InputQueue {
   [[nodiscard]] bool fits(const Entry& entry, const Share& share) const;
   void take(const Entry& entry, Share& share);
 
+  /// More than this waiting are no person's: they are dropped, so that what comes after is not
+  /// minutes away.
+  static constexpr int kMostPresses = 64;
+
   std::deque<Entry> events_;
+  int presses_ = 0;  ///< Of keys among them.
   std::vector<Key> held_;
   MouseState mouse_;
 };

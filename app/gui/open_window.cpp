@@ -1,11 +1,16 @@
 #include "app/open_window.h"
 
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 
 #include "app/command.h"
 #include "app/gui/application.h"
+#include "app/gui/scene_painter.h"
 #include "app/gui/window.h"
+#include "app/stop_signals.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -34,15 +39,27 @@ void show_participant(gui::Window& window, gui::Application& application, bool& 
 
 /// Lets the window and the application know of each other.
 void show(gui::Window& window, const WindowRequest& request) {
+  // Made when the apparatus is first looked at; gone before OpenGL is.
+  std::unique_ptr<gui::ScenePainter> painter;
   gui::Application application(request, [&window] { window.wake(); });
+  application.paint_scene = [&painter](const gui::SceneRequest& scene) {
+    if (painter == nullptr) painter = std::make_unique<gui::ScenePainter>();
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return painter->paint(scene, std::chrono::duration<double>(now).count());
+  };
   bool second_was_open = false;
   window.on_escape = [&] { application.escape(); };
   window.on_iteration = [&] {
     application.beat();
+    if (stop_requested() && !application.closed()) {
+      application.end_soon();
+      window.wake();
+    }
     if (application.look_beside()) window.wake();
     window.wants_iterations(application.is_live());
     window.wants_frames(application.is_live() || application.works());
   };
+  window.on_mouse_pressed = [&](float x, float y) { application.mouse_pressed(x, y); };
   window.on_mouse_moved = [&](float x, float y) { application.cursor(x, y); };
   window.run([&](gui::Ui& ui) {
     if (window.close_requested()) application.ask_to_close();
@@ -69,7 +86,13 @@ int open_window(const WindowRequest& request) {
   }
   try {
     gui::Window window;
+    stop_on_signals();
     show(window, request);
+    if (stop_requested()) {
+      std::fputs(
+          "jnd: told to end; every answer is on disk, and a session under way can be resumed\n",
+          stderr);
+    }
   } catch (const core::Error& error) {
     const std::string what = error.what();
     if (what.starts_with("no display was found")) throw EnvironmentError(what);

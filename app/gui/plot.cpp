@@ -166,7 +166,7 @@ PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
     rest.take_bottom(kTickHeight + 6);
     rest.take_top(8);
     y_ticks = ticks_of(model.y, area.y_range, max_y_ticks);
-    rest.take_left(std::ceil(widest(ui, y_ticks)) + kTickGap);
+    rest.take_left(std::max(std::ceil(widest(ui, y_ticks)) + kTickGap, model.least_left));
     rest.take_right(12);
   }
   area.place = {rest.x, rest.y, std::max(1.0f, rest.width), std::max(1.0f, rest.height)};
@@ -180,7 +180,7 @@ PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
     draw_x_ticks(ui, area, ticks_of(model.x, area.x_range, max_x_ticks));
   }
   draw_content(ui, area, model);
-  draw_hover(ui, area, model);
+  if (model.hover) draw_hover(ui, area, model);
   return area;
 }
 

@@ -72,6 +72,8 @@ struct PlotModel {
   bool legend = true;         ///< Where more than one series has a name.
   bool equal_scales = false;  ///< A unit is as long on both axes: paths.
   bool axes = true;           ///< Ticks and their lines; a path needs none.
+  bool hover = true;          ///< What is under the mouse is told in words.
+  float least_left = 0;       ///< For the y axis; so that plots one above the other align.
 };
 
 /// Where values are on the screen, logical pixels.

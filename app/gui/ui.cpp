@@ -72,12 +72,14 @@ void Ui::begin_frame(InputQueue& queue) {
   });
   my.characters = my.input.characters;
   my.give_keys_to_field();
-  const bool was_down = my.mouse.down;
+  const MouseState before = my.mouse;
   my.mouse = {.x = my.input.mouse.x / theme_.scale(),
               .y = my.input.mouse.y / theme_.scale(),
               .down = my.input.mouse.down};
-  my.went_down = my.mouse.down && !was_down;
-  my.went_up = was_down && !my.mouse.down;
+  my.moved_x = my.mouse.x - before.x;
+  my.moved_y = my.mouse.y - before.y;
+  my.went_down = my.mouse.down && !before.down;
+  my.went_up = before.down && !my.mouse.down;
   if (my.went_down) {
     my.press_x = my.mouse.x;
     my.press_y = my.mouse.y;

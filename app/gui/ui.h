@@ -140,6 +140,9 @@ class Ui {
   /// A check mark within a square of this size around the point.
   void check(float x, float y, float size, Colour colour);
   void progress(const Rect& place, double ratio);
+  /// A texture of the window's renderer, its first row the lowest one; 0 draws nothing.
+  /// `what`: for the log, as `note_drawn`.
+  void image(const Rect& place, std::uintptr_t texture, std::string_view what);
 
   // Words. `text` returns the height it took.
   float text(const Rect& place, std::string_view words, const TextStyle& style = {});
@@ -169,6 +172,12 @@ class Ui {
   /// first field of a dialog does so when it opens; Tab goes from one to the next.
   bool text_field(std::string_view name, const Rect& place, std::string& value,
                   std::string_view hint = "", bool focus = false);
+  /// What the mouse does with something that is turned and moved by it, since the last frame.
+  struct Drag {
+    float x = 0, y = 0;  ///< Logical pixels, while the button that went down on it is held.
+    float wheel = 0;     ///< Steps, up is positive.
+  };
+  [[nodiscard]] Drag dragged(std::string_view name, const Rect& place);
   /// Several lines, wrapped; Enter writes a line end. True when the text was changed.
   bool text_area(std::string_view name, const Rect& place, std::string& value,
                  std::string_view hint = "", bool focus = false);

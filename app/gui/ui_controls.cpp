@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/gui/text_layout.h"
 #include "app/gui/ui.h"
@@ -116,6 +117,19 @@ void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyl
   const bool is_on_fill = is_filled && style.enabled;
   key_cap(x, place.y + (place.height - kKeyCapHeight) / 2, style.key,
           is_on_fill ? letters : Colour::kSoft);
+}
+
+Ui::Drag Ui::dragged(std::string_view name, const Rect& place) {
+  Implementation& my = *my_;
+  log_widget(name, "", {}, place, true);
+  Drag drag;
+  if (my.is_blocked()) return drag;
+  if (my.mouse.down && !my.went_down && my.press_was_on(place)) {
+    drag.x = my.moved_x;
+    drag.y = my.moved_y;
+  }
+  if (my.mouse_is_on(place)) drag.wheel = std::exchange(my.input.wheel, 0.0f);
+  return drag;
 }
 
 bool Ui::row(std::string_view name, const Rect& place, std::string_view label,

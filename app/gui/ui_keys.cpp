@@ -111,7 +111,9 @@ void Ui::Implementation::give_keys_to_field() {
       enter_for_field = true;
       return true;
     }
-    return edits_text(event.chord);
+    const Key key = event.chord.key;
+    const bool is_vertical = key == Key::kUp || key == Key::kDown;
+    return edits_text(event.chord) && (area_is_active || !is_vertical);
   });
 }
 

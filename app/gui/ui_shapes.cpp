@@ -82,6 +82,14 @@ void Ui::progress(const Rect& place, double ratio) {
   fill({place.x, place.y, std::min(width, place.width), place.height}, Colour::kBlue, radius);
 }
 
+void Ui::image(const Rect& place, std::uintptr_t texture, std::string_view what) {
+  log_text(what);
+  if (texture == 0) return;
+  const auto [low, high] = corners(*this, place);
+  draw_list().AddImage(reinterpret_cast<ImTextureID>(texture), low, high, ImVec2(0, 1),
+                       ImVec2(1, 0));
+}
+
 void Ui::tooltip(float x, float y, std::string_view words) {
   if (my_->is_blocked()) return;
   log_text(words);

@@ -28,6 +28,7 @@ struct Ui::Implementation {
 
   // The mouse, logical pixels.
   MouseState mouse;
+  float moved_x = 0, moved_y = 0;  ///< Since the frame before.
   bool went_down = false;
   bool went_up = false;
   float press_x = 0, press_y = 0;  ///< Where the button went down.

@@ -46,14 +46,24 @@ Picture read_back_buffer(int width, int height) {
 void Window::Implementation::prepare_fonts() {
   float monitor_scale = 1.0f;
   glfwGetWindowContentScale(main, &monitor_scale, nullptr);
+  // Letters of a new size take a tenth of a second to make: not for each of many steps in a
+  // row.
+  constexpr double kStepsInARowS = 0.12;
+  if (has_renderer && glfwGetTime() - zoomed_s < kStepsInARowS) {
+    frames_left = std::max(frames_left, 2);
+    return;
+  }
   theme.set_scale(monitor_scale * zoom);
   if (!theme.fonts_are_stale()) return;
+  // This is no window that hangs.
+  if (window.on_iteration) window.on_iteration();
   ImGui::SetCurrentContext(context);
   if (has_renderer) ImGui_ImplOpenGL3_DestroyFontsTexture();
   theme.load_fonts();
   if (!has_renderer) return;
   ImGui_ImplOpenGL3_CreateFontsTexture();
   sharpen_letters();
+  if (window.on_iteration) window.on_iteration();
 }
 
 void Window::Implementation::sharpen_letters() {
@@ -214,7 +224,9 @@ float Window::zoom() const noexcept { return my_->zoom; }
 
 void Window::set_zoom(float zoom) {
   const float wanted = std::isfinite(zoom) ? std::clamp(zoom, 0.5f, 2.0f) : 1.0f;
-  if (std::exchange(my_->zoom, wanted) != wanted) my_->something_happened(false);
+  if (std::exchange(my_->zoom, wanted) == wanted) return;
+  my_->zoomed_s = glfwGetTime();
+  my_->something_happened(false);
 }
 
 bool Window::second_is_open() const noexcept { return my_->second != nullptr; }

@@ -50,6 +50,9 @@ class Window {
   /// Escape went down, in any window of ours: called before any frame is drawn. Escape then
   /// goes the way of all keys, too.
   std::function<void()> on_escape;
+  /// The left button went down: called before any frame is drawn; logical pixels. The press
+  /// then goes the way of all others, too.
+  std::function<void(float x, float y)> on_mouse_pressed;
   /// Each time the loop comes round, on the main thread.
   std::function<void()> on_iteration;
   /// The mouse moved, as often as the system says so: logical pixels.

@@ -9,6 +9,15 @@ namespace {
 
 constexpr float kOutside = -1e6f;
 
+/// The system counts in its own units, frames in pixels; here they are mostly the same.
+double pixels_per_unit(GLFWwindow* window) {
+  int width = 0;
+  int pixels = 0;
+  glfwGetWindowSize(window, &width, nullptr);
+  glfwGetFramebufferSize(window, &pixels, nullptr);
+  return width > 0 ? static_cast<double>(pixels) / width : 1.0;
+}
+
 }  // namespace
 
 void Window::Implementation::on_key(int key, int scancode, int action, int mods) {
@@ -25,13 +34,18 @@ void Window::Implementation::on_key(int key, int scancode, int action, int mods)
                                                 : KeyEvent::Action::kRepeat});
 }
 
+void Window::Implementation::on_mouse_pressed(GLFWwindow* source) const {
+  double x = 0.0;
+  double y = 0.0;
+  glfwGetCursorPos(source, &x, &y);
+  const auto ratio = static_cast<float>(pixels_per_unit(source)) / theme.scale();
+  if (window.on_mouse_pressed) {
+    window.on_mouse_pressed(static_cast<float>(x) * ratio, static_cast<float>(y) * ratio);
+  }
+}
+
 void Window::Implementation::on_mouse_moved(GLFWwindow* source, double x, double y) {
-  // The system counts in its own units, frames in pixels; here they are mostly the same.
-  int width = 0;
-  int pixels = 0;
-  glfwGetWindowSize(source, &width, nullptr);
-  glfwGetFramebufferSize(source, &pixels, nullptr);
-  const double ratio = width > 0 ? static_cast<double>(pixels) / width : 1.0;
+  const double ratio = pixels_per_unit(source);
   const auto px = static_cast<float>(x * ratio);
   const auto py = static_cast<float>(y * ratio);
   queue.mouse_moved(px, py);
@@ -87,6 +101,7 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
   });
   glfwSetMouseButtonCallback(target, [](GLFWwindow* from, int button, int action, int) {
     if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+    if (action == GLFW_PRESS) self(from).on_mouse_pressed(from);
     self(from).queue.mouse_button(action == GLFW_PRESS);
     self(from).something_happened(true);
   });

@@ -56,6 +56,7 @@ struct Window::Implementation {
   /// window's alone.
   void install_callbacks(GLFWwindow* target, bool with_mouse);
   void on_key(int key, int scancode, int action, int mods);
+  void on_mouse_pressed(GLFWwindow* source) const;
   void on_mouse_moved(GLFWwindow* source, double x, double y);
   /// `urgent`: shown at once, not in its turn.
   void something_happened(bool urgent);
@@ -80,6 +81,7 @@ struct Window::Implementation {
   bool has_renderer = false;
   Theme theme;
   float zoom = 1.0f;
+  double zoomed_s = -1.0;  ///< When somebody last changed it.
   std::unique_ptr<Ui> ui;
   InputQueue queue;
   WidgetLog widget_log{""};

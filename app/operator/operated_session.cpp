@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/operator/live_trace.h"
+#include "app/operator/scope_trace.h"
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/random_stream.h"
@@ -28,6 +29,10 @@ bool is_urgent(const OperatorRequest& request) {
          std::holds_alternative<operate::Rearm>(request);
 }
 
+bool is_answer(const OperatorRequest& request) {
+  return std::holds_alternative<operate::Answer>(request);
+}
+
 bool felt_the_test(const TrialState& trial) {
   return std::any_of(trial.presentations.begin(), trial.presentations.end(),
                      [](const PresentationState& felt) { return felt.interval == "test"; });
@@ -46,9 +51,13 @@ Apparatus::Parameters apparatus_parameters(const OperatedSession::Parameters& pa
   apparatus.realtime = parameters.realtime;
   apparatus.allow_no_realtime = parameters.allow_no_realtime;
   apparatus.doors = &parameters.doors;
-  if (LiveTrace* trace = parameters.trace; trace != nullptr && !hides_levels) {
-    apparatus.on_sample = [trace](const core::Sample& sample) { trace->take(sample); };
-  }
+  apparatus.injected_faults = parameters.injected_faults;
+  if (hides_levels) return apparatus;
+  apparatus.on_sample = [trace = parameters.trace,
+                         scopes = parameters.scopes](const core::Sample& sample) {
+    if (trace != nullptr) trace->take(sample);
+    if (scopes != nullptr) scopes->take(sample);
+  };
   return apparatus;
 }
 
@@ -107,6 +116,7 @@ void OperatedSession::advance(double duration_s) {
   }
   try {
     watch_for_faults();
+    watch_for_loose_points();
     if (presenter_.waits_for_ramp() && presenter_.ramp_has_passed()) presenter_.ramp_is_over();
     carry_out_requests();
     follow_session();
@@ -120,7 +130,16 @@ void OperatedSession::carry_out_requests() {
     if (must_wait(requests_.front())) {
       const auto urgent = std::find_if(requests_.begin(), requests_.end(), is_urgent);
       if (urgent == requests_.end()) return;
-      requests_.erase(requests_.begin(), urgent);
+      const auto answer = std::find_if(requests_.begin(), urgent, is_answer);
+      if (answer == urgent) {
+        requests_.erase(requests_.begin(), urgent);
+      } else if (std::holds_alternative<operate::Undo>(*urgent)) {
+        // The answer meant is the one that still waits; those before it stay.
+        requests_.erase(answer, std::next(urgent));
+        continue;
+      } else {
+        return;  // No answer is dropped for a change of mind; the ramp is over soon.
+      }
     }
     const OperatorRequest next = std::move(requests_.front());
     requests_.pop_front();
@@ -184,6 +203,7 @@ struct OperatedSession::Act {
     require_running();
     const std::optional<Exploration> medium = my.next_medium();
     if (my.step() != Step::kMedium || !medium) refuse("no medium waits to be felt");
+    begin_feeling();
     my.feeling_ =
         Feeling{.first_tick = my.visit_.apparatus().next_tick(), .setting = medium->setting};
     my.visit_.apparatus().render(amounts_of(medium->setting));
@@ -223,6 +243,7 @@ struct OperatedSession::Act {
     if (present.interval == "reference" && !form.has_reference) {
       refuse("this block has no reference");
     }
+    begin_feeling();
     if (!trial.under_way) {
       my.reference_felt_s_.reset();
       my.session_.start_trial(my.visit_.apparatus().next_tick());
@@ -248,7 +269,9 @@ struct OperatedSession::Act {
     if (!my.presenter_.under_way() || trial.presentations.back().interval != "test") {
       refuse("the fluid to adjust is not being felt");
     }
-    if (!my.session_.can_adjust(adjust.direction, adjust.size)) {
+    const bool possible = my.session_.can_adjust(adjust.direction, adjust.size);
+    // Where levels are hidden, an end of the range looks like any other step.
+    if (!possible && !my.hides_levels_) {
       refuse(adjust.direction == Direction::kLower ? "it cannot go lower"
                                                    : "it cannot go higher");
     }
@@ -272,7 +295,8 @@ struct OperatedSession::Act {
   }
 
   void operator()(const operate::AddNote& note) const {
-    if (!my.begun_ || note.text.empty()) refuse("expected a note, found no words");
+    const bool has_words = note.text.find_first_not_of(" \t\n") != std::string::npos;
+    if (!my.begun_ || !has_words) refuse("expected a note, found no words");
     my.session_.note(note.text);
   }
 
@@ -287,6 +311,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::GoOn&) const {
     if (my.known_fault_ != core::Fault::kNone) refuse("the device has to be armed first");
+    require_held();
     my.session_.go_on();
     my.resting_for_trial_ = 0;
   }
@@ -322,6 +347,19 @@ struct OperatedSession::Act {
     if (my.state().ended) refuse("the session is over");
     if (my.known_fault_ != core::Fault::kNone) refuse("the device has to be armed first");
     if (my.state().paused) refuse("the session is paused");
+  }
+
+  /// Every point that has ever held, so that none is forgotten between two trials.
+  void require_held() const {
+    const std::uint8_t loose = my.loose_bits();
+    if (loose == 0) return;
+    my.visit_.apparatus().put_fingers_back();
+    refuse(words_of_points(loose) + " came off: put back what came off first");
+  }
+
+  void begin_feeling() const {
+    require_held();
+    my.attachment_.begin(my.visit_.apparatus().telemetry().sample.attached_bits);
   }
 
   static void require_reason(const std::string& reason) {
@@ -374,6 +412,26 @@ void OperatedSession::watch_for_faults() {
     session_.discard_attempt(std::string("fault: ") + std::string(name(fault)));
   }
   visit_.keep_timing();
+}
+
+std::uint8_t OperatedSession::loose_bits() const {
+  return attachment_.loose_bits(visit_.apparatus().telemetry().sample.attached_bits);
+}
+
+/// A point that comes off while something is felt: that counts for nothing, and nothing goes on
+/// before the point holds again.
+void OperatedSession::watch_for_loose_points() {
+  if (known_fault_ != core::Fault::kNone || !failure_.empty()) return;
+  if (!presenter_.under_way() && !feeling_) return;
+  const std::uint8_t loose = loose_bits();
+  if (loose == 0) return;
+  abandon_presentation();
+  const std::string reason = came_off_reason(loose);
+  if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
+    session_.discard_attempt(reason);
+  }
+  session_.pause(reason);
+  visit_.apparatus().put_fingers_back();
 }
 
 void OperatedSession::abandon_presentation() {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/attachment_watch.h"
 #include "app/operator/operator_doors.h"
 #include "app/operator/operator_request.h"
 #include "app/operator/session_view.h"
@@ -17,6 +18,7 @@
 namespace jnd::app {
 
 class LiveTrace;
+class ScopeTrace;
 
 /// A session that an operator runs next to a participant: takes requests in their order, moves
 /// the session on and says what it waits for. Every act is on disk before the view tells of it.
@@ -30,10 +32,12 @@ class OperatedSession {
     /// Of the simulated hand; nullptr for a device that needs none.
     const experiments::Laboratory* laboratory = nullptr;
     OperatorDoors& doors;
-    LiveTrace* trace = nullptr;  ///< Gets every sample, unless levels are hidden.
+    LiveTrace* trace = nullptr;    ///< Gets every sample, unless levels are hidden.
+    ScopeTrace* scopes = nullptr;  ///< Likewise.
     std::string language;        ///< Of the study's texts; "": its first.
     bool realtime = true;        ///< Else time passes only in `advance`: for tests.
     bool allow_no_realtime = false;
+    std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
   };
 
   /// Starts the device; throws `Error` if it cannot be.
@@ -61,6 +65,8 @@ class OperatedSession {
   void carry_out(const OperatorRequest& request);
   [[nodiscard]] bool must_wait(const OperatorRequest& request) const;
   void watch_for_faults();
+  void watch_for_loose_points();
+  [[nodiscard]] std::uint8_t loose_bits() const;
   void follow_session();
   void enter_stage();
   [[nodiscard]] bool stage_is_complete() const;
@@ -106,6 +112,7 @@ class OperatedSession {
   bool left_ = false;
   core::Fault known_fault_ = core::Fault::kNone;
   bool rearming_ = false;
+  AttachmentWatch attachment_;
   std::string failure_;
   std::string refusal_;
   std::uint64_t num_refusals_ = 0;

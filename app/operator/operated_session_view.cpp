@@ -209,6 +209,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
   const TrialState& trial = state().trial(number);
   const TrialForm form = session_.current_form();
   TrialView view{.trial = number,
+                 .attempt = trial.attempt,
                  .repetition = trial.planned.repetition,
                  .answer = form.answer,
                  .has_reference = form.has_reference,
@@ -308,14 +309,23 @@ void OperatedSession::describe_loop(SessionView& view) const {
     view.loop.realtime = thread->report().realtime_scheduler && thread->report().memory_locked;
   }
   view.loop.scheduler = apparatus.realtime();
-  if (!hides_levels_) return;
+  view.surroundings = {.immersion = parameters_.study.device.immersion,
+                       .has_walls = parameters_.study.device.wall_stiffness_n_per_m > 0.0};
+  view.loop.num_limited_ticks = view.telemetry.num_limited_ticks;
+  if (!hides_levels_) {
+    view.surroundings.surface_is_solid = feeling_ && feeling_->setting.medium == "solid";
+    return;
+  }
   // Speed and force tell the level; within the limits or not is all that may be known.
   view.telemetry.total_force_n = {};
   view.telemetry.hand_velocity_m_per_s = {};
   view.telemetry.sample.tip_force_n = {};
   view.telemetry.sample.tip_velocity_m_per_s = {};
+  view.telemetry.sample.tip_position_m = {};
+  view.telemetry.sample.joint_position_rad = {};
+  view.telemetry.sample.joint_torque_n_m = {};
   view.telemetry.contact_sums = {};
-  view.telemetry.num_limited_ticks = 0;
+  view.telemetry.num_limited_ticks = view.loop.num_limited_ticks = 0;
 }
 
 void OperatedSession::describe_progress(SessionView& view) const {
@@ -384,6 +394,7 @@ SessionView OperatedSession::view() const {
     view.fault = std::string(core::words(known_fault_));
     view.fault_name = std::string(core::name(known_fault_));
   }
+  view.loose_points = words_of_points(loose_bits());
   view.refusal = refusal_;
   view.num_refusals = num_refusals_;
   view.remark = remark_;

@@ -87,7 +87,7 @@ class Look {
   }
 
   [[nodiscard]] bool is_for_a_person() const try {
-    return !device::device_named(request_.device).make(rate_hz_)->capabilities().simulated;
+    return !device::make_device(request_.device, rate_hz_)->capabilities().simulated;
   } catch (const core::Error&) {
     return true;
   }
@@ -108,10 +108,16 @@ class Look {
     }
     return line_from("Stimuli", "not known", [&] {
       const device::DeviceCapabilities can =
-          device::device_named(request_.device).make(rate_hz_)->capabilities();
+          device::make_device(request_.device, rate_hz_)->capabilities();
       const experiments::RangeLimits limits{.max_force_per_point_n = can.max_force_per_point_n,
                                             .max_total_force_n = can.max_total_force_n};
-      return stimuli_line(experiments::planned_range(*study_, limits), limits, hides_levels_);
+      const std::vector<experiments::RangeEntry> range =
+          experiments::planned_range(*study_, limits);
+      std::optional<StabilityCheck> stability;
+      if (const auto map = shipped_stability_map(request_.device)) {
+        stability = check_stability(*map, *study_, range, limits.expected_speed_m_per_s);
+      }
+      return stimuli_line(range, limits, hides_levels_, stability);
     });
   }
 
@@ -179,7 +185,8 @@ std::vector<PreflightLine> look_at_machine() {
   std::string real;
   std::string simulated;
   for (const device::DeviceEntry& entry : device::devices()) {
-    const device::DeviceCapabilities can = entry.make(kRate_hz)->capabilities();
+    if (!entry.argument.empty()) continue;
+    const device::DeviceCapabilities can = entry.make("", kRate_hz)->capabilities();
     if (can.simulated &&
         device_line(std::string(entry.name), kRate_hz, 1).status != Status::kOk) {
       continue;

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/operator/background_task.h"
+#include "app/stability_limits.h"
 #include "experiments/session/plan.h"
 
 namespace jnd::app {
@@ -75,10 +77,12 @@ class Preflight {
 [[nodiscard]] PreflightLine disk_line(double free_bytes, double rate_hz, double session_s);
 [[nodiscard]] PreflightLine device_line(const std::string& device, double rate_hz,
                                         int min_contact_points);
-/// Where `hides_levels`, the number of stimuli that fit alone.
+/// Where `hides_levels`, the number of stimuli that fit alone. `stability`: of a device that has
+/// a map of it; an unstable stimulus fails.
 [[nodiscard]] PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
                                          const experiments::RangeLimits& limits,
-                                         bool hides_levels);
+                                         bool hides_levels,
+                                         const std::optional<StabilityCheck>& stability = {});
 
 /// What the loop did in its test.
 struct LoopTest {

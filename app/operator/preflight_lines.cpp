@@ -55,7 +55,7 @@ std::string text_of(const std::filesystem::path& file) {
 /// Device, loop and thread, stopped in the order that is safe whatever happens.
 struct RunningLoop {
   RunningLoop(const PreflightRequest& request, double rate_hz)
-      : device(device::device_named(request.device).make(rate_hz)),
+      : device(device::make_device(request.device, rate_hz)),
         loop({.rate_hz = rate_hz}, *device, {commands, telemetry, emergency_stop, &samples}),
         thread({}) {
     device::start_haptics(*device, loop, thread, request.allow_no_realtime);
@@ -143,8 +143,7 @@ PreflightLine disk_line(double free_bytes, double rate_hz, double session_s) {
 PreflightLine device_line(const std::string& device, double rate_hz, int min_contact_points) {
   const std::string name = "Device";
   return line_from(name, "does not start", [&]() -> PreflightLine {
-    const std::unique_ptr<device::HapticDevice> made =
-        device::device_named(device).make(rate_hz);
+    const std::unique_ptr<device::HapticDevice> made = device::make_device(device, rate_hz);
     const device::DeviceCapabilities can = made->capabilities();
     if (can.num_contact_points < min_contact_points) {
       return {.name = name,
@@ -162,7 +161,8 @@ PreflightLine device_line(const std::string& device, double rate_hz, int min_con
 }
 
 PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
-                           const experiments::RangeLimits& limits, bool hides_levels) {
+                           const experiments::RangeLimits& limits, bool hides_levels,
+                           const std::optional<StabilityCheck>& stability) {
   const auto fitting =
       std::count_if(range.begin(), range.end(), [](const auto& entry) { return entry.fits; });
   const bool all = fitting == static_cast<std::ptrdiff_t>(range.size());
@@ -170,6 +170,14 @@ PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
   line.found = fmt::format("{} of {} within limits", fitting, range.size());
   if (!all) {
     line.remedy = "choose a device that can render them, or weaken the study's stimuli";
+  }
+  if (stability && stability->num_unstable() > 0) {
+    line.status = Status::kFailed;
+    line.found += fmt::format(", {} unstable", stability->num_unstable());
+    if (line.remedy.empty()) line.remedy = "weaken the study's stimuli, or raise its rate";
+  } else if (stability && stability->num_needing_the_hand() > 0) {
+    line.found +=
+        fmt::format(", {} stable on the hand alone", stability->num_needing_the_hand());
   }
   if (hides_levels || range.empty()) return line;
   const auto strongest = std::max_element(

@@ -172,6 +172,8 @@ class Quality {
     std::set<std::string> known;
     for (const analysis::ResultsSection& section : results.sections) {
       for (const analysis::ExcludedParticipant& one : section.excluded) {
+        // Of one person alone it is said under their own name.
+        if (one.participant == "everyone" && results.num_participants == 1) continue;
         const std::string text = source.in_titles(one.participant + ": " + one.reason);
         if (known.insert(text).second) chips.push_back({text, Tone::kWarning});
       }

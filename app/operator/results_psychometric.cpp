@@ -79,6 +79,14 @@ std::string pooled_reason(const analysis::ResultsSection& section, const std::st
   return "no value";
 }
 
+/// For whoever answered, not for whoever fits.
+std::string in_plain_words(const std::string& reason) {
+  if (reason.find("separated") == std::string::npos) return reason;
+  return "every answer fell on its side of the reference, so the Weber fraction is smaller "
+         "than "
+         "these stimuli can show; stimuli nearer to the reference would find it";
+}
+
 std::optional<Discrimination> discrimination_of(const ResultsSource& source,
                                                 const BlockDesign& block) {
   const analysis::ResultsSection* section = source.section(block.block);
@@ -106,11 +114,12 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
   const double low =
       0.9 * (first == all.end() ? figure.reference : std::min(first->first, figure.reference));
   const double high = 1.1 * std::max(all.rbegin()->first, figure.reference);
-  figure.pooled = {.who = kEveryone,
-                   .points = proportions(all),
-                   .weber_fraction = pooled->value,
-                   .ci95 = pooled->ci95,
-                   .reason = pooled->value ? "" : pooled_reason(*section, name)};
+  figure.pooled = {
+      .who = kEveryone,
+      .points = proportions(all),
+      .weber_fraction = pooled->value,
+      .ci95 = pooled->ci95,
+      .reason = pooled->value ? "" : in_plain_words(pooled_reason(*section, name))};
   draw_curve(figure.pooled, figure.reference, low, high);
   for (const auto& [participant, counted] : own) {
     const analysis::ParticipantEstimate* estimate = source.own(block.block, participant, name);
@@ -119,7 +128,7 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
                            .points = proportions(counted.first),
                            .weber_fraction = estimate->value,
                            .ci95 = estimate->ci95,
-                           .reason = estimate->reason};
+                           .reason = in_plain_words(estimate->reason)};
     draw_curve(one, counted.second, low, high);
     figure.participants.push_back(std::move(one));
   }

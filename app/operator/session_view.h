@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/operator/surroundings_view.h"
 #include "core/telemetry.h"
 #include "experiments/procedures/procedure.h"
 #include "experiments/study/study.h"
@@ -72,6 +73,7 @@ struct ItemView {
 
 struct TrialView {
   std::int64_t trial = 0;              ///< In the session, as in requests.
+  std::int64_t attempt = 1;
   int in_block = 1, num_in_block = 1;  ///< "trial 23 of 40"
   int repetition = 1, num_repetitions = 1;
   experiments::AnswerKind answer = experiments::AnswerKind::kYesNo;
@@ -112,6 +114,7 @@ struct LoopView {
   double lateness_p99_us = 0.0, max_lateness_us = 0.0;
   std::int64_t missed_ticks = 0;
   std::uint64_t num_dropped_samples = 0;
+  std::uint64_t num_limited_ticks = 0;  ///< The limiter changed the force; 0 where hidden.
   std::string scheduler;  ///< What the system gave: "SCHED_FIFO 80, memory locked".
   bool realtime = false;  ///< What a real device needs was given.
 };
@@ -150,11 +153,13 @@ struct SessionView {
 
   core::Telemetry telemetry;
   double max_total_force_n = 0.0;
+  SurroundingsView surroundings;
   LoopView loop;
   std::int64_t trials_on_disk = 0;  ///< Answers, that is.
   std::int64_t last_sequence = 0;   ///< Of the last event on disk.
   std::string fault;                ///< One sentence; "" for none.
   std::string fault_name;           ///< "emergency_stop"
+  std::string loose_points;         ///< "the index finger": it came off; "" for none.
   bool stop_pressed = false;
   std::uint64_t num_stop_presses = 0;  ///< As in `Rearm`.
   std::string refusal;             ///< Why the last request was not carried out; "" otherwise.

@@ -172,11 +172,15 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
     case Step::kPresenting:
       return add_trial_words(view, instruction);
     case Step::kStageDone:
-      view.sentence = "Done. Go on, or set the last answer right first.";
+      view.sentence = "Done. Go on, or take the last answer back first.";
       return;
     case Step::kPaused:
       view.heading = "Paused";
-      view.sentence = "The hand is in free space. Go on when the participant is ready.";
+      view.sentence = view.loose_points.empty()
+                          ? "The hand is in free space. Go on when the participant is ready."
+                          : "Came off: " + view.loose_points +
+                                ". Put it back on the hand, then go on; what was felt is "
+                                "repeated.";
       view.participant_text = own_words(Own::kPause, view.language);
       return;
     case Step::kFault:

@@ -18,6 +18,7 @@ SessionWorker::SessionWorker(Parameters parameters, OperatorDoors& doors)
     : parameters_(std::move(parameters)),
       doors_(doors),
       trace_({.rate_hz = parameters_.study.device.rate_hz}),
+      scopes_({.rate_hz = parameters_.study.device.rate_hz}),
       thread_([this] { run(); }) {}
 
 SessionWorker::~SessionWorker() {
@@ -92,6 +93,7 @@ void SessionWorker::work() {
                            .laboratory = parameters_.laboratory.get(),
                            .doors = doors_,
                            .trace = &trace_,
+                           .scopes = &scopes_,
                            .language = parameters_.language,
                            .allow_no_realtime = parameters_.allow_no_realtime});
   auto next_picture = std::chrono::steady_clock::now();

@@ -13,6 +13,7 @@
 #include "app/operator/live_trace.h"
 #include "app/operator/operator_doors.h"
 #include "app/operator/operator_request.h"
+#include "app/operator/scope_trace.h"
 #include "app/operator/session_view.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
@@ -52,6 +53,7 @@ class SessionWorker {
   /// It was looked at and has to wait, for a ramp or a rest.
   [[nodiscard]] bool has_waiting_requests() const;
   [[nodiscard]] const LiveTrace& trace() const noexcept { return trace_; }
+  [[nodiscard]] const ScopeTrace& scopes() const noexcept { return scopes_; }
   /// Why the session could not be opened; "" if it could.
   [[nodiscard]] std::string failure() const;
   /// The thread is through: left, or never started. The store is closed then.
@@ -66,6 +68,7 @@ class SessionWorker {
   Parameters parameters_;
   OperatorDoors& doors_;
   LiveTrace trace_;
+  ScopeTrace scopes_;
   mutable std::mutex mutex_;
   std::condition_variable requested_;
   std::vector<OperatorRequest> requests_;

@@ -33,6 +33,12 @@ std::tm local(std::int64_t time_ns) {
   return parts;
 }
 
+/// " at 16:05"
+std::string hour_in_words(std::int64_t time_ns) {
+  const std::tm then = local(time_ns);
+  return fmt::format(" at {}:{:02}", then.tm_hour, then.tm_min);
+}
+
 /// Days since some day, for counting from one to another.
 std::int64_t day_number(std::tm parts) {
   constexpr std::int64_t kSecondsPerDay = 86'400;
@@ -192,6 +198,8 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
   }
   opened.num_participants_done = static_cast<int>(done.size());
   opened.last_session = day_in_words(last_ns, now_ns);
+  // Two studies of one day are told apart by the hour.
+  if (opened.last_session == "today") opened.last_session += hour_in_words(last_ns);
   return opened;
 }
 

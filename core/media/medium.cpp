@@ -1,41 +1,93 @@
 #include "core/media/medium.h"
 
+#include "core/require.h"
+
 namespace jnd::core {
+
+bool MediumAmounts::is_plain_damping() const noexcept {
+  MediumAmounts rest = *this;
+  rest.damping_n_s_per_m = 0.0;
+  for (const auto amount : kAmounts) {
+    if (rest.*amount != 0.0) return false;
+  }
+  return true;
+}
+
+bool MediumAmounts::is_finite() const noexcept {
+  for (const auto amount : kAmounts) {
+    if (!std::isfinite(this->*amount)) return false;
+  }
+  return true;
+}
+
+MediumAmounts& MediumAmounts::operator+=(const MediumAmounts& other) noexcept {
+  for (const auto amount : kAmounts) this->*amount += other.*amount;
+  return *this;
+}
 
 MediumAmounts water(const WaterDrag::Parameters& parameters) {
   return {.quadratic_kg_per_m = WaterDrag(parameters).quadratic_kg_per_m()};
+}
+
+MediumAmounts mapped_water(const WaterDrag::Parameters& parameters) {
+  const double quadratic_kg_per_m = WaterDrag(parameters).quadratic_kg_per_m();
+  return {.mapped_drag_kg_per_m = quadratic_kg_per_m, .lift_kg_per_m = quadratic_kg_per_m};
 }
 
 MediumAmounts viscous(const ViscousDrag::Parameters& parameters) {
   return {.damping_n_s_per_m = ViscousDrag(parameters).damping_n_s_per_m()};
 }
 
-MediumAmounts solid(const SolidPlane::Parameters& parameters) {
-  const SolidPlane plane(parameters);
-  return {.plane_stiffness_n_per_m = plane.stiffness_n_per_m(),
-          .plane_damping_n_s_per_m = plane.damping_n_s_per_m()};
+MediumAmounts viscous_inertial(const InertialDrag::Parameters& parameters) {
+  const InertialDrag drag(parameters);
+  return {.damping_n_s_per_m = drag.damping_n_s_per_m(), .inertial_n = drag.inertial_n()};
+}
+
+MediumAmounts ellipsoid(const EllipsoidDrag::Parameters& parameters) {
+  const EllipsoidDrag drag(parameters);
+  return {.ellipsoid_fingers_n_s_per_m = drag.damping_n_s_per_m()[0],
+          .ellipsoid_across_n_s_per_m = drag.damping_n_s_per_m()[1],
+          .ellipsoid_normal_n_s_per_m = drag.damping_n_s_per_m()[2]};
+}
+
+MediumAmounts solid(const SolidParameters& parameters) {
+  const SolidAmounts amounts = solid_amounts(parameters);
+  return {.plane_stiffness_n_per_m = amounts.stiffness_n_per_m,
+          .plane_damping_n_s_per_m = amounts.damping_n_s_per_m,
+          .plane_friction_n_per_m = amounts.friction_n_per_m};
+}
+
+MediumAmounts container(const SolidParameters& parameters) {
+  const SolidAmounts amounts = solid_amounts(parameters);
+  return {.container_stiffness_n_per_m = amounts.stiffness_n_per_m,
+          .container_damping_n_s_per_m = amounts.damping_n_s_per_m,
+          .container_friction_n_per_m = amounts.friction_n_per_m};
+}
+
+MediumAmounts buoyant(double buoyancy_n) {
+  require(buoyancy_n >= 0.0 && std::isfinite(buoyancy_n), "buoyancy_n", "a finite number >= 0",
+          buoyancy_n);
+  return {.buoyancy_n = buoyancy_n};
 }
 
 void MediumRamp::start(const MediumAmounts& target, double ramp_s) noexcept {
   target_ = target;
   remaining_s_ = ramp_s;
+  arrived_ = false;
 }
 
 const MediumAmounts& MediumRamp::advance(double period_s) noexcept {
+  if (arrived_) return current_;
   // A ramp time that is not a number counts as finished, like one that is over.
   if (!(remaining_s_ > period_s)) {
-    remaining_s_ = 0.0;
+    arrived_ = true;
     current_ = target_;
     return current_;
   }
   const double step_ratio = period_s / remaining_s_;
-  const auto approach = [step_ratio](double& current, double target) {
-    current += step_ratio * (target - current);
-  };
-  approach(current_.quadratic_kg_per_m, target_.quadratic_kg_per_m);
-  approach(current_.damping_n_s_per_m, target_.damping_n_s_per_m);
-  approach(current_.plane_stiffness_n_per_m, target_.plane_stiffness_n_per_m);
-  approach(current_.plane_damping_n_s_per_m, target_.plane_damping_n_s_per_m);
+  for (const auto amount : kAmounts) {
+    current_.*amount += step_ratio * (target_.*amount - current_.*amount);
+  }
   remaining_s_ -= period_s;
   return current_;
 }

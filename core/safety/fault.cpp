@@ -24,6 +24,14 @@ std::string_view name(Fault fault) noexcept {
       return "over_velocity";
     case Fault::kHeartbeatLost:
       return "heartbeat_lost";
+    case Fault::kOutsideWorkspace:
+      return "outside_workspace";
+    case Fault::kWatchdog:
+      return "watchdog";
+    case Fault::kLinkLost:
+      return "link_lost";
+    case Fault::kSimulationInvalid:
+      return "simulation_invalid";
   }
   return "unknown";
 }
@@ -59,6 +67,18 @@ std::string_view words(Fault fault) noexcept {
       return "The program's window stopped answering, so the force was faded out: wait until "
              "it "
              "answers, then arm the device again.";
+    case Fault::kOutsideWorkspace:
+      return "A contact point left the space in which force may be given: bring the hand back "
+             "to the middle, then arm the device again.";
+    case Fault::kWatchdog:
+      return "The haptic loop stopped for longer than allowed and the watchdog took the force "
+             "away: close what burdens this machine, then arm the device again.";
+    case Fault::kLinkLost:
+      return "The connection to the device broke off or became too bad: check the network and "
+             "the device's own program, then arm it again.";
+    case Fault::kSimulationInvalid:
+      return "The simulated apparatus came to a state that no real one can have: arm it again; "
+             "this trial does not count.";
   }
   return "Unknown fault: stop the session.";
 }

@@ -18,6 +18,10 @@ enum class Fault : std::uint8_t {
   kPositionJump = 7,
   kOverVelocity = 8,
   kHeartbeatLost = 9,
+  kOutsideWorkspace = 10,
+  kWatchdog = 11,
+  kLinkLost = 12,
+  kSimulationInvalid = 13,
 };
 
 /// "emergency_stop", as events and JSON spell it. Real time.

@@ -6,6 +6,7 @@
 
 #include "core/storage/database.h"
 #include "core/storage/files.h"
+#include "core/storage/flight_record.h"
 #include "core/storage/study_format.h"
 #include "core/storage/study_store.h"
 #include "core/storage/writer_lock.h"
@@ -170,8 +171,8 @@ void copy_recording(const fs::path& source, const fs::path& target, BackupReport
 }
 
 /// Sessions of the snapshot whose samples are kept.
-std::vector<std::int64_t> recorded_sessions(Database& snapshot) {
-  Statement rows(snapshot, "SELECT session FROM session WHERE recorded ORDER BY session");
+std::vector<std::int64_t> sessions_in(Database& snapshot) {
+  Statement rows(snapshot, "SELECT session FROM session ORDER BY session");
   std::vector<std::int64_t> sessions;
   while (rows.step()) sessions.push_back(rows.integer(0));
   return sessions;
@@ -207,12 +208,15 @@ BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_
     note_in_study(folder, target, time_ns, report);
     from.copy_to(snapshot);
   }
-  const std::vector<std::int64_t> sessions = recorded_sessions(snapshot);
+  const std::vector<std::int64_t> sessions = sessions_in(snapshot);
   double done = 0.0;
   for (const std::int64_t session : sessions) {
     const fs::path source = study.recording_file(session);
     if (fs::exists(source)) {
       copy_recording(source, target / "recordings" / source.filename(), report);
+    }
+    for (const fs::path& record : flight_records(source)) {
+      copy_file_durably(record, target / "recordings" / record.filename());
     }
     done += 1.0;
     if (on_progress) on_progress(done / static_cast<double>(sessions.size()));

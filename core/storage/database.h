@@ -35,6 +35,9 @@ class Database {
   /// Replaces the content of `target` by this one's, as it is at one moment, whoever
   /// writes to it meanwhile.
   void copy_to(Database& target) const;
+  /// Throws `Error` if the file is no longer where it was opened: whatever is written from then
+  /// on may be seen by nobody.
+  void require_in_place() const;
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }
   /// Throws what SQLite found wrong, in words for a person where it is the disk or the file.

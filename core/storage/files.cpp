@@ -7,8 +7,10 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
+#include "core/storage/flight_record.h"
 
 namespace jnd::core {
 namespace {
@@ -61,14 +63,31 @@ void sync_folder(const fs::path& folder) { sync(folder, O_DIRECTORY); }
 
 void sync_file(const fs::path& file) { sync(file, 0); }
 
+void copy_file_durably(const fs::path& source, const fs::path& target) {
+  fs::path unfinished = target;
+  unfinished += ".unfinished";
+  std::error_code error;
+  fs::copy_file(source, unfinished, fs::copy_options::overwrite_existing, error);
+  if (!error)
+    fs::permissions(unfinished, fs::perms::owner_read | fs::perms::owner_write, error);
+  if (error) {
+    throw Error(target.string() + ": expected to copy " + source.string() +
+                " here, found: " + error.message());
+  }
+  sync_file(unfinished);
+  fs::rename(unfinished, target);
+  sync_folder(above(target));
+}
+
 void remove_recording(const fs::path& file) {
+  std::vector<fs::path> files = flight_records(file);
+  for (const char* ending : {"", "-wal", "-shm"}) files.push_back(file.string() + ending);
   bool removed = false;
-  for (const char* ending : {"", "-wal", "-shm"}) {
+  for (const fs::path& one : files) {
     std::error_code error;
-    removed |= fs::remove(file.string() + ending, error);
+    removed |= fs::remove(one, error);
     if (error) {
-      throw Error(file.string() + ending +
-                  ": expected to remove this file, found: " + error.message());
+      throw Error(one.string() + ": expected to remove this file, found: " + error.message());
     }
   }
   if (removed) sync_folder(above(file));

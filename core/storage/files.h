@@ -16,7 +16,13 @@ void sync_folder(const std::filesystem::path& folder);
 /// The file's content is on disk when this returns.
 void sync_file(const std::filesystem::path& file);
 
-/// Removes a database and what SQLite keeps beside it, where they are.
+/// A copy of mode 0600 that is on disk when this returns, or none; one that is there is
+/// replaced as a whole.
+void copy_file_durably(const std::filesystem::path& source,
+                       const std::filesystem::path& target);
+
+/// Removes a database and what lies beside it, SQLite's files and flight records, where they
+/// are.
 void remove_recording(const std::filesystem::path& file);
 
 }  // namespace jnd::core

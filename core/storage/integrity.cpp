@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/storage/flight_record.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
 
@@ -219,7 +220,8 @@ Integrity verify(const StudyStore& store) {
   check(0, [&] {
     for (const WithdrawalRow& withdrawn : store.withdrawals()) {
       integrity.remarks.push_back({withdrawn.session, withdrawn.participant + " withdrew"});
-      if (!std::filesystem::exists(store.recording_file(withdrawn.session))) continue;
+      const std::filesystem::path recording = store.recording_file(withdrawn.session);
+      if (!std::filesystem::exists(recording) && flight_records(recording).empty()) continue;
       integrity.problems.push_back(
           {withdrawn.session, "expected the recording of " + withdrawn.participant +
                                   ", who withdrew, to be gone, found it; run `jnd withdraw` "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/sample_table.h"
 #include "core/storage/database.h"
 #include "core/storage/sample_codec.h"
 #include "core/storage/sha256.h"
@@ -12,7 +13,8 @@ namespace {
 
 // About four seconds at 1 kHz: large enough to compress well, small enough to lose little.
 constexpr std::size_t kSamplesPerChunk = 4096;
-constexpr std::int64_t kFormat = 1;
+// 2: chunks may hold joints.
+constexpr std::int64_t kFormat = 2;
 
 constexpr char kSchema[] = R"sql(
 CREATE TABLE recording_format (
@@ -20,7 +22,9 @@ CREATE TABLE recording_format (
   rate_hz REAL NOT NULL,
   position_unit_m REAL NOT NULL,
   velocity_unit_m_per_s REAL NOT NULL,
-  force_unit_n REAL NOT NULL
+  force_unit_n REAL NOT NULL,
+  joint_position_unit_rad REAL NOT NULL,
+  joint_torque_unit_n_m REAL NOT NULL
 );
 CREATE TABLE chunk (
   segment INTEGER NOT NULL,
@@ -44,12 +48,14 @@ struct RecordingWriter::Implementation {
     if (is_empty(database)) {
       Transaction transaction(database);
       database.execute(kSchema);
-      Statement(database, "INSERT INTO recording_format VALUES (?, ?, ?, ?, ?)")
+      Statement(database, "INSERT INTO recording_format VALUES (?, ?, ?, ?, ?, ?, ?)")
           .bind(kFormat)
           .bind(rate_hz)
           .bind(kPositionUnitM)
           .bind(kVelocityUnitMPerS)
           .bind(kForceUnitN)
+          .bind(kJointPositionUnitRad)
+          .bind(kJointTorqueUnitNM)
           .run();
       transaction.commit();
     }
@@ -61,6 +67,7 @@ struct RecordingWriter::Implementation {
 
   void write_chunk() {
     if (pending.empty()) return;
+    database.require_in_place();
     const std::string bytes = encode_samples(pending);
     insert->bind(segment)
         .bind(pending.front().tick)
@@ -124,6 +131,17 @@ RecordingReader::RecordingReader(const std::filesystem::path& file)
 RecordingReader::~RecordingReader() = default;
 
 double RecordingReader::rate_hz() const noexcept { return implementation_->rate_hz; }
+
+bool RecordingReader::has_joints() const {
+  if (is_empty(implementation_->database)) return false;
+  Statement first(implementation_->database,
+                  "SELECT first_tick, num_samples FROM chunk ORDER BY segment, first_tick");
+  if (!first.step()) return false;
+  bool found = false;
+  read(first.integer(0), first.integer(0) + first.integer(1) - 1,
+       [&found](const Sample& sample) { found |= jnd::core::has_joints(sample); });
+  return found;
+}
 
 /// The row's own numbers are not in the hash, but the bytes know them.
 static bool decodes(const RecordingChunk& chunk, std::string_view bytes) {

@@ -52,6 +52,9 @@ class RecordingReader {
   RecordingReader& operator=(const RecordingReader&) = delete;
 
   [[nodiscard]] double rate_hz() const noexcept;
+  /// Whether the device told of joints, as the first chunk says. Throws `Error` if that is
+  /// damaged.
+  [[nodiscard]] bool has_joints() const;
   /// Reads and decodes everything.
   [[nodiscard]] std::vector<RecordingChunk> chunks() const;
   /// -1 if there is no sample. Quick.

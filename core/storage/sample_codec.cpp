@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/sample_table.h"
 
 namespace jnd::core {
 namespace {
@@ -18,10 +19,12 @@ constexpr int kVectorChannels = kNumContactPoints * kVectorsPerPoint * 3;
 constexpr int kEndEffector = kVectorChannels;
 constexpr int kFlags = kEndEffector + 3;  // command, attached, immersed, limited, fault
 constexpr int kNumChannels = kFlags + 5;
+constexpr int kNumJointChannels = 2 * kNumJoints;  // position, torque
 
 // Arithmetic modulo 2^32: differences wrap and come back exactly.
 using Word = std::uint32_t;
 using Row = std::array<Word, kNumChannels>;
+using JointRow = std::array<Word, kNumJointChannels>;
 
 constexpr Word kNotANumber = 0x80000000U;
 
@@ -99,6 +102,24 @@ Sample sample_of(const Row& row, std::int64_t tick) noexcept {
   return sample;
 }
 
+JointRow joint_row_of(const Sample& sample) noexcept {
+  JointRow row;
+  for (int joint = 0; joint < kNumJoints; ++joint) {
+    row[joint] = fixed_point(sample.joint_position_rad[joint], 1e6);
+    row[kNumJoints + joint] = fixed_point(sample.joint_torque_n_m[joint], 1e4);
+  }
+  return row;
+}
+
+void take_joints(const JointRow& row, Sample& sample) noexcept {
+  for (int joint = 0; joint < kNumJoints; ++joint) {
+    sample.joint_position_rad[joint] =
+        static_cast<float>(number(row[joint], kJointPositionUnitRad));
+    sample.joint_torque_n_m[joint] =
+        static_cast<float>(number(row[kNumJoints + joint], kJointTorqueUnitNM));
+  }
+}
+
 /// Small magnitudes of either sign become small numbers.
 Word zigzag(Word difference) noexcept { return (difference << 1) ^ (0U - (difference >> 31)); }
 Word unzigzag(Word coded) noexcept { return (coded >> 1) ^ (0U - (coded & 1U)); }
@@ -109,11 +130,10 @@ void put_word(std::string& bytes, Word word) {
 
 /// Each channel: its first two values, the width of its differences in bytes, and their planes,
 /// lowest byte first.
-std::string planes(const std::vector<Row>& rows) {
-  std::string bytes;
-  bytes.reserve(rows.size() * 24);
+template <typename SomeRow>
+void put_planes(const std::vector<SomeRow>& rows, std::string& bytes) {
   std::vector<Word> coded(rows.size());
-  for (int channel = 0; channel < kNumChannels; ++channel) {
+  for (std::size_t channel = 0; channel < SomeRow().size(); ++channel) {
     put_word(bytes, rows[0][channel]);
     put_word(bytes, rows.size() > 1 ? rows[1][channel] : 0);
     Word used_bits = 0;
@@ -130,10 +150,9 @@ std::string planes(const std::vector<Row>& rows) {
       }
     }
   }
-  return bytes;
 }
 
-/// Reads what `planes` wrote; every length is checked, for the bytes may be damaged.
+/// Reads what `put_planes` wrote; every length is checked, for the bytes may be damaged.
 class PlaneReader {
  public:
   PlaneReader(std::string_view bytes, const std::string& place)
@@ -158,8 +177,9 @@ class PlaneReader {
     if (value > 4) fail();
     return value;
   }
+  [[nodiscard]] bool is_at_end() const noexcept { return bytes_.empty(); }
   void finish() const {
-    if (!bytes_.empty()) fail();
+    if (!is_at_end()) fail();
   }
   [[noreturn]] void fail() const {
     throw Error(place_ + ": expected a chunk of samples, found damaged bytes");
@@ -170,6 +190,30 @@ class PlaneReader {
   const std::string& place_;
 };
 
+template <typename SomeRow>
+std::vector<SomeRow> take_planes(PlaneReader& reader, std::size_t count) {
+  std::vector<SomeRow> rows(count);
+  for (std::size_t channel = 0; channel < SomeRow().size(); ++channel) {
+    rows[0][channel] = reader.word();
+    const Word second = reader.word();
+    if (count > 1) rows[1][channel] = second;
+    const int width = reader.width();
+    for (std::size_t i = 2; i < count; ++i) rows[i][channel] = 0;
+    for (int byte = 0; byte < width && count > 2; ++byte) {
+      const std::string_view plane = reader.take(count - 2);
+      for (std::size_t i = 2; i < count; ++i) {
+        rows[i][channel] |= static_cast<Word>(static_cast<unsigned char>(plane[i - 2]))
+                            << (8 * byte);
+      }
+    }
+    for (std::size_t i = 2; i < count; ++i) {
+      rows[i][channel] =
+          unzigzag(rows[i][channel]) + 2 * rows[i - 1][channel] - rows[i - 2][channel];
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::string encode_samples(const std::vector<Sample>& samples) {
@@ -177,7 +221,15 @@ std::string encode_samples(const std::vector<Sample>& samples) {
   std::vector<Row> rows;
   rows.reserve(samples.size());
   for (const Sample& sample : samples) rows.push_back(row_of(sample));
-  const std::string raw = planes(rows);
+  std::string raw;
+  raw.reserve(rows.size() * 24);
+  put_planes(rows, raw);
+  if (std::ranges::any_of(samples, has_joints)) {
+    std::vector<JointRow> joints;
+    joints.reserve(samples.size());
+    for (const Sample& sample : samples) joints.push_back(joint_row_of(sample));
+    put_planes(joints, raw);
+  }
   std::string bytes(ZSTD_compressBound(raw.size()), '\0');
   const std::size_t size =
       ZSTD_compress(bytes.data(), bytes.size(), raw.data(), raw.size(), /*compressionLevel=*/1);
@@ -201,37 +253,22 @@ std::vector<Sample> decode_samples(std::string_view bytes, std::int64_t first_ti
   }
   const auto count = static_cast<std::size_t>(num_samples);
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  const unsigned long long largest = kNumChannels * (9ULL + 4ULL * count);
+  const unsigned long long largest = (kNumChannels + kNumJointChannels) * (9ULL + 4ULL * count);
   if (size > largest) damaged.fail();  // The two error codes of zstd are larger still.
   std::string raw(size, '\0');
   if (ZSTD_decompress(raw.data(), raw.size(), bytes.data(), bytes.size()) != size)
     damaged.fail();
 
-  std::vector<Row> rows(count);
   PlaneReader reader(raw, place);
-  for (int channel = 0; channel < kNumChannels; ++channel) {
-    rows[0][channel] = reader.word();
-    const Word second = reader.word();
-    if (count > 1) rows[1][channel] = second;
-    const int width = reader.width();
-    for (std::size_t i = 2; i < count; ++i) rows[i][channel] = 0;
-    for (int byte = 0; byte < width && count > 2; ++byte) {
-      const std::string_view plane = reader.take(count - 2);
-      for (std::size_t i = 2; i < count; ++i) {
-        rows[i][channel] |= static_cast<Word>(static_cast<unsigned char>(plane[i - 2]))
-                            << (8 * byte);
-      }
-    }
-    for (std::size_t i = 2; i < count; ++i) {
-      rows[i][channel] =
-          unzigzag(rows[i][channel]) + 2 * rows[i - 1][channel] - rows[i - 2][channel];
-    }
-  }
+  const std::vector<Row> rows = take_planes<Row>(reader, count);
+  std::vector<JointRow> joints;
+  if (!reader.is_at_end()) joints = take_planes<JointRow>(reader, count);
   reader.finish();
   std::vector<Sample> samples;
   samples.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     samples.push_back(sample_of(rows[i], first_tick + static_cast<std::int64_t>(i)));
+    if (!joints.empty()) take_joints(joints[i], samples.back());
   }
   return samples;
 }

@@ -13,10 +13,13 @@ namespace jnd::core {
 inline constexpr double kPositionUnitM = 1e-7;      ///< 0.1 um
 inline constexpr double kVelocityUnitMPerS = 1e-4;  ///< 0.1 mm/s
 inline constexpr double kForceUnitN = 1e-3;         ///< 1 mN
+inline constexpr double kJointPositionUnitRad = 1e-6;
+inline constexpr double kJointTorqueUnitNM = 1e-4;
 
 /// Samples of consecutive ticks as bytes: fixed point, tips relative to the first tip, second
-/// differences, byte planes, zstd. A value that is not finite comes back as NaN; one beyond the
-/// range of 32 bits comes back as the largest. Not real time.
+/// differences, byte planes, zstd; the joints' channels only if one of them is not 0. A value
+/// that is not finite comes back as NaN; one beyond the range of 32 bits comes back as the
+/// largest. Not real time.
 [[nodiscard]] std::string encode_samples(const std::vector<Sample>& samples);
 
 /// The inverse, to half a unit. Throws `Error` naming `place` if the bytes are damaged.

@@ -159,6 +159,7 @@ void StudyStore::append(const Commit& commit) {
   if (!my.insert_event) {
     throw Error(my.file.string() + ": expected to write an event, found it opened read-only");
   }
+  my.database.require_in_place();
   Transaction transaction(my.database);
   const EventRow& event = commit.event;
   if (!my.last_sequence->bind(event.session).step()) my.database.fail("last sequence");

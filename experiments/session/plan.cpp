@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <type_traits>
 
 #include "core/hand.h"
@@ -20,10 +22,42 @@ double total_duration_s(const std::vector<Exploration>& explorations) {
   return duration_s;
 }
 
+/// The most that a hand feels at this speed, whichever way it is turned.
+double moving_force_n(const core::MediumAmounts& amounts, const core::ForceMap* map,
+                      double speed_m_per_s) {
+  constexpr int kNumAngles = 90;
+  double most_n = 0.0;
+  for (int i = 0; i <= kNumAngles; ++i) {
+    const double angle_rad = 0.5 * std::numbers::pi * i / kNumAngles;
+    const core::HandMotion motion = {.velocity_m_per_s = {speed_m_per_s, 0.0, 0.0},
+                                     .speed_m_per_s = speed_m_per_s,
+                                     .sin_angle_of_attack = std::sin(angle_rad)};
+    const double lift = map == nullptr ? 0.0 : map->at(angle_rad, speed_m_per_s).lift;
+    most_n = std::max(most_n,
+                      std::hypot(amounts.drag_n(motion, map),
+                                 amounts.lift_kg_per_m * lift * speed_m_per_s * speed_m_per_s));
+  }
+  return most_n + amounts.ellipsoid_normal_n_s_per_m * speed_m_per_s;
+}
+
+/// The speed at which the moving hand feels `most_n`; none for a medium that resists no motion.
+std::optional<double> fits_up_to_m_per_s(const core::MediumAmounts& amounts,
+                                         const core::ForceMap* map, double most_n) {
+  if (!(moving_force_n(amounts, map, 1.0) > 0.0)) return std::nullopt;
+  double fits = 0.0;
+  double too_fast = 1000.0;
+  for (int halving = 0; halving < 80; ++halving) {
+    const double speed = 0.5 * (fits + too_fast);
+    (moving_force_n(amounts, map, speed) <= most_n ? fits : too_fast) = speed;
+  }
+  return fits;
+}
+
 /// Collects the settings of a study's stages, arms included, each once for a stage.
 class RangeCollector {
  public:
-  explicit RangeCollector(const RangeLimits& limits) : limits_(limits) {}
+  RangeCollector(const RangeLimits& limits, const core::ForceMap* map)
+      : limits_(limits), map_(map) {}
 
   void add(const std::vector<Stage>& stages) {
     for (const Stage& stage : stages) add(stage);
@@ -45,7 +79,7 @@ class RangeCollector {
       if (block->max_intensity) intensities.push_back(*block->max_intensity);
       std::sort(intensities.begin(), intensities.end());
       for (const double intensity : intensities) {
-        add(stage, {block->medium, block->quantity, intensity});
+        add(stage, setting_of(*block, "test", intensity));
       }
     } else if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
       for (const Counterbalance::Arm& arm : counterbalance->arms) add(arm.stages);
@@ -56,38 +90,32 @@ class RangeCollector {
   void add(const Stage& stage, const MediumSetting& setting) {
     for (const RangeEntry& known : entries) {
       if (known.stage == stage.name && known.setting.medium == setting.medium &&
-          known.setting.intensity == setting.intensity) {
+          known.setting.intensity == setting.intensity &&
+          known.setting.buoyancy_n == setting.buoyancy_n &&
+          known.setting.friction_ratio == setting.friction_ratio) {
         return;
       }
     }
     const core::MediumAmounts amounts = amounts_of(setting);
-    const core::HandMotion motion = {
-        .velocity_m_per_s = {limits_.expected_speed_m_per_s, 0.0, 0.0},
-        .speed_m_per_s = limits_.expected_speed_m_per_s,
-        .sin_angle_of_attack = 1.0};
     const double share =
         *std::max_element(core::kAreaShareRatio.begin(), core::kAreaShareRatio.end());
     RangeEntry entry;
     entry.stage = stage.name;
     entry.setting = setting;
     entry.total_force_n =
-        amounts.drag_n(motion) + amounts.plane_stiffness_n_per_m * limits_.expected_depth_m;
+        moving_force_n(amounts, map_, limits_.expected_speed_m_per_s) + amounts.buoyancy_n +
+        std::hypot(amounts.plane_stiffness_n_per_m, amounts.plane_friction_n_per_m) *
+            limits_.expected_depth_m;
     entry.largest_point_force_n = share * entry.total_force_n;
     const double most_n =
         std::min(limits_.max_total_force_n, limits_.max_force_per_point_n / share);
     entry.fits = entry.total_force_n <= most_n;
-    // quadratic v^2 + linear v = most, in the form that keeps its digits where one is 0.
-    const double quadratic =
-        amounts.quadratic_kg_per_m * core::WaterDrag::drag_coefficient(1.0);
-    const double linear = amounts.damping_n_s_per_m;
-    if (quadratic > 0.0 || linear > 0.0) {
-      entry.fits_up_to_m_per_s =
-          2.0 * most_n / (linear + std::sqrt(linear * linear + 4.0 * quadratic * most_n));
-    }
+    entry.fits_up_to_m_per_s = fits_up_to_m_per_s(amounts, map_, most_n - amounts.buoyancy_n);
     entries.push_back(entry);
   }
 
   const RangeLimits& limits_;
+  const core::ForceMap* map_;
 };
 
 }  // namespace
@@ -157,7 +185,8 @@ std::vector<std::string> completed_cells(const core::StudyStore& store) {
 }
 
 std::vector<RangeEntry> planned_range(const Study& study, const RangeLimits& limits) {
-  RangeCollector collector(limits);
+  const std::unique_ptr<const core::ForceMap> map = force_map_of(study.device);
+  RangeCollector collector(limits, map.get());
   collector.add(study.stages);
   return std::move(collector.entries);
 }

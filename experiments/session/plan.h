@@ -61,7 +61,7 @@ struct PlanRequest {
 struct RangeLimits {
   double max_force_per_point_n;         ///< > 0.
   double max_total_force_n;             ///< > 0.
-  double expected_speed_m_per_s = 0.5;  ///< > 0; the hand head on to its motion.
+  double expected_speed_m_per_s = 0.5;  ///< > 0; the hand turned to where it feels the most.
   double expected_depth_m = 0.01;       ///< > 0; of the hand in a solid surface.
 };
 
@@ -72,7 +72,8 @@ struct RangeEntry {
   double total_force_n = 0.0;          ///< On the whole hand, at the expected speed or depth.
   double largest_point_force_n = 0.0;  ///< On the point with the largest share.
   bool fits = false;
-  /// The speed up to which both limits hold; none for a medium that does not resist motion.
+  /// The speed up to which both limits hold, at most 1000 m/s; none for a medium that does not
+  /// resist motion.
   std::optional<double> fits_up_to_m_per_s;
 };
 

@@ -66,11 +66,18 @@ const ParameterTable& block_table() {
          .meaning =
              "What is felt. `water`: drag that grows with the square of speed, varied by "
              "`scale`. `viscous`: drag that grows with speed, varied by "
-             "`viscosity_pa_s`. `viscous_stokes`: the same with the constant of a sphere.",
-         .allowed = {"water", "viscous", "viscous_stokes"}}};
-    add_quantity(own, "scale", "", {0.0, 99.0, false}, {"water"});
-    add_quantity(own, "viscosity_pa_s", "Pa s", {0.0, 1000.0, true},
-                 {"viscous", "viscous_stokes"});
+             "`viscosity_pa_s`. `viscous_stokes`: the same with the constant of a sphere. "
+             "`water_map`: water with the drag and lift of the study's `force_map`. "
+             "`viscous_schiller_naumann`: viscous with the fluid's inertia, up to a Reynolds "
+             "number (100 speed / viscosity, SI units) of 800. `viscous_ellipsoid`: viscous "
+             "about an ellipsoid that turns with the hand.",
+         .allowed = {"water", "viscous", "viscous_stokes", "water_map",
+                     "viscous_schiller_naumann", "viscous_ellipsoid"}}};
+    add_quantity(own, "scale", "", {0.0, 99.0, false}, {"water", "water_map"});
+    add_quantity(
+        own, "viscosity_pa_s", "Pa s", {0.0, 1000.0, true},
+        {"viscous", "viscous_stokes", "viscous_schiller_naumann", "viscous_ellipsoid"});
+    own.push_back(buoyancy_parameter());
     own.push_back({.key = "target_percent",
                    .kind = ValueKind::kNumbers,
                    .meaning = "What the stimulus should feel like, one repetition for each.",

@@ -7,13 +7,43 @@
 namespace jnd::experiments {
 namespace {
 
+const ParameterTable& force_map_row_table() {
+  static const ParameterTable kTable = {
+      .name = "force_map_row",
+      .meaning = "Coefficients of the hand's drag and lift at one angle and one speed.",
+      .parameters = {
+          {.key = "angle_of_attack_rad",
+           .kind = ValueKind::kNumber,
+           .meaning = "Between the hand plane and its motion: 0 edge on, pi/2 head on.",
+           .unit = "rad",
+           .range = {0.0, 1.571}},
+          {.key = "speed_m_per_s",
+           .kind = ValueKind::kNumber,
+           .meaning = "Of the hand.",
+           .unit = "m/s",
+           .range = {0.0, 100.0}},
+          {.key = "drag_coefficient",
+           .kind = ValueKind::kNumber,
+           .meaning = "Drag over 1/2 density speed^2 area.",
+           .range = {0.0, 100.0}},
+          {.key = "lift_coefficient",
+           .kind = ValueKind::kNumber,
+           .meaning = "Lift over the same; 0 at the angles 0 and pi/2.",
+           .required = false,
+           .default_json = "0.0",
+           .range = {-100.0, 100.0}},
+      }};
+  return kTable;
+}
+
 const ParameterTable& immersion_table() {
   static const ParameterTable kTable = {
       .name = "immersion",
       .meaning =
           "Where the fluid is: below a surface, in a cylinder with a vertical axis. "
-          "Workspace frame, z up.",
-      .example = R"({"radius_m": 0.25, "depth_m": 0.3})",
+          "Workspace frame, z up. With a stiffness the cylinder is a solid container: with "
+          "`radius_m` and `depth_m` a bucket, with `depth_m` alone a floor below the fluid.",
+      .example = R"({"radius_m": 0.25, "depth_m": 0.3, "wall_stiffness_n_per_m": 1000})",
       .parameters = {
           {.key = "radius_m",
            .kind = ValueKind::kNumber,
@@ -48,6 +78,19 @@ const ParameterTable& immersion_table() {
            .default_json = "0.0",
            .unit = "m",
            .range = {-10.0, 10.0}},
+          {.key = "wall_stiffness_n_per_m",
+           .kind = ValueKind::kNumber,
+           .meaning = "Stiffness of wall and bottom against the whole hand, in free space too. "
+                      "Absent: the fluid ends there, and nothing else.",
+           .required = false,
+           .unit = "N/m",
+           .range = {0.0, 100000.0, true}},
+          {.key = "wall_friction_ratio",
+           .kind = ValueKind::kNumber,
+           .meaning = "Friction of wall and bottom over the force pressing on them.",
+           .required = false,
+           .default_json = "0.0",
+           .range = {0.0, 10.0}},
       }};
   return kTable;
 }
@@ -83,6 +126,13 @@ const ParameterTable& device_table() {
            .meaning = "Where the fluid is. Absent: everywhere below the height 0.",
            .required = false,
            .nested = &immersion_table()},
+          {.key = "force_map",
+           .kind = ValueKind::kObjects,
+           .meaning = "Drag and lift of the hand in `water_map`: every angle with every speed. "
+                      "Absent: the fit of the thesis, without lift.",
+           .required = false,
+           .min_items = 2,
+           .nested = &force_map_row_table()},
       }};
   return kTable;
 }
@@ -170,7 +220,7 @@ const ParameterTable* stage_table(std::string_view kind) noexcept {
 const std::vector<const ParameterTable*>& all_tables() {
   static const std::vector<const ParameterTable*> kAll = [] {
     std::vector<const ParameterTable*> tables = {&study_table(), &device_table(),
-                                                 &immersion_table()};
+                                                 &immersion_table(), &force_map_row_table()};
     for (const ParameterTable* stage : stage_tables()) {
       tables.push_back(stage);
       for (const Parameter& parameter : stage->parameters) {
@@ -204,6 +254,12 @@ const std::vector<MediumQuantity>& media() {
        "dynamic viscosity of a thick fluid; honey has about 10"},
       {"viscous_stokes", "viscosity_pa_s", "Pa s", kViscosity,
        "dynamic viscosity, rendered as the drag of a sphere of the hand's surface"},
+      {"water_map", "scale", "", kScale,
+       "factor on the drag and lift of the study's `force_map`"},
+      {"viscous_schiller_naumann", "viscosity_pa_s", "Pa s", kViscosity,
+       "dynamic viscosity, with the drag of the fluid's inertia on top"},
+      {"viscous_ellipsoid", "viscosity_pa_s", "Pa s", kViscosity,
+       "dynamic viscosity, rendered as the drag of an ellipsoid that turns with the hand"},
       {"solid",
        "stiffness_n_per_m",
        "N/m",

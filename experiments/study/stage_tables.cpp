@@ -256,7 +256,32 @@ std::vector<Parameter> setting_parameters(std::vector<Parameter> own) {
                           .range = entry.range,
                           .only_where = {{"medium", {entry.medium}}}});
   }
+  parameters.push_back({.key = "friction_ratio",
+                        .kind = ValueKind::kNumber,
+                        .meaning = "Friction of the surface over the force pressing on it.",
+                        .required = false,
+                        .default_json = "0.0",
+                        .range = {0.0, 10.0},
+                        .only_where = {{"medium", {"solid"}}}});
+  parameters.push_back(buoyancy_parameter());
   return joined(std::move(parameters), std::move(own));
+}
+
+Parameter buoyancy_parameter() {
+  Condition fluid = {"medium", {}};
+  for (const MediumQuantity& entry : media()) {
+    if (!entry.quantity.empty() && entry.medium != "solid")
+      fluid.values.push_back(entry.medium);
+  }
+  return {
+      .key = "buoyancy_n",
+      .kind = ValueKind::kNumber,
+      .meaning = "Upward force of the fluid on the whole hand, where it is deeper than 3 cm.",
+      .required = false,
+      .default_json = "0.0",
+      .unit = "N",
+      .range = {0.0, 100.0},
+      .only_where = {std::move(fluid)}};
 }
 
 const std::vector<const ParameterTable*>& stage_tables() {

@@ -13,6 +13,9 @@ namespace jnd::experiments {
 /// `medium` and, in the unit of its key, the one value of its quantity; then `own`.
 [[nodiscard]] std::vector<Parameter> setting_parameters(std::vector<Parameter> own);
 
+/// `buoyancy_n`, which every fluid may have.
+[[nodiscard]] Parameter buoyancy_parameter();
+
 [[nodiscard]] const ParameterTable& block_table();
 [[nodiscard]] const ParameterTable& questionnaire_table();
 

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/media/force_map.h"
 #include "core/media/immersion.h"
 
 namespace jnd::experiments {
@@ -15,9 +16,11 @@ using Text = std::map<std::string, std::string>;
 
 /// A medium as a study names it, with its one varied quantity.
 struct MediumSetting {
-  std::string medium;    ///< "free_space", "water", "viscous", "viscous_stokes" or "solid".
+  std::string medium;    ///< One of `media()`: "free_space", "water", "viscous", "solid" ...
   std::string quantity;  ///< "scale", "viscosity_pa_s", "stiffness_n_per_m"; "" for free_space.
-  double intensity = 0.0;  ///< In the unit of `quantity`.
+  double intensity = 0.0;       ///< In the unit of `quantity`.
+  double friction_ratio = 0.0;  ///< Of a solid, >= 0.
+  double buoyancy_n = 0.0;      ///< Of a fluid, >= 0.
 };
 
 /// A medium to be explored for some time outside of any trial.
@@ -57,8 +60,9 @@ struct Training {
 struct Block {
   std::string
       procedure;       ///< "magnitude_estimation", "magnitude_production", "constant_stimuli".
-  std::string medium;  ///< "water", "viscous", "viscous_stokes".
-  std::string quantity;  ///< "scale" or "viscosity_pa_s".
+  std::string medium;  ///< One of `media()` that is a fluid.
+  std::string quantity;     ///< "scale" or "viscosity_pa_s".
+  double buoyancy_n = 0.0;  ///< Of the fluid, >= 0.
   Text instruction;
   Text question;                    ///< What the participant is asked in every trial.
   Text yes_label, no_label;         ///< What the two answers are called; may be empty.
@@ -149,7 +153,10 @@ struct DeviceNeeds {
   int min_contact_points = 5;
   double rate_hz = 1000.0;
   double ramp_s = 0.050;
-  core::Immersion immersion;  ///< Infinite surface unless the study says otherwise.
+  core::Immersion immersion;            ///< Infinite surface unless the study says otherwise.
+  double wall_stiffness_n_per_m = 0.0;  ///< Where the immersion ends; 0 is no wall.
+  double wall_friction_ratio = 0.0;     ///< >= 0.
+  std::vector<core::ForceMap::Row> force_map;  ///< Empty: none, the thesis's fit.
 };
 
 /// A study file, checked and with every default filled in.

@@ -88,6 +88,8 @@ MediumSetting setting(const ObjectReader& in) {
   MediumSetting setting = {.medium = in.string("medium"), .quantity = "", .intensity = 0.0};
   setting.quantity = quantity_of(setting.medium);
   if (!setting.quantity.empty()) setting.intensity = in.number(setting.quantity);
+  setting.friction_ratio = in.number("friction_ratio");
+  setting.buoyancy_n = in.number("buoyancy_n");
   return setting;
 }
 
@@ -122,6 +124,7 @@ Block block(const ObjectReader& in) {
   block.procedure = in.string("procedure");
   block.medium = in.string("medium");
   block.quantity = quantity_of(block.medium);
+  block.buoyancy_n = in.number("buoyancy_n");
   block.instruction = in.text("instruction");
   block.question = in.text("question");
   if (block.procedure == "constant_stimuli") {
@@ -246,6 +249,15 @@ DeviceNeeds device_needs(const ObjectReader& in) {
   needs.immersion.origin_x_m = immersion.number("origin_x_m");
   needs.immersion.origin_y_m = immersion.number("origin_y_m");
   needs.immersion.origin_z_m = immersion.number("origin_z_m");
+  needs.wall_stiffness_n_per_m =
+      immersion.optional_number("wall_stiffness_n_per_m").value_or(0.0);
+  needs.wall_friction_ratio = immersion.number("wall_friction_ratio");
+  in.each_object("force_map", [&](const ObjectReader& row, std::size_t) {
+    needs.force_map.push_back({.angle_of_attack_rad = row.number("angle_of_attack_rad"),
+                               .speed_m_per_s = row.number("speed_m_per_s"),
+                               .drag_coefficient = row.number("drag_coefficient"),
+                               .lift_coefficient = row.number("lift_coefficient")});
+  });
   return needs;
 }
 

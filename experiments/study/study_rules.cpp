@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/error.h"
+#include "core/media/force_map.h"
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/shown_text.h"
 #include "experiments/study/structure_check.h"
@@ -54,6 +56,7 @@ class Rules {
     check_stages(stages, "/stages", false);
     check_num_cells();
     check_num_trials();
+    check_force_map();
   }
 
  private:
@@ -99,6 +102,38 @@ class Rules {
       report("/stages", "expected counterbalances that cross to at most " +
                             plain_number(kMostCells) + " cells, found " +
                             plain_number(num_cells_));
+    }
+  }
+
+  /// What one row alone cannot show: angles and speeds that make a grid, lift that has a side.
+  void check_force_map() {
+    const std::string pointer = "/device/force_map";
+    const auto device = file_.root().find("device");
+    if (device == file_.root().end() || !device->is_object()) return;
+    const json& listed = list(*device, "force_map");
+    if (listed.empty()) return;
+    for (const StudyProblem& problem : problems_) {
+      if (problem.pointer.starts_with(pointer)) return;
+    }
+    std::vector<core::ForceMap::Row> rows;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      if (!listed[i].is_object()) return;
+      const json* angle = number(listed[i], "angle_of_attack_rad");
+      const json* speed = number(listed[i], "speed_m_per_s");
+      const json* drag = number(listed[i], "drag_coefficient");
+      const json* lift = number(listed[i], "lift_coefficient");
+      // What each row lacks is reported already, unless there was too much to report.
+      if (angle == nullptr || speed == nullptr || drag == nullptr) return;
+      rows.push_back({.angle_of_attack_rad = angle->get<double>(),
+                      .speed_m_per_s = speed->get<double>(),
+                      .drag_coefficient = drag->get<double>(),
+                      .lift_coefficient = lift == nullptr ? 0.0 : lift->get<double>(),
+                      .line = file_.value_position(pointer + '/' + std::to_string(i)).line});
+    }
+    try {
+      const core::ForceMap map(std::move(rows));
+    } catch (const core::Error& error) {
+      report(pointer, error.what());
     }
   }
 

@@ -30,7 +30,7 @@ void full_tick(benchmark::State& state) {
   commands.publish({.sequence = 1,
                     .medium = core::viscous({.viscosity_pa_s = 1.853}),
                     .immersion = {.origin_z_m = 1.0}});
-  hand.begin_strokes({}, core::RandomStream(1, "bench"));
+  hand.simulated_hand()->begin_strokes({}, core::RandomStream(1, "bench"));
   for (auto _ : state) {
     loop.tick();
     if (samples.num_free() == 0) {

@@ -55,7 +55,7 @@ void encode_chunk(benchmark::State& state) {
   device::HapticLoop loop({}, hand, {commands, telemetry, stop, &queue});
   hand.open();
   commands.publish({.sequence = 1, .medium = water({})});
-  hand.begin_strokes({}, RandomStream(1, "bench"));
+  hand.simulated_hand()->begin_strokes({}, RandomStream(1, "bench"));
   for (int i = 0; i < 4096; ++i) loop.tick();
   std::vector<Sample> samples;
   queue.drain([&samples](const Sample& sample) { samples.push_back(sample); });

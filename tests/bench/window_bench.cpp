@@ -31,7 +31,13 @@ class Walk {
   explicit Walk(MeasuredWindow& window) : window_(window), person_(window.person()) {}
 
   void to(const std::string& view) {
-    if (view == "session") return to_session();
+    if (view == "session") return to_session("lumped");
+    if (view == "apparatus") {
+      to_session("exoskeleton");
+      person_.use("apparatus");
+      person_.wait_for_view("apparatus");
+      return;
+    }
     const fs::path study = thirteen_participants();
     person_.start({"run", "viscosity_discrimination", "--study", study.string(),
                    "--participant", "P99", "--device", "lumped"});
@@ -52,11 +58,11 @@ class Walk {
 
  private:
   /// The second presentation of a trial, the hand going to and fro.
-  void to_session() {
+  void to_session(const std::string& device) {
     write_file(window_.path("study.json"), study_of(kComparison));
     person_.start({"run", window_.path("study.json").string(), "--study",
-                   window_.path("a.study").string(), "--participant", "P01", "--device",
-                   "lumped", "--seed", "7"});
+                   window_.path("a.study").string(), "--participant", "P01", "--device", device,
+                   "--seed", "7"});
     person_.use("start_session");
     person_.use("begin");
     person_.use("present");
@@ -117,12 +123,12 @@ void window_idle(benchmark::State& state, const std::string& view) {
 
 int register_views() {
   for (const std::string view :
-       {"start", "prepare", "session", "sessions", "results", "study"}) {
+       {"start", "prepare", "session", "apparatus", "sessions", "results", "study"}) {
     benchmark::RegisterBenchmark(("window_frame/" + view).c_str(), window_frame, view)
         ->Iterations(1)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
-    if (view == "session") continue;  // It is never idle.
+    if (view == "session" || view == "apparatus") continue;  // They are never idle.
     benchmark::RegisterBenchmark(("window_idle/" + view).c_str(), window_idle, view)
         ->Iterations(1)
         ->UseManualTime()

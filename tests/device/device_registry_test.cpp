@@ -13,10 +13,11 @@ namespace {
 TEST(DeviceRegistry, EveryDeviceIsMadeUnderItsOwnName) {
   std::set<std::string> names;
   for (const DeviceEntry& entry : devices()) {
-    const auto device = entry.make(1000.0);
+    const auto device = entry.make("", 1000.0);
     ASSERT_NE(device, nullptr);
     EXPECT_EQ(device->name(), entry.name);
-    EXPECT_EQ(&device_named(entry.name), &entry);
+    const std::string argument = entry.argument.empty() ? "" : ":127.0.0.1:4700";
+    EXPECT_EQ(&device_named(std::string(entry.name) + argument), &entry);
     EXPECT_FALSE(entry.description.empty());
     names.emplace(entry.name);
   }
@@ -25,7 +26,7 @@ TEST(DeviceRegistry, EveryDeviceIsMadeUnderItsOwnName) {
 }
 
 TEST(DeviceRegistry, OneOfThemNeverStarts) {
-  const auto device = device_named("unplugged").make(1000.0);
+  const auto device = make_device("unplugged", 1000.0);
   EXPECT_THROW(device->open(), core::Error);
   core::HapticState state;
   EXPECT_FALSE(device->read(state));
@@ -37,8 +38,16 @@ TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
     static_cast<void>(device_named("phantom"));
     FAIL() << "a device that does not exist was found";
   } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(), "device: expected one of lumped, mouse, unplugged, found phantom");
+    EXPECT_STREQ(error.what(),
+                 "device: expected one of lumped, exoskeleton, mouse, network:HOST:PORT, "
+                 "unplugged, found phantom");
   }
+}
+
+TEST(DeviceRegistry, AnArgumentThatIsMissingOrTooMuchIsNamed) {
+  EXPECT_THROW(static_cast<void>(device_named("network")), core::Error);
+  EXPECT_THROW(static_cast<void>(device_named("lumped:1")), core::Error);
+  EXPECT_THROW(static_cast<void>(make_device("network:nowhere", 1000.0)), core::Error);
 }
 
 }  // namespace

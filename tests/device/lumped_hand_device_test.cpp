@@ -30,8 +30,8 @@ struct Laboratory {
   /// What was felt over these strokes.
   core::ContactSums stroke(const StrokePlan& plan, std::int64_t trial = 1) {
     const core::ContactSums from = hand.contact_sums();
-    hand.begin_strokes(plan, core::RandomStream(5, "stroke", {trial}));
-    while (hand.strokes_finished() < plan.num_strokes) tick();
+    hand.simulated_hand()->begin_strokes(plan, core::RandomStream(5, "stroke", {trial}));
+    while (hand.simulated_hand()->strokes_finished() < plan.num_strokes) tick();
     return hand.contact_sums() - from;
   }
 
@@ -145,9 +145,10 @@ TEST(LumpedHandDevice, TheContactSumsLeaveWithTheTelemetry) {
 
 TEST(LumpedHandDevice, OpenedAgainItStartsAfresh) {
   Laboratory laboratory;
-  EXPECT_TRUE(laboratory.hand.is_home());
-  laboratory.hand.begin_strokes({}, core::RandomStream(1, "stroke"));
-  EXPECT_FALSE(laboratory.hand.is_home()) << "even before the loop has heard of it";
+  EXPECT_TRUE(laboratory.hand.simulated_hand()->is_home());
+  laboratory.hand.simulated_hand()->begin_strokes({}, core::RandomStream(1, "stroke"));
+  EXPECT_FALSE(laboratory.hand.simulated_hand()->is_home())
+      << "even before the loop has heard of it";
   for (int tick = 0; tick < 500; ++tick) laboratory.tick();
   laboratory.hand.open();
   EXPECT_EQ(laboratory.hand.contact_sums().num_ticks, 0);
@@ -177,27 +178,30 @@ TEST(LumpedHandDevice, AThickerMediumSlowsTheHandDown) {
 TEST(LumpedHandDevice, IsBackHomeWithinASecondInFreeSpace) {
   Laboratory laboratory;
   laboratory.stroke({.num_strokes = 1});
-  laboratory.hand.go_home();
-  EXPECT_FALSE(laboratory.hand.is_home());
+  laboratory.hand.simulated_hand()->go_home();
+  EXPECT_FALSE(laboratory.hand.simulated_hand()->is_home());
   for (int tick = 0; tick < 900; ++tick) laboratory.tick();
-  EXPECT_TRUE(laboratory.hand.is_home());
+  EXPECT_TRUE(laboratory.hand.simulated_hand()->is_home());
   EXPECT_NEAR(laboratory.telemetry.value().hand_position_m[0], 0.0, 0.002);
 }
 
 TEST(LumpedHandDevice, CountsTheStrokesOfTheOrderInForceAlone) {
   Laboratory laboratory;
   laboratory.stroke({.num_strokes = 2});
-  EXPECT_EQ(laboratory.hand.strokes_finished(), 2);
-  laboratory.hand.begin_strokes({.num_strokes = 1}, core::RandomStream(1, "stroke"));
-  EXPECT_EQ(laboratory.hand.strokes_finished(), 0) << "even before the loop has heard of it";
-  EXPECT_FALSE(laboratory.hand.is_home());
+  EXPECT_EQ(laboratory.hand.simulated_hand()->strokes_finished(), 2);
+  laboratory.hand.simulated_hand()->begin_strokes({.num_strokes = 1},
+                                                  core::RandomStream(1, "stroke"));
+  EXPECT_EQ(laboratory.hand.simulated_hand()->strokes_finished(), 0)
+      << "even before the loop has heard of it";
+  EXPECT_FALSE(laboratory.hand.simulated_hand()->is_home());
   laboratory.tick();
-  EXPECT_EQ(laboratory.hand.strokes_finished(), 0);
-  while (laboratory.hand.strokes_finished() < 1) laboratory.tick();
-  laboratory.hand.go_home();
-  EXPECT_EQ(laboratory.hand.strokes_finished(), 1) << "going home takes none away";
+  EXPECT_EQ(laboratory.hand.simulated_hand()->strokes_finished(), 0);
+  while (laboratory.hand.simulated_hand()->strokes_finished() < 1) laboratory.tick();
+  laboratory.hand.simulated_hand()->go_home();
+  EXPECT_EQ(laboratory.hand.simulated_hand()->strokes_finished(), 1)
+      << "going home takes none away";
   laboratory.tick();
-  EXPECT_EQ(laboratory.hand.strokes_finished(), 1);
+  EXPECT_EQ(laboratory.hand.simulated_hand()->strokes_finished(), 1);
 }
 
 TEST(LumpedHandDevice, RepeatsARunToTheBit) {
@@ -241,7 +245,8 @@ TEST(LumpedHandDevice, NamesTheParameterItRejects) {
   // 20 N s/m of arm damping would throw 10 g about within two periods.
   EXPECT_THROW(LumpedHandDevice(Parameters{.mass_kg = 0.01}), core::Error);
   Laboratory laboratory;
-  EXPECT_THROW(laboratory.hand.begin_strokes({.amplitude_m = nan}, core::RandomStream(1, "")),
+  EXPECT_THROW(laboratory.hand.simulated_hand()->begin_strokes({.amplitude_m = nan},
+                                                               core::RandomStream(1, "")),
                core::Error);
 }
 

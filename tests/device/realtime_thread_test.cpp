@@ -173,14 +173,15 @@ TEST(RealtimeThread, TheArmTakesItsOrdersFromAnotherThread) {
   RealtimeThread thread(kModest);
   thread.start(loop);
   doors.commands.publish({.sequence = 1, .medium = core::water({})});
-  hand.begin_strokes({.amplitude_m = 0.01, .max_speed_m_per_s = 1.0, .num_strokes = 1},
-                     core::RandomStream(1, "stroke"));
-  while (hand.strokes_finished() < 1) {
+  hand.simulated_hand()->begin_strokes(
+      {.amplitude_m = 0.01, .max_speed_m_per_s = 1.0, .num_strokes = 1},
+      core::RandomStream(1, "stroke"));
+  while (hand.simulated_hand()->strokes_finished() < 1) {
     doors.telemetry.fetch();
     std::this_thread::yield();
   }
   thread.stop();
-  EXPECT_EQ(hand.strokes_finished(), 1);
+  EXPECT_EQ(hand.simulated_hand()->strokes_finished(), 1);
   EXPECT_EQ(doors.telemetry.value().fault, core::Fault::kNone);
 }
 

@@ -29,10 +29,17 @@ constexpr int kNumTicks = 20'000;
 constexpr const char* kSanitizer = "a sanitizer has these functions for itself";
 
 core::MediumAmounts everything() {
-  core::MediumAmounts medium = core::solid({.stiffness_n_per_m = 100.0});
-  medium.quadratic_kg_per_m = 7.0;
-  medium.damping_n_s_per_m = 50.0;
-  return medium;
+  return core::solid({.stiffness_n_per_m = 100.0, .friction_ratio = 0.5}) +
+         core::container({.stiffness_n_per_m = 100.0, .friction_ratio = 0.5}) +
+         core::water({}) + core::mapped_water({}) +
+         core::viscous_inertial({.viscosity_pa_s = 10.0}) +
+         core::ellipsoid({.viscosity_pa_s = 10.0}) + core::buoyant(3.0);
+}
+
+const core::ForceMap& some_map() {
+  static const core::ForceMap map(
+      {{0.0, 1.0, 0.2, 0.0}, {0.8, 1.0, 0.6, 0.5}, {1.571, 1.0, 0.9, 0.0}});
+  return map;
 }
 
 enum class Which { kScripted, kLumped, kMouse };
@@ -42,13 +49,14 @@ struct Scene {
   Scene(std::vector<ScheduledFault> faults, Which which, std::size_t queue_capacity)
       : samples(queue_capacity),
         faulty(device(which), std::move(faults)),
-        loop({}, faulty, {commands, telemetry, stop, &samples, &heartbeat}) {
+        loop({.workspace = {.half_width_x_m = 100.0}, .force_map = &some_map()}, faulty,
+             {commands, telemetry, stop, &samples, &heartbeat}) {
     // What the test's own device remembers is in place before.
     scripted.received.resize(kNumTicks);
     scripted.received.clear();
     scripted.move_all({0.05, 0.0, 0.0});
     faulty.open();
-    hand.begin_strokes({}, core::RandomStream(1, "stroke"));
+    hand.simulated_hand()->begin_strokes({}, core::RandomStream(1, "stroke"));
   }
 
   HapticDevice& device(Which which) {

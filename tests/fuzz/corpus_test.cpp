@@ -15,6 +15,8 @@ int csv_fuzz_input(const std::uint8_t* data, std::size_t size);
 int event_fuzz_input(const std::uint8_t* data, std::size_t size);
 int recording_fuzz_input(const std::uint8_t* data, std::size_t size);
 int laboratory_fuzz_input(const std::uint8_t* data, std::size_t size);
+int datagram_fuzz_input(const std::uint8_t* data, std::size_t size);
+int force_map_fuzz_input(const std::uint8_t* data, std::size_t size);
 }
 
 namespace {
@@ -54,6 +56,14 @@ TEST(FuzzCorpus, EventsAreReadAndFoldedOrRefusedWithASentence) {
 
 TEST(FuzzCorpus, ChunksOfSamplesAreReadOrRefusedWithASentence) {
   expect_sound(recording_fuzz_input, "tests/fuzz/corpus/recording");
+}
+
+TEST(FuzzCorpus, ForceMapsAreReadOrRefusedWithASentence) {
+  expect_sound(force_map_fuzz_input, "tests/fuzz/corpus/force_map");
+}
+
+TEST(FuzzCorpus, DatagramsAreReadOrRefused) {
+  expect_sound(datagram_fuzz_input, "tests/fuzz/corpus/datagram");
 }
 
 TEST(FuzzCorpus, LaboratoriesAreReadOrRefusedWithASentence) {

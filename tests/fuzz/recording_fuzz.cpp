@@ -33,6 +33,13 @@ void check_same(const Sample& a, const Sample& b) {
     check_vector(a.tip_force_n[point], b.tip_force_n[point]);
   }
   check_vector(a.end_effector_position_m, b.end_effector_position_m);
+  for (std::size_t joint = 0; joint < a.joint_position_rad.size(); ++joint) {
+    fuzz::property(std::bit_cast<std::uint32_t>(a.joint_position_rad[joint]) ==
+                           std::bit_cast<std::uint32_t>(b.joint_position_rad[joint]) &&
+                       std::bit_cast<std::uint32_t>(a.joint_torque_n_m[joint]) ==
+                           std::bit_cast<std::uint32_t>(b.joint_torque_n_m[joint]),
+                   "a decoded joint is stored as it is");
+  }
 }
 
 /// What decodes is samples: encoded and decoded again they are the same.

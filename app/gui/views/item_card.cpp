@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "app/gui/views/run_parts.h"
+#include "app/gui/views/typed_number.h"
 #include "app/operator/session_words.h"
 
 namespace jnd::app::gui {
@@ -38,13 +39,12 @@ std::string problem_with(const ItemView& item, const std::string& typed) {
     }
   }
   if (item.kind != Kind::kNumber) return "";
-  char* end = nullptr;
-  const double value = std::strtod(typed.c_str(), &end);
-  if (end == typed.c_str() || *end != '\0' || !std::isfinite(value)) {
+  const std::optional<double> value = typed_number(typed);
+  if (!value) {
     return "expected a number, with a point for decimals";
   }
-  if ((item.minimum && !(value >= *item.minimum)) ||
-      (item.maximum && !(value <= *item.maximum))) {
+  if ((item.minimum && !(*value >= *item.minimum)) ||
+      (item.maximum && !(*value <= *item.maximum))) {
     return "expected " + range_words(item);
   }
   return "";

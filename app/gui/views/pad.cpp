@@ -8,6 +8,11 @@
 
 namespace jnd::app::gui {
 
+float pad_height(const Rect& card, float below) noexcept {
+  constexpr float kGapBelow = 14;
+  return std::max(90.0f, std::min(0.5f * card.height, card.height - below - kGapBelow));
+}
+
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state) {
   constexpr double kWidthM = 0.9;  // Of the workspace that the pad shows.
@@ -45,6 +50,10 @@ void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
     ui.text({place.x, place.y + 12, place.width, 24},
             "Move the mouse here, to and fro: the blue hand follows through the fluid.",
             {.colour = Colour::kSoft, .align = Align::kCentre});
+  } else if (place.height > 120) {
+    ui.text({place.x, place.bottom() - 32, place.width, 20},
+            "The line is your pull on the hand: the thicker the fluid, the longer.",
+            {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kCentre});
   }
 }
 

@@ -123,8 +123,10 @@ void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareView
 
 void draw_seed(Ui& ui, Rect place, const PrepareModel& model) {
   ui.heading(place.take_top(18, 6), "Seed of every order");
-  ui.text(place.take_top(42), std::to_string(model.seed),
-          {.font = Font::kMono, .colour = Colour::kSoft});
+  // Whoever knows the seed can draw the orders elsewhere.
+  const bool hidden = model.study.hides_levels;
+  ui.text(place.take_top(42), hidden ? "drawn, but hidden" : std::to_string(model.seed),
+          {.font = hidden ? Font::kBody : Font::kMono, .colour = Colour::kSoft});
 }
 
 /// Name, what was found, and what mends it.

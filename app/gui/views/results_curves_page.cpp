@@ -45,12 +45,16 @@ void draw_discrimination(Ui& ui, const Rect& place, const Discrimination& block,
   if (figure == nullptr) {
     return draw_notice(ui, inside, who + " has no answers in " + block.title + ".");
   }
-  const Rect value = inside.take_bottom(30, 4);
-  (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
   if (!figure->weber_fraction) {
-    ui.text(value, "No curve: " + figure->reason, {.colour = Colour::kAmber});
+    const TextStyle amber{.colour = Colour::kAmber, .wrap = true};
+    const std::string words = "No curve: " + figure->reason + ".";
+    const Rect why = inside.take_bottom(ui.text_height(inside.width, words, amber), 8);
+    (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
+    ui.text(why, words, amber);
     return;
   }
+  const Rect value = inside.take_bottom(30, 4);
+  (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
   std::string published;
   if (block.published && who == kEveryone)
     published = "published " + two_digits(*block.published);
@@ -81,7 +85,8 @@ void add_number(const ResultsModel& results, const std::string& name, const std:
 std::vector<KeyFigure> key_figures(const ResultsModel& results) {
   std::vector<KeyFigure> figures;
   // The first compares what the study is about where there are curves; else movements.
-  if (!results.discriminations.empty() && !results.comparisons.empty()) {
+  if (!results.discriminations.empty() && !results.comparisons.empty() &&
+      results.num_participants > 1) {
     const ComparisonLine& first = results.comparisons.front();
     // Who is left out of it stands on the page of tests.
     figures.push_back({first.name.substr(0, first.name.find(", without")),

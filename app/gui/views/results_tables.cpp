@@ -239,7 +239,7 @@ float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results) {
   float x = place.x;
   float y = place.y;
   for (const QualityChip& chip : results.quality) {
-    // A sentence too long for a chip is one line of words.
+    // A sentence too long for a chip is lines of words.
     const float width = std::min(ui.chip_width(chip.text), place.width);
     if (x > place.x && x + width > place.right()) {
       x = place.x;
@@ -248,8 +248,10 @@ float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results) {
     if (ui.chip_width(chip.text) <= place.width) {
       ui.chip(x, y, chip.text, colour_of(chip.tone));
     } else {
-      ui.text({x, y, place.width, kChip}, chip.text,
-              {.font = Font::kSmall, .colour = colour_of(chip.tone)});
+      const TextStyle style{.font = Font::kSmall, .colour = colour_of(chip.tone), .wrap = true};
+      const float height = ui.text_height(place.width, chip.text, style);
+      ui.text({x, y, place.width, height}, chip.text, style);
+      y += std::max(0.0f, height - kChip);
     }
     x += width + kBetween;
   }

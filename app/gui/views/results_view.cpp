@@ -1,6 +1,7 @@
 #include "app/gui/views/results_view.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/results_parts.h"
@@ -142,6 +143,8 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
   } else {
     const ResultsModel& results = *model.results;
     const std::vector<ResultsPageLook> pages = pages_of(results);
+    // One person's own value and interval are what everybody's would be.
+    if (std::exchange(state.is_new, false) && results.rows.size() == 1) state.participant = 1;
     state.page = std::min(state.page, pages.size() - 1);
     state.participant = std::min(state.participant, results.rows.size());
     const float table = std::clamp(150.0f + 84.0f * static_cast<float>(results.columns.size()),

@@ -22,6 +22,7 @@ struct ResultsViewModel {
 };
 
 struct ResultsViewState {
+  bool is_new = true;           ///< Nobody has chosen yet whom to show.
   std::size_t participant = 0;  ///< 0: all; else one more than its place in the table.
   std::size_t page = 0;
   float summary_height = 0, page_height = 0;

@@ -70,16 +70,14 @@ void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
                  const std::vector<TracePoint>& trace, RunViewState& state,
                  RunViewResult& result) {
   Stack stack(ui);
-  add_heading(ui, stack, view);
   const bool feeling = view.step == Step::kFeeling;
-  if (view.is_alone) {
-    stack.add(std::max(90.0f, place.height - 360), 14, [&](const Rect& strip) {
-      draw_pad(ui, strip.middle(strip.width - 48, strip.height), view, trace, state);
-    });
-  } else if (place.height > 420) {
-    stack.add(120, 18, [&](const Rect& strip) {
-      draw_hand_sign(ui, strip.middle(120, 120), view.sign);
-    });
+  if (!view.is_alone) {
+    add_heading(ui, stack, view);
+    if (place.height > 420) {
+      stack.add(120, 18, [&](const Rect& strip) {
+        draw_hand_sign(ui, strip.middle(120, 120), view.sign);
+      });
+    }
   }
   const float width = std::min(720.0f, place.width - 48);
   stack.add_text(view.sentence, view.is_alone ? Font::kLarge : Font::kTitle, Colour::kInk,
@@ -108,7 +106,12 @@ void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
                       }}},
                     260);
   });
-  stack.draw(place.inset(8));
+  Rect card = place.inset(12);
+  if (view.is_alone) {
+    const Rect pad = card.take_top(pad_height(card, stack.height()), 14);
+    draw_pad(ui, pad, view, trace, state);
+  }
+  stack.draw(card);
 }
 
 void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,

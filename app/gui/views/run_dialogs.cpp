@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "app/gui/views/run_parts.h"
+#include "app/gui/views/typed_number.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -59,9 +60,8 @@ double corrected_value(const RunViewState& state) {
     if (state.correct_value == "yes") return 1.0;
     return state.correct_value == "no" ? 0.0 : std::nan("");
   }
-  char* end = nullptr;
-  const double value = std::strtod(state.correct_value.c_str(), &end);
-  return *end == '\0' && value >= 0.0 ? value : std::nan("");
+  const std::optional<double> value = typed_number(state.correct_value);
+  return value && *value >= 0.0 ? *value : std::nan("");
 }
 
 void request(const SessionView& view, const RunViewState& state, RunViewResult& result) {

@@ -99,6 +99,15 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
       open_dialog(state, command.dialog);
     }
   }
+  // Who is alone would read the answer from it.
+  if (running && !view.is_alone) {
+    const ButtonStyle style{.tone = Tone::kQuiet, .key = {Key::kF4}};
+    const char* label = state.shows_apparatus ? "Back to the session" : "Apparatus";
+    const Rect its = strip.take_right(ui.button_width(label, style), 4);
+    if (ui.button("apparatus", its.middle(its.width, 36), label, style)) {
+      state.shows_apparatus = !state.shows_apparatus;
+    }
+  }
   const float middle = place.y + place.height / 2;
   ui.text(strip.middle(strip.width, ui.line_height(Font::kLarge)), "jnd",
           {.font = Font::kLarge});
@@ -284,7 +293,7 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
     ui.text(cells.time, formatted("%.1f s", answer.response_time_s),
             {.font = Font::kMono, .align = Align::kRight});
     if (may_correct) {
-      ui.text(cells.act, answer.can_undo ? "undo" : "correct",
+      ui.text(cells.act, answer.can_undo ? "undo" : "change",
               {.colour = Colour::kSoft, .align = Align::kRight});
     }
     ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);

@@ -34,6 +34,9 @@ void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewS
                     RunViewResult& result);
 void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSession& after,
                      RunViewState& state, RunViewResult& result);
+/// How high the pad is above that much else on a card: half of it wherever the rest has room,
+/// so that it stays where it is from step to step.
+[[nodiscard]] float pad_height(const Rect& card, float below) noexcept;
 /// Where the mouse moves the hand.
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state);

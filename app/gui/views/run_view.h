@@ -15,15 +15,16 @@ namespace jnd::app::gui {
 struct RunViewState {
   enum class Dialog { kNone, kUndo, kCorrect, kNote, kPause, kEndEarly, kLeave, kGoOnEarly };
   Dialog dialog = Dialog::kNone;
-  bool dialog_is_new = false;  ///< Its first field takes the keyboard.
-  bool is_covered = false;     ///< By a dialog of the application, which then draws the stop.
-  std::string reason;          ///< Or the note.
+  bool dialog_is_new = false;    ///< Its first field takes the keyboard.
+  bool is_covered = false;       ///< By a dialog of the application, which then draws the stop.
+  bool shows_apparatus = false;  ///< Instead of the card and what is around it.
+  std::string reason;            ///< Or the note.
   std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
   experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
   std::string correct_value;
 
-  std::string percent;  ///< Typed so far.
-  std::int64_t percent_trial = 0;
+  std::string percent;                                  ///< Typed so far.
+  std::int64_t percent_trial = 0, percent_attempt = 0;  ///< What it was typed for.
   std::string item;  ///< Name of the item that `typed` belongs to.
   std::string typed;
   bool says_yes = false;  ///< Of "yes, which?".

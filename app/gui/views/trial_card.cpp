@@ -38,8 +38,10 @@ std::string felt_words(const TrialView& trial) {
 
 /// What can be typed as a percent: digits and one point.
 void type_percent(Ui& ui, const TrialView& trial, RunViewState& state) {
-  if (state.percent_trial != trial.trial) {
+  // An attempt that was undone or broken off takes what was typed with it.
+  if (state.percent_trial != trial.trial || state.percent_attempt != trial.attempt) {
     state.percent_trial = trial.trial;
+    state.percent_attempt = trial.attempt;
     state.percent.clear();
   }
   for (const char typed : ui.typed_digits()) {
@@ -143,6 +145,7 @@ class TrialCard {
             "answer_percent", enter, "Store",
             {.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = typed, .large = true})) {
       answer(std::strtod(state_.percent.c_str(), nullptr));
+      state_.percent.clear();
     }
   }
 
@@ -241,9 +244,8 @@ void draw_trial_card(Ui& ui, const Rect& place, const SessionView& view,
   TrialCard controls(ui, place.width, view, state, result);
   controls.add_controls(stack);
   if (view.is_alone) {
-    // The pad takes what is left.
-    const float pad_height = std::max(90.0f, card.height - stack.height() - 14);
-    draw_pad(ui, card.take_top(pad_height, 14), view, trace, state);
+    const Rect pad = card.take_top(pad_height(card, stack.height()), 14);
+    draw_pad(ui, pad, view, trace, state);
   }
   stack.draw(card);
 }

@@ -18,8 +18,10 @@ nlohmann::json force(std::vector<std::string> arguments) {
 }
 
 TEST(ForceCommand, PrintsTheKeysOfTheContractForEveryLaw) {
-  for (const char* law : {"free", "water", "viscous", "viscous-stokes"}) {
-    const auto json = force({law});
+  for (const char* law : {"free", "water", "map", "lift", "viscous", "viscous-stokes",
+                          "viscous-schiller-naumann", "ellipsoid"}) {
+    // Slow enough for every law to hold.
+    const auto json = force({law, "--velocity-m-per-s", "0.5,0,0"});
     EXPECT_EQ(keys(json), (std::set<std::string>{"total_n", "points", "drag_coefficient",
                                                  "reynolds_number"}))
         << law;
@@ -30,8 +32,49 @@ TEST(ForceCommand, PrintsTheKeysOfTheContractForEveryLaw) {
       ASSERT_EQ(point["force_n"].size(), 3U);
       sum += point["force_n"][0].get<double>();
     }
-    EXPECT_NEAR(sum, -json["total_n"].get<double>(), 1e-12) << law;
+    EXPECT_NEAR(sum, -json["total_n"].get<double>(), 1e-12) << law << ", head on no lift";
   }
+}
+
+TEST(ForceCommand, TheMapOfTheThesisIsItsWater) {
+  const double water = force({"water", "--angle-of-attack-rad", "0.7"})["total_n"];
+  EXPECT_NEAR(force({"map", "--angle-of-attack-rad", "0.7"})["total_n"].get<double>(), water,
+              1e-12);
+  EXPECT_NEAR(
+      force({"map", "--angle-of-attack-rad", "0.7", "--force-map", "thesis_fit.csv"})["total_n"]
+          .get<double>(),
+      water, 0.01);
+}
+
+TEST(ForceCommand, LiftIsAcrossTheMotion) {
+  const auto json = force({"lift", "--angle-of-attack-rad", "0.7853981633974483"});
+  // The plate: C_N = 2 pi sin / (4 + pi sin) = 0.71412, C_L = C_N cos = 0.50496; 7.4 of it.
+  EXPECT_NEAR(json["total_n"].get<double>(), 7.4 * 0.504962, 1e-5);
+  for (const auto& point : json["points"])
+    EXPECT_NEAR(point["force_n"][0].get<double>(), 0.0, 1e-12);
+  EXPECT_TRUE(json["drag_coefficient"].is_null());
+}
+
+TEST(ForceCommand, AnEllipsoidIsHarderToMoveHeadOn) {
+  const auto at = [](const char* angle) {
+    return force({"ellipsoid", "--viscosity-pa-s", "5", "--angle-of-attack-rad",
+                  angle})["total_n"]
+        .get<double>();
+  };
+  EXPECT_GT(at("1.5707963267948966"), 1.1 * at("0"));
+}
+
+TEST(ForceCommand, SchillerAndNaumannAddToCreepingFlowAndSayWhereTheyEnd) {
+  const auto json = force(
+      {"viscous-schiller-naumann", "--viscosity-pa-s", "10", "--velocity-m-per-s", "0.1,0,0"});
+  EXPECT_NEAR(json["reynolds_number"].get<double>(), 1.0, 1e-12);
+  EXPECT_NEAR(json["total_n"].get<double>(), 1.15 * 1.776, 1e-12);
+  EXPECT_NEAR(json["drag_coefficient"].get<double>(), 24.0 * 1.15, 1e-9);
+  const test_support::ProgramOutcome thin = test_support::run_program(
+      {"force", "viscous-schiller-naumann", "--viscosity-pa-s", "0.01", "--json"});
+  EXPECT_EQ(thin.exit_code, 0);
+  EXPECT_NE(thin.err.find("Reynolds number of at most 800"), std::string::npos);
+  EXPECT_EQ(keys(document(thin.out)).size(), 4U);
 }
 
 TEST(ForceCommand, WaterAtOneMetrePerSecondHeadOnIsThePublishedForce) {
@@ -62,6 +105,8 @@ TEST(ForceCommand, ArgumentsWithoutAFiniteForceAreWrongUsage) {
            {"force", "water", "--velocity-m-per-s", "1,0,0,0"},
            {"force", "water", "--velocity-m-per-s", "1e308,0,0", "--json"},
            {"force", "water", "--angle-of-attack-rad", "nan"},
+           {"force", "map", "--force-map", "no_such_map.csv"},
+           {"force", "ellipsoid", "--viscosity-pa-s", "-1"},
            {"force", "viscous", "--viscosity-pa-s", "-1"},
            {"force", "viscous", "--viscosity-pa-s", "inf"}}) {
     const test_support::ProgramOutcome outcome = test_support::run_program(words);
@@ -75,6 +120,8 @@ TEST(ForceCommand, RefusesAnOptionThatTheLawHasNoUseFor) {
       test_support::run_program({"force", "viscous", "--scale", "3"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("--scale: expected only with water"), std::string::npos);
+  EXPECT_EQ(test_support::run_program({"force", "water", "--force-map", "x"}).exit_code, 2);
+  EXPECT_EQ(test_support::run_program({"force", "lift", "--viscosity-pa-s", "2"}).exit_code, 2);
 }
 
 }  // namespace

@@ -49,6 +49,17 @@ TEST(InputQueue, AKeyPressedAndReleasedBetweenTwoFramesIsSeenInBoth) {
   EXPECT_TRUE(queue.empty());
 }
 
+TEST(InputQueue, AStormOfKeysDoesNotKeepWhatComesAfterItWaitingForLong) {
+  InputQueue queue;
+  for (int i = 0; i < 1000; ++i) tap(queue, i % 2 == 0 ? 'Y' : 'N');
+  queue.mouse_button(true);
+  int num_frames = 0;
+  while (!queue.next_frame().mouse.down) ASSERT_LT(++num_frames, 150);
+  while (!queue.empty()) (void)queue.next_frame();
+  tap(queue, 'Z');
+  EXPECT_EQ(frames(queue).front(), "Z+ 'Z' ") << "none is held that was not pressed";
+}
+
 TEST(InputQueue, TwoKeysAtOnceGoToTwoFramesInTheirOrder) {
   InputQueue queue;
   key(queue, 'Y', Action::kPress);

@@ -4,9 +4,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/operator/live_trace.h"
 #include "app/operator/operated_session.h"
+#include "app/operator/scope_trace.h"
 #include "app/session_setup.h"
 #include "app/tiny_study.h"
 #include "experiments/study/study_reader.h"
@@ -34,8 +36,8 @@ class OperatedSessionTest : public ::testing::Test {
     reopen();
   }
 
-  /// As a program started again: the session from its log.
-  void reopen() {
+  /// As a program started again: the session from its log, on a device that has these faults.
+  void reopen(const std::vector<device::ScheduledFault>& faults = {}) {
     session_.reset();
     session_ = std::make_unique<OperatedSession>(
         OperatedSession::Parameters{.store = *store_,
@@ -44,7 +46,9 @@ class OperatedSessionTest : public ::testing::Test {
                                     .laboratory = &laboratory_,
                                     .doors = doors_,
                                     .trace = &trace_,
-                                    .realtime = false});
+                                    .scopes = &scopes_,
+                                    .realtime = false,
+                                    .injected_faults = faults});
     pass(0.1);
   }
 
@@ -144,6 +148,7 @@ class OperatedSessionTest : public ::testing::Test {
       std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
   OperatorDoors doors_;
   LiveTrace trace_{LiveTrace::Parameters{}};
+  ScopeTrace scopes_{ScopeTrace::Parameters{}};
   std::unique_ptr<experiments::Study> study_;
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/operator/operated_session_fixture.h"
+#include "core/storage/flight_record.h"
 #include "core/storage/integrity.h"
 #include "support/small_disk.h"
 
@@ -62,6 +63,56 @@ TEST_F(OperatedSessionTest, AnAnswerPressedWhileTheMediumStillChangesIsKeptAndCa
   pass(0.05);
   EXPECT_EQ(view().trial->trial, trial + 1);
   EXPECT_EQ(store_->trials(session_number_).back().response, 0.0);
+}
+
+TEST_F(OperatedSessionTest, AnUndoTakesBackTheAnswerThatStillWaitsAndNotTheOneBefore) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  answer_trial(view(), 0.0);
+  pass(1.0);
+  act(operate::Present{trial + 1, "reference"});
+  pass(0.5);
+  session_->request(operate::Present{trial + 1, "test"});
+  session_->request(operate::Answer{trial + 1, 1.0});
+  session_->request(operate::Undo{"too fast"});
+  pass(0.2);
+  EXPECT_EQ(std::ranges::count(kinds(), "answer_undone"), 0);
+  EXPECT_EQ(view().trial->trial, trial + 1) << "it waits for another answer";
+  session_->request(operate::Answer{trial + 1, 0.0});
+  pass(0.2);
+  EXPECT_EQ(store_->trials(session_number_).back().trial, trial + 1);
+  EXPECT_EQ(store_->trials(session_number_).back().response, 0.0);
+}
+
+TEST_F(OperatedSessionTest, NoAnswerIsLostToAPauseThatCameWhileTheMediumStillChanged) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(0.5);
+  session_->request(operate::Present{trial, "test"});
+  session_->request(operate::Answer{trial, 1.0});
+  session_->request(operate::Pause{"a cough"});
+  pass(0.2);
+  EXPECT_EQ(view().step, Step::kPaused);
+  EXPECT_EQ(store_->trials(session_number_).back().trial, trial);
+  EXPECT_EQ(store_->trials(session_number_).back().response, 1.0);
+}
+
+TEST_F(OperatedSessionTest, ANoteNeedsWords) {
+  open();
+  act(operate::Begin{});
+  EXPECT_EQ(act(operate::AddNote{" \t "}).refusal, "expected a note, found no words");
+}
+
+TEST_F(OperatedSessionTest, AStudyFolderThatIsTakenAwayStopsTheSession) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  std::filesystem::rename(folder_, folder_.parent_path() / "elsewhere.study");
+  answer_trial(view(), 1.0);
+  EXPECT_EQ(view().step, Step::kFailed);
+  EXPECT_NE(view().fault.find("found it moved or deleted"), std::string::npos) << view().fault;
+  EXPECT_EQ(view().telemetry.total_force_n, (core::PlainVector{}));
+  (void)trial;
 }
 
 TEST_F(OperatedSessionTest, TheReferenceComesFirstAndTheTestBeforeTheAnswer) {
@@ -157,6 +208,21 @@ TEST_F(OperatedSessionTest, EachStepOfAProductionIsFeltAndStored) {
   EXPECT_EQ(row.num_presentations, 3);
 }
 
+TEST_F(OperatedSessionTest, WhereLevelsAreHiddenTheEndOfTheRangeLooksLikeAnyStep) {
+  open(replaced(kTinyStudy, R"("name": "tiny",)", R"("name": "tiny", "blinding": "double",)"));
+  const std::int64_t trial = run_to_block("production").trial->trial;
+  act(operate::Present{trial, "test"});
+  for (int i = 0; i < 30; ++i) {
+    pass(0.3);
+    const SessionView now =
+        act(operate::Adjust{.trial = trial, .direction = experiments::Direction::kLower});
+    EXPECT_EQ(now.refusal, "");
+    ASSERT_TRUE(now.trial);
+    EXPECT_LT(now.trial->felt_s, 0.1) << "the time begins again, as after any step: " << i;
+  }
+  EXPECT_LT(std::ranges::count(kinds(), "intensity_adjusted"), 30);
+}
+
 TEST_F(OperatedSessionTest, AHeldKeyDoesNotPileUpSteps) {
   open();
   const std::int64_t trial = run_to_block("production").trial->trial;
@@ -184,6 +250,7 @@ TEST_F(OperatedSessionTest, TheEmergencyStopPausesAndTheTrialIsRunAgainAfterArmi
   EXPECT_EQ(now.step, Step::kFault);
   EXPECT_EQ(now.fault_name, "emergency_stop");
   EXPECT_EQ(kinds().back(), "attempt_discarded");
+  EXPECT_EQ(core::flight_records(store_->recording_file(session_number_)).size(), 1U);
   EXPECT_EQ(act(operate::Answer{trial, 1.0}).refusal, "the device has to be armed first");
   EXPECT_EQ(act(operate::GoOn{}).refusal, "the device has to be armed first");
   EXPECT_EQ(act(operate::Rearm{now.num_stop_presses - 1}).refusal,
@@ -289,7 +356,15 @@ TEST_F(OperatedSessionTest, ADoubleBlindViewHoldsNoLevelNoForceAndNoName) {
       EXPECT_EQ(answer.answer, "set");
     }
   }
+  // Nor a path or anything of a picture.
+  const core::Sample& sample = now.telemetry.sample;
+  EXPECT_EQ(sample.tip_position_m, decltype(sample.tip_position_m){});
+  EXPECT_EQ(sample.tip_velocity_m_per_s, decltype(sample.tip_velocity_m_per_s){});
+  EXPECT_EQ(sample.tip_force_n, decltype(sample.tip_force_n){});
+  EXPECT_EQ(sample.joint_position_rad, decltype(sample.joint_position_rad){});
+  EXPECT_EQ(sample.joint_torque_n_m, decltype(sample.joint_torque_n_m){});
   EXPECT_TRUE(trace_.snapshot().empty());
+  EXPECT_TRUE(scopes_.snapshot({"index_force_x_n"}).channels[0].empty());
 }
 
 TEST_F(OperatedSessionTest, AnOpenStudyShowsTheLevel) {
@@ -297,6 +372,7 @@ TEST_F(OperatedSessionTest, AnOpenStudyShowsTheLevel) {
   SessionView now = run_to_block("comparison");
   EXPECT_NE(now.trial->level.find("reference 8 Pa s"), std::string::npos) << now.trial->level;
   EXPECT_FALSE(trace_.snapshot().empty());
+  EXPECT_FALSE(scopes_.snapshot({"index_force_x_n"}).channels[0].empty());
 }
 
 TEST_F(OperatedSessionTest, ARefusalSaysWhyAndChangesNothing) {

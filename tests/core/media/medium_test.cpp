@@ -49,27 +49,75 @@ TEST(MediumRamp, StartsInFreeSpaceAndHasArrived) {
   EXPECT_EQ(ramp.advance(0.001).damping_n_s_per_m, 0.0);
 }
 
+/// Every amount another number.
+MediumAmounts all_different(double scale = 1.0) {
+  MediumAmounts amounts;
+  double value = 0.0;
+  for (const auto amount : kAmounts) amounts.*amount = scale * (value += 1.5);
+  return amounts;
+}
+
 TEST(MediumRamp, IsAStraightLineInEveryAmountAndEndsExactly) {
-  const MediumAmounts target = {.quadratic_kg_per_m = 5.0,
-                                .damping_n_s_per_m = 10.0,
-                                .plane_stiffness_n_per_m = 500.0,
-                                .plane_damping_n_s_per_m = 20.0};
+  const MediumAmounts target = all_different();
   MediumRamp ramp;
   ramp.start(target, 0.050);
   for (int tick = 1; tick < 50; ++tick) {
     const MediumAmounts& amounts = ramp.advance(0.001);
     EXPECT_FALSE(ramp.finished());
-    const double part = tick / 50.0;
-    EXPECT_NEAR(amounts.quadratic_kg_per_m, part * 5.0, 1e-9);
-    EXPECT_NEAR(amounts.damping_n_s_per_m, part * 10.0, 1e-9);
-    EXPECT_NEAR(amounts.plane_stiffness_n_per_m, part * 500.0, 1e-9);
-    EXPECT_NEAR(amounts.plane_damping_n_s_per_m, part * 20.0, 1e-9);
+    for (const auto amount : kAmounts) {
+      EXPECT_NEAR(amounts.*amount, tick / 50.0 * target.*amount, 1e-9);
+    }
   }
   ramp.advance(0.001);
   ramp.advance(0.001);  // Rounding may leave a hair of the ramp to the 51st tick.
   EXPECT_TRUE(ramp.finished());
-  EXPECT_EQ(ramp.current().quadratic_kg_per_m, 5.0);
-  EXPECT_EQ(ramp.current().plane_stiffness_n_per_m, 500.0);
+  for (const auto amount : kAmounts) EXPECT_EQ(ramp.current().*amount, target.*amount);
+}
+
+TEST(MediumAmounts, AddInEveryAmount) {
+  const MediumAmounts sum = all_different() + all_different(2.0);
+  const MediumAmounts expected = all_different(3.0);
+  for (const auto amount : kAmounts) EXPECT_NEAR(sum.*amount, expected.*amount, 1e-12);
+}
+
+TEST(MediumAmounts, AreFiniteOnlyIfEveryOneIs) {
+  EXPECT_TRUE(all_different().is_finite());
+  for (const auto amount : kAmounts) {
+    for (const double wrong :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      MediumAmounts amounts = all_different();
+      amounts.*amount = wrong;
+      EXPECT_FALSE(amounts.is_finite());
+    }
+  }
+}
+
+TEST(MediumAmounts, KnowWhenTheyAreADampingAndNothingElse) {
+  EXPECT_TRUE(viscous({.viscosity_pa_s = 3.0}).is_plain_damping());
+  EXPECT_TRUE(free_space().is_plain_damping());
+  EXPECT_FALSE(water({}).is_plain_damping());
+  EXPECT_FALSE(viscous_inertial({.viscosity_pa_s = 3.0}).is_plain_damping());
+  EXPECT_FALSE(ellipsoid({.viscosity_pa_s = 3.0}).is_plain_damping());
+}
+
+TEST(MediumAmounts, OfEachNewMediumAreItsLaws) {
+  const MediumAmounts inertial = viscous_inertial({.viscosity_pa_s = 2.0});
+  EXPECT_EQ(inertial.damping_n_s_per_m, viscous({.viscosity_pa_s = 2.0}).damping_n_s_per_m);
+  EXPECT_NEAR(inertial.drag_n(moving(0.5, 0.0)),
+              inertial.damping_n_s_per_m * 0.5 + inertial.inertial_n * std::pow(0.5, 1.687),
+              1e-12);
+  const MediumAmounts mapped = mapped_water({.scale = 2.0});
+  EXPECT_NEAR(mapped.drag_n(moving(0.7, 0.6)), water({.scale = 2.0}).drag_n(moving(0.7, 0.6)),
+              1e-12)
+      << "without a map the thesis's";
+  const MediumAmounts bucket =
+      container({.stiffness_n_per_m = 800.0, .damping_n_s_per_m = 2.0, .friction_ratio = 0.5});
+  EXPECT_EQ(bucket.container().stiffness_n_per_m, 800.0);
+  EXPECT_EQ(bucket.container().damping_n_s_per_m, 2.0);
+  EXPECT_EQ(bucket.container().friction_n_per_m, 400.0);
+  EXPECT_FALSE(bucket.plane().is_there());
+  EXPECT_THROW(static_cast<void>(buoyant(-1.0)), Error);
+  EXPECT_EQ(buoyant(3.0).buoyancy_n, 3.0);
 }
 
 TEST(MediumRamp, StartsFromWhereAnUnfinishedRampHadCome) {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/media/solid_plane.h"
+#include "core/media/god_object.h"
 #include "core/random_stream.h"
 #include "support/allocation_counter.h"
 
@@ -17,6 +17,17 @@ constexpr double kPeriodS = 0.001;
 
 PointVectors five_of(const Eigen::Vector3d& vector) {
   return {vector, vector, vector, vector, vector};
+}
+
+/// Upward, of a flat surface at this depth.
+double surface_n(double stiffness_n_per_m, double damping_n_s_per_m, double depth_m,
+                 double velocity_m_per_s) {
+  GodObject point;
+  const SolidAmounts amounts = {stiffness_n_per_m, damping_n_s_per_m, 0.0};
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  (void)point.force_n(amounts, up, 0.0, -depth_m * up, velocity_m_per_s * up, kPeriodS);
+  return point.force_n(amounts, up, depth_m, -depth_m * up, velocity_m_per_s * up, kPeriodS)
+      .z();
 }
 
 PassivityController controller() { return {PassivityController::Parameters{}, kPeriodS}; }
@@ -76,7 +87,7 @@ TEST(PassivityController, GivesBackNoMoreThanWasPutIn) {
     last_z = z;
     lowest_j = std::min(lowest_j, put_in_j);
     const double stiffness = velocity > 0.0 ? 2000.0 : 1000.0;
-    PointVectors force = five_of({0.0, 0.0, SolidPlane::force_n(stiffness, 0.0, -z, velocity)});
+    PointVectors force = five_of({0.0, 0.0, surface_n(stiffness, 0.0, -z, velocity)});
     const double wanted = force[0].z();
     passivity.control(five_of({0.0, 0.0, z}), five_of({0.0, 0.0, velocity}), force);
     // It only ever takes away, down to nothing, never to a pull.
@@ -97,7 +108,7 @@ TEST(PassivityController, LetsAPassiveSurfaceReturnWhatItStored) {
     const double phase = 3.14159265 * tick / 1000.0;
     const double z = -0.01 * std::sin(phase);
     const double velocity = -0.01 * 3.14159265 * std::cos(phase);
-    PointVectors force = five_of({0.0, 0.0, SolidPlane::force_n(1000.0, 10.0, -z, velocity)});
+    PointVectors force = five_of({0.0, 0.0, surface_n(1000.0, 10.0, -z, velocity)});
     const double wanted = force[0].z();
     passivity.control(five_of({0.0, 0.0, z}), five_of({0.0, 0.0, velocity}), force);
     softened_n = std::max(softened_n, wanted - force[0].z());

@@ -52,6 +52,46 @@ void expect_near(const Sample& found, const Sample& expected) {
   }
 }
 
+/// The same hand on a device with joints.
+std::vector<Sample> sweep_with_joints(int num_samples) {
+  std::vector<Sample> samples = sweep(num_samples, 0);
+  for (Sample& sample : samples) {
+    const double t = 0.001 * static_cast<double>(sample.tick);
+    for (int joint = 0; joint < kNumJoints; ++joint) {
+      sample.joint_position_rad[joint] =
+          static_cast<float>(0.3 * joint - 2.0 + 0.2 * std::sin(3.4 * t));
+      sample.joint_torque_n_m[joint] = static_cast<float>(0.5 * std::cos(3.4 * t + joint));
+    }
+  }
+  return samples;
+}
+
+TEST(SampleCodec, BringsJointsBackWhereThereAreAny) {
+  for (const int length : {1, 2, 3, 1000}) {
+    const std::vector<Sample> samples = sweep_with_joints(length);
+    const std::vector<Sample> found =
+        decode_samples(encode_samples(samples), 0, length, "test");
+    ASSERT_EQ(found.size(), samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      expect_near(found[i], samples[i]);
+      for (int joint = 0; joint < kNumJoints; ++joint) {
+        EXPECT_NEAR(found[i].joint_position_rad[joint], samples[i].joint_position_rad[joint],
+                    0.8 * kJointPositionUnitRad);
+        EXPECT_NEAR(found[i].joint_torque_n_m[joint], samples[i].joint_torque_n_m[joint],
+                    0.501 * kJointTorqueUnitNM);
+      }
+    }
+  }
+}
+
+TEST(SampleCodec, JointsThatAreNoNumbersComeBackAsNaN) {
+  std::vector<Sample> samples = sweep(3, 0);
+  samples[1].joint_torque_n_m[21] = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Sample> found = decode_samples(encode_samples(samples), 0, 3, "test");
+  EXPECT_TRUE(std::isnan(found[1].joint_torque_n_m[21]));
+  EXPECT_EQ(found[2].joint_torque_n_m[21], 0.0F);
+}
+
 TEST(SampleCodec, BringsEveryValueBackToHalfAUnit) {
   for (const int length : {1, 2, 3, 1000}) {
     const std::vector<Sample> samples = sweep(length, 500);

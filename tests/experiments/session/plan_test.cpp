@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -201,6 +202,36 @@ TEST(Plan, PutsEveryStimulusAgainstTheLimits) {
   EXPECT_FALSE(entry("estimation", 0).fits_up_to_m_per_s.has_value());
   EXPECT_NEAR(entry("after", 1000).total_force_n, 10.0, 1e-12);
   EXPECT_FALSE(entry("after", 1000).fits_up_to_m_per_s.has_value());
+}
+
+TEST(Plan, PutsTheOtherMediaAgainstTheLimitsToo) {
+  const auto most = [](const std::string& medium, const std::string& device) {
+    std::string text = kStudy;
+    const std::string from = R"("medium": "water", "scale": 4)";
+    text.replace(text.find(from), from.size(), medium);
+    if (!device.empty()) text.insert(text.find("\"stages\""), "\"device\": " + device + ", ");
+    return planned_range(read_study_text(text, "x"), {.max_force_per_point_n = 10.0,
+                                                      .max_total_force_n = 40.0,
+                                                      .expected_speed_m_per_s = 1.0})
+        .at(1);
+  };
+  // Worked by hand: Re = 10, 17.76 N (1 + 0.15 10^0.687).
+  EXPECT_NEAR(
+      most(R"("medium": "viscous_schiller_naumann", "viscosity_pa_s": 10)", "").total_force_n,
+      17.76 * (1.0 + 0.15 * std::pow(10.0, 0.687)), 1e-9);
+  const RangeEntry ellipsoid =
+      most(R"("medium": "viscous_ellipsoid", "viscosity_pa_s": 10)", "");
+  EXPECT_NEAR(ellipsoid.total_force_n * ellipsoid.fits_up_to_m_per_s.value(), 10.0 / 0.35,
+              1e-9);
+  EXPECT_NEAR(most(R"("medium": "water", "scale": 1, "buoyancy_n": 4)", "").total_force_n,
+              6.58526 + 4.0, 1e-4);
+  // With lift the most is not felt head on: 7.4 hypot(1, 3) at 0.8 rad.
+  EXPECT_NEAR(most(R"("medium": "water_map", "scale": 1)", R"({"force_map": [
+      {"angle_of_attack_rad": 0, "speed_m_per_s": 1, "drag_coefficient": 1},
+      {"angle_of_attack_rad": 0.785, "speed_m_per_s": 1, "drag_coefficient": 1, "lift_coefficient": 3},
+      {"angle_of_attack_rad": 1.571, "speed_m_per_s": 1, "drag_coefficient": 1}]})")
+                  .total_force_n,
+              7.4 * std::hypot(1.0, 3.0), 0.05);
 }
 
 TEST(Plan, NamesTheTotalLimitWhereItIsTheTighterOne) {

@@ -66,7 +66,8 @@ TEST(SchemaWriter, PutsKeysThatBelongTogetherIntoConditions) {
     ++num_found;
     EXPECT_EQ(rule.at("then").at("required"), json::array({"reference_viscosity_pa_s"}));
     EXPECT_EQ(rule.at("if").at("properties").at("medium").at("enum"),
-              json::array({"viscous", "viscous_stokes"}));
+              json::array({"viscous", "viscous_stokes", "viscous_schiller_naumann",
+                           "viscous_ellipsoid"}));
   }
   EXPECT_EQ(num_found, 1);
 }

@@ -40,7 +40,7 @@ TEST(ShippedStudies, HaveNoProblem) {
     }
     EXPECT_EQ(read_study(entry.path()).name, entry.path().stem());
   }
-  EXPECT_EQ(num_studies, 3);
+  EXPECT_EQ(num_studies, 4);
 }
 
 TEST(ShippedStudies, SpeakEnglishAndGerman) {

@@ -68,7 +68,8 @@ TEST(StructureCheck, WantsTheQuantityOfTheMedium) {
             "x.json:13:5: /stages/1/scale: expected a list of one or more numbers, found "
             "nothing\n"
             "x.json:14:25: /stages/1/viscosity_pa_s: expected this key only where `medium` is "
-            "`viscous` or `viscous_stokes`, found it where `medium` is `water`");
+            "`viscous`, `viscous_stokes`, `viscous_schiller_naumann` or `viscous_ellipsoid`, "
+            "found it where `medium` is `water`");
 }
 
 TEST(StructureCheck, WantsWhatTheProcedureNeedsAndNothingOfAnother) {
@@ -92,8 +93,9 @@ TEST(StructureCheck, WantsWhatTheProcedureNeedsAndNothingOfAnother) {
 
 TEST(StructureCheck, NamesTheNearestMediumProcedureAndStage) {
   EXPECT_EQ(problems_of(broken("\"medium\": \"viscous\"", "\"medium\": \"viscuos\"")),
-            "x.json:26:20: /stages/2/arms/1/stages/0/medium: expected `water`, `viscous` or "
-            "`viscous_stokes`, found `viscuos`; did you mean `viscous`?");
+            "x.json:26:20: /stages/2/arms/1/stages/0/medium: expected `water`, `viscous`, "
+            "`viscous_stokes`, `water_map`, `viscous_schiller_naumann` or `viscous_ellipsoid`, "
+            "found `viscuos`; did you mean `viscous`?");
   EXPECT_EQ(problems_of(broken("\"constant_stimuli\"", "\"constant_stimulus\"")),
             "x.json:25:62: /stages/2/arms/1/stages/0/procedure: expected "
             "`magnitude_estimation`, `magnitude_production` or `constant_stimuli`, found "

@@ -103,6 +103,48 @@ TEST(StudyReader, ReadsTheNeedsOfTheDeviceAndTheBlinding) {
   EXPECT_EQ(study.device.immersion.origin_z_m, -0.1);
 }
 
+TEST(StudyReader, ReadsAContainerAndAForceMap) {
+  const Study study =
+      read_study_text(broken("\"blinding\": \"none\"", R"json("blinding": "none", "device": {
+        "immersion": {"radius_m": 0.2, "depth_m": 0.3, "wall_stiffness_n_per_m": 800,
+                      "wall_friction_ratio": 0.3},
+        "force_map": [
+          {"angle_of_attack_rad": 0, "speed_m_per_s": 1, "drag_coefficient": 0.3},
+          {"angle_of_attack_rad": 0.8, "speed_m_per_s": 1, "drag_coefficient": 0.6,
+           "lift_coefficient": 0.5},
+          {"angle_of_attack_rad": 1.5708, "speed_m_per_s": 1, "drag_coefficient": 0.9}]})json"),
+                      "x.json");
+  EXPECT_EQ(study.device.wall_stiffness_n_per_m, 800.0);
+  EXPECT_EQ(study.device.wall_friction_ratio, 0.3);
+  ASSERT_EQ(study.device.force_map.size(), 3u);
+  EXPECT_EQ(study.device.force_map[1].lift_coefficient, 0.5);
+  EXPECT_EQ(study.device.force_map[2].lift_coefficient, 0.0);
+}
+
+TEST(StudyReader, WithoutThemThereIsNoContainerAndNoForceMap) {
+  const Study study = read_study_text(kSoundStudy, "x.json");
+  EXPECT_EQ(study.device.wall_stiffness_n_per_m, 0.0);
+  EXPECT_TRUE(study.device.force_map.empty());
+  EXPECT_EQ(std::get<Block>(study.stages[1].content).buoyancy_n, 0.0);
+}
+
+TEST(StudyReader, ReadsTheOtherFluidsAndTheirBuoyancy) {
+  for (const char* medium : {"viscous_schiller_naumann", "viscous_ellipsoid"}) {
+    const Study study = read_study_text(
+        broken("\"medium\": \"viscous\"",
+               "\"buoyancy_n\": 3.5, \"medium\": \"" + std::string(medium) + "\""),
+        "x.json");
+    const auto& comparison = std::get<Block>(
+        std::get<Counterbalance>(study.stages[2].content).arms[1].stages[0].content);
+    EXPECT_EQ(comparison.medium, medium);
+    EXPECT_EQ(comparison.quantity, "viscosity_pa_s");
+    EXPECT_EQ(comparison.buoyancy_n, 3.5);
+  }
+  const Study study =
+      read_study_text(broken("\"medium\": \"water\"", "\"medium\": \"water_map\""), "x.json");
+  EXPECT_EQ(std::get<Block>(study.stages[1].content).quantity, "scale");
+}
+
 TEST(StudyReader, KeepsCommentsOutOfTexts) {
   const Study study = read_study_text(
       broken("{\"en\": \"Say.\"", "{\"comment\": \"c\", \"en\": \"Say.\""), "x");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
@@ -132,6 +134,36 @@ TEST(StudyRules, RefuseMoreCellsThanAnyoneCanFill) {
   EXPECT_EQ(problems_of(broken("\"stages\": [", many)),
             "x.json:8:13: /stages: expected counterbalances that cross to at most 10000 cells, "
             "found 62500");
+}
+
+TEST(StudyRules, AForceMapNeedsEveryAngleWithEverySpeedAndNoLiftAtItsEnds) {
+  const auto with_map = [](const std::string& rows) {
+    return problems_of(
+        broken("\"blinding\": \"none\"",
+               "\"blinding\": \"none\", \"device\": {\"force_map\": [" + rows + "]}"));
+  };
+  const std::string edge_on =
+      R"({"angle_of_attack_rad": 0, "speed_m_per_s": 1, "drag_coefficient": 0.3})";
+  const std::string head_on =
+      R"({"angle_of_attack_rad": 1.5708, "speed_m_per_s": 1, "drag_coefficient": 0.9})";
+  EXPECT_EQ(with_map(edge_on + ", " + head_on), "");
+  EXPECT_NE(with_map(edge_on + ", " + edge_on), "");
+  EXPECT_NE(with_map(edge_on), "") << "one angle is no curve";
+  EXPECT_NE(with_map(edge_on + ", " + head_on + R"(,
+      {"angle_of_attack_rad": 0, "speed_m_per_s": 2, "drag_coefficient": 0.3})"),
+            "");
+  const std::string lifted = with_map(
+      R"({"angle_of_attack_rad": 0, "speed_m_per_s": 1, "drag_coefficient": 0.3,
+          "lift_coefficient": 0.1}, )" +
+      head_on);
+  EXPECT_NE(lifted.find("/device/force_map: line "), std::string::npos) << lifted;
+  EXPECT_NE(lifted.find("lift_coefficient: expected 0 at the angles 0 and pi/2, found 0.1"),
+            std::string::npos)
+      << lifted;
+  const std::string twice =
+      with_map(R"({"angle_of_attack_rad": 45, "speed_m_per_s": 1, "drag_coefficient": 0.3}, )" +
+               head_on);
+  EXPECT_EQ(std::count(twice.begin(), twice.end(), '\n'), 0) << "one mistake, one problem";
 }
 
 }  // namespace

@@ -174,6 +174,20 @@ TEST_F(RunView, WhatWasTypedForOneTrialIsNotTheNextOnesAnswer) {
   EXPECT_TRUE(draw(next).empty());
 }
 
+TEST_F(RunView, WhatWasTypedForAnAttemptIsGoneWithIt) {
+  draw(estimation());
+  ui_.type("80");
+  draw(estimation());
+  SessionView again = estimation();
+  ++again.trial->attempt;
+  draw(again);
+  ui_.type("50");
+  draw(again);
+  EXPECT_EQ(after_key<operate::Answer>(again, {Key::kEnter}).value, 50.0);
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(again).empty()) << "stored once, it is not there any more";
+}
+
 TEST_F(RunView, AHeldKeyAsksForStepsThatMayBeLeftOut) {
   draw(production());
   ui_.hold({Key::kRight}, 3);

@@ -1,0 +1,264 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/json_text.h"
+#include "app/option_checks.h"
+#include "app/person_bench.h"
+#include "app/progress_bar.h"
+#include "app/session_setup.h"
+#include "app/stop_signals.h"
+#include "core/error.h"
+#include "device/characterization.h"
+#include "device/device_registry.h"
+#include "device/exoskeleton/simulated_bench.h"
+#include "device/haptic_loop.h"
+#include "device/realtime_thread.h"
+#include "device/simulated_hand.h"
+
+namespace jnd::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kRate_hz = 1000.0;
+constexpr double kStroking_s = 20.0;
+constexpr std::array kJoints = {"abduction", "extension", "proximal"};
+
+struct Options {
+  std::string device = "exoskeleton";
+  std::string finger = "index";
+  int repetitions = 10;
+  std::uint64_t seed = 1;
+  bool allow_no_realtime = false;
+  bool json = false;
+};
+
+struct Outcome {
+  device::FingerCharacter finger;
+  device::FreeSpaceRegression free_space;
+};
+
+void stop_if_requested() {
+  if (stop_requested()) throw core::Error("characterize: stopped; nothing was kept");
+}
+
+int point_named(const std::string& finger) {
+  const auto* found =
+      std::find(core::kContactPointNames.begin(), core::kContactPointNames.end(), finger);
+  if (found != core::kContactPointNames.end()) {
+    return static_cast<int>(found - core::kContactPointNames.begin());
+  }
+  throw UsageError(fmt::format("--finger: expected one of {}, found {}",
+                               fmt::join(core::kContactPointNames, ", "), finger));
+}
+
+/// A device in free space, all the time, and its samples while they are wanted.
+class MeasuringLoop {
+ public:
+  MeasuringLoop(device::HapticDevice& device, bool allow_no_realtime)
+      : device_(device),
+        loop_({.rate_hz = kRate_hz}, device, {commands_, telemetry_, stop_, &samples_}),
+        thread_({}) {
+    try {
+      device::start_haptics(device, loop_, thread_, allow_no_realtime);
+    } catch (const core::Error& error) {
+      throw EnvironmentError(error.what());
+    }
+  }
+  ~MeasuringLoop() {
+    thread_.stop();
+    device_.close();
+  }
+  MeasuringLoop(const MeasuringLoop&) = delete;
+  MeasuringLoop& operator=(const MeasuringLoop&) = delete;
+
+  void measure(double duration_s, const std::function<void(const core::Sample&)>& take) {
+    samples_.drain([](const core::Sample&) {});  // From before.
+    const auto wanted = static_cast<std::int64_t>(duration_s * kRate_hz);
+    for (std::int64_t taken = 0; taken < wanted;) {
+      stop_if_requested();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      telemetry_.fetch();
+      if (const core::Fault fault = telemetry_.value().fault; fault != core::Fault::kNone) {
+        throw core::Error("device: " + std::string(core::words(fault)));
+      }
+      samples_.drain([&](const core::Sample& sample) {
+        if (taken++ < wanted) take(sample);
+      });
+    }
+  }
+
+ private:
+  core::LatestValue<core::HapticCommand> commands_;  ///< None: free space, no force.
+  core::LatestValue<core::Telemetry> telemetry_;
+  core::EmergencyStop stop_;
+  core::SpscQueue<core::Sample> samples_{32768};
+  device::HapticDevice& device_;
+  device::HapticLoop loop_;
+  device::RealtimeThread thread_;
+};
+
+Outcome measured_on_model(const Options& options) {
+  ProgressBar bar("characterize");
+  const auto part = [&bar](double from, double to) {
+    return [&bar, from, to](double done) {
+      stop_if_requested();
+      bar.show(from + done * (to - from));
+    };
+  };
+  device::SimulatedBench bench({.rate_hz = kRate_hz,
+                                .point = point_named(options.finger),
+                                .seed = options.seed,
+                                .sensor_seed = options.seed});
+  device::FingerCharacter finger =
+      device::characterize_finger(bench, options.repetitions, part(0.0, 0.9));
+  return {std::move(finger),
+          device::stroke_in_free_space(kRate_hz, options.seed, part(0.9, 1.0))};
+}
+
+Outcome measured_by_person(const Options& options, device::HapticDevice& device) {
+  MeasuringLoop loop(device, options.allow_no_realtime);
+  const auto measure = [&loop](double duration_s,
+                               const std::function<void(const core::Sample&)>& take) {
+    loop.measure(duration_s, take);
+  };
+  PersonBench bench(std::cin, std::cerr, point_named(options.finger), options.repetitions,
+                    measure);
+  Outcome outcome;
+  outcome.finger = device::characterize_finger(bench, options.repetitions,
+                                               [](double) { stop_if_requested(); });
+  if (device::SimulatedHand* hand = device.simulated_hand()) {
+    hand->begin_strokes({}, core::RandomStream(options.seed, "stroke"));
+  } else {
+    bench.wait_for(fmt::format(
+        "Put a hand on the device and move it to and fro for {:g} s, now slowly, now fast",
+        kStroking_s));
+  }
+  measure(kStroking_s,
+          [&outcome](const core::Sample& sample) { outcome.free_space.add(sample); });
+  return outcome;
+}
+
+Outcome outcome_of(const Options& options) {
+  if (options.device == "exoskeleton") return measured_on_model(options);
+  const auto device = device::make_device(options.device, kRate_hz);
+  if (device->capabilities().num_joints != core::kNumJoints) {
+    throw EnvironmentError(fmt::format(
+        "--device {}: expected a device that tells of its joints, found one that does not; "
+        "characterise the exoskeleton, or one across the network",
+        options.device));
+  }
+  return measured_by_person(options, *device);
+}
+
+ordered_json json_of(const device::MeanAndSpread& value) {
+  return {{"mean", value.mean}, {"sd", value.sd}};
+}
+
+ordered_json json_of(const Outcome& outcome, const Options& options) {
+  auto poses = ordered_json::array();
+  for (const device::BreakAway& entry : outcome.finger.break_away) {
+    poses.push_back({{"pose", device::kFingerPoseNames[static_cast<std::size_t>(entry.pose)]},
+                     {"joint", kJoints[static_cast<std::size_t>(joint_of(entry.pose))]},
+                     {"force_n", entry.force_n}});
+  }
+  auto sensors = ordered_json::array();
+  for (const device::SensorAccuracy& sensor : outcome.finger.sensors) {
+    auto weights = ordered_json::array();
+    const auto joint = static_cast<std::size_t>(sensor.joint);
+    for (std::size_t i = 0; i < sensor.readings.size(); ++i) {
+      weights.push_back({{"weight_kg", outcome.finger.weight_kg[i]},
+                         {"measured_n_m", sensor.readings[i].measured_n_m[joint]},
+                         {"expected_n_m", sensor.readings[i].expected_n_m[joint]}});
+    }
+    sensors.push_back({{"joint", kJoints[joint]},
+                       {"mean_relative_error_ratio", sensor.mean_relative_error_ratio},
+                       {"weights", std::move(weights)}});
+  }
+  return {{"device", options.device},
+          {"finger", options.finger},
+          {"num_repetitions", options.repetitions},
+          {"break_away", std::move(poses)},
+          {"break_away_extension_n", json_of(outcome.finger.extension_n)},
+          {"break_away_abduction_n", json_of(outcome.finger.abduction_n)},
+          {"torque_sensors", std::move(sensors)},
+          {"free_space",
+           {{"viscosity_n_s_per_m", outcome.free_space.viscosity_n_s_per_m()},
+            {"friction_n", outcome.free_space.friction_n()},
+            {"num_samples", outcome.free_space.num_samples()}}}};
+}
+
+void print(const Outcome& outcome, const Options& options) {
+  fmt::print("{}, finger `{}`\n\nForce at the tip that moves it, {} times each\n",
+             options.device, options.finger, options.repetitions);
+  for (const device::BreakAway& entry : outcome.finger.break_away) {
+    const device::MeanAndSpread force_n = device::mean_and_spread(entry.force_n);
+    fmt::print("  {:<12} {:<10} {:5.2f} +- {:.2f} N\n",
+               device::kFingerPoseNames[static_cast<std::size_t>(entry.pose)],
+               kJoints[static_cast<std::size_t>(joint_of(entry.pose))], force_n.mean,
+               force_n.sd);
+  }
+  fmt::print("  {:<23} {:5.2f} +- {:.2f} N\n  {:<23} {:5.2f} +- {:.2f} N\n", "extension, all",
+             outcome.finger.extension_n.mean, outcome.finger.extension_n.sd, "abduction, all",
+             outcome.finger.abduction_n.mean, outcome.finger.abduction_n.sd);
+  fmt::print("\nTorque sensors with weights of {:.0f} to {:.0f} g, mean error without the first\n",
+             1e3 * outcome.finger.weight_kg.front(), 1e3 * outcome.finger.weight_kg.back());
+  for (const device::SensorAccuracy& sensor : outcome.finger.sensors) {
+    fmt::print("  {:<23} {:5.2f} %\n", kJoints[static_cast<std::size_t>(sensor.joint)],
+               100.0 * sensor.mean_relative_error_ratio);
+  }
+  fmt::print(
+      "\nFree space, from the torque sensors: {:.2f} N s/m, and {:.2f} N at any speed "
+      "({} samples)\n",
+      outcome.free_space.viscosity_n_s_per_m(), outcome.free_space.friction_n(),
+      outcome.free_space.num_samples());
+}
+
+int run(const Options& options) {
+  require_device(options.device);
+  (void)point_named(options.finger);
+  stop_on_signals();
+  const Outcome outcome = outcome_of(options);
+  if (options.json) {
+    fmt::print("{}\n", json_text(json_of(outcome, options)));
+  } else {
+    print(outcome, options);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_characterize(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "characterize",
+      "Measures friction, torque sensors and free-space viscosity of a device with joints");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--device", options->device, "exoskeleton, or network:HOST:PORT")
+      ->capture_default_str();
+  command->add_option("--finger", options->finger, "The one that weights hang on")
+      ->capture_default_str();
+  command->add_option("--repetitions", options->repetitions, "Of each break-away force")
+      ->check(whole_number(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of everything that is drawn on the model")
+      ->check(seed_number())
+      ->capture_default_str();
+  command->add_flag("--allow-no-realtime", options->allow_no_realtime,
+                    "A real device also without real-time priority");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "app/json_text.h"
+#include "app/option_checks.h"
+#include "app/session_setup.h"
+#include "app/stop_signals.h"
+#include "core/error.h"
+#include "device/device_registry.h"
+#include "device/network/device_server.h"
+#include "device/network/udp_port.h"
+#include "device/realtime_report.h"
+
+namespace jnd::app {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+struct Options {
+  int port = 4700;
+  std::string device = "lumped";
+  std::string listen = "127.0.0.1";
+  double rate_hz = 1000.0;
+  double seconds = 0.0;  ///< 0: until it is told to stop.
+  bool json = false;
+};
+
+/// Steps a server by absolute time until it is told to stop. Returns how many steps were left
+/// out because the machine held this program up: a device's own time goes on by its steps.
+std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
+                   const Options& options) {
+  const std::int64_t period_ns = std::llround(1e9 / options.rate_hz);
+  const std::int64_t start_ns = port.now_ns();
+  const std::int64_t end_ns = options.seconds > 0.0
+                                  ? start_ns + std::llround(1e9 * options.seconds)
+                                  : std::numeric_limits<std::int64_t>::max();
+  std::int64_t num_missed = 0;
+  std::int64_t due_ns = start_ns;
+  while (due_ns < end_ns && !stop_requested()) {
+    const timespec due{.tv_sec = static_cast<time_t>(due_ns / kNsPerS),
+                       .tv_nsec = static_cast<long>(due_ns % kNsPerS)};
+    // A signal wakes it early: then it ends.
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0 &&
+           !stop_requested()) {
+    }
+    server.step(port.now_ns());
+    due_ns += period_ns;
+    const std::int64_t late_ns = port.now_ns() - due_ns;
+    if (late_ns >= period_ns) {
+      num_missed += late_ns / period_ns;
+      due_ns += late_ns / period_ns * period_ns;
+    }
+  }
+  server.dismiss(port.now_ns());
+  return num_missed;
+}
+
+void print(const device::DeviceServer& server, std::int64_t num_missed, bool json) {
+  const device::DeviceServer::Counts& counts = server.counts();
+  const device::LinkCounts& link = server.quality().counts();
+  if (json) {
+    nlohmann::ordered_json out;
+    out["num_steps"] = counts.num_steps;
+    out["num_missed_steps"] = num_missed;
+    out["num_clients"] = counts.num_clients;
+    out["num_turned_away"] = counts.num_turned_away;
+    out["num_armings"] = counts.num_armings;
+    out["num_disarmings"] = counts.num_disarmings;
+    out["last_fault"] = std::string(core::name(counts.last_fault));
+    out["link"] = {{"received", link.received},   {"lost", link.lost},
+                   {"late", link.late},           {"doubled", link.doubled},
+                   {"reordered", link.reordered}, {"refused", link.refused}};
+    fmt::print("{}\n", json_text(out));
+    return;
+  }
+  fmt::print(
+      "{} steps, {} left out; {} programs connected, {} turned away; armed {} times, disarmed "
+      "itself {} times{}\n{} datagrams received, {} lost, {} doubled, {} reordered, {} "
+      "refused; "
+      "{} steps without a new one\n",
+      counts.num_steps, num_missed, counts.num_clients, counts.num_turned_away,
+      counts.num_armings, counts.num_disarmings,
+      counts.last_fault == core::Fault::kNone
+          ? ""
+          : fmt::format(" (last: {})", core::name(counts.last_fault)),
+      link.received, link.lost, link.doubled, link.reordered, link.refused, link.late);
+}
+
+std::unique_ptr<device::HapticDevice> served_device(const Options& options) {
+  require_device(options.device);
+  std::unique_ptr<device::HapticDevice> device;
+  try {
+    device = device::make_device(options.device, options.rate_hz);
+  } catch (const device::DeviceUnreachable&) {
+    throw;
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+  if (device->capabilities().simulated) return device;
+  throw UsageError("--device: expected a simulated device, found " + options.device +
+                   "; see `jnd devices`");
+}
+
+int run(const Options& options) {
+  const std::unique_ptr<device::HapticDevice> device = served_device(options);
+  std::unique_ptr<device::UdpPort> port;
+  try {
+    device::Address address = device::resolved(
+        {.host = options.listen, .port = static_cast<std::uint16_t>(options.port)});
+    port = std::make_unique<device::UdpPort>(address);
+    device->open();
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
+  }
+  stop_on_signals();
+  std::random_device draw;
+  device::DeviceServer server(*device, *port,
+                              {.first_stream_id = std::uint64_t{draw()} << 32 | draw()});
+  // What is not given costs punctuality alone: nobody can be hurt by a simulation.
+  device::RealtimeReport report;
+  device::obtain_scheduler(80, report);
+  device::obtain_locked_memory(report);
+  device::prefault_stack();
+  std::FILE* told = options.json ? stderr : stdout;
+  fmt::print(told, "listening on {}\n", device::text_of(port->local()));
+  std::fflush(told);
+  const std::int64_t num_missed = serve(server, *port, options);
+  device->close();
+  print(server, num_missed, options.json);
+  return kDone;
+}
+
+}  // namespace
+
+void add_device_simulator(CLI::App& program, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "device-simulator", "Serves a simulated device to `--device network:HOST:PORT`");
+  command->add_option("--port", options->port, "0: any that is free (default 4700)")
+      ->check(whole_number(0, 65535));
+  command->add_option("--device", options->device, "A simulated one, see `jnd devices`")
+      ->capture_default_str();
+  command
+      ->add_option("--listen", options->listen,
+                   "Address to be reached at; for other machines one of this machine's own, "
+                   "in a network where nobody else is")
+      ->capture_default_str();
+  command->add_option("--rate-hz", options->rate_hz, "Steps a second (default 1000)")
+      ->check(number_between(10.0, 10'000.0));
+  command->add_option("--seconds", options->seconds, "How long; default: until it is stopped")
+      ->check(number_between(0.001, 31'536'000.0));
+  command->add_flag("--json", options->json,
+                    "Print one JSON document at the end; the address goes to stderr");
+  command->callback(
+      [options, &invocation] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,178 @@
+#include "app/gui/scene_painter.h"
+
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr double kBetweenPictures_s = 0.1;
+// Of both sides: half the pixels, each drawn by the processor.
+constexpr double kSoftwareScale = 0.7;
+// More than a monitor shows of it beside the scopes; the picture is drawn larger from there on.
+constexpr int kMostWidth_px = 1600;
+constexpr int kMostHeight_px = 1200;
+
+/// The processor draws, and it is the loop's, too.
+bool renders_in_software() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name == nullptr ? "" : name;
+  return renderer.find("llvmpipe") != std::string_view::npos ||
+         renderer.find("softpipe") != std::string_view::npos ||
+         renderer.find("Software") != std::string_view::npos;
+}
+
+/// Leaves OpenGL as it was found, with the window as the target.
+class GlStateGuard {
+ public:
+  GlStateGuard() {
+    glPushAttrib(GL_ALL_ATTRIB_BITS);
+    glPushClientAttrib(GL_CLIENT_ALL_ATTRIB_BITS);
+  }
+  ~GlStateGuard() {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glPopClientAttrib();
+    glPopAttrib();
+  }
+  GlStateGuard(const GlStateGuard&) = delete;
+  GlStateGuard& operator=(const GlStateGuard&) = delete;
+};
+
+/// What was drawn last, but for the sample, which its tick stands for.
+struct Painted {
+  std::int64_t tick;
+  SceneCamera camera;
+  SceneColours colours;
+  int width_px, height_px;
+
+  friend bool operator==(const Painted&, const Painted&) = default;
+};
+
+}  // namespace
+
+struct ScenePainter::Renderer {
+  explicit Renderer(mjModel_& model) : is_software(renders_in_software()) {
+    const GlStateGuard guard;
+    model.vis.global.offwidth = kMostWidth_px;
+    model.vis.global.offheight = kMostHeight_px;
+    model.vis.quality.offsamples = is_software ? 0 : 4;
+    if (is_software) {
+      model.vis.quality.numslices = 16;
+      model.vis.quality.numstacks = 8;
+    }
+    mjr_defaultContext(&context);
+    mjr_makeContext(&model, &context, mjFONTSCALE_50);
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    if (context.currentBuffer != mjFB_OFFSCREEN) {
+      mjr_freeContext(&context);
+      throw core::Error(
+          "3D view: expected OpenGL with framebuffer objects, found none; "
+          "install libgl1-mesa-dri or a graphics driver");
+    }
+    glGenTextures(1, &texture);
+    glGenFramebuffers(1, &target);
+  }
+  ~Renderer() {
+    glDeleteFramebuffers(1, &target);
+    glDeleteTextures(1, &texture);
+    mjr_freeContext(&context);
+  }
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Opaque: without an alpha of its own that the window would blend by.
+  void make_texture(int new_width, int new_height) {
+    if (new_width == width && new_height == height) return;
+    width = new_width;
+    height = new_height;
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                 nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  }
+
+  void copy(unsigned int from, unsigned int to) const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glDrawBuffer(GL_COLOR_ATTACHMENT0);
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+  }
+
+  void set_background(mjModel_& model, int id, const SceneColour& colour) const {
+    if (id < 0) return;
+    mjtByte* rgb = model.tex_rgb + model.tex_adr[id];
+    const int num_texels = model.tex_width[id] * model.tex_height[id];
+    for (int texel = 0; texel < num_texels; ++texel) {
+      for (int i = 0; i < 3; ++i) {
+        rgb[3 * texel + i] =
+            static_cast<mjtByte>(std::lround(255.0f * colour[static_cast<std::size_t>(i)]));
+      }
+    }
+    mjr_uploadTexture(&model, &context, id);
+  }
+
+  const bool is_software;
+  mjrContext context;
+  unsigned int texture = 0, target = 0;
+  int width = 0, height = 0;
+  std::optional<Painted> painted;
+  double painted_s = 0.0;
+};
+
+ScenePainter::ScenePainter() : renderer_(std::make_unique<Renderer>(scene_.model())) {}
+
+ScenePainter::~ScenePainter() = default;
+
+std::uintptr_t ScenePainter::paint(const SceneRequest& request, double now_s) {
+  Renderer& my = *renderer_;
+  const double width = std::max(request.width_px, 1);
+  const double height = std::max(request.height_px, 1);
+  const double scale = std::min(
+      {my.is_software ? kSoftwareScale : 1.0, kMostWidth_px / width, kMostHeight_px / height});
+  const auto scaled = [&](double px) { return std::max(1, static_cast<int>(scale * px)); };
+  const Painted wanted{.tick = request.sample.tick,
+                       .camera = request.camera,
+                       .colours = request.colours,
+                       .width_px = scaled(width),
+                       .height_px = scaled(height)};
+  const bool is_new_enough =
+      my.painted && (now_s < my.painted_s + kBetweenPictures_s || *my.painted == wanted);
+  if (is_new_enough) return my.texture;
+
+  const GlStateGuard guard;
+  if (!my.painted || my.painted->colours != wanted.colours) {
+    my.set_background(scene_.model(), scene_.background_texture(), wanted.colours.ground);
+  }
+  scene_.show(request.sample, request.surroundings, request.colours, request.camera);
+  my.make_texture(wanted.width_px, wanted.height_px);
+  mjr_setBuffer(mjFB_OFFSCREEN, &my.context);
+  mjr_render({0, 0, my.width, my.height}, &scene_.scene(), &my.context);
+  if (my.context.offSamples > 0) {
+    my.copy(my.context.offFBO, my.context.offFBO_r);
+    my.copy(my.context.offFBO_r, my.target);
+  } else {
+    my.copy(my.context.offFBO, my.target);
+  }
+  my.painted = wanted;
+  my.painted_s = now_s;
+  return my.texture;
+}
+
+}  // namespace jnd::app::gui

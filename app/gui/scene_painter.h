@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "app/gui/robot_scene.h"
+
+namespace jnd::app::gui {
+
+/// What a picture of the apparatus is to show, and how large it is on the screen.
+struct SceneRequest {
+  core::Sample sample;
+  SurroundingsView surroundings;
+  SceneCamera camera;
+  SceneColours colours;
+  int width_px = 0, height_px = 0;
+};
+
+/// Draws the apparatus into a picture of its own, which the window then shows like any other:
+/// never into the window itself, never more than ten times a second, and with half the pixels
+/// where the processor draws. Only on the thread of the window, whose OpenGL context is current
+/// from the first to the last moment of it.
+class ScenePainter {
+ public:
+  /// Throws `core::Error`: no model, or no room for pictures in OpenGL.
+  ScenePainter();
+  ~ScenePainter();
+  ScenePainter(const ScenePainter&) = delete;
+  ScenePainter& operator=(const ScenePainter&) = delete;
+
+  /// An OpenGL texture, its first row the lowest one; the last picture's while that is new
+  /// enough or nothing has changed. `now_s`: any clock that goes forward.
+  [[nodiscard]] std::uintptr_t paint(const SceneRequest& request, double now_s);
+
+ private:
+  struct Renderer;
+  RobotScene scene_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,223 @@
+#include "app/gui/views/apparatus_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/gui/views/layout.h"
+#include "app/gui/views/run_parts.h"
+
+namespace jnd::app::gui {
+namespace {
+
+constexpr float kButtonRow = 36;
+constexpr double kTurn_rad_per_px = 0.008;
+constexpr double kTurn_rad_per_press = 0.12;
+constexpr double kZoomStep = 1.12;
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string loop_words(const LoopView& loop) {
+  std::string words = formatted("%.0f Hz", loop.rate_hz) +
+                      formatted(" · latest %.0f µs", loop.max_lateness_us) +
+                      formatted(" · missed %.0f", static_cast<double>(loop.missed_ticks)) +
+                      formatted(" · lost %.0f", static_cast<double>(loop.num_dropped_samples));
+  if (loop.num_limited_ticks > 0) {
+    words += formatted(" · limited %.0f", static_cast<double>(loop.num_limited_ticks));
+  }
+  return words;
+}
+
+/// What the session waits for, and how the loop is: here, too, nobody should miss it.
+void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
+  ui.card(place);
+  Rect inside = place.middle(place.width - 2 * kPadding, ui.line_height(Font::kBody));
+  const std::string loop = loop_words(view.loop);
+  const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
+  ui.text(inside.take_right(ui.text_width(loop, Font::kSmall) + 2, 20), loop,
+          {.font = Font::kSmall, .colour = is_late ? Colour::kAmber : Colour::kSoft});
+  const bool has_fault = !view.fault.empty();
+  const float width = std::min(ui.text_width(view.heading, Font::kStrong) + 2, inside.width);
+  ui.text(inside.take_left(width, 14), view.heading,
+          {.font = Font::kStrong, .colour = has_fault ? Colour::kRed : Colour::kInk});
+  const bool can_rearm = view.step == Step::kFault;
+  ui.text(inside,
+          has_fault ? view.fault + (can_rearm ? " · F4 leads back to where it is rearmed" : "")
+                    : view.sentence,
+          {.colour = has_fault ? Colour::kRed : Colour::kSoft});
+}
+
+void draw_hidden(Ui& ui, const Rect& place) {
+  ui.card(place);
+  draw_notice(ui, place,
+              "This study is double-blind: forces, speeds, paths and the apparatus in motion "
+              "would tell the level, so none of them is shown. Everything is recorded.");
+}
+
+/// What the colours and shapes mean, as many as have room.
+void draw_legend(Ui& ui, Rect strip) {
+  const float middle = strip.y + strip.height / 2;
+  const auto entry = [&](std::string_view words, auto draw_mark) {
+    const float width = ui.text_width(words, Font::kSmall) + 26;
+    if (strip.width < width) return;
+    draw_mark(strip.x + 8);
+    strip.take_left(22);
+    ui.text(strip.take_left(width - 22, 16), words,
+            {.font = Font::kSmall, .colour = Colour::kSoft});
+  };
+  const std::string force = formatted("force, 1 N is %.0f cm", 100.0 * kArrow_m_per_n);
+  entry(force, [&](float x) {
+    ui.line(x - 7, middle, x + 3, middle, Colour::kAmber, 2.5f);
+    ui.line(x + 6, middle, x, middle - 4, Colour::kAmber, 2.0f);
+    ui.line(x + 6, middle, x, middle + 4, Colour::kAmber, 2.0f);
+  });
+  entry("in the fluid", [&](float x) { ui.dot(x, middle, 6, Colour::kBlue); });
+  entry("outside", [&](float x) { ui.dot(x, middle, 4, Colour::kSoft); });
+  entry("came off", [&](float x) { ui.fill({x - 5, middle - 5, 10, 10}, Colour::kPilot); });
+}
+
+void turn_by_keys(Ui& ui, SceneCamera& camera) {
+  const auto held = [&](Key key) {
+    return ui.pressed({key}, true) ? kTurn_rad_per_press : 0.0;
+  };
+  const double sideways_rad = held(Key::kRight) - held(Key::kLeft);
+  camera.turn(sideways_rad, held(Key::kUp) - held(Key::kDown));
+  if (ui.pressed({Key::kPlus}, true)) camera.zoom(kZoomStep);
+  if (ui.pressed({Key::kMinus}, true)) camera.zoom(1.0 / kZoomStep);
+}
+
+void draw_camera_buttons(Ui& ui, Rect strip, ApparatusViewState& state, bool& hold) {
+  struct View {
+    const char *name, *label;
+    char key;
+    SceneCamera (*camera)() noexcept;
+  };
+  constexpr View kViews[] = {{"camera_above", "Above", 'A', camera_from_above},
+                             {"camera_front", "Front", 'F', camera_from_front},
+                             {"camera_side", "Side", 'S', camera_from_side},
+                             {"camera_reset", "Reset", 'R', camera_at_first}};
+  constexpr float kNarrow = 640;
+  const Tone tone = strip.width < kNarrow ? Tone::kQuiet : Tone::kPlain;
+  for (const View& view : kViews) {
+    const ButtonStyle style{
+        .tone = tone, .key = {letter(view.key)}, .selected = state.camera == view.camera()};
+    const Rect its = strip.take_left(ui.button_width(view.label, style), 8);
+    if (ui.button(view.name, its, view.label, style)) state.camera = view.camera();
+  }
+  const ButtonStyle style{.key = {letter('H')}, .selected = state.held.has_value()};
+  const char* label = state.held ? "Go on" : "Hold";
+  const Rect its = strip.take_right(ui.button_width(label, style), 16);
+  hold = ui.button("hold", its, label, style);
+  ui.text(strip, "Drag or arrow keys turn · wheel or + − zoom",
+          {.font = Font::kSmall, .colour = Colour::kSoft});
+}
+
+void draw_scene(Ui& ui, const Rect& place, const SessionView& view,
+                const ApparatusSources& sources, const core::Sample& sample,
+                ApparatusViewState& state) {
+  ui.outline(place, Colour::kLine);
+  const Rect inside = place.inset(1);
+  turn_by_keys(ui, state.camera);
+  const Ui::Drag drag = ui.dragged("scene", inside);
+  state.camera.turn(-kTurn_rad_per_px * drag.x, -kTurn_rad_per_px * drag.y);
+  if (drag.wheel != 0) state.camera.zoom(std::pow(kZoomStep, drag.wheel));
+  if (!sources.paint) {
+    draw_notice(ui, place,
+                sources.paint_problem.empty() ? "No picture can be drawn here."
+                                              : sources.paint_problem);
+    return;
+  }
+  const std::uintptr_t texture =
+      sources.paint({.sample = sample,
+                     .surroundings = view.surroundings,
+                     .camera = state.camera,
+                     .colours = scene_colours(ui.theme()),
+                     .width_px = static_cast<int>(ui.px(inside.width)),
+                     .height_px = static_cast<int>(ui.px(inside.height))});
+  ui.image(inside, texture, "picture of the apparatus");
+}
+
+/// Of the scopes, from what is held or goes on.
+ScopePicture scopes_of(const ApparatusSources& sources, const ApparatusViewState& state) {
+  const auto& names = state.scopes.channels;
+  if (!state.held) {
+    return sources.scopes ? sources.scopes({names.begin(), names.end()}) : ScopePicture{};
+  }
+  const ApparatusViewState::Held& held = *state.held;
+  ScopePicture picture{.newest_s = held.scopes.newest_s,
+                       .interval_s = held.scopes.interval_s,
+                       .has_joints = held.scopes.has_joints};
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(held.names, name) - held.names.begin();
+    const auto index = static_cast<std::size_t>(found);
+    picture.channels.push_back(index < held.scopes.channels.size() ? held.scopes.channels[index]
+                                                                   : std::vector<ScopePoint>{});
+  }
+  return picture;
+}
+
+void hold_or_go_on(const SessionView& view, const ApparatusSources& sources,
+                   ApparatusViewState& state) {
+  if (state.held) return state.held.reset();
+  state.held.emplace();
+  state.held->sample = view.telemetry.sample;
+  for (const ScopeChannel& channel : scope_channels(true)) {
+    state.held->names.push_back(channel.name);
+  }
+  if (sources.scopes) state.held->scopes = sources.scopes(state.held->names);
+}
+
+bool draw_what_moves(Ui& ui, Rect place, const SessionView& view,
+                     const ApparatusSources& sources, ApparatusViewState& state) {
+  const ScopePicture scopes = scopes_of(sources, state);
+  draw_scopes(ui, place.take_right(std::clamp(place.width * 0.4f, 340.0f, 720.0f), kGap),
+              scopes, state.scopes);
+  ui.card(place);
+  Rect inside = place.inset(12);
+  bool hold = false;
+  draw_camera_buttons(ui, inside.take_top(kButtonRow, 10), state, hold);
+  draw_legend(ui, inside.take_bottom(20, 8));
+  draw_scene(ui, inside, view, sources, state.held ? state.held->sample : view.telemetry.sample,
+             state);
+  if (hold) hold_or_go_on(view, sources, state);
+  return scopes.has_joints;
+}
+
+}  // namespace
+
+RunViewResult draw_apparatus_view(Ui& ui, const SessionView& view,
+                                  const ApparatusSources& sources, RunViewState& run,
+                                  ApparatusViewState& state) {
+  RunViewResult result;
+  Rect rest = ui.screen();
+  run.pad = {};
+  run.item_is_new = true;  // A field on the card takes the keyboard when it is back.
+  const Rect header = rest.take_top(kRunHeader);
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  rest = rest.inset(kGap);
+  draw_what_goes_on(ui, rest.take_top(46, kGap), view);
+  bool has_joints = false;
+  if (view.hides_levels || view.is_alone) {
+    state.held.reset();
+    state.scopes.choosing.reset();
+    draw_hidden(ui, rest);
+  } else {
+    has_joints = draw_what_moves(ui, rest, view, sources, state);
+  }
+  draw_run_header(ui, header, view, run);
+  draw_run_footer(ui, footer, view);
+  if (view.pilot) ui.outline(ui.screen().inset(2), Colour::kPilot, 0, 4);
+  if (run.dialog != RunViewState::Dialog::kNone) {
+    draw_run_dialog(ui, view, run, result);
+  } else {
+    draw_channel_chooser(ui, has_joints, state.scopes);
+  }
+  if (!run.is_covered) result.stop = draw_emergency_stop(ui);
+  return result;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/media/immersion.h"
+
+namespace jnd::app {
+
+/// What is around the hand: where the fluid ends, and what of it is solid.
+struct SurroundingsView {
+  core::Immersion immersion;
+  bool surface_is_solid = false;  ///< In the medium being felt.
+  bool has_walls = false;         ///< Wall and floor, where the immersion ends.
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/hand.h"
+#include "core/haptic_state.h"
+#include "core/media/god_object.h"
+#include "core/media/immersion.h"
+#include "core/media/medium.h"
+
+namespace jnd::core {
+
+/// The five points on everything solid, each on surfaces of its own (`GodObject`), with
+/// the share of the hand's amounts that `kAreaShareRatio` gives it:
+///
+///   plane:      the surface of the `Immersion`, everywhere, solid below;
+///   container:  the wall (a cylinder) and the bottom that the `Immersion` ends at, where it is
+///               not infinite. With an infinite radius the bottom is a floor below a fluid.
+///
+/// The container holds whatever once was in it below its rim, the surface's height, until it is
+/// lifted over the rim; from outside it is not there, so nothing is ever drawn in. The wall
+/// fades over its uppermost `kRimM`. Real time.
+class SolidSurfaces {
+ public:
+  static constexpr double kRimM = 0.01;
+
+  /// Writes the forces of this tick, workspace frame: zero for a point that came off, which
+  /// forgets what it touched, as `release` does for all. Call once a tick while anything solid
+  /// is there.
+  void render(const MediumAmounts& medium, const Immersion& immersion, const HapticState& state,
+              double period_s, PointVectors& force_on_hand_n) noexcept;
+
+  /// Bit i: the container holds point i, which is in its fluid however hard it presses.
+  [[nodiscard]] std::uint8_t held_bits() const noexcept { return held_bits_; }
+
+  [[nodiscard]] static bool are_there(const MediumAmounts& medium) noexcept {
+    return medium.plane().is_there() || medium.container().is_there();
+  }
+
+  void release() noexcept;
+
+ private:
+  struct Contacts {
+    GodObject plane;
+    GodObject wall;
+    GodObject bottom;
+  };
+  void follow(const Immersion& immersion, const HapticState& state) noexcept;
+  [[nodiscard]] Eigen::Vector3d container_force_n(const SolidAmounts& amounts, int point,
+                                                  const HapticState& state,
+                                                  double period_s) noexcept;
+  void release(int point) noexcept;
+
+  std::array<Contacts, kNumContactPoints> contacts_;
+  std::uint8_t held_bits_ = 0;
+  Immersion immersion_;
+  bool is_released_ = true;
+};
+
+}  // namespace jnd::core

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "core/require.h"
+
+namespace jnd::core {
+
+/// The box in which force may be given, workspace frame. The default is wider than any arm
+/// reaches, and yet no point of a device whose sensors lost their zero can be anywhere.
+struct Workspace {
+  double half_width_x_m = 1.5;  ///< > 0, finite; likewise the others.
+  double half_width_y_m = 1.5;
+  double half_width_z_m = 1.5;
+
+  /// A NaN coordinate is outside. Real time.
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point_m) const noexcept {
+    return std::abs(point_m.x()) <= half_width_x_m && std::abs(point_m.y()) <= half_width_y_m &&
+           std::abs(point_m.z()) <= half_width_z_m;
+  }
+};
+
+/// Throws `Error` naming the field. Not real time.
+inline void require_bounded(const Workspace& workspace) {
+  const auto check = [](double value, const char* field) {
+    require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
+  };
+  check(workspace.half_width_x_m, "half_width_x_m");
+  check(workspace.half_width_y_m, "half_width_y_m");
+  check(workspace.half_width_z_m, "half_width_z_m");
+}
+
+}  // namespace jnd::core

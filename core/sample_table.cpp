@@ -1,0 +1,66 @@
+#include "core/sample_table.h"
+
+#include <algorithm>
+
+namespace jnd::core {
+namespace {
+
+void add_vector_names(std::vector<std::string>& names, const std::string& what,
+                      const char* unit) {
+  for (const char* axis : {"_x_", "_y_", "_z_"}) names.push_back(what + axis + unit);
+}
+
+}  // namespace
+
+std::vector<std::string> sample_column_names(bool with_joints) {
+  std::vector<std::string> names = {"tick"};
+  for (const std::string_view point : kContactPointNames) {
+    add_vector_names(names, std::string(point) + "_position", "m");
+    add_vector_names(names, std::string(point) + "_velocity", "m_per_s");
+    add_vector_names(names, std::string(point) + "_force", "n");
+  }
+  add_vector_names(names, "end_effector_position", "m");
+  if (with_joints) {
+    for (const std::string_view joint : kJointNames) {
+      names.push_back(std::string(joint) + "_position_rad");
+    }
+    for (const std::string_view joint : kJointNames) {
+      names.push_back(std::string(joint) + "_torque_n_m");
+    }
+  }
+  for (const char* flag : {"attached_bits", "immersed_bits", "limited", "fault"}) {
+    names.emplace_back(flag);
+  }
+  return names;
+}
+
+std::vector<double> sample_values(const Sample& sample, bool with_joints) {
+  std::vector<double> values = {static_cast<double>(sample.tick)};
+  const auto add = [&values](const auto& numbers) {
+    values.insert(values.end(), numbers.begin(), numbers.end());
+  };
+  for (int point = 0; point < kNumContactPoints; ++point) {
+    add(sample.tip_position_m[point]);
+    add(sample.tip_velocity_m_per_s[point]);
+    add(sample.tip_force_n[point]);
+  }
+  add(sample.end_effector_position_m);
+  if (with_joints) {
+    add(sample.joint_position_rad);
+    add(sample.joint_torque_n_m);
+  }
+  for (const std::uint8_t flag :
+       {sample.attached_bits, sample.immersed_bits, sample.limited, sample.fault}) {
+    values.push_back(flag);
+  }
+  return values;
+}
+
+bool has_joints(const Sample& sample) noexcept {
+  // Written so that NaN counts as something to be kept.
+  const auto is_something = [](float value) { return !(value == 0.0F); };
+  return std::ranges::any_of(sample.joint_position_rad, is_something) ||
+         std::ranges::any_of(sample.joint_torque_n_m, is_something);
+}
+
+}  // namespace jnd::core

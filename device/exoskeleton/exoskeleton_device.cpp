@@ -1,0 +1,153 @@
+#include "device/exoskeleton/exoskeleton_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/require.h"
+#include "device/drawn_mass.h"
+
+namespace jnd::device {
+namespace {
+
+double period_of(double rate_hz) {
+  // Beyond that the magnets, stiff within a few steps, let the simulation blow up or crawl.
+  core::require(rate_hz >= 100.0 && rate_hz <= 10000.0, "rate_hz", "a number in [100, 10000]",
+                rate_hz);
+  return 1.0 / rate_hz;
+}
+
+int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
+  core::require(delay_s >= 0.0 && delay_s <= 0.02, "extra_delay_s", "a number in [0, 0.02]",
+                delay_s);
+  return std::min(static_cast<int>(std::lround(delay_s * rate_hz)), max_ticks - 1);
+}
+
+void require_positive(double value, const char* field) {
+  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
+}
+
+}  // namespace
+
+ExoskeletonDevice::ExoskeletonDevice(const Parameters& parameters)
+    : parameters_(parameters),
+      period_s_(period_of(parameters.rate_hz)),
+      period_ns_(std::llround(1e9 / parameters.rate_hz)),
+      delay_ticks_(
+          delay_ticks_of(parameters.extra_delay_s, parameters.rate_hz, kMaxDelayTicks)),
+      arm_(parameters.arm, period_s_),
+      kinematics_(arm_.arm().reference_m()),
+      world_({.period_s = period_s_,
+              .home_m = arm_.arm().reference_m(),
+              .base_m = kinematics_.base_position_m(),
+              .arm_joint_locked = parameters.arm_joint_locked,
+              .attached = parameters.attached,
+              .break_away_n = parameters.break_away_n,
+              .sensor_seed = parameters.sensor_seed}),
+      control_(parameters.control, period_s_),
+      filter_(parameters.velocity_cutoff_hz, period_s_) {
+  require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
+  require_positive(parameters.max_total_force_n, "max_total_force_n");
+  open();
+}
+
+DeviceCapabilities ExoskeletonDevice::capabilities() const noexcept {
+  return {.rate_hz = parameters_.rate_hz,
+          .max_force_per_point_n = parameters_.max_force_per_point_n,
+          .max_total_force_n = parameters_.max_total_force_n,
+          .simulated = true,
+          .num_joints = core::kNumJoints,
+          .moves_by_itself = true};
+}
+
+void ExoskeletonDevice::open() {
+  arm_.reset();
+  world_.reset();
+  control_.reset();
+  filter_.start(world_.encoder_position_rad());
+  halted_.store(false, std::memory_order_relaxed);
+  delay_line_.fill(core::zero_vectors());
+  delay_slot_ = 0;
+  device_time_ns_ = 0;
+  sums_ = {};
+  measure();
+}
+
+/// All that a tick knows of the robot.
+void ExoskeletonDevice::measure() noexcept {
+  measured_.position_rad = world_.encoder_position_rad();
+  measured_.velocity_rad_per_s = filter_.update(measured_.position_rad);
+  measured_.torque_n_m = world_.sensor_torque_n_m();
+  kinematics_.update(measured_.position_rad);
+  tip_velocity_m_per_s_ = kinematics_.tip_velocity_m_per_s(measured_.velocity_rad_per_s);
+}
+
+bool ExoskeletonDevice::read(core::HapticState& state) noexcept {
+  if (!world_.is_valid()) return false;
+  state.device_time_ns = device_time_ns_;
+  state.tip_position_m = kinematics_.tip_position_m();
+  state.tip_velocity_m_per_s = tip_velocity_m_per_s_;
+  state.attached = world_.attached();
+  state.end_effector_position_m = kinematics_.end_effector_position_m();
+  for (int joint = 0; joint < core::kNumJoints; ++joint) {
+    state.joint_position_rad[joint] = measured_.position_rad[joint];
+    state.joint_torque_n_m[joint] = measured_.torque_n_m[joint];
+  }
+  return true;
+}
+
+bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
+  const bool nothing_asked =
+      std::all_of(force_on_hand_n.begin(), force_on_hand_n.end(),
+                  [](const Eigen::Vector3d& force_n) { return force_n.isZero(0.0); });
+  if (nothing_asked) control_.rearm();
+  if (halted_.exchange(false, std::memory_order_acq_rel)) {
+    delay_line_.fill(core::zero_vectors());
+  }
+  arm_.follow_orders();
+  if (arm_.takes_putting_back()) {
+    for (int point = 0; point < core::kNumContactPoints; ++point) world_.attach(point);
+  }
+  // What is no number must not lie in wait in the delay line.
+  JointVector torque_n_m = control_.torque_n_m(kinematics_, measured_,
+                                               std::isfinite(total_of(force_on_hand_n).sum())
+                                                   ? delayed(force_on_hand_n)
+                                                   : force_on_hand_n);
+  if (control_.fault() != core::Fault::kNone) delay_line_.fill(core::zero_vectors());
+  // Halted in the middle of it: the force goes, the robot's weight stays held.
+  if (halted_.load(std::memory_order_acquire)) torque_n_m = kinematics_.gravity_torque_n_m();
+
+  arm_.advance();
+  const Eigen::Vector3d pull_n =
+      arm_.arm().force_n(world_.hand_position_m(), world_.hand_velocity_m_per_s());
+  const bool stepped = world_.step(torque_n_m, pull_n);
+  device_time_ns_ += period_ns_;
+  if (!stepped) return false;
+  if (control_.fault() == core::Fault::kNone) add_to_sums(force_on_hand_n);
+  measure();
+  return control_.fault() == core::Fault::kNone;
+}
+
+const core::PointVectors& ExoskeletonDevice::delayed(
+    const core::PointVectors& force_n) noexcept {
+  const int slot = delay_slot_;
+  delay_line_[slot] = force_n;
+  delay_slot_ = (slot + 1) % kMaxDelayTicks;
+  return delay_line_[(slot + kMaxDelayTicks - delay_ticks_) % kMaxDelayTicks];
+}
+
+void ExoskeletonDevice::add_to_sums(const core::PointVectors& force_on_hand_n) noexcept {
+  const Eigen::Vector3d& velocity_m_per_s = world_.hand_velocity_m_per_s();
+  const double speed_m_per_s = velocity_m_per_s.norm();
+  ++sums_.num_ticks;
+  sums_.speed_m_per_s += speed_m_per_s;
+  if (!(speed_m_per_s > 0.0)) return;
+  const Eigen::Vector3d against = -velocity_m_per_s / speed_m_per_s;
+  sums_.rendered_opposing_n += against.dot(total_of(force_on_hand_n));
+  sums_.opposing_n += against.dot(total_of(world_.magnet_force_on_hand_n()));
+}
+
+core::Fault ExoskeletonDevice::fault() const noexcept {
+  return world_.is_valid() ? control_.fault() : core::Fault::kSimulationInvalid;
+}
+
+}  // namespace jnd::device

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace jnd::device {
+
+/// The hand of somebody who carries a thing to its place: a spring and a damper, never stronger
+/// than this. For forces in N and m as for torques in N m and rad.
+struct Guiding {
+  double stiffness;
+  double damping;
+  double strength;
+
+  /// `gap` is the way that is left, `speed` how fast the thing moves along with what it is
+  /// carried to. Real time.
+  [[nodiscard]] Eigen::Vector3d effort(const Eigen::Vector3d& gap,
+                                       const Eigen::Vector3d& speed) const noexcept {
+    const Eigen::Vector3d wanted = stiffness * gap - damping * speed;
+    const double size = wanted.norm();
+    return size > strength ? Eigen::Vector3d(wanted * (strength / size)) : wanted;
+  }
+};
+
+}  // namespace jnd::device

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "core/hand.h"
+#include "core/joints.h"
+
+struct mjModel_;
+
+namespace jnd::device {
+
+/// Where in data/models/exoskeleton.xml the things are that the program knows by name.
+struct ModelAddresses {
+  /// Throws `core::Error` naming what is not there. Not real time.
+  explicit ModelAddresses(const mjModel_& model);
+
+  // In qpos and in qvel.
+  std::array<int, core::kNumJoints> position{}, dof{};
+  std::array<int, core::kNumContactPoints> distal_position{};
+  std::array<int, 3> hand_position{}, hand_dof{};
+  // Sites, bodies and equalities.
+  std::array<int, core::kNumContactPoints> tip_site{}, distal_body{}, magnet{};
+  std::array<int, core::kNumArmJoints> brake{};
+  int arm_base_body = 0, platform_body = 0, forearm_body = 0;
+};
+
+}  // namespace jnd::device

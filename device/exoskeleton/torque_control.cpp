@@ -1,0 +1,100 @@
+#include "device/exoskeleton/torque_control.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/require.h"
+
+namespace jnd::device {
+namespace {
+
+using core::require;
+
+void require_positive(double value, const char* field) {
+  require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
+}
+
+void require_not_negative(double value, const char* field) {
+  require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
+}
+
+/// One comparison for all: a sum with anything not finite in it is not finite itself.
+bool are_finite(const core::PointVectors& force_n) noexcept {
+  double sum = 0.0;
+  for (const Eigen::Vector3d& force : force_n) sum += force.sum();
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+TorqueControl::TorqueControl(const Parameters& parameters, double period_s)
+    : parameters_(parameters), max_torque_n_m_(jnd::device::max_torque_n_m()) {
+  require_positive(period_s, "period_s");
+  require_not_negative(parameters.feed_forward_gain_ratio, "feed_forward_gain_ratio");
+  require_positive(parameters.feed_forward_cutoff_hz, "feed_forward_cutoff_hz");
+  require(parameters.friction_compensation_ratio >= 0.0 &&
+              parameters.friction_compensation_ratio < 1.0,
+          "friction_compensation_ratio", "a number in [0, 1)",
+          parameters.friction_compensation_ratio);
+  require_positive(parameters.friction_speed_rad_per_s, "friction_speed_rad_per_s");
+  require_not_negative(parameters.platform_stiffness_n_m_per_rad,
+                       "platform_stiffness_n_m_per_rad");
+  require_not_negative(parameters.platform_damping_n_m_s_per_rad,
+                       "platform_damping_n_m_s_per_rad");
+  require_not_negative(parameters.limit_protection_ratio, "limit_protection_ratio");
+  feed_forward_weight_ratio_ =
+      1.0 - std::exp(-2.0 * std::numbers::pi * parameters.feed_forward_cutoff_hz * period_s);
+  for (int joint = 0; joint < core::kNumJoints; ++joint) {
+    protection_[joint] = default_protection(joint);
+    if (joint < core::kNumArmJoints) continue;
+    protection_[joint].stiffness_n_m_per_rad *= parameters.limit_protection_ratio;
+    protection_[joint].damping_n_m_s_per_rad *= parameters.limit_protection_ratio;
+  }
+}
+
+void TorqueControl::reset() noexcept {
+  human_torque_n_m_.setZero();
+  rearm();
+}
+
+JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
+                                      const Measured& measured,
+                                      const core::PointVectors& force_on_hand_n) noexcept {
+  if (!are_finite(force_on_hand_n)) fault_ = core::Fault::kNonFiniteForce;
+  if (fault_ != core::Fault::kNone) return JointVector::Zero();
+
+  const double gain = parameters_.feed_forward_gain_ratio;
+  const JointVector gravity_n_m = kinematics.gravity_torque_n_m();
+  JointVector torque_n_m = kinematics.torque_of_n_m(force_on_hand_n);
+  if (parameters_.compensates_feed_forward) torque_n_m *= 1.0 + gain;
+  for (int joint = 0; joint < core::kNumJoints; ++joint) {
+    torque_n_m[joint] += protection_[joint].torque_n_m(measured.position_rad[joint],
+                                                       measured.velocity_rad_per_s[joint]);
+  }
+  if (gain > 0.0) {
+    human_torque_n_m_ +=
+        feed_forward_weight_ratio_ *
+        (device::human_torque_n_m(measured.torque_n_m, gravity_n_m) - human_torque_n_m_);
+    torque_n_m += gain * human_torque_n_m_;
+  }
+  for (int joint = core::kNumArmJoints; joint < core::kNumJoints; ++joint) {
+    torque_n_m[joint] += friction_compensation_n_m(
+        kFingerFriction_n_m[(joint - core::kNumArmJoints) % core::kNumJointsPerFinger],
+        parameters_.friction_compensation_ratio, measured.velocity_rad_per_s[joint],
+        parameters_.friction_speed_rad_per_s);
+  }
+  torque_n_m += kinematics.torque_of_moment_n_m(
+      -parameters_.platform_stiffness_n_m_per_rad * kinematics.platform_turn_rad() -
+      parameters_.platform_damping_n_m_s_per_rad *
+          kinematics.platform_velocity_rad_per_s(measured.velocity_rad_per_s));
+  torque_n_m += gravity_n_m;
+  // A clamp would hide what is no number behind its largest torque.
+  if (!std::isfinite(torque_n_m.sum())) {
+    reset();
+    fault_ = core::Fault::kNonFiniteState;
+    return JointVector::Zero();
+  }
+  return clamped(torque_n_m, max_torque_n_m_);
+}
+
+}  // namespace jnd::device

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/require.h"
+#include "device/exoskeleton/geometry.h"
+
+namespace jnd::device {
+
+/// Velocities of joints from their encoders: differences over one period through a low-pass of
+/// first order,
+///
+///     v += (1 - exp(-2 pi cutoff period)) ((position - last position) / period - v),
+///
+/// which lags by 1 / (2 pi cutoff) behind a steady acceleration. Real time except the
+/// constructor.
+class VelocityFilter {
+ public:
+  /// Throws `core::Error` unless both are finite and > 0. Not real time.
+  VelocityFilter(double cutoff_hz, double period_s) : period_s_(period_s) {
+    core::require(cutoff_hz > 0.0 && std::isfinite(cutoff_hz), "cutoff_hz",
+                  "a finite number > 0", cutoff_hz);
+    core::require(period_s > 0.0 && std::isfinite(period_s), "period_s", "a finite number > 0",
+                  period_s);
+    weight_ratio_ = 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff_hz * period_s);
+  }
+
+  /// At rest there.
+  void start(const JointVector& position_rad) noexcept {
+    position_rad_ = position_rad;
+    velocity_rad_per_s_.setZero();
+  }
+
+  /// One period later.
+  const JointVector& update(const JointVector& position_rad) noexcept {
+    velocity_rad_per_s_ +=
+        weight_ratio_ * ((position_rad - position_rad_) / period_s_ - velocity_rad_per_s_);
+    position_rad_ = position_rad;
+    return velocity_rad_per_s_;
+  }
+
+  [[nodiscard]] const JointVector& velocity_rad_per_s() const noexcept {
+    return velocity_rad_per_s_;
+  }
+
+ private:
+  double period_s_;
+  double weight_ratio_ = 1.0;
+  JointVector position_rad_ = JointVector::Zero();
+  JointVector velocity_rad_per_s_ = JointVector::Zero();
+};
+
+}  // namespace jnd::device

@@ -1,0 +1,293 @@
+#include "device/network/datagram.h"
+
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
+#include "device/network/crc32.h"
+#include "device/network/wire_bytes.h"
+
+namespace jnd::device::wire {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x4b4c444a;  // "JDLK", as it lies in the bytes.
+constexpr std::size_t kVersionAt = 4;
+
+static_assert(sizeof(core::RandomStream) == sizeof(std::uint64_t) &&
+                  std::is_trivially_copyable_v<core::RandomStream>,
+              "a random stream travels as its state");
+static_assert(core::kNumContactPoints <= 8, "bits of a byte say which are attached");
+
+// One function a content, for both directions: the order of the fields stands once.
+
+template <typename Bytes, typename Flag>
+void flag(Bytes& bytes, Flag& value) noexcept {
+  std::uint8_t bit = value ? 1 : 0;
+  bytes.number(bit);
+  if (bit > 1) bytes.refuse(Problem::kOutOfRange);
+  if constexpr (Bytes::kReads) value = bit == 1;
+}
+
+/// An enumeration whose values go from `lowest` to `highest`.
+template <typename Bytes, typename Enum, typename Limit>
+void choice(Bytes& bytes, Enum& value, Limit lowest, Limit highest) noexcept {
+  auto number = static_cast<std::uint8_t>(value);
+  bytes.number(number);
+  if (number < static_cast<std::uint8_t>(lowest) ||
+      number > static_cast<std::uint8_t>(highest)) {
+    bytes.refuse(Problem::kOutOfRange);
+    number = static_cast<std::uint8_t>(lowest);
+  }
+  if constexpr (Bytes::kReads) value = static_cast<Limit>(number);
+}
+
+/// A count, 32 bits wide on the wire.
+template <typename Bytes, typename Count>
+void count(Bytes& bytes, Count& value, std::uint32_t highest) noexcept {
+  auto number = static_cast<std::uint32_t>(value);
+  bytes.number(number);
+  if (number > highest) bytes.refuse(Problem::kOutOfRange);
+  if constexpr (Bytes::kReads) value = static_cast<int>(std::min(number, highest));
+}
+
+template <typename Bytes, typename Number>
+void not_negative(Bytes& bytes, Number& value) noexcept {
+  bytes.number(value);
+  if (!(value >= 0)) bytes.refuse(Problem::kOutOfRange);
+}
+
+template <typename Bytes, typename Number>
+void positive(Bytes& bytes, Number& value) noexcept {
+  bytes.number(value);
+  if (!(value > 0)) bytes.refuse(Problem::kOutOfRange);
+}
+
+template <typename Bytes, typename Vector>
+void vector(Bytes& bytes, Vector& value) noexcept {
+  for (int axis = 0; axis < 3; ++axis) bytes.number(value[axis]);
+}
+
+template <typename Bytes, typename Bits>
+void bits(Bytes& bytes, Bits& values) noexcept {
+  std::uint8_t packed = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    packed = static_cast<std::uint8_t>(packed | (values[i] ? 1 : 0) << i);
+  }
+  bytes.number(packed);
+  if (packed >> values.size() != 0) bytes.refuse(Problem::kOutOfRange);
+  if constexpr (Bytes::kReads) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = (packed >> i & 1) != 0;
+  }
+}
+
+template <typename Bytes, typename Name>
+void device_name(Bytes& bytes, Name& name) noexcept {
+  bool ended = false;
+  for (auto& letter : name) {
+    auto byte = static_cast<std::uint8_t>(letter);
+    bytes.number(byte);
+    const bool is_printable = byte >= 0x20 && byte < 0x7f;
+    if (ended ? byte != 0 : byte != 0 && !is_printable) bytes.refuse(Problem::kOutOfRange);
+    ended |= byte == 0;
+    if constexpr (Bytes::kReads) letter = static_cast<char>(byte);
+  }
+}
+
+template <typename Bytes, typename HeaderT>
+void header_fields(Bytes& bytes, HeaderT& header) noexcept {
+  bytes.number(header.sent_ns);
+  bytes.number(header.echo_ns);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, Hello>
+void fields(Bytes& bytes, T& hello) noexcept {
+  bytes.number(hello.token);
+  flag(bytes, hello.only_asks);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, Welcome>
+void fields(Bytes& bytes, T& welcome) noexcept {
+  auto& can = welcome.capabilities;
+  bytes.number(welcome.token);
+  positive(bytes, can.rate_hz);
+  positive(bytes, can.max_force_per_point_n);
+  positive(bytes, can.max_total_force_n);
+  not_negative(bytes, can.max_stale_s);
+  count(bytes, can.num_contact_points, core::kNumContactPoints);
+  count(bytes, can.num_joints, core::kNumJoints);
+  flag(bytes, can.simulated);
+  flag(bytes, can.moves_by_itself);
+  device_name(bytes, welcome.name);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, Refusal>
+void fields(Bytes& bytes, T& refusal) noexcept {
+  bytes.number(refusal.token);
+  choice(bytes, refusal.reason, RefusalReason::kBusy, RefusalReason::kOtherVersion);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, State>
+void fields(Bytes& bytes, T& state) noexcept {
+  auto& measured = state.measured;
+  bytes.number(measured.device_time_ns);
+  for (auto& tip : measured.tip_position_m) vector(bytes, tip);
+  for (auto& tip : measured.tip_velocity_m_per_s) vector(bytes, tip);
+  vector(bytes, measured.end_effector_position_m);
+  for (auto& joint : measured.joint_position_rad) bytes.number(joint);
+  for (auto& joint : measured.joint_torque_n_m) bytes.number(joint);
+  not_negative(bytes, state.contact_sums.num_ticks);
+  bytes.number(state.contact_sums.opposing_n);
+  bytes.number(state.contact_sums.rendered_opposing_n);
+  bytes.number(state.contact_sums.speed_m_per_s);
+  not_negative(bytes, state.strokes_finished);
+  bytes.number(state.armed_number);
+  bytes.number(state.order_number);
+  bits(bytes, measured.attached);
+  flag(bytes, state.armed);
+  flag(bytes, state.is_measured);
+  flag(bytes, state.is_home);
+  choice(bytes, state.fault, core::Fault::kNone, core::Fault::kSimulationInvalid);
+  choice(bytes, state.level, LinkLevel::kUnacceptable, LinkLevel::kExcellent);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, Command>
+void fields(Bytes& bytes, T& command) noexcept {
+  bytes.number(command.arm_number);
+  bytes.number(command.answered_sequence);
+  for (auto& force : command.force_on_hand_n) vector(bytes, force);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, Order>
+void fields(Bytes& bytes, T& order) noexcept {
+  bytes.number(order.number);
+  bytes.number(order.movement_number);
+  bytes.number(order.num_put_back);
+  flag(bytes, order.stroke);
+  auto& plan = order.plan;
+  positive(bytes, plan.amplitude_m);
+  positive(bytes, plan.max_speed_m_per_s);
+  bytes.number(plan.height_m);
+  bytes.number(plan.lift_m);
+  not_negative(bytes, plan.amplitude_sd_ratio);
+  not_negative(bytes, plan.speed_sd_ratio);
+  not_negative(bytes, plan.height_sd_m);
+  not_negative(bytes, plan.sideways_sd_m);
+  if (!(plan.amplitude_sd_ratio <= 0.3 && plan.speed_sd_ratio <= 0.3)) {
+    bytes.refuse(Problem::kOutOfRange);
+  }
+  not_negative(bytes, plan.num_strokes);
+  auto state = std::bit_cast<std::uint64_t>(order.random);
+  bytes.number(state);
+  if constexpr (Bytes::kReads) order.random = std::bit_cast<core::RandomStream>(state);
+}
+
+template <typename Bytes, typename T>
+requires std::same_as<std::remove_const_t<T>, Halt> ||
+    std::same_as<std::remove_const_t<T>, Goodbye>
+void fields(Bytes&, T&) noexcept {}
+
+/// Makes the content of this kind, the number of an alternative from 1 on. False: there is
+/// none.
+template <std::size_t kKind = 1>
+bool make_content(std::uint16_t kind, Content& content) noexcept {
+  if constexpr (kKind <= std::variant_size_v<Content>) {
+    if (kind != kKind) return make_content<kKind + 1>(kind, content);
+    content.emplace<kKind - 1>();
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view name(Problem problem) noexcept {
+  switch (problem) {
+    case Problem::kNone:
+      return "none";
+    case Problem::kTooShort:
+      return "too_short";
+    case Problem::kWrongMagic:
+      return "wrong_magic";
+    case Problem::kWrongVersion:
+      return "wrong_version";
+    case Problem::kWrongSize:
+      return "wrong_size";
+    case Problem::kWrongChecksum:
+      return "wrong_checksum";
+    case Problem::kUnknownKind:
+      return "unknown_kind";
+    case Problem::kNotFinite:
+      return "not_finite";
+    case Problem::kOutOfRange:
+      return "out_of_range";
+  }
+  return "unknown";
+}
+
+std::size_t encode(const Datagram& datagram, std::span<std::byte, kMaxBytes> bytes) noexcept {
+  ByteWriter contents(bytes.subspan(kHeaderBytes));
+  std::visit([&contents](const auto& content) { fields(contents, content); }, datagram.content);
+  const std::size_t end = kHeaderBytes + contents.size();
+
+  const Header& header = datagram.header;
+  ByteWriter head(bytes);
+  head.number(kMagic);
+  head.number(kVersion);
+  head.number(static_cast<std::uint16_t>(datagram.content.index() + 1));
+  head.number(header.stream_id);
+  head.number(header.sequence);
+  head.number(static_cast<std::uint32_t>(end + kChecksumBytes));
+  header_fields(head, header);
+
+  ByteWriter tail(bytes.subspan(end));
+  tail.number(crc32(bytes.first(end)));
+  return end + kChecksumBytes;
+}
+
+std::uint16_t version_of(std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() < kVersionAt + sizeof(std::uint16_t)) return 0;
+  ByteReader head(bytes);
+  std::uint32_t magic = 0;
+  std::uint16_t version = 0;
+  head.number(magic);
+  head.number(version);
+  return magic == kMagic ? version : std::uint16_t{0};
+}
+
+Problem decode(std::span<const std::byte> bytes, Datagram& datagram) noexcept {
+  if (bytes.size() < kHeaderBytes + kChecksumBytes) return Problem::kTooShort;
+  const std::size_t end = bytes.size() - kChecksumBytes;
+  ByteReader head(bytes.first(kHeaderBytes));
+  std::uint32_t magic = 0;
+  std::uint32_t size = 0;
+  std::uint16_t version = 0;
+  std::uint16_t kind = 0;
+  head.number(magic);
+  head.number(version);
+  head.number(kind);
+  head.number(datagram.header.stream_id);
+  head.number(datagram.header.sequence);
+  head.number(size);
+  header_fields(head, datagram.header);
+  if (magic != kMagic) return Problem::kWrongMagic;
+  if (version != kVersion) return Problem::kWrongVersion;
+  if (size != bytes.size()) return Problem::kWrongSize;
+
+  std::uint32_t checksum = 0;
+  ByteReader tail(bytes.subspan(end));
+  tail.number(checksum);
+  if (checksum != crc32(bytes.first(end))) return Problem::kWrongChecksum;
+  if (!make_content(kind, datagram.content)) return Problem::kUnknownKind;
+
+  ByteReader contents(bytes.subspan(kHeaderBytes, end - kHeaderBytes));
+  std::visit([&contents](auto& content) { fields(contents, content); }, datagram.content);
+  return contents.problem();
+}
+
+}  // namespace jnd::device::wire

@@ -1,0 +1,306 @@
+#include "device/network/device_server.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/require.h"
+#include "device/simulated_hand.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Fault;
+
+/// More than come in a step, and few enough that a flood costs no step.
+constexpr int kMostTaken = 256;
+
+std::int64_t nanoseconds(double duration_s, const char* field) {
+  core::require(duration_s > 0.0 && duration_s <= 3600.0, field, "a number in (0, 3600]",
+                duration_s);
+  return std::llround(1e9 * duration_s);
+}
+
+core::ForceLimiter::Parameters limits_of(const DeviceCapabilities& can, double slew_n_per_s) {
+  core::ForceLimiter::Parameters limits;
+  limits.per_point_n = can.max_force_per_point_n;
+  limits.total_n = can.max_total_force_n;
+  limits.slew_n_per_s = slew_n_per_s;
+  return limits;
+}
+
+wire::Welcome welcome_of(const HapticDevice& device) {
+  wire::Welcome welcome{.capabilities = device.capabilities()};
+  const std::string_view name = device.name();
+  std::copy_n(name.begin(), std::min(name.size(), welcome.name.size()), welcome.name.begin());
+  return welcome;
+}
+
+bool is_finite(const core::HapticState& state) noexcept {
+  bool finite = state.end_effector_position_m.allFinite();
+  for (const Eigen::Vector3d& position : state.tip_position_m) finite &= position.allFinite();
+  for (const Eigen::Vector3d& velocity : state.tip_velocity_m_per_s) {
+    finite &= velocity.allFinite();
+  }
+  for (const double angle : state.joint_position_rad) finite &= std::isfinite(angle);
+  for (const double torque : state.joint_torque_n_m) finite &= std::isfinite(torque);
+  return finite;
+}
+
+bool is_finite(const core::ContactSums& sums) noexcept {
+  return sums.num_ticks >= 0 && std::isfinite(sums.opposing_n) &&
+         std::isfinite(sums.rendered_opposing_n) && std::isfinite(sums.speed_m_per_s);
+}
+
+bool is_without_force(const wire::Command& command) noexcept {
+  return std::all_of(command.force_on_hand_n.begin(), command.force_on_hand_n.end(),
+                     [](const Eigen::Vector3d& force) { return force.isZero(0.0); });
+}
+
+}  // namespace
+
+DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
+                           const Parameters& parameters)
+    : device_(device),
+      port_(port),
+      parameters_(parameters),
+      watchdog_ns_(nanoseconds(parameters.watchdog_s, "watchdog_s")),
+      client_timeout_ns_(nanoseconds(parameters.client_timeout_s, "client_timeout_s")),
+      max_answer_age_(static_cast<std::uint32_t>(std::ceil(
+          1e-9 *
+          static_cast<double>(nanoseconds(parameters.max_answer_age_s, "max_answer_age_s")) *
+          device.capabilities().rate_hz))),
+      welcome_(welcome_of(device)),
+      limiter_(limits_of(device.capabilities(), parameters.slew_n_per_s),
+               1.0 / device.capabilities().rate_hz),
+      quality_(parameters.quality),
+      next_stream_id_(parameters.first_stream_id),
+      sequence_(parameters.first_sequence) {}
+
+void DeviceServer::step(std::int64_t now_ns) noexcept {
+  ++counts_.num_steps;
+  refused_in_step_ = false;
+  take_in(now_ns);
+  if (client_) quality_.end_tick();
+  watch(now_ns);
+  measure();
+  apply_force();
+  tell_client(now_ns);
+}
+
+void DeviceServer::dismiss(std::int64_t now_ns) noexcept {
+  // Twice, for there is no answer; the program would notice the silence, too.
+  for (int i = 0; client_ && i < 2; ++i) {
+    send(client_->address, client_->stream_id, wire::Goodbye{}, now_ns);
+  }
+  end_session();
+  apply_force();
+}
+
+void DeviceServer::take_in(std::int64_t now_ns) noexcept {
+  std::array<std::byte, 2 * wire::kMaxBytes> bytes;
+  Address from;
+  for (int i = 0; i < kMostTaken; ++i) {
+    const std::size_t size = port_.receive(bytes, from);
+    if (size == 0) return;
+    const std::span<const std::byte> received = std::span(bytes).first(size);
+    const wire::Problem problem = wire::decode(received, incoming_);
+    if (problem != wire::Problem::kNone) {
+      quality_.refused();
+      const bool answer = problem == wire::Problem::kWrongVersion && !refused_in_step_;
+      refused_in_step_ |= answer;
+      if (answer) {
+        send(from, 0, wire::Refusal{.reason = wire::RefusalReason::kOtherVersion}, now_ns);
+      }
+      continue;
+    }
+    if (const auto* hello = std::get_if<wire::Hello>(&incoming_.content)) {
+      take(*hello, from, now_ns);
+    } else if (client_ && from == client_->address &&
+               incoming_.header.stream_id == client_->stream_id) {
+      take_from_client(incoming_.header, incoming_.content, now_ns);
+    } else if (std::holds_alternative<wire::Command>(incoming_.content) && !refused_in_step_) {
+      // One answer a step: nobody is to be flooded through us.
+      refused_in_step_ = true;
+      send(from, incoming_.header.stream_id,
+           wire::Refusal{.reason = wire::RefusalReason::kUnknownStream}, now_ns);
+    }
+  }
+}
+
+void DeviceServer::take(const wire::Hello& hello, const Address& from,
+                        std::int64_t now_ns) noexcept {
+  welcome_.token = hello.token;
+  if (hello.only_asks) return send(from, 0, welcome_, now_ns);
+  const bool is_known = client_ && from == client_->address;
+  if (client_ && !is_known) {
+    ++counts_.num_turned_away;
+    return send(from, 0,
+                wire::Refusal{.token = hello.token, .reason = wire::RefusalReason::kBusy},
+                now_ns);
+  }
+  // The same hello again: our answer was lost.
+  if (!is_known || hello.token != client_->token) {
+    end_session();
+    if (next_stream_id_ == 0) next_stream_id_ = 1;
+    client_ = Client{.address = from,
+                     .token = hello.token,
+                     .stream_id = next_stream_id_++,
+                     .last_heard_ns = now_ns};
+    ++counts_.num_clients;
+    quality_.restart();
+    sequence_ = parameters_.first_sequence;
+    state_.armed_number = 0;
+    state_.order_number = 0;
+    state_.fault = Fault::kNone;
+  }
+  send(from, client_->stream_id, welcome_, now_ns);
+}
+
+void DeviceServer::take_from_client(const wire::Header& header, const wire::Content& content,
+                                    std::int64_t now_ns) noexcept {
+  const LinkQuality::Verdict verdict = quality_.received(header.sequence);
+  if (verdict == LinkQuality::Verdict::kRepeated) return;
+  client_->last_heard_ns = now_ns;
+  if (verdict == LinkQuality::Verdict::kNewest) client_->last_sent_ns = header.sent_ns;
+  if (const auto* command = std::get_if<wire::Command>(&content)) {
+    take(header, *command, now_ns);
+  } else if (const auto* order = std::get_if<wire::Order>(&content)) {
+    take(*order);
+  } else if (std::holds_alternative<wire::Halt>(content)) {
+    disarm(Fault::kWatchdog);
+  } else if (std::holds_alternative<wire::Goodbye>(content)) {
+    end_session();
+  }
+}
+
+void DeviceServer::take(const wire::Header& header, const wire::Command& command,
+                        std::int64_t now_ns) noexcept {
+  Client& client = *client_;
+  const auto ahead = static_cast<std::int32_t>(header.sequence - client.command_sequence);
+  if (client.commanded && ahead <= 0) return;
+  client.commanded = true;
+  client.command_sequence = header.sequence;
+  client.command_ns = now_ns;
+  client.command = command;
+}
+
+void DeviceServer::take(const wire::Order& order) noexcept {
+  SimulatedHand* hand = device_.simulated_hand();
+  if (hand == nullptr || order.number <= state_.order_number) return;
+  state_.order_number = order.number;
+  if (order.num_put_back > client_->num_put_back) hand->put_fingers_back();
+  client_->num_put_back = order.num_put_back;
+  if (order.movement_number <= client_->movement_number) return;
+  client_->movement_number = order.movement_number;
+  if (order.stroke) {
+    // It does not throw: the parser let only a valid plan pass.
+    hand->begin_strokes(order.plan, order.random);
+  } else {
+    hand->go_home();
+  }
+}
+
+void DeviceServer::watch(std::int64_t now_ns) noexcept {
+  if (!client_) return;
+  if (now_ns - client_->last_heard_ns >= client_timeout_ns_) return end_session();
+  arm_or_disarm();
+  if (!armed_) return;
+  if (now_ns - client_->command_ns >= watchdog_ns_ || !answers_in_time() ||
+      quality_.is_broken() || quality_.level() == LinkLevel::kUnacceptable) {
+    disarm(Fault::kLinkLost);
+  }
+}
+
+bool DeviceServer::answers_in_time() const noexcept {
+  return sequence_ - client_->command.answered_sequence <= max_answer_age_;
+}
+
+void DeviceServer::arm_or_disarm() noexcept {
+  const wire::Command& command = client_->command;
+  if (!client_->commanded || command.arm_number == state_.armed_number) return;
+  // It asks for another arming, so it means no force of the one before.
+  armed_ = false;
+  if (quality_.is_broken()) quality_.restart();
+  if (!is_without_force(command) || !quality_.is_settled() || !answers_in_time() ||
+      !state_.is_measured) {
+    return;
+  }
+  armed_ = true;
+  state_.armed_number = command.arm_number;
+  state_.fault = Fault::kNone;
+  limiter_.rearm();
+  ++counts_.num_armings;
+}
+
+void DeviceServer::disarm(Fault fault) noexcept {
+  if (armed_) {
+    ++counts_.num_disarmings;
+    counts_.last_fault = fault;
+    state_.fault = fault;
+  }
+  armed_ = false;
+}
+
+void DeviceServer::measure() noexcept {
+  core::HapticState measured;
+  state_.is_measured = device_.read(measured);
+  Fault fault = device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceReadFailed;
+  if (state_.is_measured && !is_finite(measured)) {
+    state_.is_measured = false;
+    fault = Fault::kNonFiniteState;
+  }
+  if (state_.is_measured) {
+    state_.measured = measured;
+  } else {
+    disarm(fault);
+    state_.fault = fault;
+  }
+}
+
+void DeviceServer::apply_force() noexcept {
+  core::PointVectors force_on_hand_n = core::zero_vectors();
+  if (armed_) {
+    force_on_hand_n = client_->command.force_on_hand_n;
+    (void)limiter_.limit(state_.measured.attached, state_.measured.tip_velocity_m_per_s,
+                         force_on_hand_n);
+    if (limiter_.fault() != Fault::kNone) disarm(limiter_.fault());
+  }
+  if (!device_.write(force_on_hand_n)) {
+    disarm(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
+  }
+}
+
+void DeviceServer::tell_client(std::int64_t now_ns) noexcept {
+  if (!client_) return;
+  const core::ContactSums sums = device_.contact_sums();
+  if (is_finite(sums)) state_.contact_sums = sums;
+  if (const SimulatedHand* hand = device_.simulated_hand()) {
+    state_.strokes_finished = hand->strokes_finished();
+    state_.is_home = hand->is_home();
+  }
+  state_.armed = armed_;
+  state_.level = quality_.level();
+  send(client_->address, client_->stream_id, state_, now_ns);
+}
+
+void DeviceServer::end_session() noexcept {
+  armed_ = false;
+  if (!client_) return;
+  client_.reset();
+  if (SimulatedHand* hand = device_.simulated_hand()) hand->go_home();
+}
+
+void DeviceServer::send(const Address& to, std::uint64_t stream_id,
+                        const wire::Content& content, std::int64_t now_ns) noexcept {
+  const bool is_of_stream = client_ && stream_id == client_->stream_id;
+  const wire::Datagram datagram{.header = {.stream_id = stream_id,
+                                           .sequence = is_of_stream ? sequence_++ : 0,
+                                           .sent_ns = now_ns,
+                                           .echo_ns = is_of_stream ? client_->last_sent_ns : 0},
+                                .content = content};
+  std::array<std::byte, wire::kMaxBytes> bytes;
+  const std::size_t size = wire::encode(datagram, bytes);
+  port_.send(std::span(bytes).first(size), to);
+}
+
+}  // namespace jnd::device

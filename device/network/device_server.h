@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/safety/force_limiter.h"
+#include "device/haptic_device.h"
+#include "device/network/datagram.h"
+#include "device/network/datagram_port.h"
+#include "device/network/link_quality.h"
+
+namespace jnd::device {
+
+/// Serves a device to one program at a time, across a network. It trusts nothing that comes in:
+/// a force is passed on only while
+///   - it was asked for on this stream, by the address that opened it;
+///   - the connection has been good for a while when it was armed;
+///   - a command newer than all before has come within `watchdog_s`;
+///   - that command answers to a state younger than `max_answer_age_s`;
+///   - the device was read in this step;
+/// and within limits of its own, as `core::ForceLimiter` has them. Whatever fails means no
+/// force at once, until the program arms again by a command with a new number and without any
+/// force. So neither a program that died nor one that came back can make a force step.
+///
+/// It knows no wall clock: `step` is told the time, by a thread or a test.
+class DeviceServer {
+ public:
+  struct Parameters {
+    double watchdog_s = 0.020;          ///< > 0.
+    double max_answer_age_s = 0.040;    ///< > 0; a stand-in and the way there and back.
+    double client_timeout_s = 1.0;      ///< Silence after which another may connect, > 0.
+    double slew_n_per_s = 2000.0;       ///< > 0.
+    std::uint64_t first_stream_id = 1;  ///< Drawn anew whenever a server starts.
+    std::uint32_t first_sequence = 1;   ///< Of what it sends on a stream.
+    LinkQuality::Parameters quality;
+  };
+
+  /// What there was, for a person to read at the end.
+  struct Counts {
+    std::int64_t num_steps = 0;
+    std::int64_t num_clients = 0;
+    std::int64_t num_turned_away = 0;  ///< Hellos while another was connected.
+    std::int64_t num_armings = 0;
+    std::int64_t num_disarmings = 0;  ///< But for those that the program asked for.
+    core::Fault last_fault = core::Fault::kNone;
+  };
+
+  /// Device and port have to outlive this. Throws `core::Error` naming the field. Not real
+  /// time.
+  DeviceServer(HapticDevice& device, DatagramPort& port, const Parameters& parameters);
+  DeviceServer(const DeviceServer&) = delete;
+  DeviceServer& operator=(const DeviceServer&) = delete;
+
+  /// One of the device's ticks: takes in what has come, reads the device, writes its force,
+  /// tells the program. The device is opened and closed by the caller. Real time.
+  void step(std::int64_t now_ns) noexcept;
+  /// Says goodbye to the program, and no force. Real time.
+  void dismiss(std::int64_t now_ns) noexcept;
+
+  [[nodiscard]] bool has_client() const noexcept { return client_.has_value(); }
+  [[nodiscard]] bool is_armed() const noexcept { return armed_; }
+  [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+  /// Of the commands that come in, all programs together.
+  [[nodiscard]] const LinkQuality& quality() const noexcept { return quality_; }
+
+ private:
+  struct Client {
+    Address address;
+    std::uint64_t token = 0;
+    std::uint64_t stream_id = 0;
+    std::int64_t last_heard_ns = 0;
+    std::int64_t last_sent_ns = 0;  ///< Its own clock, of the newest that has come.
+    bool commanded = false;         ///< A command has come.
+    std::uint32_t command_sequence = 0;
+    std::int64_t command_ns = 0;  ///< When the newest command came.
+    wire::Command command;
+    std::uint32_t movement_number = 0, num_put_back = 0;  ///< Of the last order taken.
+  };
+
+  void take_in(std::int64_t now_ns) noexcept;
+  void take(const wire::Hello& hello, const Address& from, std::int64_t now_ns) noexcept;
+  void take_from_client(const wire::Header& header, const wire::Content& content,
+                        std::int64_t now_ns) noexcept;
+  void take(const wire::Header& header, const wire::Command& command,
+            std::int64_t now_ns) noexcept;
+  void take(const wire::Order& order) noexcept;
+  [[nodiscard]] bool answers_in_time() const noexcept;
+  void arm_or_disarm() noexcept;
+  void disarm(core::Fault fault) noexcept;
+  void watch(std::int64_t now_ns) noexcept;
+  void measure() noexcept;
+  void apply_force() noexcept;
+  void tell_client(std::int64_t now_ns) noexcept;
+  void end_session() noexcept;
+  void send(const Address& to, std::uint64_t stream_id, const wire::Content& content,
+            std::int64_t now_ns) noexcept;
+
+  HapticDevice& device_;
+  DatagramPort& port_;
+  Parameters parameters_;
+  std::int64_t watchdog_ns_, client_timeout_ns_;
+  std::uint32_t max_answer_age_;  ///< In steps.
+  wire::Welcome welcome_;
+  core::ForceLimiter limiter_;
+  LinkQuality quality_;
+  Counts counts_;
+
+  std::optional<Client> client_;
+  std::uint64_t next_stream_id_;
+  std::uint32_t sequence_;
+  bool armed_ = false;
+  bool refused_in_step_ = false;
+  wire::State state_;
+  wire::Datagram incoming_;
+};
+
+}  // namespace jnd::device

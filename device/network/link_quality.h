@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace jnd::device {
+
+/// How good a connection is, in the four levels of KUKA's fast robot interface. With a poor one
+/// nothing new is armed, with an unacceptable one no force is given.
+enum class LinkLevel : std::uint8_t { kUnacceptable = 0, kPoor = 1, kGood = 2, kExcellent = 3 };
+
+/// "good", as JSON spells it. Real time.
+[[nodiscard]] std::string_view name(LinkLevel level) noexcept;
+
+/// What has become of the datagrams of the other side, since the device was opened.
+struct LinkCounts {
+  std::int64_t received = 0;   ///< Of this connection, each once.
+  std::int64_t lost = 0;       ///< Never came, or not yet.
+  std::int64_t late = 0;       ///< Ticks that found nothing new.
+  std::int64_t doubled = 0;    ///< Came again, or long after their time: dropped.
+  std::int64_t reordered = 0;  ///< Came after a newer one.
+  std::int64_t refused = 0;    ///< Were no datagrams of ours, see `wire::Problem`.
+};
+
+/// Judges what comes in over a connection by the sequence numbers it bears; they may wrap.
+///
+/// | level        | missing of the last 512 | round trip, smoothed |
+/// | ------------ | ----------------------- | -------------------- |
+/// | excellent    | at most 1               | at most 4 ms         |
+/// | good         | at most 10 (2 %)        | at most 8 ms         |
+/// | poor         | at most 51 (10 %)       | at most 16 ms        |
+/// | unacceptable | more                    | more                 |
+///
+/// Unacceptable also until 50 have come. A round trip is from a datagram's sending until the
+/// first answer that had seen it is taken in, so it holds the waiting for the ticks of both
+/// sides: two periods and the network. Used by one thread; real time.
+class LinkQuality {
+ public:
+  struct Parameters {
+    int max_lost_in_a_row =
+        20;              ///< That many in a row break the connection, as with libfranka.
+    int good_for = 100;  ///< Datagrams at least good in a row before it is settled.
+  };
+
+  enum class Verdict {
+    kNewest,     ///< Newer than all before.
+    kReordered,  ///< Older than the newest, and new to us.
+    kRepeated,   ///< Seen before, or too old to tell.
+  };
+
+  explicit LinkQuality(const Parameters& parameters) noexcept : parameters_(parameters) {}
+
+  /// Another stream of datagrams, or the same after a pause: all is to be shown anew. The
+  /// counts go on.
+  void restart() noexcept;
+  [[nodiscard]] Verdict received(std::uint32_t sequence) noexcept;
+  void refused() noexcept { ++counts_.refused; }
+  void round_trip(std::int64_t duration_ns) noexcept;
+  /// Once a tick of the receiver, after it has taken in what there was.
+  void end_tick() noexcept;
+
+  [[nodiscard]] LinkLevel level() const noexcept;
+  /// At least good for as long as was asked for, up to now.
+  [[nodiscard]] bool is_settled() const noexcept { return num_good_ >= parameters_.good_for; }
+  /// Too many in a row were lost since `restart`.
+  [[nodiscard]] bool is_broken() const noexcept { return broken_; }
+  /// Smoothed over some 16 round trips; 0 before the first.
+  [[nodiscard]] double round_trip_s() const noexcept { return 1e-9 * round_trip_ns_; }
+  [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
+
+ private:
+  static constexpr std::uint32_t kWindow = 512;
+
+  [[nodiscard]] bool is_marked(std::uint32_t sequence) const noexcept;
+  void mark(std::uint32_t sequence, bool came) noexcept;
+  void advance_to(std::uint32_t sequence) noexcept;
+
+  Parameters parameters_;
+  LinkCounts counts_;
+  bool has_newest_ = false;
+  std::uint32_t newest_ = 0;
+  std::uint32_t num_expected_ = 0;  ///< Within the window, up to its size.
+  std::uint32_t num_came_ = 0;      ///< Of these.
+  /// One bit a sequence number, modulo the window.
+  std::array<std::uint64_t, kWindow / 64> came_{};
+  bool came_in_tick_ = false;
+  bool broken_ = false;
+  int num_good_ = 0;
+  double round_trip_ns_ = 0.0;
+};
+
+}  // namespace jnd::device

@@ -1,0 +1,166 @@
+#include "device/network/udp_port.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <ctime>
+
+#include "core/error.h"
+
+namespace jnd::device {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+static_assert(sizeof(sockaddr_in6) <= sizeof(Address::bytes));
+static_assert(sizeof(sockaddr_in) <= sizeof(Address::bytes));
+
+/// As the system's calls want it.
+struct SystemAddress {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof(sockaddr_storage);
+
+  [[nodiscard]] sockaddr* get() noexcept { return reinterpret_cast<sockaddr*>(&storage); }
+};
+
+SystemAddress system_address(const Address& address) noexcept {
+  SystemAddress system;
+  std::memcpy(&system.storage, address.bytes.data(), address.num_bytes);
+  system.size = address.num_bytes;
+  return system;
+}
+
+Address address_of(const SystemAddress& system) noexcept {
+  Address address;
+  address.num_bytes = std::min<std::uint32_t>(system.size, sizeof address.bytes);
+  std::memcpy(address.bytes.data(), &system.storage, address.num_bytes);
+  return address;
+}
+
+[[noreturn]] void refuse_endpoint(std::string_view text) {
+  throw core::Error("network: expected HOST:PORT with a port from 1 to 65535, found " +
+                    std::string(text.substr(0, 200)) +
+                    "; write for example 127.0.0.1:4700 or [::1]:4700");
+}
+
+}  // namespace
+
+Endpoint endpoint_of(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || colon == 0) refuse_endpoint(text);
+  std::string_view host = text.substr(0, colon);
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
+    host = host.substr(1, host.size() - 2);
+  } else if (host.find_first_of(":[]") != std::string_view::npos) {
+    refuse_endpoint(text);
+  }
+  const std::string_view digits = text.substr(colon + 1);
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  if (error != std::errc() || end != digits.data() + digits.size() || port == 0) {
+    refuse_endpoint(text);
+  }
+  return {.host = std::string(host), .port = port};
+}
+
+Address resolved(const Endpoint& endpoint) {
+  addrinfo wanted{};
+  wanted.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  const int error = ::getaddrinfo(endpoint.host.c_str(), std::to_string(endpoint.port).c_str(),
+                                  &wanted, &found);
+  if (error != 0) {
+    throw core::Error("network: expected a host that this machine can find, found " +
+                      endpoint.host + " (" + ::gai_strerror(error) +
+                      "); check its spelling and the network");
+  }
+  SystemAddress system;
+  system.size = found->ai_addrlen;
+  std::memcpy(&system.storage, found->ai_addr, found->ai_addrlen);
+  ::freeaddrinfo(found);
+  return address_of(system);
+}
+
+std::string text_of(const Address& address) {
+  SystemAddress system = system_address(address);
+  char host[NI_MAXHOST] = "";
+  char port[NI_MAXSERV] = "";
+  if (::getnameinfo(system.get(), system.size, host, sizeof host, port, sizeof port,
+                    NI_NUMERICHOST | NI_NUMERICSERV | NI_DGRAM) != 0) {
+    return "nowhere";
+  }
+  const bool is_6 = system.storage.ss_family == AF_INET6;
+  return (is_6 ? "[" + std::string(host) + "]" : host) + ":" + port;
+}
+
+Address any_address_for(const Address& peer) {
+  SystemAddress system;
+  system.storage.ss_family = system_address(peer).storage.ss_family;
+  system.size = peer.num_bytes;
+  return address_of(system);
+}
+
+UdpPort::UdpPort(const Address& local) {
+  SystemAddress system = system_address(local);
+  socket_ = ::socket(system.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (socket_ >= 0 && ::bind(socket_, system.get(), system.size) == 0) return;
+  const std::string why = std::strerror(errno);
+  if (socket_ >= 0) ::close(socket_);
+  throw core::Error("network: expected " + text_of(local) + " to be free, found: " + why +
+                    "; choose another port or address");
+}
+
+UdpPort::~UdpPort() { ::close(socket_); }
+
+Address UdpPort::local() const {
+  SystemAddress system;
+  if (::getsockname(socket_, system.get(), &system.size) != 0) {
+    throw core::Error("network: expected a socket to have an address, found: " +
+                      std::string(std::strerror(errno)));
+  }
+  return address_of(system);
+}
+
+bool UdpPort::send(std::span<const std::byte> datagram, const Address& to) noexcept {
+  SystemAddress system = system_address(to);
+  const ssize_t sent = ::sendto(socket_, datagram.data(), datagram.size(),
+                                MSG_DONTWAIT | MSG_NOSIGNAL, system.get(), system.size);
+  return sent == static_cast<ssize_t>(datagram.size());
+}
+
+std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept {
+  SystemAddress system;
+  // An empty datagram is as good as none, but must not hide what comes behind it.
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    const ssize_t size = ::recvfrom(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT,
+                                    system.get(), &system.size);
+    if (size > 0) {
+      from = address_of(system);
+      return static_cast<std::size_t>(size);
+    }
+    if (size < 0 && errno != EINTR) return 0;
+    system.size = sizeof system.storage;
+  }
+  return 0;
+}
+
+std::int64_t UdpPort::now_ns() const noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * kNsPerS + now.tv_nsec;
+}
+
+void UdpPort::pause(std::int64_t duration_ns) noexcept {
+  const timespec duration{.tv_sec = static_cast<time_t>(duration_ns / kNsPerS),
+                          .tv_nsec = static_cast<long>(duration_ns % kNsPerS)};
+  clock_nanosleep(CLOCK_MONOTONIC, 0, &duration, nullptr);
+}
+
+}  // namespace jnd::device

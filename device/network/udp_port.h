@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "device/network/datagram_port.h"
+
+namespace jnd::device {
+
+/// What `HOST:PORT` means, `[HOST]:PORT` where the host is an IPv6 address.
+struct Endpoint {
+  std::string host;
+  std::uint16_t port = 0;
+};
+
+/// Throws `core::Error` saying what a host and a port look like. Not real time.
+[[nodiscard]] Endpoint endpoint_of(std::string_view text);
+
+/// Throws `core::Error` if the system does not know the host. Not real time.
+[[nodiscard]] Address resolved(const Endpoint& endpoint);
+
+/// "127.0.0.1:4700". Not real time.
+[[nodiscard]] std::string text_of(const Address& address);
+
+/// A UDP socket that never blocks, over IPv4 or IPv6.
+class UdpPort final : public DatagramPort {
+ public:
+  /// Receives at this address; port 0 is any that is free. Throws `core::Error` if it cannot be
+  /// had. Not real time.
+  explicit UdpPort(const Address& local);
+  ~UdpPort() override;
+  UdpPort(const UdpPort&) = delete;
+  UdpPort& operator=(const UdpPort&) = delete;
+
+  /// Where it receives, with the port that it was given. Not real time.
+  [[nodiscard]] Address local() const;
+
+  bool send(std::span<const std::byte> datagram, const Address& to) noexcept override;
+  [[nodiscard]] std::size_t receive(std::span<std::byte> bytes,
+                                    Address& from) noexcept override;
+  [[nodiscard]] std::int64_t now_ns() const noexcept override;
+  void pause(std::int64_t duration_ns) noexcept override;
+
+ private:
+  int socket_ = -1;
+};
+
+/// Any free port of the kind of address that `peer` is. Not real time.
+[[nodiscard]] Address any_address_for(const Address& peer);
+
+}  // namespace jnd::device

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/doors/latest_value.h"
+#include "device/simulated_hand.h"
+#include "device/stroking_arm.h"
+
+namespace jnd::device {
+
+/// A `StrokingArm` inside a device and the door through which another thread gives it orders.
+/// What a `SimulatedHand` offers belongs to the one who orders, everything else to the loop's
+/// thread.
+class OrderedArm final : public SimulatedHand {
+ public:
+  /// Throws `core::Error` naming the field. Not real time.
+  OrderedArm(const StrokingArm::Parameters& parameters, double period_s);
+
+  void begin_strokes(const StrokePlan& plan, const core::RandomStream& random) override;
+  void go_home() noexcept override;
+  [[nodiscard]] std::int64_t strokes_finished() const noexcept override;
+  [[nodiscard]] bool is_home() const noexcept override;
+  void put_fingers_back() noexcept override {
+    puts_back_.store(true, std::memory_order_relaxed);
+  }
+
+  /// Home again, orders forgotten. Not real time.
+  void reset();
+  /// Takes the newest order. Before whatever the tick needs of the arm. Real time.
+  void follow_orders() noexcept;
+  /// Whether fingers are to be put back now; once for each time it was asked for. Real time.
+  [[nodiscard]] bool takes_putting_back() noexcept {
+    return puts_back_.load(std::memory_order_relaxed) &&
+           puts_back_.exchange(false, std::memory_order_relaxed);
+  }
+  /// Moves on by one tick and tells how far it has come. Real time.
+  void advance() noexcept;
+  [[nodiscard]] const StrokingArm& arm() const noexcept { return arm_; }
+
+ private:
+  struct Order {
+    std::uint32_t number = 0;
+    bool stroke = false;  ///< Else go home.
+    StrokePlan plan;
+    core::RandomStream random{0, "stroke"};
+  };
+  void give(const Order& order) noexcept;
+
+  StrokingArm::Parameters parameters_;
+  double period_s_;
+  StrokingArm arm_;
+  core::LatestValue<Order> orders_;
+  std::atomic<bool> puts_back_{false};
+  std::uint32_t last_order_ = 0;
+  std::uint32_t last_stroke_order_ = 0;
+  /// Number of the order in force in the upper half, 2 * strokes + home in the lower.
+  std::atomic<std::uint64_t> progress_{1};
+};
+
+}  // namespace jnd::device

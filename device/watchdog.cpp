@@ -1,0 +1,77 @@
+#include "device/watchdog.h"
+
+#include <cmath>
+#include <ctime>
+
+#include "core/require.h"
+
+namespace jnd::device {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+constexpr double kLooksPerTimeout = 10.0;
+
+std::int64_t timeout_ns_of(const Watchdog::Parameters& parameters) {
+  core::require(parameters.timeout_s > 0.0 && parameters.timeout_s <= 10.0, "timeout_s",
+                "a number in (0, 10]", parameters.timeout_s);
+  return std::llround(1e9 * parameters.timeout_s);
+}
+
+int checked_priority(int priority) {
+  core::require(priority >= 0 && priority <= 99, "priority", "a number in [0, 99]", priority);
+  return priority;
+}
+
+}  // namespace
+
+Watchdog::Watchdog(const Parameters& parameters, HapticDevice& device,
+                   core::WatchdogState& state)
+    : timeout_ns_(timeout_ns_of(parameters)), device_(device), state_(state) {}
+
+void Watchdog::look(std::int64_t now_ns) noexcept {
+  const std::uint64_t beats = state_.num_beats();
+  if (beats == 0) return;
+  if (beats != last_beats_) {
+    last_beats_ = beats;
+    silent_since_ns_ = now_ns;
+  }
+  if (now_ns - silent_since_ns_ < timeout_ns_) return;
+  silent_since_ns_ = now_ns;
+  // First the state: a loop that wakes up in between must not write over the halt.
+  state_.bite();
+  device_.halt();
+}
+
+WatchdogThread::WatchdogThread(const Parameters& parameters, HapticDevice& device,
+                               core::WatchdogState& state)
+    : watchdog_(parameters.watchdog, device, state),
+      period_ns_(std::llround(1e9 * parameters.watchdog.timeout_s / kLooksPerTimeout)),
+      priority_(checked_priority(parameters.priority)),
+      thread_([this] { run(); }) {}
+
+WatchdogThread::~WatchdogThread() {
+  stop_ = true;
+  thread_.join();
+}
+
+void WatchdogThread::run() noexcept {
+  RealtimeReport report;
+  obtain_scheduler(priority_, report);
+  timespec due{};
+  clock_gettime(CLOCK_MONOTONIC, &due);
+  while (!stop_.load(std::memory_order_relaxed)) {
+    const std::int64_t next_ns = std::int64_t{due.tv_sec} * kNsPerS + due.tv_nsec + period_ns_;
+    due = {.tv_sec = static_cast<time_t>(next_ns / kNsPerS),
+           .tv_nsec = static_cast<long>(next_ns % kNsPerS)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0) {
+    }
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const std::int64_t now_ns = std::int64_t{now.tv_sec} * kNsPerS + now.tv_nsec;
+    // Held up with the whole machine: no looks are made up for.
+    if (now_ns - next_ns > period_ns_) due = now;
+    watchdog_.look(now_ns);
+  }
+}
+
+}  // namespace jnd::device

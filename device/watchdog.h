@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include "core/safety/watchdog_state.h"
+#include "device/haptic_device.h"
+#include "device/realtime_report.h"
+
+namespace jnd::device {
+
+/// Takes the force away from a device whose loop has stopped: stuck, starved or dead. It begins
+/// to watch with the loop's first beat. A loop that stays silent is bitten again after each
+/// timeout, so that no single halt has to arrive.
+///
+/// It knows no wall clock: `look` is told the time, by a thread or a test.
+class Watchdog {
+ public:
+  struct Parameters {
+    double timeout_s = 0.020;  ///< Silence that is one too many, in (0, 10].
+  };
+
+  /// Throws `core::Error` naming the field. Device and state have to outlive this. Not real
+  /// time.
+  Watchdog(const Parameters& parameters, HapticDevice& device, core::WatchdogState& state);
+
+  /// To be called several times within the timeout, by one thread, with a clock that never goes
+  /// back: a loop is bitten at the first look from one timeout on after the look that saw its
+  /// last beat. Real time.
+  void look(std::int64_t now_ns) noexcept;
+
+ private:
+  std::int64_t timeout_ns_;
+  HapticDevice& device_;
+  core::WatchdogState& state_;
+  std::uint64_t last_beats_ = 0;
+  std::int64_t silent_since_ns_ = 0;
+};
+
+/// A `Watchdog` with a thread of its own, which looks ten times within the timeout. It asks for
+/// a higher priority than the loop's, so that a loop that never sleeps cannot starve it.
+class WatchdogThread {
+ public:
+  struct Parameters {
+    Watchdog::Parameters watchdog;
+    int priority = 81;  ///< Of SCHED_FIFO, [1, 99]; 0 does not ask for it.
+  };
+
+  /// Watches until this is destroyed. Throws `core::Error` naming the field. Not real time.
+  WatchdogThread(const Parameters& parameters, HapticDevice& device,
+                 core::WatchdogState& state);
+  ~WatchdogThread();
+  WatchdogThread(const WatchdogThread&) = delete;
+  WatchdogThread& operator=(const WatchdogThread&) = delete;
+
+ private:
+  void run() noexcept;
+
+  Watchdog watchdog_;
+  std::int64_t period_ns_;
+  int priority_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace jnd::device

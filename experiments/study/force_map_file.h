@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/media/force_map.h"
+
+namespace jnd::experiments {
+
+/// Reads a table of `angle_of_attack_rad,speed_m_per_s,drag_coefficient,lift_coefficient`, with
+/// these words as its first line; lines that begin with `#` are comments. Throws `core::Error`
+/// that tells file, line and what is wrong. Not real time.
+[[nodiscard]] core::ForceMap read_force_map(const std::filesystem::path& file);
+
+/// The same for a text; `file_name` is for messages.
+[[nodiscard]] core::ForceMap parse_force_map(std::string_view text,
+                                             const std::string& file_name);
+
+}  // namespace jnd::experiments

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/json_document.h"
+#include "app/sentence.h"
+#include "app/tiny_study.h"
+#include "core/storage/study_store.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+using test_support::ProgramOutcome;
+using test_support::RunningProgram;
+
+/// Two trials, some ten seconds of real time.
+const std::string kShortStudy = R"json({
+  "format": 1,
+  "name": "short",
+  "languages": ["en"],
+  "title": {"en": "Short"},
+  "authors": ["A. Author"],
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+  "stages": [
+    {"kind": "explore", "name": "free", "instruction": {"en": "Move."},
+     "media": [{"medium": "free_space", "duration_s": 0.5}]},
+    {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation",
+     "medium": "water", "scale": [1, 2], "repetitions": 1, "free_space_between_s": 0,
+     "instruction": {"en": "Say."}, "question": {"en": "How strong?"}, "expected_trial_s": 5}
+  ]
+})json";
+
+class DeviceSimulatorTest : public ::testing::Test {
+ protected:
+  void SetUp() override { write_file(temporary_.path() / "short.json", kShortStudy); }
+
+  /// Starts one at this port and waits until it listens; tells where.
+  std::string start(const std::string& port = "0", const std::string& device = "lumped") {
+    simulator_.emplace(
+        std::vector<std::string>{"device-simulator", "--port", port, "--device", device},
+        options_);
+    const std::string line = simulator_->read_line().value_or("");
+    const std::string words = "listening on ";
+    EXPECT_TRUE(line.starts_with(words)) << line;
+    return line.size() > words.size() ? line.substr(words.size()) : "";
+  }
+  static std::string port_of(const std::string& place) {
+    return place.substr(place.rfind(':') + 1);
+  }
+  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
+    return test_support::run_program(arguments, options_);
+  }
+  static std::vector<std::string> run_words(const std::string& place) {
+    return {"run",    "short.json", "--study",      "short.study",      "--participant",
+            "P01",    "--headless", "--device",     "network:" + place, "--realtime",
+            "--seed", "7",          "--acknowledge"};
+  }
+  [[nodiscard]] core::StudyStore opened() const {
+    return {temporary_.path() / "short.study", core::StudyStore::Mode::kReadOnly};
+  }
+
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
+  std::optional<RunningProgram> simulator_;
+};
+
+TEST_F(DeviceSimulatorTest, ServesTheLoopAndCountsWhatCame) {
+  const std::string place = start();
+  EXPECT_TRUE(place.starts_with("127.0.0.1:")) << place;
+  const ProgramOutcome loop =
+      jnd({"loop", "--device", "network:" + place, "--seconds", "1", "--json"});
+  EXPECT_EQ(loop.exit_code, 0) << loop.err;
+  EXPECT_GT(document(loop.out)["num_ticks"], 900);
+  simulator_->send_signal(SIGTERM);
+  const ProgramOutcome served = simulator_->wait();
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_NE(served.out.find("1 programs connected"), std::string::npos) << served.out;
+}
+
+TEST_F(DeviceSimulatorTest, EndsByItselfWithOneJsonDocument) {
+  const ProgramOutcome outcome =
+      jnd({"device-simulator", "--port", "0", "--seconds", "0.2", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("listening on 127.0.0.1:"), std::string::npos);
+  const auto json = document(outcome.out);
+  EXPECT_GT(json["num_steps"], 50);
+  EXPECT_EQ(json["num_clients"], 0);
+  EXPECT_EQ(json["last_fault"], "none");
+  EXPECT_EQ(keys(json["link"]), (std::set<std::string>{"received", "lost", "late", "doubled",
+                                                       "reordered", "refused"}));
+}
+
+TEST_F(DeviceSimulatorTest, WrongArgumentsAreToldInOneSentence) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--port", "65536"},
+                                                {"--device", "phantom"},
+                                                {"--device", "unplugged:1"},
+                                                {"--rate-hz", "0"},
+                                                {"--rate-hz", "nan"},
+                                                {"--seconds", "-1"}}) {
+    std::vector<std::string> all = {"device-simulator"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramOutcome outcome = jnd(all);
+    EXPECT_EQ(outcome.exit_code, 2) << words[0] << " " << words[1];
+    EXPECT_EQ(sentence_flaw(outcome.err), "");
+  }
+}
+
+TEST_F(DeviceSimulatorTest, APortThatIsTakenIsALackOfThisMachine) {
+  const std::string place = start();
+  const ProgramOutcome second = jnd({"device-simulator", "--port", port_of(place)});
+  EXPECT_EQ(second.exit_code, 3);
+  EXPECT_NE(second.err.find(place), std::string::npos) << second.err;
+}
+
+TEST_F(DeviceSimulatorTest, NobodyThereIsToldInOneSentence) {
+  const ProgramOutcome outcome = jnd(run_words("127.0.0.1:1"));
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("expected a device to answer, found none"), std::string::npos)
+      << outcome.err;
+}
+
+/// The whole way with real processes: the device dies in the middle of a session, comes back,
+/// and the session goes on to its end.
+TEST_F(DeviceSimulatorTest, ASessionSurvivesTheDevicesDeathAndRestart) {
+  const std::string place = start();
+  RunningProgram session(run_words(place), options_);
+  int num_events = 0;
+  while (const std::optional<std::string> line = session.read_line()) {
+    ++num_events;
+    if (line->find("presentation_started") != std::string::npos) break;
+  }
+  ASSERT_GT(num_events, 2);
+  simulator_->send_signal(SIGKILL);
+  (void)simulator_->wait();
+  const ProgramOutcome ended = session.wait();
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("connection to the device"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("jnd resume"), std::string::npos) << ended.err;
+  EXPECT_FALSE(opened().finished(1));
+  EXPECT_EQ(jnd({"verify", "short.study"}).exit_code, 0);
+
+  EXPECT_EQ(start(port_of(place)), place);
+  const ProgramOutcome resumed = jnd({"resume", "short.study", "--headless", "--realtime"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_TRUE(opened().completed(1));
+  EXPECT_EQ(jnd({"verify", "short.study"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace jnd::app

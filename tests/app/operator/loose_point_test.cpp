@@ -1,0 +1,138 @@
+#include <algorithm>
+
+#include "app/operator/operated_session_fixture.h"
+#include "core/storage/integrity.h"
+
+namespace jnd::app {
+namespace {
+
+/// A session whose device loses the hold of the index finger for a while.
+class LoosePointTest : public OperatedSessionTest {
+ protected:
+  /// At the session's next step, 0.11 s after the device was opened; the finger is off from
+  /// there to there, in the device's time.
+  SessionView go_on_with_loose_index(double from_s, double to_s) {
+    reopen({{.first_tick = std::llround(1000.0 * from_s),
+             .num_ticks = std::llround(1000.0 * (to_s - from_s)),
+             .injection = device::Injection::kDetachedPoint,
+             .point = core::ContactPoint::kIndex}});
+    return act(operate::Begin{"repeat"});
+  }
+
+  std::string last_event_of(const std::string& kind) const {
+    std::string data;
+    for (const core::EventRow& event : store_->events(session_number_)) {
+      if (event.kind == kind) data = event.data;
+    }
+    return data;
+  }
+};
+
+TEST_F(LoosePointTest, AMagnetThatLoosensInMidTrialPausesAndTheTrialIsRepeated) {
+  open();
+  run_to_block("comparison");
+  const std::int64_t trial = go_on_with_loose_index(2.0, 4.0).trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(1.0);
+  act(operate::Present{trial, "test"});
+  EXPECT_EQ(view().step, Step::kPresenting);
+  pass(1.0);
+
+  const SessionView paused = view();
+  EXPECT_EQ(paused.step, Step::kPaused);
+  EXPECT_EQ(paused.loose_points, "the index finger");
+  EXPECT_NE(paused.sentence.find("the index finger"), std::string::npos) << paused.sentence;
+  const std::vector<std::string> before = kinds();
+  EXPECT_EQ(before.at(before.size() - 2), "attempt_discarded");
+  EXPECT_EQ(before.back(), "paused");
+  EXPECT_NE(last_event_of("paused").find("came off: index"), std::string::npos);
+  EXPECT_NE(last_event_of("attempt_discarded").find("came off: index"), std::string::npos);
+
+  const SessionView refused = act(operate::GoOn{});
+  EXPECT_EQ(refused.step, Step::kPaused);
+  EXPECT_NE(refused.refusal.find("the index finger came off"), std::string::npos);
+  EXPECT_EQ(kinds().size(), before.size()) << "nothing of a refusal is stored";
+
+  pass(2.5);
+  EXPECT_EQ(view().loose_points, "");
+  EXPECT_EQ(view().step, Step::kPaused) << "it goes on when the operator says so";
+  const SessionView again = act(operate::GoOn{});
+  EXPECT_EQ(again.step, Step::kReady);
+  EXPECT_EQ(again.trial->trial, trial);
+  answer_trial(again, 1.0);
+  const core::TrialRow row = store_->trials(session_number_).back();
+  EXPECT_EQ(row.trial, trial);
+  EXPECT_EQ(row.response, 1.0);
+  EXPECT_EQ(row.attempt, 2);
+}
+
+TEST_F(LoosePointTest, NoForceIsGivenWhileTheSessionWaitsForTheFinger) {
+  open();
+  run_to_block("comparison");
+  const std::int64_t trial = go_on_with_loose_index(2.0, 4.0).trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(1.5);
+  EXPECT_NE(view().telemetry.total_force_n, core::PlainVector{});
+  pass(1.0);
+  EXPECT_EQ(view().step, Step::kPaused);
+  EXPECT_EQ(view().telemetry.total_force_n, core::PlainVector{});
+}
+
+TEST_F(LoosePointTest, AFingerThatCameOffBetweenTrialsIsPutBackBeforeTheNext) {
+  open();
+  run_to_block("comparison");
+  const SessionView ready = go_on_with_loose_index(3.0, 5.0);
+  answer_trial(ready, 1.0);
+  pass(1.0);
+  EXPECT_EQ(view().step, Step::kReady) << "nothing is felt";
+  const SessionView refused = act(operate::Present{ready.trial->trial + 1, "reference"});
+  EXPECT_EQ(refused.step, Step::kReady);
+  EXPECT_NE(refused.refusal.find("the index finger came off"), std::string::npos);
+  pass(2.5);
+  EXPECT_EQ(act(operate::Present{ready.trial->trial + 1, "reference"}).step, Step::kPresenting);
+}
+
+TEST_F(LoosePointTest, AMediumOutsideOfTrialsIsFeltAgain) {
+  open();
+  act(operate::Begin{});
+  while (view().step != Step::kMedium) step_on(view());
+  go_on_with_loose_index(1.0, 2.0);
+  act(operate::FeelMedium{});
+  pass(1.0);
+  EXPECT_EQ(view().step, Step::kPaused);
+  EXPECT_EQ(std::ranges::count(kinds(), "medium_explored"), 0);
+  pass(1.5);
+  EXPECT_EQ(act(operate::GoOn{}).step, Step::kMedium);
+  act(operate::FeelMedium{});
+  pass(0.5);
+  act(operate::FinishMedium{});
+  EXPECT_EQ(std::ranges::count(kinds(), "medium_explored"), 1);
+}
+
+TEST_F(LoosePointTest, APointThatNeverHeldIsNotWaitedFor) {
+  open();
+  run_to_block("comparison");
+  const SessionView ready = go_on_with_loose_index(0.0, 1000.0);
+  answer_trial(ready, 1.0);
+  EXPECT_EQ(view().trial->trial, ready.trial->trial + 1);
+  EXPECT_EQ(std::ranges::count(kinds(), "paused"), 0);
+}
+
+TEST_F(LoosePointTest, AnEmergencyStopComesBeforeALooseFinger) {
+  open();
+  run_to_block("comparison");
+  const std::int64_t trial = go_on_with_loose_index(2.0, 3.0).trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(1.0);
+  doors_.emergency_stop.press();
+  pass(1.5);
+  EXPECT_EQ(view().step, Step::kFault);
+  EXPECT_EQ(view().fault_name, "emergency_stop");
+  pass(1.0);
+  act(operate::Rearm{doors_.emergency_stop.num_presses()});
+  pass(1.0);
+  EXPECT_EQ(view().step, Step::kReady);
+}
+
+}  // namespace
+}  // namespace jnd::app

@@ -1,0 +1,207 @@
+#include "device/exoskeleton/torque_control.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace jnd::device {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The neutral pose at rest, which the sensors see as it is.
+struct Rest {
+  Rest() {
+    measured.position_rad = neutral_pose_rad();
+    measured.torque_n_m = kinematics.gravity_torque_n_m();
+  }
+  ExoskeletonKinematics kinematics{Eigen::Vector3d::Zero()};
+  TorqueControl::Measured measured;
+};
+
+core::PointVectors one_force(double x_n) {
+  core::PointVectors force_n = core::zero_vectors();
+  force_n[3] = {x_n, 0.0, 0.0};
+  return force_n;
+}
+
+TEST(TorqueControl, AtRestWithoutForceItCarriesTheWeightAlone) {
+  Rest rest;
+  TorqueControl control({}, kPeriod_s);
+  const JointVector torque_n_m =
+      control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors());
+  EXPECT_LT((torque_n_m - rest.kinematics.gravity_torque_n_m()).norm(), 1e-12);
+  EXPECT_EQ(control.fault(), core::Fault::kNone);
+}
+
+TEST(TorqueControl, AForceComesOutAtItsFingerAndAtTheArm) {
+  Rest rest;
+  TorqueControl control({}, kPeriod_s);
+  const JointVector rendered_n_m =
+      control.torque_n_m(rest.kinematics, rest.measured, one_force(2.0)) -
+      rest.kinematics.gravity_torque_n_m();
+  // 2 N towards the hand (+x), by hand: the finger reaches 64.25 mm along before it.
+  EXPECT_NEAR(rendered_n_m[core::finger_joint(3, 1)], 2.0 * 0.06425, 1e-5);
+  EXPECT_NEAR(rendered_n_m[core::finger_joint(3, 0)], 0.0, 1e-12);
+  // About the arm's first axis, which is upright: force times the distance in y.
+  const double lever_m =
+      rest.kinematics.tip_position_m()[3].y() - rest.kinematics.base_position_m().y();
+  EXPECT_NEAR(rendered_n_m[0], -2.0 * lever_m, 1e-12);
+  for (const int other : {0, 1, 2, 4}) {
+    EXPECT_NEAR(rendered_n_m.segment<3>(core::finger_joint(other, 0)).norm(), 0.0, 1e-15);
+  }
+}
+
+TEST(TorqueControl, FeedForwardHelpsThePersonByItsGain) {
+  Rest rest;
+  TorqueControl control({.feed_forward_gain_ratio = 0.5}, kPeriod_s);
+  // The person pushes the extension of the index by 0.1 N m; the sensor holds it.
+  rest.measured.torque_n_m[core::finger_joint(3, 1)] -= 0.1;
+  JointVector torque_n_m;
+  for (int tick = 0; tick < 1000; ++tick) {
+    torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors());
+  }
+  const JointVector helped_n_m = torque_n_m - rest.kinematics.gravity_torque_n_m();
+  EXPECT_NEAR(helped_n_m[core::finger_joint(3, 1)], 0.05, 1e-9);
+  EXPECT_NEAR(helped_n_m.norm(), 0.05, 1e-9);
+}
+
+TEST(TorqueControl, FeedForwardDividesTheRenderedForceUnlessThatIsMadeUpFor) {
+  for (const bool compensates : {false, true}) {
+    Rest rest;
+    TorqueControl control(
+        {.feed_forward_gain_ratio = 0.5, .compensates_feed_forward = compensates}, kPeriod_s);
+    const JointVector gravity_n_m = rest.kinematics.gravity_torque_n_m();
+    JointVector torque_n_m = gravity_n_m;
+    // A hand that holds still against whatever the finger does.
+    for (int tick = 0; tick < 2000; ++tick) {
+      rest.measured.torque_n_m = torque_n_m;
+      torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, one_force(2.0));
+    }
+    const double at_index_n_m =
+        torque_n_m[core::finger_joint(3, 1)] - gravity_n_m[core::finger_joint(3, 1)];
+    EXPECT_NEAR(at_index_n_m, 2.0 * 0.06425 / (compensates ? 1.0 : 1.5), 1e-5);
+  }
+}
+
+TEST(TorqueControl, CompensatesTheFrictionOfMovingFingers) {
+  Rest rest;
+  TorqueControl control(
+      {.friction_compensation_ratio = 0.5, .platform_damping_n_m_s_per_rad = 0.0}, kPeriod_s);
+  rest.measured.velocity_rad_per_s.setConstant(50.0);
+  const JointVector torque_n_m =
+      control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
+      rest.kinematics.gravity_torque_n_m();
+  EXPECT_NEAR(torque_n_m[core::finger_joint(0, 0)], 0.5 * kFingerFriction_n_m[0], 1e-5);
+  EXPECT_NEAR(torque_n_m[core::finger_joint(4, 2)], 0.5 * kFingerFriction_n_m[2], 1e-5);
+  EXPECT_LT(torque_n_m.head<core::kNumArmJoints>().norm(), 1e-12);
+}
+
+TEST(TorqueControl, PushesAFingerBackBeforeItsStop) {
+  Rest rest;
+  TorqueControl control({}, kPeriod_s);
+  const int joint = core::finger_joint(1, 1);
+  rest.measured.position_rad[joint] = range_of(joint).high_rad - 0.05;
+  const JointVector torque_n_m =
+      control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
+      rest.kinematics.gravity_torque_n_m();
+  EXPECT_LT(torque_n_m[joint], -1.0);
+}
+
+TEST(TorqueControl, TurnsThePlatformBackUnlessToldNotTo) {
+  Rest rest;
+  TorqueControl control(
+      {.platform_stiffness_n_m_per_rad = 10.0, .platform_damping_n_m_s_per_rad = 2.0},
+      kPeriod_s);
+  // About the flange, which points along x: the last joint alone.
+  rest.measured.position_rad[6] += 0.1;
+  rest.kinematics.update(rest.measured.position_rad);
+  rest.measured.velocity_rad_per_s[6] = 0.5;
+  const JointVector torque_n_m =
+      control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
+      rest.kinematics.gravity_torque_n_m();
+  EXPECT_NEAR(torque_n_m[6], -(10.0 * std::sin(0.1) + 2.0 * 0.5), 1e-9);
+  TorqueControl free(
+      {.platform_stiffness_n_m_per_rad = 0.0, .platform_damping_n_m_s_per_rad = 0.0},
+      kPeriod_s);
+  EXPECT_LT((free.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
+             rest.kinematics.gravity_torque_n_m())
+                .norm(),
+            1e-12);
+}
+
+TEST(TorqueControl, NoForceIsTooLargeForTheClamp) {
+  Rest rest;
+  TorqueControl control({}, kPeriod_s);
+  core::PointVectors force_n;
+  force_n.fill(Eigen::Vector3d(1e12, -1e12, 1e12));
+  const JointVector torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, force_n);
+  EXPECT_TRUE((torque_n_m.cwiseAbs().array() <= max_torque_n_m().array()).all());
+}
+
+TEST(TorqueControl, AForceThatIsNoNumberMeansNoTorqueUntilRearmed) {
+  for (const double broken : {kNan, kInfinity, -kInfinity}) {
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        Rest rest;
+        TorqueControl control({.feed_forward_gain_ratio = 0.5}, kPeriod_s);
+        core::PointVectors force_n = core::zero_vectors();
+        force_n[point][axis] = broken;
+        EXPECT_TRUE(control.torque_n_m(rest.kinematics, rest.measured, force_n).isZero(0.0));
+        EXPECT_EQ(control.fault(), core::Fault::kNonFiniteForce);
+        EXPECT_TRUE(
+            control.torque_n_m(rest.kinematics, rest.measured, one_force(1.0)).isZero(0.0));
+        control.rearm();
+        EXPECT_FALSE(
+            control.torque_n_m(rest.kinematics, rest.measured, one_force(1.0)).isZero(0.0));
+        EXPECT_EQ(control.fault(), core::Fault::kNone);
+      }
+    }
+  }
+}
+
+TEST(TorqueControl, ASensorThatIsNoNumberMeansNoTorqueAndIsForgotten) {
+  for (const double broken : {kNan, kInfinity}) {
+    for (int joint = 0; joint < core::kNumJoints; ++joint) {
+      Rest rest;
+      TorqueControl control({.feed_forward_gain_ratio = 0.5}, kPeriod_s);
+      const TorqueControl::Measured sound = rest.measured;
+      rest.measured.torque_n_m[joint] = broken;
+      EXPECT_TRUE(
+          control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()).isZero(0.0));
+      EXPECT_EQ(control.fault(), core::Fault::kNonFiniteState);
+      control.rearm();
+      const JointVector torque_n_m =
+          control.torque_n_m(rest.kinematics, sound, core::zero_vectors());
+      EXPECT_TRUE(torque_n_m.allFinite());
+      EXPECT_EQ(control.fault(), core::Fault::kNone);
+    }
+  }
+}
+
+TEST(TorqueControl, NamesTheParameterItRejects) {
+  using Parameters = TorqueControl::Parameters;
+  EXPECT_THROW(TorqueControl(Parameters{.feed_forward_gain_ratio = kNan}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.feed_forward_cutoff_hz = 0.0}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.friction_compensation_ratio = 1.0}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.friction_speed_rad_per_s = 0.0}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.platform_stiffness_n_m_per_rad = kNan}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.platform_damping_n_m_s_per_rad = -1.0}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.limit_protection_ratio = -1.0}, kPeriod_s),
+               core::Error);
+  EXPECT_THROW(TorqueControl({}, 0.0), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::device

@@ -1,0 +1,45 @@
+#include "device/exoskeleton/velocity_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace jnd::device {
+namespace {
+
+TEST(VelocityFilter, StartsAtRestWhereverTheJointsAre) {
+  VelocityFilter filter(40.0, 0.001);
+  filter.start(JointVector::Constant(2.0));
+  EXPECT_EQ(filter.velocity_rad_per_s().norm(), 0.0);
+  EXPECT_EQ(filter.update(JointVector::Constant(2.0)).norm(), 0.0);
+}
+
+TEST(VelocityFilter, ReachesASteadyVelocityAtItsTimeConstant) {
+  constexpr double kPeriod_s = 0.0001;
+  VelocityFilter filter(40.0, kPeriod_s);
+  filter.start(JointVector::Zero());
+  double time_s = 0.0;
+  // 1 / (2 pi 40 Hz) = 3.979 ms: after it, 1 - 1/e of the way.
+  while (time_s < 0.0039788) {
+    time_s += kPeriod_s;
+    filter.update(JointVector::Constant(3.0 * time_s));
+  }
+  EXPECT_NEAR(filter.velocity_rad_per_s()[7], 3.0 * (1.0 - std::exp(-time_s / 0.0039789)),
+              1e-4);
+  for (int tick = 0; tick < 1000; ++tick) {
+    time_s += kPeriod_s;
+    filter.update(JointVector::Constant(3.0 * time_s));
+  }
+  EXPECT_NEAR(filter.velocity_rad_per_s()[21], 3.0, 1e-9);
+}
+
+TEST(VelocityFilter, NamesTheParameterItRejects) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(VelocityFilter(nan, 0.001), core::Error);
+  EXPECT_THROW(VelocityFilter(40.0, 0.0), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::device

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "device/haptic_loop.h"
+#include "scripted_device.h"
+
+namespace jnd::device {
+
+/// Where in its life a loop is struck.
+enum class Phase { kFirstTick, kInRamp, kInContact, kInFadeOut, kAfterRearm };
+
+inline constexpr std::array kPhases = {Phase::kFirstTick, Phase::kInRamp, Phase::kInContact,
+                                       Phase::kInFadeOut, Phase::kAfterRearm};
+
+inline const char* words(Phase phase) {
+  switch (phase) {
+    case Phase::kFirstTick:
+      return "first tick";
+    case Phase::kInRamp:
+      return "in ramp";
+    case Phase::kInContact:
+      return "in contact";
+    case Phase::kInFadeOut:
+      return "in fade-out";
+    case Phase::kAfterRearm:
+      return "after re-arming";
+  }
+  return "";
+}
+
+/// With 1, 3 and 5 points attached.
+inline const std::array<std::array<bool, 5>, 3> kAttachments = {
+    {{true, false, false, false, false}, {true, true, false, true, false}, core::kAllAttached}};
+
+/// A hand that is lowered onto a rough solid plane below a viscous fluid, with a living window.
+struct LoopScene {
+  explicit LoopScene(const std::array<bool, 5>& attached = core::kAllAttached,
+                     const HapticLoop::Parameters& parameters = {})
+      : device(lowered_hand(attached)),
+        loop(parameters, device, {commands, telemetry_door, stop, nullptr, &heartbeat}) {
+    command.medium =
+        core::viscous({.viscosity_pa_s = 5.0}) +
+        core::solid(
+            {.stiffness_n_per_m = 300.0, .damping_n_s_per_m = 0.5, .friction_ratio = 0.4});
+    command.immersion.origin_z_m = -0.1;
+    command.ramp_s = 0.3;
+    publish();
+  }
+
+  void publish() {
+    ++command.sequence;
+    commands.publish(command);
+  }
+
+  void run(int num_ticks) {
+    for (int i = 0; i < num_ticks; ++i) {
+      heartbeat.beat();
+      loop.tick();
+    }
+  }
+
+  void bring_to(Phase phase) {
+    switch (phase) {
+      case Phase::kFirstTick:
+        break;
+      case Phase::kInRamp:
+        run(150);
+        break;
+      case Phase::kInContact:
+        run(400);
+        break;
+      case Phase::kInFadeOut:
+        run(200);
+        // Until 250 ms of silence and 30 ms of the fading are over.
+        for (int i = 0; i < 280; ++i) loop.tick();
+        break;
+      case Phase::kAfterRearm:
+        run(200);
+        stop.press();
+        run(10);
+        (void)stop.release(stop.num_presses());
+        loop.rearm();
+        run(200);
+        break;
+    }
+  }
+
+  core::Fault fault() {
+    telemetry_door.fetch();
+    return telemetry_door.value().fault;
+  }
+
+  /// What the device received last; free of force before the first tick.
+  [[nodiscard]] core::PointVectors last_received() const {
+    return device.received.empty() ? core::zero_vectors() : device.received.back();
+  }
+
+  static ScriptedDevice lowered_hand(const std::array<bool, 5>& attached) {
+    ScriptedDevice hand;
+    for (int i = 0; i < core::kNumContactPoints; ++i) {
+      hand.state.tip_position_m[i].z() = -0.095 - 0.001 * i;
+    }
+    hand.state.attached = attached;
+    hand.move_all({0.1, 0.02, -0.05});
+    hand.device_capabilities.num_joints = core::kNumJoints;
+    return hand;
+  }
+
+  ScriptedDevice device;
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry_door;
+  core::EmergencyStop stop;
+  core::Heartbeat heartbeat;
+  HapticLoop loop;
+  core::HapticCommand command;
+};
+
+/// What every tick has to keep, whatever came in: finite, within the limits, nothing on a point
+/// that is off, and from the last tick no further than the slew, or zero.
+inline ::testing::AssertionResult is_safe(const core::PointVectors& force,
+                                          const core::PointVectors& last,
+                                          const std::array<bool, 5>& attached,
+                                          const core::ForceLimiter::Parameters& limits = {},
+                                          double period_s = 0.001) {
+  double sum_n = 0.0;
+  for (int i = 0; i < core::kNumContactPoints; ++i) {
+    if (!force[i].allFinite()) return ::testing::AssertionFailure() << "not finite: " << i;
+    const double magnitude_n = force[i].norm();
+    sum_n += magnitude_n;
+    if (magnitude_n > limits.per_point_n + 1e-9) {
+      return ::testing::AssertionFailure() << magnitude_n << " N at point " << i;
+    }
+    if (!attached[i] && magnitude_n != 0.0) {
+      return ::testing::AssertionFailure() << magnitude_n << " N at detached point " << i;
+    }
+    const double step_n = (force[i] - last[i]).norm();
+    if (magnitude_n != 0.0 && step_n > limits.slew_n_per_s * period_s + 1e-9) {
+      return ::testing::AssertionFailure() << "a step of " << step_n << " N at point " << i;
+    }
+  }
+  if (sum_n > limits.total_n + 1e-9) {
+    return ::testing::AssertionFailure() << sum_n << " N in all";
+  }
+  return ::testing::AssertionSuccess();
+}
+
+inline double sum_of_magnitudes_n(const core::PointVectors& force) {
+  double sum_n = 0.0;
+  for (const Eigen::Vector3d& part : force) sum_n += part.norm();
+  return sum_n;
+}
+
+}  // namespace jnd::device

@@ -1,0 +1,109 @@
+#include "device/network/link_quality.h"
+
+#include <gtest/gtest.h>
+
+namespace jnd::device {
+namespace {
+
+using Verdict = LinkQuality::Verdict;
+
+LinkQuality fed(std::uint32_t first, int num, int every_lost = 0) {
+  LinkQuality quality{{}};
+  for (int i = 0; i < num; ++i) {
+    if (every_lost > 0 && i % every_lost == every_lost - 1) continue;
+    (void)quality.received(first + static_cast<std::uint32_t>(i));
+  }
+  return quality;
+}
+
+TEST(LinkQuality, CountsWhatIsLostDoubledAndReordered) {
+  LinkQuality quality{{}};
+  for (const std::uint32_t sequence : {10u, 11u, 14u}) {
+    EXPECT_EQ(quality.received(sequence), Verdict::kNewest);
+  }
+  EXPECT_EQ(quality.counts().lost, 2);
+  EXPECT_EQ(quality.received(12), Verdict::kReordered);
+  EXPECT_EQ(quality.received(12), Verdict::kRepeated);
+  EXPECT_EQ(quality.received(14), Verdict::kRepeated);
+  EXPECT_EQ(quality.counts().lost, 1);
+  EXPECT_EQ(quality.counts().reordered, 1);
+  EXPECT_EQ(quality.counts().doubled, 2);
+  EXPECT_EQ(quality.counts().received, 4);
+}
+
+TEST(LinkQuality, OneFromLongAgoCountsAsRepeated) {
+  LinkQuality quality = fed(1000, 600);
+  EXPECT_EQ(quality.received(1000), Verdict::kRepeated);
+  EXPECT_EQ(quality.received(1599 - 512), Verdict::kRepeated);
+  EXPECT_EQ(quality.counts().received, 600);
+}
+
+TEST(LinkQuality, SequenceNumbersMayWrap) {
+  LinkQuality quality = fed(0xffffff80u, 300);
+  EXPECT_EQ(quality.counts().received, 300);
+  EXPECT_EQ(quality.counts().lost, 0);
+  EXPECT_EQ(quality.level(), LinkLevel::kExcellent);
+  EXPECT_EQ(quality.received(0xfffffff0u), Verdict::kRepeated);
+  EXPECT_FALSE(quality.is_broken());
+}
+
+TEST(LinkQuality, TwentyLostInARowBreakItAndNineteenDoNot) {
+  LinkQuality quality = fed(1, 200);
+  EXPECT_EQ(quality.received(220), Verdict::kNewest);
+  EXPECT_FALSE(quality.is_broken());
+  EXPECT_EQ(quality.received(241), Verdict::kNewest);
+  EXPECT_TRUE(quality.is_broken());
+  for (std::uint32_t i = 0; i < 1000; ++i) (void)quality.received(242 + i);
+  EXPECT_TRUE(quality.is_broken()) << "until it is begun anew";
+  quality.restart();
+  EXPECT_FALSE(quality.is_broken());
+}
+
+TEST(LinkQuality, TheLevelFollowsFromWhatIsMissing) {
+  EXPECT_EQ(fed(1, 49).level(), LinkLevel::kUnacceptable) << "too few to judge by";
+  EXPECT_EQ(fed(1, 50).level(), LinkLevel::kExcellent);
+  EXPECT_EQ(fed(1, 1000, 400).level(), LinkLevel::kExcellent);
+  EXPECT_EQ(fed(1, 1000, 100).level(), LinkLevel::kGood);
+  EXPECT_EQ(fed(1, 1000, 15).level(), LinkLevel::kPoor);
+  EXPECT_EQ(fed(1, 1000, 5).level(), LinkLevel::kUnacceptable);
+}
+
+TEST(LinkQuality, WhatIsMissingIsForgottenAfterAWindow) {
+  LinkQuality quality = fed(1, 1000, 5);
+  for (std::uint32_t i = 0; i < 512; ++i) (void)quality.received(1001 + i);
+  EXPECT_EQ(quality.level(), LinkLevel::kExcellent);
+}
+
+TEST(LinkQuality, TheLevelFollowsFromTheRoundTripToo) {
+  const auto level_at = [](std::int64_t round_trip_ns) {
+    LinkQuality quality = fed(1, 200);
+    for (int i = 0; i < 200; ++i) quality.round_trip(round_trip_ns);
+    return quality.level();
+  };
+  EXPECT_EQ(level_at(2'000'000), LinkLevel::kExcellent);
+  EXPECT_EQ(level_at(6'000'000), LinkLevel::kGood);
+  EXPECT_EQ(level_at(12'000'000), LinkLevel::kPoor);
+  EXPECT_EQ(level_at(20'000'000), LinkLevel::kUnacceptable);
+}
+
+TEST(LinkQuality, HasToBeGoodForAWhile) {
+  EXPECT_FALSE(fed(1, 140).is_settled());
+  EXPECT_TRUE(fed(1, 160).is_settled());
+  LinkQuality quality = fed(1, 300);
+  (void)quality.received(312);
+  EXPECT_FALSE(quality.is_settled()) << "eleven missing are poor";
+}
+
+TEST(LinkQuality, ATickThatFindsNothingNewIsLate) {
+  LinkQuality quality{{}};
+  (void)quality.received(1);
+  quality.end_tick();
+  quality.end_tick();
+  (void)quality.received(2);
+  (void)quality.received(2);
+  quality.end_tick();
+  EXPECT_EQ(quality.counts().late, 1);
+}
+
+}  // namespace
+}  // namespace jnd::device

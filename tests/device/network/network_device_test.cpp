@@ -1,0 +1,389 @@
+#include "device/network/network_device.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "core/error.h"
+#include "device/fault_injection.h"
+#include "device/lumped_hand_device.h"
+#include "device/network/udp_port.h"
+#include "network_fixture.h"
+#include "support/allocation_counter.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Fault;
+
+class NetworkDeviceTest : public NetworkTest {
+ protected:
+  static std::string sentence(const std::function<void()>& act) {
+    try {
+      act();
+    } catch (const core::Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(NetworkDeviceTest, WhatTheDeviceCanDoIsKnownBeforeItIsOpened) {
+  scripted.device_capabilities = {.rate_hz = 1000.0,
+                                  .max_force_per_point_n = 7.0,
+                                  .max_total_force_n = 17.0,
+                                  .simulated = true,
+                                  .num_joints = 22,
+                                  .moves_by_itself = true};
+  serve({});
+  device = make_device();
+  EXPECT_FALSE(device->capabilities().simulated) << "nobody in particular yet";
+  EXPECT_EQ(device->simulated_hand(), nullptr);
+  device->ask();
+  const DeviceCapabilities can = device->capabilities();
+  EXPECT_EQ(can.max_force_per_point_n, 7.0);
+  EXPECT_EQ(can.max_total_force_n, 17.0);
+  EXPECT_EQ(can.num_joints, 22);
+  EXPECT_EQ(can.max_stale_s, 0.020);
+  EXPECT_TRUE(can.simulated);
+  EXPECT_TRUE(can.moves_by_itself);
+  EXPECT_NE(device->simulated_hand(), nullptr);
+  EXPECT_EQ(device->name(), "network");
+  EXPECT_EQ(device->served_name(), "scripted");
+  EXPECT_FALSE(server->has_client()) << "asking is not connecting";
+}
+
+TEST_F(NetworkDeviceTest, MeasurementsAndForcesArriveToTheBit) {
+  scripted.device_capabilities.num_joints = 22;
+  serve({});
+  for (int i = 0; i < core::kNumJoints; ++i) {
+    scripted.state.joint_position_rad[i] = 0.1 * i;
+    scripted.state.joint_torque_n_m[i] = -0.3 * i;
+  }
+  scripted.state.end_effector_position_m = {0.1, -0.2, 1.0 / 3.0};
+  scripted.state.attached[2] = false;
+  device = make_device();
+  device->open();
+  network.pass(kMs);
+  core::HapticState state;
+  ASSERT_TRUE(device->read(state));
+  EXPECT_EQ(state.tip_position_m, scripted.state.tip_position_m);
+  EXPECT_EQ(state.joint_position_rad, scripted.state.joint_position_rad);
+  EXPECT_EQ(state.joint_torque_n_m, scripted.state.joint_torque_n_m);
+  EXPECT_EQ(state.end_effector_position_m, scripted.state.end_effector_position_m);
+  EXPECT_EQ(state.attached, scripted.state.attached);
+  EXPECT_EQ(state.device_time_ns + kMs, scripted.state.device_time_ns);
+  core::PointVectors force = core::zero_vectors();
+  force[3] = {0.1, 0.2, -1.0 / 3.0};
+  ASSERT_TRUE(device->write(force));
+  network.pass(kMs);
+  EXPECT_EQ(force_now(), force);
+}
+
+TEST_F(NetworkDeviceTest, NobodyAtTheOtherEndIsToldInOneSentence) {
+  server = nullptr;
+  const std::string said = sentence([this] { make_device()->ask(); });
+  EXPECT_NE(said.find("expected a device to answer, found none"), std::string::npos) << said;
+}
+
+TEST_F(NetworkDeviceTest, ASecondProgramIsRefusedAndTheFirstFeelsNothing) {
+  start();
+  const auto second = make_device({}, kOtherProgram);
+  second->ask();
+  // The first goes on meanwhile.
+  const auto step = network.on_millisecond;
+  network.on_millisecond = [this, step] {
+    step();
+    loop->tick();
+  };
+  const std::string said = sentence([&second] { second->open(); });
+  network.on_millisecond = step;
+  EXPECT_NE(said.find("another program uses it"), std::string::npos) << said;
+  EXPECT_GT(server->counts().num_turned_away, 0);
+  EXPECT_EQ(fault(), Fault::kNone);
+  EXPECT_GT(total_now_n(), 0.5);
+  device->close();
+  run(1);
+  EXPECT_EQ(total_now_n(), 0.0);
+  EXPECT_NO_THROW(second->open());
+}
+
+TEST_F(NetworkDeviceTest, AnotherVersionIsNamedOnBothSides) {
+  server = nullptr;
+  Bytes refusal = encoded({{}, wire::Refusal{.reason = wire::RefusalReason::kOtherVersion}});
+  refusal[4] = std::byte{2};
+  network.on_millisecond = [&] {
+    network.post({.bytes = refusal, .from = kServer, .to = kProgram});
+  };
+  const std::string said = sentence([this] { make_device()->ask(); });
+  EXPECT_NE(said.find("expected datagrams of version 1, found version 2"), std::string::npos)
+      << said;
+
+  serve({});
+  network.on_millisecond = [this] { server->step(network.now_ns); };
+  Bytes hello = encoded({{}, wire::Hello{}});
+  hello[4] = std::byte{2};
+  network.post({.bytes = hello, .from = kOtherProgram, .to = kServer});
+  run(1);
+  std::array<std::byte, 2048> bytes;
+  Address from;
+  const std::size_t size = network.port(kOtherProgram)->receive(bytes, from);
+  wire::Datagram answer;
+  ASSERT_EQ(wire::decode(std::span(bytes).first(size), answer), wire::Problem::kNone);
+  EXPECT_EQ(std::get<wire::Refusal>(answer.content).reason, wire::RefusalReason::kOtherVersion);
+}
+
+TEST_F(NetworkDeviceTest, AnotherRateIsRefusedWithBothNumbers) {
+  scripted.device_capabilities.rate_hz = 833.0;
+  serve({});
+  const std::string said = sentence([this] { make_device()->open(); });
+  EXPECT_NE(said.find("expected a device at 1000 Hz, found scripted at 833 Hz"),
+            std::string::npos)
+      << said;
+}
+
+TEST_F(NetworkDeviceTest, ABadConnectionIsNoneToBeginWith) {
+  device = make_device();
+  device->ask();
+  int num_sent = 0;
+  network.on_send = [&](const SimulatedNetwork::Sent& sent) {
+    if (++num_sent % 5 != 0) network.post(sent);
+  };
+  const std::string said = sentence([this] { device->open(); });
+  EXPECT_NE(said.find("expected a good connection, found"), std::string::npos) << said;
+  EXPECT_EQ(max_total_since_n(0), 0.0);
+}
+
+TEST_F(NetworkDeviceTest, SequenceNumbersMayWrapInMidFlight) {
+  serve({.first_sequence = 0xffffff00u});
+  start({.first_sequence = 0xfffffe80u});
+  run(1500);
+  EXPECT_EQ(fault(), Fault::kNone);
+  EXPECT_GT(total_now_n(), 0.5);
+  EXPECT_EQ(device->quality().counts().lost, 0);
+  EXPECT_EQ(server->quality().counts().lost, 0);
+  expect_safe_forces();
+}
+
+TEST_F(NetworkDeviceTest, AFaultOfTheServedDeviceComesThroughAndPassesWithIt) {
+  for (const Injection injection :
+       {Injection::kReadFailure, Injection::kNonFinitePosition, Injection::kWriteFailure}) {
+    scripted.received.clear();
+    FaultInjectingDevice faulty(
+        scripted, {{.first_tick = 1000, .num_ticks = 30, .injection = injection}});
+    served = &faulty;
+    faulty.open();
+    serve({});
+    start();
+    run(1100);
+    const Fault expected = injection == Injection::kReadFailure ? Fault::kDeviceReadFailed
+                           : injection == Injection::kNonFinitePosition
+                               ? Fault::kNonFiniteState
+                               : Fault::kDeviceWriteFailed;
+    EXPECT_EQ(fault(), expected);
+    EXPECT_EQ(total_now_n(), 0.0);
+    run(500);
+    loop->rearm();
+    run(700);
+    EXPECT_EQ(fault(), Fault::kNone);
+    EXPECT_GT(total_now_n(), 0.5);
+    expect_safe_forces();
+    loop = nullptr;
+    device = nullptr;
+    server = nullptr;
+    served = &scripted;
+  }
+}
+
+TEST_F(NetworkDeviceTest, ALoopThatStartsLateIsNoFault) {
+  device = make_device();
+  device->open();
+  loop = std::make_unique<HapticLoop>(
+      HapticLoop::Parameters{}, *device,
+      HapticLoop::Doors{commands, telemetry_door, stop, nullptr, nullptr});
+  loop_runs = false;
+  run(60);
+  loop_runs = true;
+  run(500);
+  EXPECT_EQ(fault(), Fault::kNone);
+  EXPECT_TRUE(server->is_armed());
+}
+
+TEST_F(NetworkDeviceTest, TheEmergencyStopReachesTheDeviceInOneTick) {
+  start();
+  stop.press();
+  run(2);
+  EXPECT_EQ(total_now_n(), 0.0);
+}
+
+TEST_F(NetworkDeviceTest, OrdersReachASimulatedHandThroughABadNetwork) {
+  LumpedHandDevice lumped({});
+  lumped.open();
+  served = &lumped;
+  serve({});
+  start();
+  network.on_send = [this, n = 0](const SimulatedNetwork::Sent& sent) mutable {
+    if (++n % 40 >= 10) network.post(sent);
+  };
+  SimulatedHand* hand = device->simulated_hand();
+  ASSERT_NE(hand, nullptr);
+  EXPECT_THROW(hand->begin_strokes({.amplitude_m = -1.0}, core::RandomStream(1, "x")),
+               core::Error);
+  hand->begin_strokes({.num_strokes = 2}, core::RandomStream(4, "strokes"));
+  EXPECT_FALSE(hand->is_home()) << "an order given counts at once";
+  EXPECT_EQ(hand->strokes_finished(), 0);
+  network.on_send = nullptr;
+  int num_ms = 0;
+  while (!hand->is_home() && num_ms++ < 60'000) run(1);
+  EXPECT_EQ(hand->strokes_finished(), 2);
+  hand->begin_strokes({}, core::RandomStream(4, "strokes"));
+  EXPECT_EQ(hand->strokes_finished(), 0);
+  run(3000);
+  EXPECT_FALSE(hand->is_home());
+  EXPECT_GT(device->contact_sums().num_ticks, 3000);
+  EXPECT_GT(device->contact_sums().rendered_opposing_n, 0.0);
+  hand->go_home();
+  run(5000);
+  EXPECT_TRUE(hand->is_home());
+}
+
+TEST_F(NetworkDeviceTest, TheHandMovesAsItWouldWithoutANetwork) {
+  const StrokePlan plan{.num_strokes = 1};
+  const core::RandomStream random(9, "strokes");
+  const auto path_of = [](LumpedHandDevice& lumped, const std::function<void()>& tick) {
+    std::vector<double> path;
+    core::HapticState state;
+    while (path.size() < 2000) {
+      tick();
+      (void)lumped.read(state);
+      if (!path.empty() || state.tip_velocity_m_per_s[0].norm() > 0.0) {
+        path.push_back(state.tip_position_m[0].x());
+      }
+    }
+    return path;
+  };
+  LumpedHandDevice near({}), far({});
+  near.open();
+  near.simulated_hand()->begin_strokes(plan, random);
+  const std::vector<double> expected =
+      path_of(near, [&] { (void)near.write(core::zero_vectors()); });
+  far.open();
+  served = &far;
+  serve({});
+  device = make_device();
+  device->open();
+  device->simulated_hand()->begin_strokes(plan, random);
+  core::HapticState state;
+  EXPECT_EQ(path_of(far,
+                    [&] {
+                      run(1);
+                      (void)device->read(state);
+                      (void)device->write(core::zero_vectors());
+                    }),
+            expected);
+}
+
+TEST_F(NetworkDeviceTest, AHandWhoseProgramIsGoneGoesHome) {
+  LumpedHandDevice lumped({});
+  lumped.open();
+  served = &lumped;
+  serve({});
+  start();
+  device->simulated_hand()->begin_strokes({}, core::RandomStream(4, "strokes"));
+  run(1000);
+  loop_runs = false;
+  run(4000);
+  EXPECT_TRUE(lumped.simulated_hand()->is_home());
+}
+
+/// Answers as a device does, without a heap: for counting.
+class AnsweringPort final : public DatagramPort {
+ public:
+  bool send(std::span<const std::byte> datagram, const Address&) noexcept override {
+    if (wire::decode(datagram, heard_) != wire::Problem::kNone) return true;
+    if (const auto* hello = std::get_if<wire::Hello>(&heard_.content)) {
+      answer_ = {.header = {.stream_id = hello->only_asks ? 0u : 5u},
+                 .content = wire::Welcome{.token = hello->token}};
+    } else if (const auto* command = std::get_if<wire::Command>(&heard_.content)) {
+      answer_ = {
+          .header = {.stream_id = 5, .sequence = ++sequence_, .echo_ns = heard_.header.sent_ns},
+          .content = wire::State{
+              .armed_number = command->arm_number, .armed = true, .is_measured = true}};
+    } else {
+      return true;
+    }
+    size_ = wire::encode(answer_, answer_bytes_);
+    return true;
+  }
+  std::size_t receive(std::span<std::byte> bytes, Address& from) noexcept override {
+    const std::size_t size = std::exchange(size_, 0);
+    std::copy_n(answer_bytes_.begin(), size, bytes.begin());
+    from = address_number(1);
+    return size;
+  }
+  std::int64_t now_ns() const noexcept override { return now_ns_; }
+  void pause(std::int64_t duration_ns) noexcept override { now_ns_ += duration_ns; }
+
+ private:
+  wire::Datagram heard_, answer_;
+  std::array<std::byte, wire::kMaxBytes> answer_bytes_{};
+  std::size_t size_ = 0;
+  std::uint32_t sequence_ = 0;
+  std::int64_t now_ns_ = 1'000'000'000;
+};
+
+TEST(NetworkDevice, NeitherReadingNorWritingAllocates) {
+  if (!test_support::AllocationCounter::is_supported()) GTEST_SKIP();
+  auto port = std::make_unique<AnsweringPort>();
+  AnsweringPort& clock = *port;
+  NetworkDevice device(std::move(port), address_number(1), {});
+  device.open();
+  core::HapticState state;
+  const test_support::AllocationCounter counter;
+  for (int i = 0; i < 1000; ++i) {
+    clock.pause(kMs);
+    ASSERT_TRUE(device.read(state));
+    ASSERT_TRUE(device.write(core::zero_vectors()));
+  }
+  clock.pause(500 * kMs);
+  for (int i = 0; i < 300; ++i) {
+    clock.pause(kMs);
+    (void)device.read(state);
+    (void)device.write(core::zero_vectors());
+  }
+  device.halt();
+  EXPECT_EQ(counter.allocations(), 0u);
+  EXPECT_EQ(counter.frees(), 0u);
+}
+
+TEST(DeviceServer, ASteppingServerDoesNotAllocate) {
+  if (!test_support::AllocationCounter::is_supported()) GTEST_SKIP();
+  LumpedHandDevice lumped({});
+  AnsweringPort port;
+  DeviceServer server(lumped, port, {});
+  const test_support::AllocationCounter counter;
+  for (int i = 0; i < 1000; ++i) server.step(i * kMs);
+  EXPECT_EQ(counter.allocations(), 0u);
+}
+
+TEST(NetworkDevice, ParametersOutOfRangeAreRefused) {
+  for (const NetworkDevice::Parameters& parameters :
+       {NetworkDevice::Parameters{.rate_hz = 0.0},
+        NetworkDevice::Parameters{.max_stale_s = NAN},
+        NetworkDevice::Parameters{.patience_s = -1.0}}) {
+    EXPECT_THROW(NetworkDevice(std::make_unique<AnsweringPort>(), {}, parameters), core::Error);
+  }
+  LumpedHandDevice lumped({});
+  AnsweringPort port;
+  for (const DeviceServer::Parameters& parameters :
+       {DeviceServer::Parameters{.watchdog_s = 0.0},
+        DeviceServer::Parameters{.max_answer_age_s = NAN},
+        DeviceServer::Parameters{.client_timeout_s = INFINITY},
+        DeviceServer::Parameters{.slew_n_per_s = -1.0}}) {
+    EXPECT_THROW(DeviceServer(lumped, port, parameters), core::Error);
+  }
+}
+
+}  // namespace
+}  // namespace jnd::device

@@ -1,0 +1,68 @@
+#include "device/network/udp_port.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/error.h"
+
+namespace jnd::device {
+namespace {
+
+TEST(Endpoint, HostAndPortAreToldApart) {
+  EXPECT_EQ(endpoint_of("127.0.0.1:4700").host, "127.0.0.1");
+  EXPECT_EQ(endpoint_of("127.0.0.1:4700").port, 4700);
+  EXPECT_EQ(endpoint_of("robot:1").host, "robot");
+  EXPECT_EQ(endpoint_of("[::1]:65535").host, "::1");
+}
+
+TEST(Endpoint, WhatIsNoneIsToldHowOneLooks) {
+  for (const char* text : {"", "robot", ":4700", "robot:", "robot:0", "robot:65536",
+                           "robot:47x", "robot:-1", "::1:4700", "[::1:4700", "a]:1"}) {
+    try {
+      (void)endpoint_of(text);
+      ADD_FAILURE() << text;
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("127.0.0.1:4700"), std::string::npos) << text;
+    }
+  }
+}
+
+TEST(Address, SaysWhatItIs) {
+  EXPECT_EQ(text_of(resolved({"127.0.0.1", 4700})), "127.0.0.1:4700");
+  EXPECT_EQ(text_of(resolved({"::1", 4700})), "[::1]:4700");
+  EXPECT_EQ(text_of(any_address_for(resolved({"127.0.0.1", 4700}))), "0.0.0.0:0");
+  EXPECT_FALSE(resolved({"127.0.0.1", 1}) == resolved({"127.0.0.1", 2}));
+}
+
+/// The loopback of one machine delivers at once, in order.
+TEST(UdpPort, CarriesDatagramsBothWays) {
+  const Address any = resolved({"127.0.0.1", 0});
+  UdpPort near(any), far(any);
+  EXPECT_FALSE(near.local() == far.local());
+  std::array<std::byte, 16> bytes;
+  Address from;
+  EXPECT_EQ(far.receive(bytes, from), 0u);
+  EXPECT_TRUE(near.send({}, far.local())) << "an empty one";
+  const std::array<std::byte, 3> sent = {std::byte{1}, std::byte{2}, std::byte{3}};
+  EXPECT_TRUE(near.send(sent, far.local()));
+  ASSERT_EQ(far.receive(bytes, from), 3u);
+  EXPECT_EQ(bytes[2], std::byte{3});
+  EXPECT_EQ(from, near.local());
+  EXPECT_TRUE(far.send(sent, from));
+  EXPECT_EQ(near.receive(bytes, from), 3u);
+  EXPECT_EQ(from, far.local());
+}
+
+TEST(UdpPort, APlaceThatIsTakenIsNamed) {
+  const UdpPort first(resolved({"127.0.0.1", 0}));
+  try {
+    const UdpPort second(first.local());
+    FAIL();
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find(text_of(first.local())), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace jnd::device
