@@ -22,6 +22,7 @@
 #include "device/mouse_device.h"
 #include "device/realtime_thread.h"
 #include "device/simulated_hand.h"
+#include "device/watchdog.h"
 
 namespace jnd::app {
 namespace {
@@ -117,7 +118,8 @@ struct Apparatus::Implementation {
               .telemetry = telemetry,
               .emergency_stop = doors.emergency_stop,
               .samples = &samples,
-              .heartbeat = parameters.realtime ? &doors.heartbeat : nullptr}) {
+              .heartbeat = parameters.realtime ? &doors.heartbeat : nullptr,
+              .watchdog = parameters.realtime ? &watchdog_state : nullptr}) {
     if (parameters.recording) {
       recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
     }
@@ -129,7 +131,11 @@ struct Apparatus::Implementation {
                 }};
     if (parameters.realtime) {
       storage.emplace(samples, consumer);
-      thread.emplace(device::RealtimeThread::Parameters{.clear_cpu = true});
+      const double timeout_s = device->capabilities().watchdog_timeout_s;
+      thread.emplace(
+          device::RealtimeThread::Parameters{.clear_cpu = true, .max_stall_s = timeout_s});
+      watchdog.emplace(device::WatchdogThread::Parameters{.watchdog = {.timeout_s = timeout_s}},
+                       *device, watchdog_state);
       device::start_haptics(*device, loop, *thread, parameters.allow_no_realtime);
     } else {
       device->open();
@@ -137,6 +143,8 @@ struct Apparatus::Implementation {
   }
 
   ~Implementation() {
+    // First the watchdog, which would take the end of the loop for its death.
+    watchdog.reset();
     if (thread) thread->stop();
     storage.reset();
     device->close();
@@ -219,6 +227,7 @@ struct Apparatus::Implementation {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::SpscQueue<core::Sample> samples;
+  core::WatchdogState watchdog_state;
   core::SampleConsumer consumer;
   double max_total_force_n;
   device::HapticLoop loop;
@@ -229,6 +238,7 @@ struct Apparatus::Implementation {
   std::atomic<int> num_metered_strokes{0};
   std::optional<core::StorageThread> storage;
   std::optional<device::RealtimeThread> thread;
+  std::optional<device::WatchdogThread> watchdog;
   core::SimulatedClock simulated_clock;
   core::SystemClock system_clock;
   core::HapticCommand command;

@@ -36,9 +36,9 @@ class Apparatus {
     core::Immersion immersion;
     core::MediumAmounts surroundings;  ///< Felt besides every medium: a container's walls.
     std::shared_ptr<const core::ForceMap> force_map;  ///< nullptr: the thesis's fit.
-    double home_height_m = -0.15;    ///< Of the hand at rest, workspace frame.
-    std::int64_t first_tick = 0;     ///< A resumed session counts on.
-    std::int64_t first_time_ns = 0;  ///< Of the simulated clock, likewise.
+    double home_height_m = -0.15;                     ///< Of the hand at rest, workspace frame.
+    std::int64_t first_tick = 0;                      ///< A resumed session counts on.
+    std::int64_t first_time_ns = 0;                   ///< Of the simulated clock, likewise.
     bool realtime = false;           ///< Paced by a real-time thread; else as fast as it goes.
     bool allow_no_realtime = false;  ///< A real device also without real-time rights.
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.

@@ -20,13 +20,13 @@ std::string words_of(device::FingerPose pose) {
   using device::FingerPose;
   switch (pose) {
     case FingerPose::k0:
-      return "horizontal, at 0 degrees: the weight extends it";
+      return "horizontal, at 0 degrees (the weight extends it)";
     case FingerPose::k90:
-      return "horizontal, at 90 degrees: the weight pulls it aside";
+      return "horizontal, at 90 degrees (the weight pulls it aside)";
     case FingerPose::k180:
-      return "horizontal, at 180 degrees: the weight bends it";
+      return "horizontal, at 180 degrees (the weight bends it)";
     case FingerPose::k270:
-      return "horizontal, at 270 degrees: the weight pulls it to the other side";
+      return "horizontal, at 270 degrees (the weight pulls it to the other side)";
     case FingerPose::kInclined:
       return "inclined by 45 degrees, at 0 degrees";
   }
@@ -62,13 +62,13 @@ std::string PersonBench::next_line() {
 }
 
 void PersonBench::wait_for(const std::string& what_to_do) {
-  out_ << what_to_do << ", then press Enter.\n";
+  out_ << what_to_do << ".\n";
   (void)next_line();
 }
 
 double PersonBench::break_away_weight_n(device::FingerPose pose, int repetition) {
   if (repetition == 1) {
-    wait_for(fmt::format("Bring the device's finger for {} into its pose, {}",
+    wait_for(fmt::format("Bring the device's finger for {} into its pose, {}, then press Enter",
                          words_of_points(static_cast<std::uint8_t>(1 << point_)),
                          words_of(pose)));
   }
@@ -84,10 +84,10 @@ double PersonBench::break_away_weight_n(device::FingerPose pose, int repetition)
 }
 
 device::TorqueReading PersonBench::torques_under(device::FingerPose pose, double weight_n) {
-  wait_for(fmt::format("Hang {:.0f} g at the tip of {}, {}; keep it still for {:g} s",
-                       1e3 * weight_n / device::kGravityMPerS2,
-                       words_of_points(static_cast<std::uint8_t>(1 << point_)), words_of(pose),
-                       kMeasured_s));
+  wait_for(fmt::format(
+      "Hang {:.0f} g at the tip of {}, {}, then press Enter and keep it still for {:g} s",
+      1e3 * weight_n / device::kGravityMPerS2,
+      words_of_points(static_cast<std::uint8_t>(1 << point_)), words_of(pose), kMeasured_s));
   device::TorqueReading sum;
   double num_samples = 0.0;
   measure_(kMeasured_s, [&](const core::Sample& sample) {

@@ -24,7 +24,7 @@ class PersonBench final : public device::FingerBench {
   [[nodiscard]] double break_away_weight_n(device::FingerPose pose, int repetition) override;
   [[nodiscard]] device::TorqueReading torques_under(device::FingerPose pose,
                                                     double weight_n) override;
-  /// Says that and waits for Enter.
+  /// Says that, a sentence without its end, and waits for Enter.
   void wait_for(const std::string& what_to_do);
 
  private:

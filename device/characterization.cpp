@@ -33,7 +33,8 @@ Eigen::Vector3d force_of_fingers_n(const ExoskeletonKinematics& kinematics,
     Eigen::Vector3d torque_n_m;
     for (int joint = 0; joint < core::kNumJointsPerFinger; ++joint) {
       const int index = core::finger_joint(point, joint);
-      torque_n_m[joint] = static_cast<double>(sample.joint_torque_n_m[index]) - gravity_n_m[index];
+      torque_n_m[joint] =
+          static_cast<double>(sample.joint_torque_n_m[index]) - gravity_n_m[index];
     }
     force_n += kinematics.finger_jacobian(point).transpose().inverse() * torque_n_m;
   }

@@ -71,8 +71,9 @@ struct FingerCharacter {
 
 inline constexpr double kGravityMPerS2 = 9.81;
 
-/// The experiments of the thesis (A.4): break-away in five poses, then weights of 50 to 250 g in
-/// two of them. `on_progress` gets 0 to 1 and may throw to stop; may be empty. Not real time.
+/// The experiments of the thesis (A.4): break-away in five poses, then weights of 50 to 250 g
+/// in two of them. `on_progress` gets 0 to 1 and may throw to stop; may be empty. Not real
+/// time.
 [[nodiscard]] FingerCharacter characterize_finger(
     FingerBench& bench, int num_repetitions,
     const std::function<void(double)>& on_progress = {});

@@ -24,14 +24,17 @@ struct DeviceCapabilities {
   double max_total_force_n = 30.0;      ///< Sum over the points.
   /// For how long its last measurement may stand in for one that did not come.
   double max_stale_s = 0.005;
+  /// How long the loop may be silent before the watchdog takes the force away. Longer only
+  /// where nobody can be hurt.
+  double watchdog_timeout_s = 0.020;
   /// How long the window may be silent before the force fades. Longer only where nobody feels
   /// it.
   double heartbeat_timeout_s = 0.250;
   /// It lives at its own pace: a session on it runs in real time, also if it is simulated.
   bool has_own_clock = false;
-  bool simulated = false;               ///< No person can be hurt by it.
-  int num_joints = 0;                   ///< It tells of: 0 or `core::kNumJoints`.
-  bool moves_by_itself = false;         ///< By a simulated arm: nobody has to be there.
+  bool simulated = false;        ///< No person can be hurt by it.
+  int num_joints = 0;            ///< It tells of: 0 or `core::kNumJoints`.
+  bool moves_by_itself = false;  ///< By a simulated arm: nobody has to be there.
 };
 
 /// A device that holds a hand at five points. Everything it takes and gives is in SI units and

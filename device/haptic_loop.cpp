@@ -84,6 +84,7 @@ void HapticLoop::render() noexcept {
   const bool stopped = doors_.emergency_stop.is_pressed();
   if (stopped) latch(Fault::kEmergencyStop);
   rearm_if_requested();
+  obey_watchdog();
   if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost);
   advance_authority();
 
@@ -91,9 +92,20 @@ void HapticLoop::render() noexcept {
   if (found != Fault::kNone) latch(found);
   take_command();
   compute_force();
+  // Held up between the read and here: what was computed is too old to be sent.
+  obey_watchdog();
+  if (fault_ == Fault::kWatchdog) force_on_hand_n_ = core::zero_vectors();
   if (!device_.write(force_on_hand_n_)) {
     latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
   }
+  if (doors_.watchdog != nullptr) doors_.watchdog->beat();
+}
+
+/// It has halted the device, or whoever ticks lost time: whatever was latched before, there is
+/// no force since.
+void HapticLoop::obey_watchdog() noexcept {
+  stalled_ |= doors_.watchdog != nullptr && doors_.watchdog->has_bitten();
+  if (stalled_) latch(Fault::kWatchdog);
 }
 
 void HapticLoop::latch(Fault fault) noexcept {
@@ -116,6 +128,8 @@ void HapticLoop::rearm_if_requested() noexcept {
   solids_.release();
   has_last_state_ = false;
   num_stale_ticks_ = 0;
+  stalled_ = false;
+  if (doors_.watchdog != nullptr) doors_.watchdog->forgive();
   flight_recorder_.thaw();
 }
 

@@ -13,6 +13,7 @@
 #include "core/safety/force_limiter.h"
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
+#include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
 #include "core/telemetry.h"
 #include "device/haptic_device.h"
@@ -56,6 +57,7 @@ class HapticLoop {
     core::EmergencyStop& emergency_stop;
     core::SpscQueue<core::Sample>* samples = nullptr;  ///< nullptr: nothing is recorded.
     const core::Heartbeat* heartbeat = nullptr;        ///< nullptr: a simulation needs none.
+    core::WatchdogState* watchdog = nullptr;           ///< nullptr: nobody watches.
   };
 
   /// Throws `core::Error` naming the field. The device is opened and closed by the caller. Not
@@ -79,6 +81,10 @@ class HapticLoop {
   /// emergency stop is still pressed. Any thread. Real time.
   void rearm() noexcept { rearm_requested_.store(true, std::memory_order_release); }
 
+  /// Time was lost between two ticks, more than a hand should have been left to itself: the
+  /// next one latches a fault. By whoever calls `tick`. Real time.
+  void stalled() noexcept { stalled_ = true; }
+
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
 
   /// The last second before a fault; read it before `rearm`.
@@ -88,6 +94,7 @@ class HapticLoop {
 
  private:
   void latch(core::Fault fault) noexcept;
+  void obey_watchdog() noexcept;
   void rearm_if_requested() noexcept;
   void advance_authority() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
@@ -100,6 +107,7 @@ class HapticLoop {
   Doors doors_;
   double period_s_;
   bool has_joints_;
+  bool stalled_ = false;
   std::int64_t max_stale_ticks_;
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;

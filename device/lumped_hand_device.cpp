@@ -49,6 +49,7 @@ DeviceCapabilities LumpedHandDevice::capabilities() const noexcept {
   return {.rate_hz = parameters_.rate_hz,
           .max_force_per_point_n = parameters_.max_force_per_point_n,
           .max_total_force_n = parameters_.max_total_force_n,
+          .watchdog_timeout_s = 0.250,
           .simulated = true,
           .moves_by_itself = true};
 }

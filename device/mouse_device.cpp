@@ -61,6 +61,7 @@ DeviceCapabilities MouseDevice::capabilities() const noexcept {
           .max_force_per_point_n = parameters_.max_force_per_point_n,
           .max_total_force_n = parameters_.max_total_force_n,
           // Its force is seen and not felt: a busy machine need not stop it.
+          .watchdog_timeout_s = 2.0,
           .heartbeat_timeout_s = 2.0,
           .simulated = true};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -47,6 +48,8 @@ RealtimeThread::RealtimeThread(const Parameters& parameters) : parameters_(param
                 "the number of a CPU, or -1", parameters.cpu);
   core::require(parameters.max_spin_s >= 0.0 && parameters.max_spin_s <= 1.0, "max_spin_s",
                 "a number in [0, 1]", parameters.max_spin_s);
+  core::require(parameters.max_stall_s >= 0.0 && parameters.max_stall_s <= 3600.0,
+                "max_stall_s", "a number in [0, 3600]", parameters.max_stall_s);
   thread_ = std::thread([this] {
     prepare();
     prepared_.release();
@@ -89,6 +92,9 @@ void RealtimeThread::run() noexcept {
   const ThreadUse at_start = thread_use();
   const std::int64_t period_ns =
       std::max<std::int64_t>(1, std::llround(1e9 * loop_->period_s()));
+  const std::int64_t max_stall_ns = parameters_.max_stall_s > 0.0
+                                        ? std::llround(1e9 * parameters_.max_stall_s)
+                                        : std::numeric_limits<std::int64_t>::max();
   AdaptiveSpin spin(std::llround(1e9 * parameters_.max_spin_s), period_ns);
   std::int64_t due_ns = monotonic_ns() + period_ns;
   while (!stop_.load(std::memory_order_relaxed)) {
@@ -98,6 +104,7 @@ void RealtimeThread::run() noexcept {
       spin.woke_up_late_by(monotonic_ns() - wake_up_ns);
     }
     const std::int64_t started_ns = spin_until(due_ns);
+    if (started_ns - due_ns >= max_stall_ns) loop_->stalled();
     loop_->render();
     const std::int64_t written_ns = monotonic_ns();
     loop_->report();
@@ -108,6 +115,8 @@ void RealtimeThread::run() noexcept {
     if (ended_ns >= due_ns + period_ns) {
       const std::int64_t num_missed = (ended_ns - due_ns) / period_ns;
       timing_.record_missed(num_missed);
+      // Held up within the tick, in the device: what it wrote stood for as long.
+      if (num_missed * period_ns >= max_stall_ns) loop_->stalled();
       due_ns += num_missed * period_ns;
     }
   }

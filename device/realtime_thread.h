@@ -27,6 +27,8 @@ class RealtimeThread {
     double max_spin_s = 200e-6;
     /// Where `cpu` is -1, until `stop`: see `ClearedCpu`.
     bool clear_cpu = false;
+    /// Lost between two ticks, so much is a fault of the loop, >= 0; 0: never.
+    double max_stall_s = 0.0;
     bool keep_cpus_awake = true;  ///< Where it is allowed, until `stop`: see `AwakeCpus`.
   };
 

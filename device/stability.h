@@ -34,10 +34,10 @@ struct SettlingCriterion {
 /// value is unstable, at most to `last`, then by bisection down to `resolution_ratio`. So an
 /// island of stable values beyond the first unstable rung does not count.
 struct StabilityLadder {
-  double first;                   ///< > 0.
-  double last;                    ///< >= first.
-  double step_ratio = 2.0;        ///< > 1.
-  double resolution_ratio = 1.03; ///< > 1.
+  double first;                    ///< > 0.
+  double last;                     ///< >= first.
+  double step_ratio = 2.0;         ///< > 1.
+  double resolution_ratio = 1.03;  ///< > 1.
 };
 
 struct StabilityLimit {

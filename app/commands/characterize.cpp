@@ -141,7 +141,8 @@ Outcome measured_by_person(const Options& options, device::HapticDevice& device)
     hand->begin_strokes({}, core::RandomStream(options.seed, "stroke"));
   } else {
     bench.wait_for(fmt::format(
-        "Put a hand on the device and move it to and fro for {:g} s, now slowly, now fast",
+        "Put a hand on the device, press Enter and move it to and fro for {:g} s, now slowly, "
+        "now fast",
         kStroking_s));
   }
   measure(kStroking_s,
@@ -211,8 +212,9 @@ void print(const Outcome& outcome, const Options& options) {
   fmt::print("  {:<23} {:5.2f} +- {:.2f} N\n  {:<23} {:5.2f} +- {:.2f} N\n", "extension, all",
              outcome.finger.extension_n.mean, outcome.finger.extension_n.sd, "abduction, all",
              outcome.finger.abduction_n.mean, outcome.finger.abduction_n.sd);
-  fmt::print("\nTorque sensors with weights of {:.0f} to {:.0f} g, mean error without the first\n",
-             1e3 * outcome.finger.weight_kg.front(), 1e3 * outcome.finger.weight_kg.back());
+  fmt::print(
+      "\nTorque sensors with weights of {:.0f} to {:.0f} g, mean error without the first\n",
+      1e3 * outcome.finger.weight_kg.front(), 1e3 * outcome.finger.weight_kg.back());
   for (const device::SensorAccuracy& sensor : outcome.finger.sensors) {
     fmt::print("  {:<23} {:5.2f} %\n", kJoints[static_cast<std::size_t>(sensor.joint)],
                100.0 * sensor.mean_relative_error_ratio);

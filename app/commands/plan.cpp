@@ -46,7 +46,7 @@ struct Outcome {
   device::DeviceCapabilities device;
   experiments::RangeLimits limits{};
   std::optional<StabilityCheck> stability;  ///< None: the device has no map.
-  double duration_s = 0.0;  ///< Of the longest session.
+  double duration_s = 0.0;                  ///< Of the longest session.
 };
 
 Outcome outcome_of(const Options& options) {
@@ -258,9 +258,9 @@ std::vector<std::string> problems_of(const Outcome& outcome, const Options& opti
         outcome.range.size()));
   }
   if (outcome.stability && outcome.stability->num_unstable() > 0) {
-    problems.push_back(
-        options.file + ": " + unstable_words(*outcome.stability, options.device) +
-        "; weaken them, or raise the study's rate");
+    problems.push_back(options.file + ": " +
+                       unstable_words(*outcome.stability, options.device) +
+                       "; weaken them, or raise the study's rate");
   }
   const int needed = outcome.study.device.min_contact_points;
   if (outcome.device.num_contact_points < needed) {

@@ -97,24 +97,26 @@ void write(const std::string& file, const std::string& text) {
   stream << text << '\n';
   stream.close();
   if (!stream) {
-    throw core::Error(file + ": expected a file that can be written, found that it cannot; "
-                             "look at its folder and disk");
+    throw core::Error(file +
+                      ": expected a file that can be written, found that it cannot; "
+                      "look at its folder and disk");
   }
 }
 
 int run(const Options& options) {
   require_device(options.device);
   if (options.device != "exoskeleton") {
-    throw UsageError("--device: expected a device whose mechanics are simulated, exoskeleton, "
-                     "found " +
-                     options.device);
+    throw UsageError(
+        "--device: expected a device whose mechanics are simulated, exoskeleton, "
+        "found " +
+        options.device);
   }
   StabilityMap map{.device = options.device};
   for (const double rate_hz : options.rates_hz) {
     for (const double delay_s : options.delays_s) {
-      for (const device::Contact contact : {device::Contact::kAttached,
-                                            device::Contact::kSlipping,
-                                            device::Contact::kDetached}) {
+      for (const device::Contact contact :
+           {device::Contact::kAttached, device::Contact::kSlipping,
+            device::Contact::kDetached}) {
         map.rows.push_back({.measured_case = {rate_hz, delay_s, contact}});
       }
     }

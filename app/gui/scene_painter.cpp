@@ -5,7 +5,6 @@
 #include <GL/glext.h>
 #include <mujoco/mujoco.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -15,13 +14,6 @@
 
 namespace jnd::app::gui {
 namespace {
-
-constexpr double kBetweenPictures_s = 0.1;
-// Of both sides: half the pixels, each drawn by the processor.
-constexpr double kSoftwareScale = 0.7;
-// More than a monitor shows of it beside the scopes; the picture is drawn larger from there on.
-constexpr int kMostWidth_px = 1600;
-constexpr int kMostHeight_px = 1200;
 
 /// The processor draws, and it is the loop's, too.
 bool renders_in_software() {
@@ -48,23 +40,13 @@ class GlStateGuard {
   GlStateGuard& operator=(const GlStateGuard&) = delete;
 };
 
-/// What was drawn last, but for the sample, which its tick stands for.
-struct Painted {
-  std::int64_t tick;
-  SceneCamera camera;
-  SceneColours colours;
-  int width_px, height_px;
-
-  friend bool operator==(const Painted&, const Painted&) = default;
-};
-
 }  // namespace
 
 struct ScenePainter::Renderer {
   explicit Renderer(mjModel_& model) : is_software(renders_in_software()) {
     const GlStateGuard guard;
-    model.vis.global.offwidth = kMostWidth_px;
-    model.vis.global.offheight = kMostHeight_px;
+    model.vis.global.offwidth = kMostSceneWidth_px;
+    model.vis.global.offheight = kMostSceneHeight_px;
     model.vis.quality.offsamples = is_software ? 0 : 4;
     if (is_software) {
       model.vis.quality.numslices = 16;
@@ -132,8 +114,8 @@ struct ScenePainter::Renderer {
   mjrContext context;
   unsigned int texture = 0, target = 0;
   int width = 0, height = 0;
-  std::optional<Painted> painted;
-  double painted_s = 0.0;
+  ScenePace pace;
+  std::optional<SceneColour> background;
 };
 
 ScenePainter::ScenePainter() : renderer_(std::make_unique<Renderer>(scene_.model())) {}
@@ -142,26 +124,16 @@ ScenePainter::~ScenePainter() = default;
 
 std::uintptr_t ScenePainter::paint(const SceneRequest& request, double now_s) {
   Renderer& my = *renderer_;
-  const double width = std::max(request.width_px, 1);
-  const double height = std::max(request.height_px, 1);
-  const double scale = std::min(
-      {my.is_software ? kSoftwareScale : 1.0, kMostWidth_px / width, kMostHeight_px / height});
-  const auto scaled = [&](double px) { return std::max(1, static_cast<int>(scale * px)); };
-  const Painted wanted{.tick = request.sample.tick,
-                       .camera = request.camera,
-                       .colours = request.colours,
-                       .width_px = scaled(width),
-                       .height_px = scaled(height)};
-  const bool is_new_enough =
-      my.painted && (now_s < my.painted_s + kBetweenPictures_s || *my.painted == wanted);
-  if (is_new_enough) return my.texture;
+  const SceneLook look = look_of(request, my.is_software);
+  if (!my.pace.takes(look, now_s)) return my.texture;
 
   const GlStateGuard guard;
-  if (!my.painted || my.painted->colours != wanted.colours) {
-    my.set_background(scene_.model(), scene_.background_texture(), wanted.colours.ground);
+  if (my.background != look.colours.ground) {
+    my.set_background(scene_.model(), scene_.background_texture(), look.colours.ground);
+    my.background = look.colours.ground;
   }
   scene_.show(request.sample, request.surroundings, request.colours, request.camera);
-  my.make_texture(wanted.width_px, wanted.height_px);
+  my.make_texture(look.width_px, look.height_px);
   mjr_setBuffer(mjFB_OFFSCREEN, &my.context);
   mjr_render({0, 0, my.width, my.height}, &scene_.scene(), &my.context);
   if (my.context.offSamples > 0) {
@@ -170,8 +142,6 @@ std::uintptr_t ScenePainter::paint(const SceneRequest& request, double now_s) {
   } else {
     my.copy(my.context.offFBO, my.target);
   }
-  my.painted = wanted;
-  my.painted_s = now_s;
   return my.texture;
 }
 

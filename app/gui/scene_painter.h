@@ -3,18 +3,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "app/gui/robot_scene.h"
+#include "app/gui/scene_look.h"
 
 namespace jnd::app::gui {
-
-/// What a picture of the apparatus is to show, and how large it is on the screen.
-struct SceneRequest {
-  core::Sample sample;
-  SurroundingsView surroundings;
-  SceneCamera camera;
-  SceneColours colours;
-  int width_px = 0, height_px = 0;
-};
 
 /// Draws the apparatus into a picture of its own, which the window then shows like any other:
 /// never into the window itself, never more than ten times a second, and with half the pixels

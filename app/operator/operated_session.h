@@ -34,8 +34,8 @@ class OperatedSession {
     OperatorDoors& doors;
     LiveTrace* trace = nullptr;    ///< Gets every sample, unless levels are hidden.
     ScopeTrace* scopes = nullptr;  ///< Likewise.
-    std::string language;        ///< Of the study's texts; "": its first.
-    bool realtime = true;        ///< Else time passes only in `advance`: for tests.
+    std::string language;          ///< Of the study's texts; "": its first.
+    bool realtime = true;          ///< Else time passes only in `advance`: for tests.
     bool allow_no_realtime = false;
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
   };

@@ -77,8 +77,8 @@ class Preflight {
 [[nodiscard]] PreflightLine disk_line(double free_bytes, double rate_hz, double session_s);
 [[nodiscard]] PreflightLine device_line(const std::string& device, double rate_hz,
                                         int min_contact_points);
-/// Where `hides_levels`, the number of stimuli that fit alone. `stability`: of a device that has
-/// a map of it; an unstable stimulus fails.
+/// Where `hides_levels`, the number of stimuli that fit alone. `stability`: of a device that
+/// has a map of it; an unstable stimulus fails.
 [[nodiscard]] PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
                                          const experiments::RangeLimits& limits,
                                          bool hides_levels,

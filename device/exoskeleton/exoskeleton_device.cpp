@@ -54,6 +54,7 @@ DeviceCapabilities ExoskeletonDevice::capabilities() const noexcept {
   return {.rate_hz = parameters_.rate_hz,
           .max_force_per_point_n = parameters_.max_force_per_point_n,
           .max_total_force_n = parameters_.max_total_force_n,
+          .watchdog_timeout_s = 0.250,
           .simulated = true,
           .num_joints = core::kNumJoints,
           .moves_by_itself = true};

@@ -56,7 +56,8 @@ JointVector SimulatedBench::position_rad() const {
 
 /// Along the tip's motion, or between that and away from the base.
 Eigen::Vector3d SimulatedBench::pull_direction(FingerPose pose) const {
-  const Eigen::Matrix3d& jacobian = exoskeleton_.kinematics().finger_jacobian(parameters_.point);
+  const Eigen::Matrix3d& jacobian =
+      exoskeleton_.kinematics().finger_jacobian(parameters_.point);
   const Eigen::Vector3d motion = jacobian.col(joint_of(pose)).normalized();
   switch (pose) {
     case FingerPose::k0:
@@ -125,7 +126,8 @@ FreeSpaceRegression stroke_in_free_space(double rate_hz, std::uint64_t seed,
   SimulatedHand& hand = *exoskeleton.simulated_hand();
   for (std::size_t i = 0; i < kSpeeds_m_per_s.size(); ++i) {
     const StrokePlan plan{.amplitude_m = 0.2, .max_speed_m_per_s = kSpeeds_m_per_s[i]};
-    hand.begin_strokes(plan, core::RandomStream(seed, "stroke", {static_cast<std::int64_t>(i)}));
+    hand.begin_strokes(plan,
+                       core::RandomStream(seed, "stroke", {static_cast<std::int64_t>(i)}));
     // The first stroke begins with a start from rest.
     for (std::int64_t stroke = 0; stroke < 4; stroke = hand.strokes_finished()) {
       loop.tick();

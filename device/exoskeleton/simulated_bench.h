@@ -8,9 +8,9 @@
 
 namespace jnd::device {
 
-/// The simulated exoskeleton on a bench, its arm locked and nobody's hand on it: weights hang at
-/// the tip of one finger. The finger stays in its neutral pose and the weight is turned about
-/// it instead, which is the same where gravity is compensated.
+/// The simulated exoskeleton on a bench, its arm locked and nobody's hand on it: weights hang
+/// at the tip of one finger. The finger stays in its neutral pose and the weight is turned
+/// about it instead, which is the same where gravity is compensated.
 class SimulatedBench final : public FingerBench {
  public:
   struct Parameters {
@@ -23,7 +23,8 @@ class SimulatedBench final : public FingerBench {
   /// Throws `core::Error` naming the field.
   explicit SimulatedBench(const Parameters& parameters);
 
-  /// Filled until a base joint has turned by 5 mrad, half a millimetre at the tip, with 0.2 to 0.4 N/s.
+  /// Filled until a base joint has turned by 5 mrad, half a millimetre at the tip, with 0.2 to
+  /// 0.4 N/s.
   [[nodiscard]] double break_away_weight_n(FingerPose pose, int repetition) override;
   [[nodiscard]] TorqueReading torques_under(FingerPose pose, double weight_n) override;
 

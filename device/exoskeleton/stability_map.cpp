@@ -122,15 +122,15 @@ ExoskeletonStability measure_stability(const StabilityCase& wanted,
     if (is_cancelled) is_cancelled();
     return settles_in(exoskeleton, medium, wanted.rate_hz);
   };
-  return {.viscosity_pa_s = largest_stable(kViscosities_pa_s,
-                                           [&](double viscosity_pa_s) {
-                                             return stable(core::viscous(
-                                                 {.viscosity_pa_s = viscosity_pa_s}));
-                                           }),
-          .stiffness_n_per_m =
-              largest_stable(kStiffnesses_n_per_m, [&](double stiffness_n_per_m) {
-                return stable(core::solid({.stiffness_n_per_m = stiffness_n_per_m}));
-              })};
+  return {
+      .viscosity_pa_s =
+          largest_stable(kViscosities_pa_s,
+                         [&](double viscosity_pa_s) {
+                           return stable(core::viscous({.viscosity_pa_s = viscosity_pa_s}));
+                         }),
+      .stiffness_n_per_m = largest_stable(kStiffnesses_n_per_m, [&](double stiffness_n_per_m) {
+        return stable(core::solid({.stiffness_n_per_m = stiffness_n_per_m}));
+      })};
 }
 
 bool is_stable_in(const StabilityCase& wanted, const core::MediumAmounts& medium) {

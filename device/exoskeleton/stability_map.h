@@ -11,7 +11,8 @@ namespace jnd::device {
 /// How the hand is on the exoskeleton while its stability is measured.
 enum class Contact {
   kAttached,  ///< Every magnet holds, whatever pulls.
-  /// Every magnet lets go above `kSlippingBreakAwayN` and somebody puts the finger back at once.
+  /// Every magnet lets go above `kSlippingBreakAwayN` and somebody puts the finger back at
+  /// once.
   kSlipping,
   kDetached,  ///< No finger is on the hand.
 };

@@ -24,14 +24,15 @@ class LoosePointRunTest : public ::testing::Test {
   }
 
   LaboratoryRunResult run(std::int64_t first_tick, std::int64_t num_ticks) {
-    return run_laboratory({.study = study_,
-                           .laboratory = laboratory_,
-                           .store = store_,
-                           .session = 1,
-                           .injected_faults = {{.first_tick = first_tick,
-                                                .num_ticks = num_ticks,
-                                                .injection = device::Injection::kDetachedPoint}},
-                           .durability = core::Durability::kAtClose});
+    return run_laboratory(
+        {.study = study_,
+         .laboratory = laboratory_,
+         .store = store_,
+         .session = 1,
+         .injected_faults = {{.first_tick = first_tick,
+                              .num_ticks = num_ticks,
+                              .injection = device::Injection::kDetachedPoint}},
+         .durability = core::Durability::kAtClose});
   }
   [[nodiscard]] std::int64_t count(const std::string& kind) const {
     const std::vector<core::EventRow> events = store_.events(1);

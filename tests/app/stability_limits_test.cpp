@@ -27,13 +27,15 @@ StabilityRow row(double rate_hz, double delay_s, Contact contact, double viscosi
 /// Delayed rows are there to be left alone.
 StabilityMap small_map() {
   return {.device = "exoskeleton",
-          .rows = {row(833, 0.0, Contact::kAttached, 30, 900),
+          .rows = {row(833, 0.001, Contact::kAttached, 1, 1),
+                   row(833, 0.001, Contact::kDetached, 1, 1),
+                   row(1000, 0.001, Contact::kAttached, 1, 1),
+                   row(1000, 0.001, Contact::kDetached, 1, 1),
+                   row(833, 0.0, Contact::kAttached, 30, 900),
                    row(833, 0.0, Contact::kDetached, 10, 500),
                    row(1000, 0.0, Contact::kAttached, 40, 2000),
                    row(1000, 0.0, Contact::kSlipping, 35, 2000),
-                   row(1000, 0.0, Contact::kDetached, 12, 600),
-                   row(1000, 0.001, Contact::kAttached, 1, 1),
-                   row(1000, 0.001, Contact::kDetached, 1, 1)}};
+                   row(1000, 0.0, Contact::kDetached, 12, 600)}};
 }
 
 experiments::Study study_at(double rate_hz) {
@@ -84,7 +86,8 @@ TEST(StabilityLimits, ABrokenMapIsToldWithItsPlace) {
   const std::string good = to_json(small_map()).dump();
   for (const std::string& text :
        {std::string("{"), std::string("{}"), std::string("[1]"),
-        replaced(good, "\"attached\"", "\"glued\""), replaced(good, "\"rate_hz\":833.0", "\"rate_hz\":-1"),
+        replaced(good, "\"attached\"", "\"glued\""),
+        replaced(good, "\"rate_hz\":833.0", "\"rate_hz\":-1"),
         replaced(good, "\"viscosity_pa_s\":30.0", "\"viscosity_pa_s\":\"30\"")}) {
     const auto file = write_file(temporary.path() / "map.json", text);
     try {
@@ -142,8 +145,8 @@ TEST(StabilityLimits, ViscositiesAreWithinReachOfTheHandOrOfAFingerOrOfNeither) 
 }
 
 TEST(StabilityLimits, WaterCountsWithTheSlopeOfItsDrag) {
-  // F = 7.4 C_D scale v^2, head on C_D = 0.8899; the slope 2 F / v over 1.776 m is the viscosity:
-  // 2 * 7.4 * 0.8899 * 4 * 0.5 / 1.776 = 14.83 Pa s at 0.5 m/s, twice that at 1 m/s.
+  // F = 7.4 C_D scale v^2, head on C_D = 0.8899; the slope 2 F / v over 1.776 m is the
+  // viscosity: 2 * 7.4 * 0.8899 * 4 * 0.5 / 1.776 = 14.83 Pa s at 0.5 m/s, twice that at 1 m/s.
   const experiments::RangeEntry water = {
       .setting = {.medium = "water", .quantity = "scale", .intensity = 4.0}};
   EXPECT_EQ(checked(study_at(1000.0), {water}, 0.5).num_needing_the_hand(), 1);
@@ -153,18 +156,18 @@ TEST(StabilityLimits, WaterCountsWithTheSlopeOfItsDrag) {
 }
 
 TEST(StabilityLimits, ASolidCountsWithItsStiffness) {
-  const experiments::RangeEntry solid = {.setting = {.medium = "solid",
-                                                     .quantity = "stiffness_n_per_m",
-                                                     .intensity = 1000.0}};
+  const experiments::RangeEntry solid = {
+      .setting = {.medium = "solid", .quantity = "stiffness_n_per_m", .intensity = 1000.0}};
   EXPECT_EQ(checked(study_at(1000.0), {solid}).num_needing_the_hand(), 1);
   EXPECT_EQ(checked(study_at(833.0), {solid}).num_unstable(), 1);
 }
 
 TEST(StabilityLimits, SaysInWordsWhatIsWrongAndWhatToRemember) {
   const StabilityCheck check = checked(study_at(1000.0), {viscous(20.0), viscous(50.0)});
-  EXPECT_EQ(unstable_words(check, "exoskeleton"),
-            "expected stimuli that `exoskeleton` renders stably at 1000 Hz (on the hand up to 40 "
-            "Pa s and 2e+03 N/m), found 1 of 2 beyond");
+  EXPECT_EQ(
+      unstable_words(check, "exoskeleton"),
+      "expected stimuli that `exoskeleton` renders stably at 1000 Hz (on the hand up to 40 "
+      "Pa s and 2e+03 N/m), found 1 of 2 beyond");
   EXPECT_NE(detached_remark(check).find("1 of 2 stimuli"), std::string::npos);
   EXPECT_NE(detached_remark(check).find("12 Pa s"), std::string::npos);
   EXPECT_EQ(detached_remark(checked(study_at(1000.0), {viscous(5.0)})), "");
@@ -181,7 +184,8 @@ TEST(StabilityLimits, ThePreflightFailsForAnUnstableStimulusAndRemarksOnALooseFi
   EXPECT_EQ(wrong.found, "2 of 2 within limits, 1 unstable");
   EXPECT_NE(wrong.remedy, "");
   const std::vector<experiments::RangeEntry> fine = {viscous(20.0)};
-  const PreflightLine remark = stimuli_line(fine, limits, true, checked(study_at(1000.0), fine));
+  const PreflightLine remark =
+      stimuli_line(fine, limits, true, checked(study_at(1000.0), fine));
   EXPECT_EQ(remark.status, PreflightLine::Status::kOk);
   EXPECT_EQ(remark.found, "1 of 1 within limits, 1 stable on the hand alone");
 }

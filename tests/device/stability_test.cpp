@@ -107,8 +107,8 @@ TEST(Stability, AMassWithSampledDampingIsStableUpToTwiceItsMassOverThePeriod) {
 }
 
 TEST(Stability, ADelayOfTheForceLowersTheLimitAsLevinAndMayHaveIt) {
-  // v' = v - b T / m v_d, the velocity d ticks before: stable for b < 2 sin(pi / (4 d + 2)) m / T
-  // (Levin and May, Theoretical Population Biology 9, 1976).
+  // v' = v - b T / m v_d, the velocity d ticks before: stable for b < 2 sin(pi / (4 d + 2)) m /
+  // T (Levin and May, Theoretical Population Biology 9, 1976).
   for (const int delay_ticks : {1, 2, 4}) {
     SampledMass mass;
     mass.delay_ticks = delay_ticks;
@@ -121,22 +121,19 @@ TEST(Stability, ADelayOfTheForceLowersTheLimitAsLevinAndMayHaveIt) {
 }
 
 TEST(Stability, AMassPressedOnADelayedPlaneNeedsDampingOfStiffnessTimesDelay) {
-  // z^2 - (2 - b T / m) z + 1 - b T / m + k T^2 / m = 0 with the force one tick late: stable for
-  // k < b / T.
+  // z^2 - (2 - b T / m) z + 1 - b T / m + k T^2 / m = 0 with the force one tick late: stable
+  // for k < b / T.
   SampledMass mass = pressed_on_a_plane();
   const double limit = mass.damping_n_s_per_m / kPeriod_s;
   const double found =
-      largest_stable({.first = 10.0, .last = 1e5},
-                     [&](double stiffness_n_per_m) {
-                       return settles(
-                           mass,
-                           {.medium = core::solid({.stiffness_n_per_m = stiffness_n_per_m})},
-                           kRate_hz);
-                     })
-          .value;
-  // What decays too slowly counts as unstable: the decay is (b - k T) / 2 m a second.
-  EXPECT_LT(found, limit * 1.05);
-  EXPECT_GT(found, limit * 0.75);
+      largest_stable({.first = 10.0, .last = 1e5}, [&](double stiffness_n_per_m) {
+        return settles(mass, {.medium = core::solid({.stiffness_n_per_m = stiffness_n_per_m})},
+                       kRate_hz);
+      }).value;
+  // The whole loop has less: its passivity control does not know of the delay, takes force away
+  // in the wrong ticks, and costs a quarter.
+  EXPECT_LT(found, limit * 1.01);
+  EXPECT_GT(found, limit * 0.7);
 }
 
 TEST(Stability, AForceThatGoesToAndFroIsNoRestHoweverLittleMoves) {
@@ -149,6 +146,18 @@ TEST(Stability, AForceThatGoesToAndFroIsNoRestHoweverLittleMoves) {
   SettlingCriterion by_nothing = by_force_alone;
   by_nothing.force_swing_n = 1e9;
   EXPECT_TRUE(settles(mass, too_stiff, kRate_hz, by_nothing));
+}
+
+TEST(Stability, ALimiterThatHasToWorkOnAndOnIsNoRest) {
+  SampledMass mass = pressed_on_a_plane();
+  const core::HapticCommand far_too_stiff = {
+      .medium = core::solid({.stiffness_n_per_m = 100.0 * mass.damping_n_s_per_m / kPeriod_s})};
+  const SettlingCriterion by_the_limiter_alone = {
+      .rest_speed_m_per_s = 1e9, .rest_ratio = 1e9, .force_swing_n = 1e9};
+  EXPECT_FALSE(settles(mass, far_too_stiff, kRate_hz, by_the_limiter_alone));
+  SettlingCriterion by_nothing = by_the_limiter_alone;
+  by_nothing.limited_ratio = 1.0;
+  EXPECT_TRUE(settles(mass, far_too_stiff, kRate_hz, by_nothing));
 }
 
 TEST(Stability, WhatKeepsMovingIsNotStable) {

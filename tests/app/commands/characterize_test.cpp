@@ -20,10 +20,10 @@ TEST(CharacterizeCommand, RecoversTheModelsConstantsAndPrintsTheKeysOfTheContrac
   const ProgramOutcome outcome = run_program({"characterize", "--repetitions", "1", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto json = document(outcome.out);
-  EXPECT_EQ(keys(json), (std::set<std::string>{
-                            "device", "finger", "num_repetitions", "break_away",
-                            "break_away_extension_n", "break_away_abduction_n",
-                            "torque_sensors", "free_space"}));
+  EXPECT_EQ(keys(json),
+            (std::set<std::string>{"device", "finger", "num_repetitions", "break_away",
+                                   "break_away_extension_n", "break_away_abduction_n",
+                                   "torque_sensors", "free_space"}));
   EXPECT_EQ(json["device"], "exoskeleton");
   EXPECT_EQ(json["finger"], "index");
   ASSERT_EQ(json["break_away"].size(), 5U);
@@ -49,9 +49,10 @@ TEST(CharacterizeCommand, ADeviceWithoutJointsSaysSoInOneSentence) {
 }
 
 TEST(CharacterizeCommand, WrongArgumentsAreToldInOneSentence) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--device", "phantom"}, {"--finger", "ring"},
-        {"--repetitions", "0"}, {"--seed", "-1"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--device", "phantom"},
+                                                {"--finger", "ring"},
+                                                {"--repetitions", "0"},
+                                                {"--seed", "-1"}}) {
     std::vector<std::string> all = {"characterize"};
     all.insert(all.end(), words.begin(), words.end());
     const ProgramOutcome outcome = run_program(all);
@@ -62,8 +63,7 @@ TEST(CharacterizeCommand, WrongArgumentsAreToldInOneSentence) {
 
 TEST(CharacterizeCommand, IsStoppedByCtrlC) {
   RunningProgram child({"characterize", "--repetitions", "1000"});
-  // It has installed its handler once the first line could have been printed; until then the
-  // signal ends it at once, which is as good.
+  // Before it listens to the signal, that ends it, which is as good.
   child.send_signal(SIGINT);
   const ProgramOutcome outcome = child.wait();
   EXPECT_TRUE(outcome.exit_code == 1 || outcome.signal == SIGINT) << outcome.exit_code;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,8 +28,8 @@ class StabilityCommandTest : public ::testing::Test {
 };
 
 TEST_F(StabilityCommandTest, PrintsTheKeysOfTheContractAndKeepsTheSameInAFile) {
-  const ProgramOutcome outcome =
-      jnd({"stability", "--rate-hz", "250", "--delay-s", "0.008", "--out", "map.json", "--json"});
+  const ProgramOutcome outcome = jnd(
+      {"stability", "--rate-hz", "250", "--delay-s", "0.008", "--out", "map.json", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(read_file(temporary_.path() / "map.json"), outcome.out);
   const auto json = document(outcome.out);
@@ -45,11 +47,23 @@ TEST_F(StabilityCommandTest, PrintsTheKeysOfTheContractAndKeepsTheSameInAFile) {
   EXPECT_LT(json["limits"][2]["viscosity_pa_s"], json["limits"][0]["viscosity_pa_s"]);
 }
 
+TEST_F(StabilityCommandTest, StoppedByCtrlCItKeepsNothing) {
+  test_support::RunningProgram child({"stability", "--out", "map.json"}, options_);
+  child.send_signal(SIGINT);
+  const ProgramOutcome outcome = child.wait();
+  // Before it listens to the signal, that ends it, which is as good.
+  EXPECT_TRUE(outcome.exit_code == 1 || outcome.signal == SIGINT) << outcome.exit_code;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_FALSE(std::filesystem::exists(temporary_.path() / "map.json"));
+}
+
 TEST_F(StabilityCommandTest, ADeviceThatIsNoModelAndValuesOutOfRangeAreToldInOneSentence) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--device", "lumped"}, {"--device", "phantom"},
-        {"--rate-hz", "0"}, {"--rate-hz", "1000,nan"}, {"--delay-s", "0.021"},
-        {"--jobs", "0"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--device", "lumped"},
+                                                {"--device", "phantom"},
+                                                {"--rate-hz", "0"},
+                                                {"--rate-hz", "1000,nan"},
+                                                {"--delay-s", "0.021"},
+                                                {"--jobs", "0"}}) {
     std::vector<std::string> all = {"stability"};
     all.insert(all.end(), words.begin(), words.end());
     const ProgramOutcome outcome = jnd(all);
@@ -83,7 +97,8 @@ TEST_F(StabilityCommandTest, AStimulusBeyondTheMapIsAProblemOfThePlan) {
   write_file(share / "data/stability/exoskeleton.json",
              R"({"device": "exoskeleton", "limits": [
                  {"rate_hz": 833, "contact": "attached", "viscosity_pa_s": 20, )" +
-                 limits + R"(}, {"rate_hz": 833, "contact": "detached", "viscosity_pa_s": 3, )" +
+                 limits +
+                 R"(}, {"rate_hz": 833, "contact": "detached", "viscosity_pa_s": 3, )" +
                  limits + "}]}");
   options_.environment.push_back({"JND_SHARE", share.string()});
   const std::vector<std::string> plan = {"plan", "viscosity_discrimination", "--device",

@@ -64,6 +64,7 @@ class BlindWindowTest : public WindowTest {
       for (int trial = 1; trial <= (compares ? 2 : 1); ++trial) {
         wait_for_trial(trial);
         feel_test();
+        look_at_apparatus();
         if (!compares) {
           window_->use("raise_coarse");
           window_->use("matches");
@@ -78,6 +79,13 @@ class BlindWindowTest : public WindowTest {
     window_->wait_for_text("Session finished");
     window_->wait_for_text("complete");
     window_->press("F9");
+  }
+  /// There and back, while something is felt.
+  void look_at_apparatus() {
+    window_->use("apparatus");
+    window_->wait_for_text("none of them is shown");
+    window_->use("apparatus");
+    window_->wait_for_view("session");
   }
   /// Every other view of the study.
   void look_around() {
@@ -117,8 +125,8 @@ TEST_F(BlindWindowTest,
   EXPECT_THAT(told_by(outcome.err), ::testing::IsEmpty());
   const std::string seen = window_->every_text();
   EXPECT_THAT(told_by(seen), ::testing::IsEmpty());
-  for (const char* view :
-       {"Block 1", "Block 2", "So?", "More?", "Session finished", "Thank you!"}) {
+  for (const char* view : {"Block 1", "Block 2", "So?", "More?", "Session finished",
+                           "Thank you!", "none of them is shown"}) {
     EXPECT_NE(seen.find(view), std::string::npos) << view << ": the log is whole";
   }
   EXPECT_THAT(told_by(texts_of_all_files_in(path("person/state"))), ::testing::IsEmpty());
