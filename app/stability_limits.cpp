@@ -191,8 +191,9 @@ std::optional<StabilityCheck> check_stability(const StabilityMap& map,
 
 std::string words_of(const StabilityLimit& limit, const char* unit) {
   if (limit.value == 0.0) return "none";
-  return fmt::format("{:.3g} {}{}", limit.value, unit,
-                     limit.is_beyond_ladder ? " or more" : "");
+  const double value = rounded_down(limit.value);
+  return (value >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:g}", value)) + " " +
+         unit + (limit.is_beyond_ladder ? " or more" : "");
 }
 
 std::string unstable_words(const StabilityCheck& check, const std::string& device) {

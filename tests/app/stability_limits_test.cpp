@@ -167,11 +167,12 @@ TEST(StabilityLimits, SaysInWordsWhatIsWrongAndWhatToRemember) {
   EXPECT_EQ(
       unstable_words(check, "exoskeleton"),
       "expected stimuli that `exoskeleton` renders stably at 1000 Hz (on the hand up to 40 "
-      "Pa s and 2e+03 N/m), found 1 of 2 beyond");
+      "Pa s and 2000 N/m), found 1 of 2 beyond");
   EXPECT_NE(detached_remark(check).find("1 of 2 stimuli"), std::string::npos);
   EXPECT_NE(detached_remark(check).find("12 Pa s"), std::string::npos);
   EXPECT_EQ(detached_remark(checked(study_at(1000.0), {viscous(5.0)})), "");
   EXPECT_EQ(words_of(StabilityLimit{512.0, true}, "Pa s"), "512 Pa s or more");
+  EXPECT_EQ(words_of(StabilityLimit{46950.6}, "N/m"), "46900 N/m");
   EXPECT_EQ(words_of(StabilityLimit{}, "Pa s"), "none");
 }
 
