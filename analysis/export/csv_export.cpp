@@ -229,6 +229,7 @@ class Export {
       if (!fs::exists(file)) continue;
       const core::RecordingReader reader(file);
       const bool with_joints = reader.has_joints();
+      any_joints_ |= with_joints;
       const std::vector<std::string> names = core::sample_column_names(with_joints);
       std::vector<CsvColumn> columns;
       for (const std::string& name : names) columns.push_back({name.c_str(), "", ""});
@@ -258,7 +259,7 @@ class Export {
       }
     }
     if (options_.recordings) {
-      for (const std::string& name : core::sample_column_names(true)) {
+      for (const std::string& name : core::sample_column_names(any_joints_)) {
         table.cell(std::string("recordings/*.csv")).cell(name).cell(unit_of(name));
         table.cell(meaning_of(name)).end_row();
       }
@@ -270,6 +271,7 @@ class Export {
   fs::path folder_;
   CsvExportOptions options_;
   std::vector<core::SessionRow> sessions_;
+  bool any_joints_ = false;  ///< In any of the recordings.
 };
 
 }  // namespace

@@ -36,7 +36,7 @@ void SceneCamera::zoom(double factor) noexcept {
 }
 
 SceneCamera camera_at_first() noexcept {
-  return looking(125.0 * kDegree_rad, -20.0 * kDegree_rad, 1.05);
+  return looking(112.0 * kDegree_rad, -24.0 * kDegree_rad, 1.05);
 }
 
 SceneCamera camera_from_above() noexcept {

@@ -25,7 +25,10 @@ SceneLook look_of(const SceneRequest& request, bool is_software) noexcept {
 }
 
 bool ScenePace::takes(const SceneLook& wanted, double now_s) noexcept {
-  if (has_drawn_ && (now_s < drawn_s_ + kBetweenPictures_s || drawn_ == wanted)) return false;
+  // Light and dark change at once, with everything around.
+  const bool is_recent =
+      now_s < drawn_s_ + kBetweenPictures_s && drawn_.colours == wanted.colours;
+  if (has_drawn_ && (is_recent || drawn_ == wanted)) return false;
   drawn_ = wanted;
   drawn_s_ = now_s;
   has_drawn_ = true;

@@ -33,7 +33,8 @@ inline constexpr int kMostSceneHeight_px = 1200;
 /// the processor draws.
 [[nodiscard]] SceneLook look_of(const SceneRequest& request, bool is_software) noexcept;
 
-/// When pictures are drawn: at most ten a second, and none that would show the same again.
+/// When pictures are drawn: at most ten a second but for a change of colours, and none that
+/// would show the same again.
 class ScenePace {
  public:
   /// True if this one is to be drawn now; it then counts as drawn.

@@ -120,6 +120,26 @@ TEST(StabilityLimits, TheShippedMapHoldsEveryCaseAndALooseFingerIsTheWorst) {
   }
 }
 
+TEST(StabilityLimits, TheShippedMapIsStillThatOfThisProgram) {
+  // Where it is not, `jnd stability --out data/stability/exoskeleton.json` makes it anew.
+  const std::optional<StabilityMap> map = shipped_stability_map("exoskeleton");
+  ASSERT_TRUE(map);
+  int num_rows = 0;
+  for (const StabilityRow& its : map->rows) {
+    if (its.measured_case.contact != Contact::kDetached) continue;
+    if (its.measured_case.rate_hz != 1000.0) continue;
+    ++num_rows;
+    const double limit_pa_s = its.limits.viscosity_pa_s.value;
+    const auto is_stable = [&](double viscosity_pa_s) {
+      return device::is_stable_in(its.measured_case,
+                                  core::viscous({.viscosity_pa_s = viscosity_pa_s}));
+    };
+    EXPECT_TRUE(is_stable(0.8 * limit_pa_s)) << its.measured_case.extra_delay_s;
+    EXPECT_FALSE(is_stable(1.25 * limit_pa_s)) << its.measured_case.extra_delay_s;
+  }
+  EXPECT_EQ(num_rows, 4);
+}
+
 TEST(StabilityLimits, ADeviceWithoutAMapHasNone) {
   EXPECT_FALSE(shipped_stability_map("lumped"));
   EXPECT_FALSE(shipped_stability_map("network:127.0.0.1:4700"));

@@ -36,19 +36,18 @@ std::string loop_words(const LoopView& loop) {
 void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
   Rect inside = place.middle(place.width - 2 * kPadding, ui.line_height(Font::kBody));
-  const std::string loop = loop_words(view.loop);
-  const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
-  ui.text(inside.take_right(ui.text_width(loop, Font::kSmall) + 2, 20), loop,
-          {.font = Font::kSmall, .colour = is_late ? Colour::kAmber : Colour::kSoft});
   const bool has_fault = !view.fault.empty();
+  const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
+  const std::string right =
+      view.step == Step::kFault ? "F4: where it is armed again" : loop_words(view.loop);
+  ui.text(inside.take_right(ui.text_width(right, Font::kSmall) + 2, 20), right,
+          {.font = Font::kSmall, .colour = is_late ? Colour::kAmber : Colour::kSoft});
+  const Colour red = Colour::kRed;
   const float width = std::min(ui.text_width(view.heading, Font::kStrong) + 2, inside.width);
   ui.text(inside.take_left(width, 14), view.heading,
-          {.font = Font::kStrong, .colour = has_fault ? Colour::kRed : Colour::kInk});
-  const bool can_rearm = view.step == Step::kFault;
-  ui.text(inside,
-          has_fault ? view.fault + (can_rearm ? " · F4 leads back to where it is rearmed" : "")
-                    : view.sentence,
-          {.colour = has_fault ? Colour::kRed : Colour::kSoft});
+          {.font = Font::kStrong, .colour = has_fault ? red : Colour::kInk});
+  ui.text(inside, has_fault ? view.fault : view.sentence,
+          {.colour = has_fault ? red : Colour::kSoft});
 }
 
 void draw_hidden(Ui& ui, const Rect& place) {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kSeconds = 10.0;
 constexpr float kRowHeight = 32;
-constexpr float kInset = 10;
-constexpr float kHead = 28;
+constexpr float kInset = 8;
+constexpr float kHead = 26;
 
 ScopeChannel channel_named(const std::string& name) {
   const std::vector<ScopeChannel> all = scope_channels(true);
@@ -47,10 +47,44 @@ PlotSeries series_of(const std::vector<ScopePoint>& points, double newest_s,
   return series;
 }
 
+/// What less than this is of no interest, in the channel's unit: a scope's whole height.
+double least_span(const std::string& unit) {
+  if (unit == "m") return 1e-3;
+  if (unit == "m/s" || unit == "rad" || unit == "N m") return 1e-2;
+  return unit == "N" ? 0.1 : 1.0;
+}
+
+/// Around the curve, on multiples of about an eighth of its height: it does not move with every
+/// sample.
+AxisRange calm_range(const PlotSeries& series, const std::string& unit) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double value : series.y) {
+    low = std::fmin(low, value);
+    high = std::fmax(high, value);
+  }
+  if (!(low <= high)) return {0.0, least_span(unit)};
+  const double missing = std::max(0.0, least_span(unit) - (high - low));
+  low -= 0.5 * missing;
+  high += 0.5 * missing;
+  const double eighth = (high - low) / 8.0;
+  double step = std::pow(10.0, std::floor(std::log10(eighth)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * step <= eighth) {
+      step *= factor;
+      break;
+    }
+  }
+  return {step * std::floor(low / step), step * std::ceil(high / step)};
+}
+
 std::string value_words(const ScopePoint& point, const std::string& unit) {
   if (!std::isfinite(point.low)) return "no number";
-  std::string words = short_number(point.low);
-  if (const std::string high = short_number(point.high); high != words) words += " to " + high;
+  const auto number = [&](double value) {
+    return short_number(std::abs(value) < 0.01 * least_span(unit) ? 0.0 : value);
+  };
+  std::string words = number(point.low);
+  if (const std::string high = number(point.high); high != words) words += " to " + high;
   return unit.empty() ? words : words + " " + unit;
 }
 
@@ -60,7 +94,7 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
                                    const ScopePicture& picture, ScopePanelState& state) {
   ui.card(place);
   Rect inside = place.inset(kInset);
-  const Rect head = inside.take_top(kHead, 4);
+  const Rect head = inside.take_top(kHead, 2);
   const std::string& name = state.channels[static_cast<std::size_t>(number)];
   const ScopeChannel channel = channel_named(name);
   const ButtonStyle style{.tone = Tone::kQuiet,
@@ -82,8 +116,12 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
   }
   PlotModel plot{.hover = false, .least_left = 46};
   plot.x = {.minimum = -kSeconds, .maximum = 0.0, .tick_suffix = " s"};
-  plot.y = {.unit = channel.unit};
   plot.series.push_back(series_of(points, picture.newest_s, picture.interval_s));
+  const AxisRange range = calm_range(plot.series.front(), channel.unit);
+  // Two numbers at least: one alone tells no scale.
+  const int num_ticks = std::max(4, static_cast<int>(inside.height / 30));
+  plot.y = {.unit = channel.unit, .minimum = range.low, .maximum = range.high};
+  plot.y.ticks = linear_ticks(range, num_ticks);
   return draw_plot(ui, inside, plot);
 }
 
@@ -97,7 +135,7 @@ void draw_value(Ui& ui, const Rect& place, const std::vector<ScopePoint>& points
   Rect head = place.inset(kInset).take_top(kHead);
   head.take_right(12);  // As far as the curve.
   ui.text(head.take_right(head.width * 0.37f), value_words(*nearest, unit),
-          {.font = Font::kMono, .align = Align::kRight});
+          {.font = Font::kSmallStrong, .align = Align::kRight});
 }
 
 }  // namespace

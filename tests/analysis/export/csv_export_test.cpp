@@ -186,7 +186,11 @@ TEST_F(CsvExportTest, ALocaleWithDecimalCommasChangesNothing) {
   }
 }
 
-TEST_F(CsvExportTest, RecordingsHaveARowASampleAndTheirColumnsInTheCodebook) {
+class RecordingsExportTest : public CsvExportTest,
+                             public ::testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutJoints, RecordingsExportTest, ::testing::Bool());
+
+TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   {
     core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
                                  core::Durability::kAtClose);
@@ -194,6 +198,7 @@ TEST_F(CsvExportTest, RecordingsHaveARowASampleAndTheirColumnsInTheCodebook) {
       core::Sample sample;
       sample.tick = tick;
       sample.tip_position_m[0][0] = 1e-3F * static_cast<float>(tick);
+      if (GetParam()) sample.joint_position_rad[21] = 0.5F;
       writer.append(sample);
     }
   }
@@ -201,6 +206,9 @@ TEST_F(CsvExportTest, RecordingsHaveARowASampleAndTheirColumnsInTheCodebook) {
   const CsvTable samples = table("recordings/0001.csv");
   ASSERT_EQ(samples.num_rows(), 100U);
   EXPECT_EQ(cell(samples, 99, "tick"), "99");
+  if (GetParam()) {
+    EXPECT_EQ(cell(samples, 99, "middle_proximal_position_rad"), "0.5");
+  }
   std::set<std::string> told;
   const CsvTable codebook = table("codebook.csv");
   for (std::size_t row = 0; row < codebook.num_rows(); ++row) {

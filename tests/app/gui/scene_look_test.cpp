@@ -50,7 +50,7 @@ TEST(ScenePace, DrawsNothingAnewThatWouldLookTheSame) {
   look.camera.turn(0.1, 0.0);
   EXPECT_TRUE(pace.takes(look, 2.0)) << "turned";
   look.colours.ground[0] += 0.5f;
-  EXPECT_TRUE(pace.takes(look, 3.0)) << "dark now";
+  EXPECT_TRUE(pace.takes(look, 2.01)) << "dark now, and at once";
   ++look.width_px;
   EXPECT_TRUE(pace.takes(look, 4.0)) << "larger";
   ++look.tick;

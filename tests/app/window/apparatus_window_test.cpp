@@ -66,7 +66,7 @@ TEST_F(ApparatusWindowTest, IsSeenAndTurnedWhileItsScopesRunAndLeftByItsKey) {
 TEST_F(ApparatusWindowTest, EscapeStopsTheForceFromHereToo) {
   look_at_apparatus("lumped");
   window_->press("Escape");
-  window_->wait_for_text("The force is off and stays off.");
+  window_->wait_for_text("F4: where it is armed again");
   EXPECT_EQ(window_->screen().view, "apparatus");
   window_->use("apparatus");
   window_->wait_for("rearm");

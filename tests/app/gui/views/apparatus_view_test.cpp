@@ -328,6 +328,23 @@ TEST_F(ApparatusView, EmptyAndBrokenChannelsAreDrawnAsSuch) {
   EXPECT_TRUE(drawn().shows("3.00 N"));
 }
 
+TEST_F(ApparatusView, NoiseOfNoInterestIsALineAndIsCalledZero) {
+  sources_.scopes = [](const std::vector<std::string>& names) {
+    ScopePicture picture{.newest_s = 1.0};
+    picture.channels.resize(names.size());
+    for (int point = 0; point < 100; ++point) {
+      const auto noise = static_cast<float>(point % 2 == 0 ? 3e-19 : -8e-28);
+      picture.channels[0].push_back({0.01 * point, noise, noise});
+    }
+    return picture;
+  };
+  draw(felt());
+  EXPECT_TRUE(drawn().shows("0 m"));
+  for (const std::string& text : drawn().texts) {
+    EXPECT_EQ(text.find("×10"), std::string::npos) << text;
+  }
+}
+
 TEST_F(ApparatusView, EverythingHasRoomInTheSmallestWindow) {
   HeadlessUi small(1024, 640);
   small.frame([&](Ui& ui) { (void)draw_apparatus_view(ui, felt(), sources_, run_, state_); });
