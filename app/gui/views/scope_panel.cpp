@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "app/gui/plot.h"
 #include "app/gui/views/layout.h"
 
 namespace jnd::app::gui {
@@ -25,28 +24,6 @@ std::string with_unit(const std::string& label, const std::string& unit) {
   return unit.empty() ? label : label + " · " + unit;
 }
 
-/// Through the least and the largest value of each interval, whichever comes first as it rises
-/// or falls; broken where samples were lost.
-PlotSeries series_of(const std::vector<ScopePoint>& points, double newest_s,
-                     double interval_s) {
-  PlotSeries series{.colour = Colour::kBlue, .thickness = 1.5f};
-  series.x.reserve(2 * points.size());
-  series.y.reserve(2 * points.size());
-  const auto add = [&](double time_s, double value) {
-    series.x.push_back(time_s - newest_s);
-    series.y.push_back(value);
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const ScopePoint& point = points[i];
-    const double since_s = i == 0 ? 0.0 : point.time_s - points[i - 1].time_s;
-    if (since_s > 1.5 * interval_s) add(point.time_s, std::numeric_limits<double>::quiet_NaN());
-    const bool falls = i > 0 && points[i - 1].low > point.low;
-    add(point.time_s, falls ? point.high : point.low);
-    if (point.low != point.high) add(point.time_s, falls ? point.low : point.high);
-  }
-  return series;
-}
-
 /// What less than this is of no interest, in the channel's unit: a scope's whole height.
 double least_span(const std::string& unit) {
   if (unit == "m") return 1e-3;
@@ -56,12 +33,12 @@ double least_span(const std::string& unit) {
 
 /// Around the curve, on multiples of about an eighth of its height: it does not move with every
 /// sample.
-AxisRange calm_range(const PlotSeries& series, const std::string& unit) {
+AxisRange calm_range(const std::vector<ScopePoint>& points, const std::string& unit) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const double value : series.y) {
-    low = std::fmin(low, value);
-    high = std::fmax(high, value);
+  for (const ScopePoint& point : points) {
+    low = std::fmin(low, point.low);
+    high = std::fmax(high, point.high);
   }
   if (!(low <= high)) return {0.0, least_span(unit)};
   const double missing = std::max(0.0, least_span(unit) - (high - low));
@@ -116,8 +93,8 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
   }
   PlotModel plot{.hover = false, .least_left = 46};
   plot.x = {.minimum = -kSeconds, .maximum = 0.0, .tick_suffix = " s"};
-  plot.series.push_back(series_of(points, picture.newest_s, picture.interval_s));
-  const AxisRange range = calm_range(plot.series.front(), channel.unit);
+  const AxisRange range = calm_range(points, channel.unit);
+  plot.series.push_back(scope_curve(points, picture, inside, range));
   // Two numbers at least: one alone tells no scale.
   const int num_ticks = std::max(4, static_cast<int>(inside.height / 30));
   plot.y = {.unit = channel.unit, .minimum = range.low, .maximum = range.high};
@@ -139,6 +116,48 @@ void draw_value(Ui& ui, const Rect& place, const std::vector<ScopePoint>& points
 }
 
 }  // namespace
+
+PlotSeries scope_curve(const std::vector<ScopePoint>& points, const ScopePicture& picture,
+                       const Rect& place, const AxisRange& range) {
+  PlotSeries series{.colour = Colour::kBlue, .thickness = 1.5f};
+  const double column_s = kSeconds / std::max(1.0f, place.width);
+  const double pixel = (range.high - range.low) / std::max(1.0f, place.height);
+  const auto add = [&](double time_s, double value) {
+    series.x.push_back(time_s - picture.newest_s);
+    series.y.push_back(value);
+  };
+  // Columns stand still in time, so that a curve does not flicker as it moves on.
+  const auto column_of = [&](const ScopePoint& point) {
+    return std::floor(point.time_s / column_s);
+  };
+  double before = 0.0;
+  for (std::size_t i = 0; i < points.size();) {
+    const double began_s = points[i].time_s;
+    const double column = column_of(points[i]);
+    if (i > 0 && began_s - points[i - 1].time_s > 1.5 * picture.interval_s) {
+      add(began_s, std::numeric_limits<double>::quiet_NaN());
+    }
+    double low = points[i].low;
+    double high = points[i].high;
+    double ended_s = began_s;
+    for (++i; i < points.size() && column_of(points[i]) == column &&
+              points[i].time_s - ended_s <= 1.5 * picture.interval_s;
+         ++i) {
+      low = std::fmin(low, points[i].low);
+      high = std::fmax(high, points[i].high);
+      ended_s = points[i].time_s;
+    }
+    const double middle = 0.5 * (low + high);
+    if (high - low < pixel) {
+      add(0.5 * (began_s + ended_s), middle);
+    } else {
+      add(began_s, before > middle ? high : low);
+      add(ended_s, before > middle ? low : high);
+    }
+    before = middle;
+  }
+  return series;
+}
 
 void draw_scopes(Ui& ui, const Rect& place, const ScopePicture& picture,
                  ScopePanelState& state) {

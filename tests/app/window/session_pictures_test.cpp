@@ -42,7 +42,7 @@ class SessionPicturesTest : public PicturesWindowTest {
       stage["free_space_between_s"] = 0;
       if (stage.contains("repetitions")) stage["repetitions"] = 1;
       for (const char* levels : {"scale", "viscosity_pa_s"}) {
-        if (!stage.contains(levels)) continue;
+        if (!stage.contains(levels) || stage.at(levels).size() < 2) continue;
         json& all = stage[levels];
         all = {all.front(), all.back()};
       }
