@@ -72,7 +72,7 @@ struct ItemView {
 };
 
 struct TrialView {
-  std::int64_t trial = 0;              ///< In the session, as in requests.
+  std::int64_t trial = 0;  ///< In the session, as in requests.
   std::int64_t attempt = 1;
   int in_block = 1, num_in_block = 1;  ///< "trial 23 of 40"
   int repetition = 1, num_repetitions = 1;

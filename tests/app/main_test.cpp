@@ -45,8 +45,10 @@ TEST_F(MainTest, HelpAndVersionAreNoErrors) {
 TEST_F(MainTest, ListsEverySubcommandInItsHelp) {
   const std::string help = jnd({"--help"}).out;
   for (const char* name :
-       {"demo", "validate", "schema", "new", "plan", "run", "simulate", "resume", "verify",
-        "results", "export", "fit", "compare", "force", "loop", "devices", "doctor"}) {
+       {"demo",    "validate", "schema",    "new",          "plan",
+        "run",     "simulate", "resume",    "verify",       "results",
+        "export",  "fit",      "compare",   "force",        "loop",
+        "devices", "doctor",   "stability", "characterize", "device-simulator"}) {
     EXPECT_NE(help.find("\n  " + std::string(name) + " "), std::string::npos) << name;
     EXPECT_EQ(jnd({name, "--help"}).exit_code, 0) << name;
   }

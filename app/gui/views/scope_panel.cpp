@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "app/gui/views/layout.h"
+#include "app/gui/views/scope_curve.h"
 
 namespace jnd::app::gui {
 namespace {
 
-constexpr double kSeconds = 10.0;
 constexpr float kRowHeight = 32;
 constexpr float kInset = 8;
 constexpr float kHead = 26;
@@ -24,41 +23,10 @@ std::string with_unit(const std::string& label, const std::string& unit) {
   return unit.empty() ? label : label + " · " + unit;
 }
 
-/// What less than this is of no interest, in the channel's unit: a scope's whole height.
-double least_span(const std::string& unit) {
-  if (unit == "m") return 1e-3;
-  if (unit == "m/s" || unit == "rad" || unit == "N m") return 1e-2;
-  return unit == "N" ? 0.1 : 1.0;
-}
-
-/// Around the curve, on multiples of about an eighth of its height: it does not move with every
-/// sample.
-AxisRange calm_range(const std::vector<ScopePoint>& points, const std::string& unit) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const ScopePoint& point : points) {
-    low = std::fmin(low, point.low);
-    high = std::fmax(high, point.high);
-  }
-  if (!(low <= high)) return {0.0, least_span(unit)};
-  const double missing = std::max(0.0, least_span(unit) - (high - low));
-  low -= 0.5 * missing;
-  high += 0.5 * missing;
-  const double eighth = (high - low) / 8.0;
-  double step = std::pow(10.0, std::floor(std::log10(eighth)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * step <= eighth) {
-      step *= factor;
-      break;
-    }
-  }
-  return {step * std::floor(low / step), step * std::ceil(high / step)};
-}
-
 std::string value_words(const ScopePoint& point, const std::string& unit) {
   if (!std::isfinite(point.low)) return "no number";
   const auto number = [&](double value) {
-    return short_number(std::abs(value) < 0.01 * least_span(unit) ? 0.0 : value);
+    return short_number(std::abs(value) < 0.01 * least_scope_span(unit) ? 0.0 : value);
   };
   std::string words = number(point.low);
   if (const std::string high = number(point.high); high != words) words += " to " + high;
@@ -92,8 +60,8 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
     return std::nullopt;
   }
   PlotModel plot{.hover = false, .least_left = 46};
-  plot.x = {.minimum = -kSeconds, .maximum = 0.0, .tick_suffix = " s"};
-  const AxisRange range = calm_range(points, channel.unit);
+  plot.x = {.minimum = -kScopeSeconds, .maximum = 0.0, .tick_suffix = " s"};
+  const AxisRange range = scope_range(points, channel.unit);
   plot.series.push_back(scope_curve(points, picture, inside, range));
   // Two numbers at least: one alone tells no scale.
   const int num_ticks = std::max(4, static_cast<int>(inside.height / 30));
@@ -117,48 +85,6 @@ void draw_value(Ui& ui, const Rect& place, const std::vector<ScopePoint>& points
 
 }  // namespace
 
-PlotSeries scope_curve(const std::vector<ScopePoint>& points, const ScopePicture& picture,
-                       const Rect& place, const AxisRange& range) {
-  PlotSeries series{.colour = Colour::kBlue, .thickness = 1.5f};
-  const double column_s = kSeconds / std::max(1.0f, place.width);
-  const double pixel = (range.high - range.low) / std::max(1.0f, place.height);
-  const auto add = [&](double time_s, double value) {
-    series.x.push_back(time_s - picture.newest_s);
-    series.y.push_back(value);
-  };
-  // Columns stand still in time, so that a curve does not flicker as it moves on.
-  const auto column_of = [&](const ScopePoint& point) {
-    return std::floor(point.time_s / column_s);
-  };
-  double before = 0.0;
-  for (std::size_t i = 0; i < points.size();) {
-    const double began_s = points[i].time_s;
-    const double column = column_of(points[i]);
-    if (i > 0 && began_s - points[i - 1].time_s > 1.5 * picture.interval_s) {
-      add(began_s, std::numeric_limits<double>::quiet_NaN());
-    }
-    double low = points[i].low;
-    double high = points[i].high;
-    double ended_s = began_s;
-    for (++i; i < points.size() && column_of(points[i]) == column &&
-              points[i].time_s - ended_s <= 1.5 * picture.interval_s;
-         ++i) {
-      low = std::fmin(low, points[i].low);
-      high = std::fmax(high, points[i].high);
-      ended_s = points[i].time_s;
-    }
-    const double middle = 0.5 * (low + high);
-    if (high - low < pixel) {
-      add(0.5 * (began_s + ended_s), middle);
-    } else {
-      add(began_s, before > middle ? high : low);
-      add(ended_s, before > middle ? low : high);
-    }
-    before = middle;
-  }
-  return series;
-}
-
 void draw_scopes(Ui& ui, const Rect& place, const ScopePicture& picture,
                  ScopePanelState& state) {
   constexpr float kBetween = 10;
@@ -176,7 +102,7 @@ void draw_scopes(Ui& ui, const Rect& place, const ScopePicture& picture,
     areas[i] = draw_scope(ui, places[i], static_cast<int>(i), points_of(i), picture, state);
     if (!areas[i] || !ui.hovered(areas[i]->place)) continue;
     const double ratio = (ui.mouse_x() - areas[i]->place.x) / areas[i]->place.width;
-    time_s = picture.newest_s - kSeconds * (1.0 - ratio);
+    time_s = picture.newest_s - kScopeSeconds * (1.0 - ratio);
   }
   for (std::size_t i = 0; i < kNumScopes; ++i) {
     if (!areas[i]) continue;

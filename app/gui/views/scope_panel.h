@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "app/gui/plot.h"
 #include "app/gui/ui.h"
 #include "app/operator/scope_channels.h"
 #include "app/operator/scope_trace.h"
@@ -29,13 +28,6 @@ struct ScopePanelState {
 /// values of all at that time. `picture`: of `state.channels`.
 void draw_scopes(Ui& ui, const Rect& place, const ScopePicture& picture,
                  ScopePanelState& state);
-
-/// What can be seen of a channel in a place of this size with this range: in each column of
-/// pixels from the least to the largest value, so no spike is lost; a point where that is less
-/// than a pixel. Broken where samples were lost. Times are before the picture's newest.
-[[nodiscard]] PlotSeries scope_curve(const std::vector<ScopePoint>& points,
-                                     const ScopePicture& picture, const Rect& place,
-                                     const AxisRange& range);
 
 /// The dialog that asks for a scope's channel; while `state.choosing` is one.
 void draw_channel_chooser(Ui& ui, bool with_joints, ScopePanelState& state);

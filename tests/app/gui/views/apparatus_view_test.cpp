@@ -185,6 +185,33 @@ TEST_F(ApparatusView, AChannelIsTakenByAClickAndLeftByItsKey) {
   EXPECT_FALSE(state_.scopes.choosing.has_value());
 }
 
+TEST_F(ApparatusView, WhatIsTypedBeginsTheChoiceAnew) {
+  draw(felt());
+  ui_.press(letter('1'));
+  draw(felt());
+  ui_.press(Key::kDown);
+  ui_.press(Key::kDown);
+  draw(felt());
+  EXPECT_EQ(state_.scopes.selected, 2);
+  ui_.type("index force");
+  ui_.press(Key::kEnter);
+  draw(felt());
+  EXPECT_EQ(state_.scopes.channels[0], "index_force_x_n");
+}
+
+TEST_F(ApparatusView, ADragThatBeganElsewhereTurnsNothing) {
+  draw(felt());
+  const SceneCamera before = state_.camera;
+  const Rect scene = drawn().find("scene")->place;
+  ui_.move(scene.right() + 60, scene.y + 60);
+  ui_.mouse_down();
+  draw(felt());
+  ui_.move(scene.x + 100, scene.y + 100);
+  draw(felt());
+  EXPECT_EQ(state_.camera, before);
+  ui_.mouse_up();
+}
+
 TEST_F(ApparatusView, NothingMatchesAndEnterTakesNothing) {
   draw(felt());
   ui_.press(letter('1'));

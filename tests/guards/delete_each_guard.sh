@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Deletes the guards of guards.txt one by one, in a copy of the tree, and expects a test to fail each
+# time. Usage: delete_each_guard.sh BUILD_FOLDER [PART OF A GUARD'S NAME]
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+work=${1:?expected a folder to build in}
+wanted=${2:-}
+mkdir -p "$work"
+work=$(cd "$work" && pwd)
+tree=$work/tree
+
+rm -rf "$tree"
+mkdir -p "$tree"
+(cd "$root" && git ls-files -z | xargs -0 cp --parents -t "$tree")
+cmake -S "$tree" -B "$work/build" -G Ninja -DJND_WINDOW=OFF -DJND_WARNINGS_AS_ERRORS=OFF >"$work/log"
+build() { cmake --build "$work/build" --target core_test device_test >"$work/log" 2>&1; }
+# A guard that is gone may let a test wait for ever.
+tests_pass() {
+  timeout 120 "$work/build/tests/core_test" --gtest_brief=1 >"$work/log" 2>&1 &&
+    timeout 240 "$work/build/tests/device_test" --gtest_brief=1 --gtest_fail_fast >"$work/log" 2>&1
+}
+
+build || { cat "$work/log"; exit 1; }
+tests_pass || { cat "$work/log"; echo "guards: expected the tests to pass before anything is deleted"; exit 1; }
+
+num_guards=0 num_missed=0
+# try FILE NAME FROM TO
+try() {
+  local file=$1 name=$2
+  [[ $name == *"$wanted"* ]] || return 0
+  num_guards=$((num_guards + 1))
+  if ! FROM=$3 TO=$4 perl -0777 -pi -e \
+      '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/; END { exit !$n }' "$tree/$file"; then
+    echo "$file: $name: expected the guard of guards.txt, found other code; bring the list up to date"
+    num_missed=$((num_missed + 1))
+  elif ! build; then
+    echo "$file: $name: expected code that compiles without it, found $(sed -n 's/.*\(error:.*\)/\1/p' "$work/log" | head -1)"
+    num_missed=$((num_missed + 1))
+  elif tests_pass; then
+    echo "$file: $name: deleted, and no test fails"
+    num_missed=$((num_missed + 1))
+  else
+    echo "$file: $name: seen by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$work/log" | head -1)"
+  fi
+  cp "$root/$file" "$tree/$file"
+}
+
+file='' name='' from='' to=''
+flush() { [[ -z $file ]] || try "$file" "$name" "${from%$'\n'}" "${to%$'\n'}"; }
+while IFS= read -r line; do
+  case $line in
+    '@ '*) flush; line=${line#@ }; file=${line%%: *}; name=${line#*: }; from='' to='' ;;
+    -*) from+=${line#-}$'\n' ;;
+    +*) to+=${line#+}$'\n' ;;
+  esac
+done <"$here/guards.txt"
+flush
+echo "$((num_guards - num_missed)) of $num_guards guards are seen by a test"
+[[ $num_missed -eq 0 ]]
