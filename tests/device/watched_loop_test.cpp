@@ -19,8 +19,8 @@ class WatchedLoopTest : public ::testing::TestWithParam<int> {
     [[nodiscard]] std::string_view name() const noexcept override { return "watched"; }
     [[nodiscard]] DeviceCapabilities capabilities() const noexcept override { return {}; }
     void open() override {}
-    [[nodiscard]] bool read(core::HapticState& state) noexcept override {
-      return scripted.read(state);
+    [[nodiscard]] bool read(core::HapticState& measured) noexcept override {
+      return scripted.read(measured);
     }
     [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
       return scripted.write(force_on_hand_n);
