@@ -239,6 +239,29 @@ void HapticLoop::compute_force() noexcept {
   if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
 }
 
+void HapticLoop::warm() const noexcept {
+  constexpr std::size_t kCacheLine = 64;
+  constexpr std::size_t kOfTheDevice = 4096;  // As much of it as is likely to be its state.
+  const auto fetch = [](const void* from, std::size_t size) {
+    for (std::size_t i = 0; i < size; i += kCacheLine) {
+      __builtin_prefetch(static_cast<const unsigned char*>(from) + i, 1);
+    }
+  };
+  fetch(this, sizeof *this);
+  fetch(&device_, kOfTheDevice);
+  fetch(&doors_.telemetry, sizeof doors_.telemetry);
+  core::PointVectors force_on_hand_n = core::zero_vectors();
+  const core::HandMotion motion =
+      core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
+  core::add_up_fluid_force(ramp_.current(), parameters_.force_map, motion, state_,
+                           immersed_bits_, 0.0, parameters_.fade_speed_m_per_s,
+                           force_on_hand_n);
+  core::PassivityController passivity = passivity_;
+  passivity.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n);
+  core::ForceLimiter limiter = limiter_;
+  limiter.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n);
+}
+
 void HapticLoop::report() noexcept {
   const core::HapticCommand& command = doors_.commands.value();
   core::Sample& sample = telemetry_.sample;

@@ -77,6 +77,10 @@ class HapticLoop {
   void render() noexcept;
   void report() noexcept;
 
+  /// Does in vain what the next tick will do, so that its code and data are in the cache again
+  /// where others have pushed them out; changes nothing. Real time.
+  void warm() const noexcept;
+
   /// Asks for the force back, faded in from zero. Takes effect in the next tick, unless the
   /// emergency stop is still pressed. Any thread. Real time.
   void rearm() noexcept { rearm_requested_.store(true, std::memory_order_release); }
