@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <utility>
 
+#include "app/gui/views/keys_dialog.h"
 #include "app/gui/views/participant_view.h"
 #include "app/session_setup.h"
 #include "app/share.h"
@@ -260,7 +260,7 @@ void Application::draw(Ui& ui) {
   if (!message_.empty()) {
     draw_message(ui);
   } else if (shows_keys_) {
-    draw_keys(ui);
+    shows_keys_ = !draw_keys_dialog(ui, last_widgets_);
   }
   if (screen_ == Screen::kSession && view_ && run_state_.is_covered &&
       draw_emergency_stop(ui)) {
@@ -615,43 +615,6 @@ void Application::draw_message(Ui& ui) {
   if (ui.button("message_close", row.take_right(ui.button_width("Close", close)), "Close",
                 close)) {
     message_.clear();
-  }
-  ui.end_dialog();
-}
-
-void Application::draw_keys(Ui& ui) {
-  struct Line {
-    std::string key, what;
-  };
-  std::vector<Line> lines = {{"Esc", "Emergency stop, from anywhere"},
-                             {"Ctrl +  Ctrl -", "Larger, smaller"},
-                             {"Ctrl D", "Dark or light"},
-                             {"F9", "The participant's screen"},
-                             {"F2", "Leave a dialog"},
-                             {"Ctrl Q", "Leave the program"}};
-  // As one reads: line by line, from the left.
-  std::vector<Drawn::Widget> widgets = last_widgets_;
-  std::ranges::stable_sort(widgets, {}, [](const Drawn::Widget& widget) {
-    return std::pair(std::round(widget.place.y / 20), widget.place.x);
-  });
-  for (const Drawn::Widget& widget : widgets) {
-    if (!widget.key.empty()) lines.push_back({widget.key, widget.label});
-  }
-  const float height = 110 + 30 * static_cast<float>(lines.size());
-  Rect inside = ui.begin_dialog("keys", 620, std::min(height, ui.screen().height - 60));
-  ui.text(inside.take_top(34, 8), "All keys", {.font = Font::kLarge});
-  const ButtonStyle close{.tone = Tone::kPrimary, .key = {Key::kF1}};
-  Rect row = inside.take_bottom(44, 8);
-  for (const Line& line : lines) {
-    if (inside.height < 30) break;
-    Rect place = inside.take_top(30);
-    ui.text(place.take_left(170, 12), line.key, {.font = Font::kMono, .colour = Colour::kSoft});
-    ui.text(place, line.what, {});
-  }
-  if (ui.button("keys_close", row.take_right(ui.button_width("Close", close)), "Close",
-                close) ||
-      ui.pressed({Key::kF2})) {
-    shows_keys_ = false;
   }
   ui.end_dialog();
 }

@@ -87,7 +87,6 @@ class Application {
   void draw_study(Ui& ui);
   void draw_corner(Ui& ui);
   void draw_message(Ui& ui);
-  void draw_keys(Ui& ui);
   void take_global_keys(Ui& ui);
 
   void go_to(StudyTab tab);

@@ -183,20 +183,22 @@ std::vector<PreflightLine> look_at_machine() {
     lines.push_back(disk_line(*free, kRate_hz, kSession_s));
   }
   std::string real;
-  std::string simulated;
+  int num_simulated = 0;
   for (const device::DeviceEntry& entry : device::devices()) {
     if (!entry.argument.empty()) continue;
     const device::DeviceCapabilities can = entry.make("", kRate_hz)->capabilities();
-    if (can.simulated &&
-        device_line(std::string(entry.name), kRate_hz, 1).status != Status::kOk) {
-      continue;
+    if (!can.simulated) {
+      real += (real.empty() ? "" : ", ") + std::string(entry.name);
+    } else if (device_line(std::string(entry.name), kRate_hz, 1).status == Status::kOk) {
+      ++num_simulated;
     }
-    std::string& list = can.simulated ? simulated : real;
-    list += (list.empty() ? "" : ", ") + std::string(entry.name);
   }
-  lines.push_back({.name = "Device",
-                   .status = real.empty() ? Status::kWarning : Status::kOk,
-                   .found = real.empty() ? "none connected; simulated: " + simulated : real});
+  lines.push_back(
+      real.empty() ? PreflightLine{.name = "Device",
+                                   .status = Status::kWarning,
+                                   .found = "none connected, " +
+                                            std::to_string(num_simulated) + " simulated"}
+                   : PreflightLine{.name = "Device", .status = Status::kOk, .found = real});
   return lines;
 }
 

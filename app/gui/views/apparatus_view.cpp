@@ -111,8 +111,9 @@ void draw_camera_buttons(Ui& ui, Rect strip, ApparatusViewState& state, bool& ho
   const char* label = state.held ? "Go on" : "Hold";
   const Rect its = strip.take_right(ui.button_width(label, style), 16);
   hold = ui.button("hold", its, label, style);
-  ui.text(strip, "Drag or arrow keys turn · wheel or + − zoom",
-          {.font = Font::kSmall, .colour = Colour::kSoft});
+  constexpr std::string_view kHint = "Drag or arrow keys turn · wheel or + − zoom";
+  if (ui.text_width(kHint, Font::kSmall) > strip.width) return;
+  ui.text(strip, kHint, {.font = Font::kSmall, .colour = Colour::kSoft});
 }
 
 void draw_scene(Ui& ui, const Rect& place, const SessionView& view,

@@ -200,10 +200,10 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   Rect who = pair.take_left((pair.width - 24) * 0.44f, 24);
   draw_participant(ui, who, model, state, entered);
   draw_kind(ui, pair, state);
+  Rect both = inside.take_top(70, 12);
+  draw_seed(ui, both.take_right(std::min(300.0f, both.width / 2), 16), model);
+  draw_languages(ui, both, model, state);
   draw_devices(ui, inside, model, state, result);
-  Rect last = inside.take_top(70);
-  draw_seed(ui, last.take_right(std::min(300.0f, last.width / 2), 16), model);
-  draw_languages(ui, last, model, state);
   state.session_height = inside.y - top;
   ui.end_scroll();
   draw_lines(ui, rest, model, state, result);

@@ -20,17 +20,42 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
-/// Chips from the left, as many as there is room for.
-void draw_chips(Ui& ui, float x, float y, float right, const SessionView& view) {
-  const auto chip = [&](bool wanted, std::string_view words, Colour colour) {
-    if (!wanted || x + ui.chip_width(words) > right) return;
-    x += ui.chip(x, y, words, colour) + 10;
-  };
-  chip(true, view.participant, Colour::kBlue);
-  chip(view.pilot, "pilot: not data", Colour::kPilot);
-  chip(view.blinding != experiments::Blinding::kNone,
-       view.hides_levels ? "levels hidden" : "levels shown", Colour::kBlue);
-  chip(view.simulated, "simulated hand", Colour::kAmber);
+struct Chip {
+  std::string_view words;
+  Colour colour;
+};
+
+/// What a session is, the most important first.
+std::vector<Chip> chips_of(const SessionView& view) {
+  std::vector<Chip> chips = {{view.participant, Colour::kBlue}};
+  if (view.pilot) chips.push_back({"pilot: not data", Colour::kPilot});
+  if (view.blinding != experiments::Blinding::kNone) {
+    chips.push_back({view.hides_levels ? "levels hidden" : "levels shown", Colour::kBlue});
+  }
+  if (view.simulated) chips.push_back({"simulated hand", Colour::kAmber});
+  return chips;
+}
+
+/// Title and chips. A long title gives way to who it is and whether it is a pilot; chips that
+/// then still have no room are left out from the end.
+void draw_title(Ui& ui, const Rect& strip, const SessionView& view) {
+  constexpr float kBetween = 10;
+  constexpr float kAfterTitle = 18;
+  constexpr std::size_t kNeverLeftOut = 2;
+  const std::vector<Chip> chips = chips_of(view);
+  float needed = 0;
+  for (std::size_t i = 0; i < std::min(chips.size(), kNeverLeftOut); ++i) {
+    needed += ui.chip_width(chips[i].words) + kBetween;
+  }
+  const float middle = strip.y + strip.height / 2;
+  const float title = std::clamp(strip.width - kAfterTitle - needed, 0.0f,
+                                 ui.text_width(view.study, Font::kBody) + 2);
+  ui.text({strip.x, middle - ui.line_height(Font::kBody) / 2, title, 24}, view.study, {});
+  float x = strip.x + title + kAfterTitle;
+  for (const Chip& chip : chips) {
+    if (x + ui.chip_width(chip.words) > strip.right()) return;
+    x += ui.chip(x, middle - 13, chip.words, chip.colour) + kBetween;
+  }
 }
 
 /// A dot, then words of which `strong` stands out; returns the width.
@@ -108,13 +133,10 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
       state.shows_apparatus = !state.shows_apparatus;
     }
   }
-  const float middle = place.y + place.height / 2;
   ui.text(strip.middle(strip.width, ui.line_height(Font::kLarge)), "jnd",
           {.font = Font::kLarge});
   strip.take_left(ui.text_width("jnd", Font::kLarge), 18);
-  const float title = std::min(ui.text_width(view.study, Font::kBody) + 2, strip.width);
-  ui.text({strip.x, middle - ui.line_height(Font::kBody) / 2, title, 24}, view.study, {});
-  draw_chips(ui, strip.x + title + 18, middle - 13, strip.right() - 8, view);
+  draw_title(ui, strip, view);
 }
 
 void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {

@@ -151,6 +151,10 @@ TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
   const fs::path second = fs::path(JND_PICTURES) / "participant.png";
   window_->wait_until("the participant's window",
                       [&](const Screen&) { return window_->has_window("jnd: participant"); });
+  // It is there before anything is drawn into it, which happens with the first's next frames.
+  const std::uint64_t seen = window_->screen().frame;
+  window_->wait_until("frames of both windows",
+                      [&](const Screen& now) { return now.frame > seen + 5; });
   window_->picture(second, "jnd: participant");
   window_->press("F9");
   take_dialog("session-keys", "F1", "keys_close");
