@@ -193,12 +193,12 @@ std::vector<PreflightLine> look_at_machine() {
       ++num_simulated;
     }
   }
-  lines.push_back(
-      real.empty() ? PreflightLine{.name = "Device",
-                                   .status = Status::kWarning,
-                                   .found = "none connected, " +
-                                            std::to_string(num_simulated) + " simulated"}
-                   : PreflightLine{.name = "Device", .status = Status::kOk, .found = real});
+  lines.push_back(real.empty()
+                      ? PreflightLine{.name = "Device",
+                                      .status = Status::kWarning,
+                                      .found = "none connected, " +
+                                               std::to_string(num_simulated) + " simulated"}
+                      : PreflightLine{.name = "Device", .status = Status::kOk, .found = real});
   return lines;
 }
 
