@@ -16,7 +16,8 @@ class EmergencyStop {
     }
   }
   /// Releases it unless somebody has pressed it since `num_presses` was read, so that a stop
-  /// never falls to a release that was meant for an earlier one. Returns whether it is released.
+  /// never falls to a release that was meant for an earlier one. Returns whether it is
+  /// released.
   bool release(std::uint64_t num_presses) noexcept {
     std::uint64_t pressed = num_presses << 1 | 1;
     return state_.compare_exchange_strong(pressed, num_presses << 1,

@@ -142,9 +142,10 @@ void Database::require_in_place() const {
   int has_moved = 0;
   sqlite3_file_control(handle_, "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
   if (has_moved == 0) return;
-  throw Error(file_.string() +
-              ": expected this file to stay in its place while a session runs, found it moved or "
-              "deleted; put it back, then resume");
+  throw Error(
+      file_.string() +
+      ": expected this file to stay in its place while a session runs, found it moved or "
+      "deleted; put it back, then resume");
 }
 
 void Database::checkpoint() {

@@ -90,8 +90,9 @@ TEST_F(InterruptionWindowTest, ALostDisplayEndsTheProgramAndNotTheSession) {
   display_->lose();
   const ProgramOutcome outcome = window_->wait_for_exit();
   EXPECT_EQ(outcome.exit_code, 3) << "signal " << outcome.signal;
-  EXPECT_THAT(outcome.err, ::testing::EndsWith("jnd: the display was lost; every answer is on "
-                                               "disk, and a session under way can be resumed\n"));
+  EXPECT_THAT(outcome.err,
+              ::testing::EndsWith("jnd: the display was lost; every answer is on "
+                                  "disk, and a session under way can be resumed\n"));
   expect_verified();
   EXPECT_EQ(responses(stored()), (std::vector<double>{1}));
   display_ = std::make_unique<VirtualDisplay>(1280, 720);

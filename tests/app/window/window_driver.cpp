@@ -168,10 +168,9 @@ void WindowDriver::picture(const fs::path& file, const std::string& title) const
 bool WindowDriver::is_dark() const {
   const auto end = Clock::now() + kPatience;
   while (Clock::now() < end) {
-    const ToolOutcome pixel =
-        run_tool({"import", "-window", window(), "-gravity", "SouthWest", "-crop", "1x1+12+12",
-                  "-depth", "8", "gray:-"},
-                 display_.name());
+    const ToolOutcome pixel = run_tool({"import", "-window", window(), "-gravity", "SouthWest",
+                                        "-crop", "1x1+12+12", "-depth", "8", "gray:-"},
+                                       display_.name());
     // What has grown and is not drawn yet is black; nothing of ours is quite.
     if (pixel.out.size() != 1 || pixel.out[0] == 0) continue;
     constexpr unsigned char kMiddle = 70;  // Below a dialog the light one is half as light.
