@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "analysis/groups/summary.h"
@@ -23,6 +24,15 @@ std::vector<core::PresentationRow> all_presentations(const ParticipantData& part
     all.insert(all.end(), rows.begin(), rows.end());
   }
   return all;
+}
+
+/// A device whose points move as one gives no lag, one of layout 2 neither.
+bool anyone_has(const StudyData& data, std::optional<double> core::PresentationRow::*value) {
+  if (value != &core::PresentationRow::finger_lag_s) return true;
+  return std::ranges::any_of(data.participants, [value](const ParticipantData& participant) {
+    return std::ranges::any_of(all_presentations(participant),
+                               [value](const auto& row) { return (row.*value).has_value(); });
+  });
 }
 
 }  // namespace
@@ -52,8 +62,11 @@ ResultsSection movement_results(const StudyData& data) {
        &core::PresentationRow::stroke_width_m},
       {"max_speed_m_per_s", "m/s", "mean of the highest speed in each stroke",
        &core::PresentationRow::max_speed_m_per_s},
+      {"finger_lag_s", "s", "by which thumb, index and middle trail behind the palm",
+       &core::PresentationRow::finger_lag_s},
   };
   for (const auto& quantity : kQuantities) {
+    if (!anyone_has(data, quantity.value)) continue;
     std::vector<double> whole;
     for (const ParticipantData& participant : data.participants) {
       if (const auto mean = movement_mean(all_presentations(participant), quantity.value)) {

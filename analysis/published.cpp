@@ -34,7 +34,8 @@ Published published_for(const std::string& study, const fs::path& folder) {
       Published published{.citation = content.at("citation").get<std::string>()};
       for (const auto& [name, entry] : studies.at(study).items()) {
         PublishedValue& value = published.values[name];
-        value.value = entry.at("value").get<double>();
+        value.positive = entry.value("positive", false);
+        if (!value.positive) value.value = entry.at("value").get<double>();
         if (entry.contains("sd")) value.standard_deviation = entry.at("sd").get<double>();
         value.place = entry.value("place", "");
       }

@@ -7,9 +7,10 @@
 
 namespace jnd::analysis {
 
-/// One published number, for comparison alone.
+/// One published finding, for comparison alone: a number, or in words that it is above zero.
 struct PublishedValue {
-  double value = 0.0;
+  std::optional<double> value;
+  bool positive = false;  ///< Told as an effect of this direction, without a number.
   std::optional<double> standard_deviation;  ///< Between participants, where it was printed.
   std::string place;                         ///< Where it stands in the publication.
 };

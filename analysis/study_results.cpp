@@ -66,6 +66,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
       const auto found = published.values.find(estimate.name);
       if (found != published.values.end()) {
         estimate.published = found->second.value;
+        estimate.published_positive = found->second.positive;
         estimate.published_sd = found->second.standard_deviation;
       }
       estimate.calibrated = data.simulated && is_named(data.calibrated_on, data, estimate.name);

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "analysis/movement/finger_lag.h"
 #include "core/doors/latest_value.h"
 #include "core/doors/spsc_queue.h"
 #include "core/error.h"
@@ -16,6 +17,7 @@
 #include "core/storage/recording.h"
 #include "device/device_registry.h"
 #include "device/exoskeleton/exoskeleton_device.h"
+#include "device/exoskeleton/exoskeleton_options.h"
 #include "device/fault_injection.h"
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
@@ -63,9 +65,12 @@ std::unique_ptr<device::HapticDevice> make_device(const Apparatus::Parameters& p
     return std::make_unique<device::LumpedHandDevice>(
         lumped_parameters(parameters, *laboratory));
   }
-  if (parameters.device == kExoskeleton && laboratory != nullptr) {
-    return std::make_unique<device::ExoskeletonDevice>(device::ExoskeletonDevice::Parameters{
-        .rate_hz = parameters.rate_hz, .arm = arm_parameters(parameters, *laboratory)});
+  if (device::kind_of(parameters.device) == kExoskeleton && laboratory != nullptr) {
+    device::ExoskeletonDevice::Parameters exoskeleton =
+        device::exoskeleton_parameters(device::argument_of(parameters.device));
+    exoskeleton.rate_hz = parameters.rate_hz;
+    exoskeleton.arm = arm_parameters(parameters, *laboratory);
+    return std::make_unique<device::ExoskeletonDevice>(exoskeleton);
   }
   if (parameters.device == kMouse) {
     return std::make_unique<device::MouseDevice>(
@@ -136,18 +141,23 @@ struct Apparatus::Implementation {
           device::RealtimeThread::Parameters{.clear_cpu = true, .max_stall_s = timeout_s});
       watchdog.emplace(device::WatchdogThread::Parameters{.watchdog = {.timeout_s = timeout_s}},
                        *device, watchdog_state);
-      device::start_haptics(*device, loop, *thread, parameters.allow_no_realtime);
+      device::start_haptics(*device, loop, *thread, parameters.allow_no_realtime,
+                            &watchdog->report());
     } else {
       device->open();
     }
   }
 
   ~Implementation() {
-    // First the watchdog, which would take the end of the loop for its death.
+    // No force from the loop's last tick on: storage may take its time. The watchdog stays
+    // until then, for a loop that is stuck in the device and does not end.
+    if (thread) {
+      thread->stop();
+      device->halt();
+    }
     watchdog.reset();
-    if (thread) thread->stop();
-    storage.reset();
     device->close();
+    storage.reset();
   }
 
   /// The sign of life of the thread that a person talks to: the window's own, where there is
@@ -172,7 +182,29 @@ struct Apparatus::Implementation {
     work();
   }
 
+  void feed_lag(const core::Sample& sample) noexcept {
+    constexpr int kNumPalmPoints = 2;
+    constexpr int kNumFingerPoints = core::kNumContactPoints - kNumPalmPoints;
+    Eigen::Vector3d palm_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d palm_velocity_m_per_s = Eigen::Vector3d::Zero();
+    Eigen::Vector3d fingers_m = Eigen::Vector3d::Zero();
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double position_m = sample.tip_position_m[point][axis];
+        if (point < kNumPalmPoints) {
+          palm_m[axis] += position_m / kNumPalmPoints;
+          palm_velocity_m_per_s[axis] +=
+              sample.tip_velocity_m_per_s[point][axis] / kNumPalmPoints;
+        } else {
+          fingers_m[axis] += position_m / kNumFingerPoints;
+        }
+      }
+    }
+    lag.feed(fingers_m, palm_m, palm_velocity_m_per_s);
+  }
+
   void feed_meter(const core::Sample& sample) noexcept {
+    feed_lag(sample);
     Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
@@ -212,7 +244,7 @@ struct Apparatus::Implementation {
       beat();
       telemetry.fetch();
       const core::Telemetry& now = telemetry.value();
-      if (now.fault != core::Fault::kNone) return;
+      if (now.fault != core::Fault::kNone || watchdog_state.has_bitten()) return;
       if (now.num_ticks > 0 && now.sample.tick + 1 >= until_tick) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -228,12 +260,15 @@ struct Apparatus::Implementation {
   core::LatestValue<core::Telemetry> telemetry;
   core::SpscQueue<core::Sample> samples;
   core::WatchdogState watchdog_state;
+  core::Telemetry told_by_watchdog;
   core::SampleConsumer consumer;
   double max_total_force_n;
   device::HapticLoop loop;
   std::optional<core::RecordingWriter> recording;
   analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
-  core::ContactSums sums;  ///< Since the meter was started.
+  analysis::FingerLag lag;
+  std::optional<double> finger_lag_s;  ///< Of the strokes finished last.
+  core::ContactSums sums;              ///< Since the meter was started.
   bool metering = false;
   std::atomic<int> num_metered_strokes{0};
   std::optional<core::StorageThread> storage;
@@ -292,8 +327,7 @@ void Apparatus::run_for(double duration_s) {
   } else {
     my.run_simulated(num_ticks);
   }
-  my.telemetry.fetch();
-  const core::Fault fault = my.telemetry.value().fault;
+  const core::Fault fault = telemetry().fault;
   if (fault != core::Fault::kNone)
     throw core::Error("haptic loop: " + std::string(words(fault)));
 }
@@ -313,8 +347,15 @@ std::int64_t Apparatus::next_tick() const noexcept {
 }
 
 const core::Telemetry& Apparatus::telemetry() const noexcept {
-  implementation_->telemetry.fetch();
-  return implementation_->telemetry.value();
+  Implementation& my = *implementation_;
+  my.telemetry.fetch();
+  const core::Telemetry& told = my.telemetry.value();
+  if (told.fault != core::Fault::kNone || !my.watchdog_state.has_bitten()) return told;
+  // The loop stands still and cannot tell.
+  my.told_by_watchdog = told;
+  my.told_by_watchdog.fault = core::Fault::kWatchdog;
+  my.told_by_watchdog.num_faults = told.num_faults + 1;
+  return my.told_by_watchdog;
 }
 
 bool Apparatus::is_laboratory_hand() const noexcept {
@@ -329,6 +370,7 @@ void Apparatus::meter_strokes() {
   Implementation& my = *implementation_;
   my.after_samples(next_tick() - 1, [&my] {
     (void)my.meter.finish();
+    (void)my.lag.finish();
     my.sums = {};
     my.num_metered_strokes = 0;
     my.metering = true;
@@ -344,6 +386,7 @@ analysis::StrokeSummary Apparatus::finish_strokes() {
   analysis::StrokeSummary summary;
   my.after_samples(next_tick() - 1, [&] {
     summary = my.meter.finish();
+    my.finger_lag_s = my.lag.finish();
     my.num_metered_strokes = 0;
     my.metering = false;
   });
@@ -354,6 +397,10 @@ void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
   Implementation& my = *implementation_;
   if (my.storage) return my.storage->commit(store, commit, my.beats_while_waiting());
   my.consumer.commit(store, commit);
+}
+
+std::optional<double> Apparatus::metered_finger_lag_s() const noexcept {
+  return implementation_->finger_lag_s;
 }
 
 const core::ContactSums& Apparatus::metered_sums() const noexcept {

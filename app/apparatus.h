@@ -102,6 +102,8 @@ class Apparatus {
   /// What was sent while the strokes finished last were metered, for devices that do not know
   /// what their hand has been through: nothing but the rendered force is in it.
   [[nodiscard]] const core::ContactSums& metered_sums() const noexcept;
+  /// By how much the fingers trailed behind the palm in them; see analysis::FingerLag.
+  [[nodiscard]] std::optional<double> metered_finger_lag_s() const noexcept;
   /// The recording up to the commit's last tick is on disk before the commit is, and both are
   /// when this returns.
   void commit(core::StudyStore& store, const core::Commit& commit);

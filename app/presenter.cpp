@@ -43,6 +43,7 @@ Presenter::Felt Presenter::end() {
     summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
     summary.mean_height_m = strokes.mean_height_m;
     summary.num_strokes = strokes.num_strokes;
+    summary.finger_lag_s = apparatus_.metered_finger_lag_s();
     if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
     // Of all its motion so far: in one presentation the masses' pushing would not cancel out.

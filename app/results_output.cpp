@@ -42,6 +42,7 @@ std::string p_text(const std::optional<double>& p_value) {
 }
 
 std::string published_text(const Estimate& estimate) {
+  if (estimate.published_positive) return "> 0";
   if (!estimate.published) return "-";
   return estimate.published_sd
              ? fmt::format("{:.4f} (sd {:.4f})", *estimate.published, *estimate.published_sd)
@@ -61,9 +62,15 @@ std::string basis_of(const Estimate& estimate) {
   return estimate.implied ? "implied" : "held out";
 }
 
-/// Whether the published value lies in our interval; nothing where there is no such interval.
+bool is_published(const Estimate& estimate) {
+  return estimate.published || estimate.published_positive;
+}
+
+/// Whether our interval holds the published value, or lies above zero as was published; nothing
+/// where there is no such interval.
 std::optional<bool> holds_published(const Estimate& estimate) {
   const Interval& ci95 = estimate.ci95;
+  if (estimate.published_positive && ci95.low) return *ci95.low > 0.0;
   if (!estimate.published || (!ci95.low && !ci95.high)) return std::nullopt;
   return (!ci95.low || *estimate.published >= *ci95.low) &&
          (!ci95.high || *estimate.published <= *ci95.high);
@@ -99,7 +106,7 @@ std::string explained_row(const Estimate& estimate) {
       fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name,
                   text(estimate.value), text(estimate.ci95),
                   estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
-  if (estimate.published) line += "; published " + published_text(estimate);
+  if (is_published(estimate)) line += "; published " + published_text(estimate);
   return line + "\n";
 }
 
@@ -136,9 +143,10 @@ json to_json(const analysis::StudyResults& results) {
            {"meaning", estimate.meaning},
            {"published", number(estimate.published)},
            {"published_sd", number(estimate.published_sd)},
+           {"published_positive", estimate.published_positive},
            {"calibrated", estimate.calibrated},
-           {"basis",
-            results.simulated && estimate.published ? json(basis_of(estimate)) : json(nullptr)},
+           {"basis", results.simulated && is_published(estimate) ? json(basis_of(estimate))
+                                                                 : json(nullptr)},
            {"published_inside_ci95", inside ? json(*inside) : json(nullptr)},
            {"n", estimate.n}});
     }
@@ -219,7 +227,8 @@ std::string to_comparison_table(const analysis::StudyResults& results) {
     bool first = true;
     for (const analysis::ResultsSection& section : results.sections) {
       for (const Estimate& estimate : section.estimates) {
-        if (!estimate.published || basis_of(estimate) != basis) continue;
+        if (!is_published(estimate) || basis_of(estimate) != basis) continue;
+        if (!estimate.value) continue;  // Of a stiff hand, say, whose fingers cannot trail.
         if (first && results.simulated) {
           table += std::string("  ") + title +
                    (results.laboratory_changed ? ", before it was changed\n" : "\n");

@@ -6,11 +6,25 @@
 
 namespace jnd::core {
 
-Eigen::Vector3d hand_plane_normal(const PointVectors& tip_position_m) noexcept {
+std::optional<ContactPoint> tip_of_hand_plane(
+    const std::array<bool, kNumContactPoints>& attached) noexcept {
+  const auto holds = [&](ContactPoint point) { return attached[static_cast<int>(point)]; };
+  if (!holds(ContactPoint::kPalmInner) || !holds(ContactPoint::kPalmOuter)) return std::nullopt;
+  for (const ContactPoint tip : {ContactPoint::kIndex, ContactPoint::kMiddle}) {
+    if (holds(tip)) return tip;
+  }
+  return std::nullopt;
+}
+
+Eigen::Vector3d hand_plane_normal(
+    const PointVectors& tip_position_m,
+    const std::array<bool, kNumContactPoints>& attached) noexcept {
+  const std::optional<ContactPoint> tip = tip_of_hand_plane(attached);
+  if (!tip) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d& inner = tip_position_m[static_cast<int>(ContactPoint::kPalmInner)];
   const Eigen::Vector3d& outer = tip_position_m[static_cast<int>(ContactPoint::kPalmOuter)];
-  const Eigen::Vector3d& index = tip_position_m[static_cast<int>(ContactPoint::kIndex)];
-  const Eigen::Vector3d normal = (outer - inner).cross(index - inner);
+  const Eigen::Vector3d normal =
+      (outer - inner).cross(tip_position_m[static_cast<int>(*tip)] - inner);
   const double length = normal.norm();
   if (!(length > 1e-12)) return Eigen::Vector3d::Zero();
   return normal / length;
@@ -31,7 +45,7 @@ HandMotion hand_motion(const PointVectors& tip_position_m,
   motion.speed_m_per_s = motion.velocity_m_per_s.norm();
   if (motion.speed_m_per_s > 0.0) {
     const double along_normal =
-        std::abs(motion.velocity_m_per_s.dot(hand_plane_normal(tip_position_m)));
+        std::abs(motion.velocity_m_per_s.dot(hand_plane_normal(tip_position_m, attached)));
     motion.sin_angle_of_attack = std::min(along_normal / motion.speed_m_per_s, 1.0);
   }
   return motion;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace jnd::core {
@@ -38,15 +39,24 @@ struct HandMotion {
   double sin_angle_of_attack = 0.0;
 };
 
-/// Unit normal of the hand plane: through both palm points and the index tip (thesis, C.3.1).
-/// Zero if the three points lie on a line. Its sign has no meaning. Real time.
-[[nodiscard]] Eigen::Vector3d hand_plane_normal(const PointVectors& tip_position_m) noexcept;
-
 inline constexpr std::array<bool, kNumContactPoints> kAllAttached = {true, true, true, true,
                                                                      true};
 
-/// Motion of the hand from its tips; any one frame. A tip that came off has no say in the
-/// velocity, however it dangles; with none left the hand counts as at rest. Real time.
+/// The tip that spans the hand plane with the palm's two points: the index (thesis, C.3.1), the
+/// middle finger where the index came off; nothing without both points of the palm or without
+/// either finger, for a dangling link must not steer the force on the others. Real time.
+[[nodiscard]] std::optional<ContactPoint> tip_of_hand_plane(
+    const std::array<bool, kNumContactPoints>& attached) noexcept;
+
+/// Unit normal of the hand plane, through both palm points and `tip_of_hand_plane`. Zero if
+/// there is none or the three points lie on a line. Its sign has no meaning. Real time.
+[[nodiscard]] Eigen::Vector3d hand_plane_normal(
+    const PointVectors& tip_position_m,
+    const std::array<bool, kNumContactPoints>& attached = kAllAttached) noexcept;
+
+/// Motion of the hand from its tips; any one frame. A tip that came off has no say in it,
+/// however it dangles; with none left the hand counts as at rest, without a hand plane as edge
+/// on, which is the least drag. Real time.
 [[nodiscard]] HandMotion hand_motion(
     const PointVectors& tip_position_m, const PointVectors& tip_velocity_m_per_s,
     const std::array<bool, kNumContactPoints>& attached = kAllAttached) noexcept;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -23,6 +24,9 @@ struct Telemetry {
   PlainVector hand_velocity_m_per_s{};  ///< Mean of the attached tips.
   PlainVector total_force_n{};          ///< On the hand, sum of the points, after every limit.
   std::uint64_t num_dropped_samples = 0;
+  std::uint64_t num_faults = 0;  ///< So far: who looks now and then misses none.
+  /// How often each point came off so far.
+  std::array<std::uint32_t, kNumContactPoints> num_detachments{};
   std::uint64_t num_limited_ticks = 0;  ///< So far; a difference over a trial marks it.
   ContactSums contact_sums;             ///< Zeros from a device that does not know them.
 };

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::array kPoses = {FingerPose::k0, FingerPose::k90, FingerPose::k180,
                                FingerPose::k270, FingerPose::kInclined};
+constexpr double kMostForceN = 100.0;  ///< More no hand gives and no finger takes.
+constexpr std::uint8_t kEveryBit = (1 << core::kNumContactPoints) - 1;
 constexpr std::array kWeights_kg = {0.050, 0.100, 0.150, 0.200, 0.250};
 
 /// Relative errors, the lightest weight left out.
@@ -120,6 +122,8 @@ std::array<double, core::kNumJointsPerFinger> expected_torque_n_m(
 }
 
 void FreeSpaceRegression::add(const core::Sample& sample) {
+  // A finger that hangs free tells nothing of a hand.
+  if (sample.attached_bits != kEveryBit) return;
   Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
   for (const core::PlainVector& tip : sample.tip_velocity_m_per_s) {
     velocity_m_per_s += Eigen::Vector3d(tip[0], tip[1], tip[2]) / core::kNumContactPoints;
@@ -130,6 +134,8 @@ void FreeSpaceRegression::add(const core::Sample& sample) {
   kinematics.update(positions_of(sample));
   const double against_n =
       -force_of_fingers_n(kinematics, sample).dot(velocity_m_per_s) / speed_m_per_s;
+  // Of a stretched finger, whose torques say nothing about forces along it.
+  if (!(std::abs(against_n) < kMostForceN)) return;
   ++num_;
   sum_v_ += speed_m_per_s;
   sum_vv_ += speed_m_per_s * speed_m_per_s;

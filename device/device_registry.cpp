@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "device/exoskeleton/exoskeleton_device.h"
+#include "device/exoskeleton/exoskeleton_options.h"
 #include "device/lumped_hand_device.h"
 #include "device/mouse_device.h"
 #include "device/network/network_device.h"
@@ -38,15 +39,17 @@ constexpr std::array kDevices = {
                   return std::make_unique<LumpedHandDevice>(
                       LumpedHandDevice::Parameters{.rate_hz = rate_hz});
                 }},
-    DeviceEntry{.name = "exoskeleton",
-                .argument = "",
-                .description =
-                    "the simulated hand exoskeleton on its arm, 22 degrees of freedom, "
-                    "with a simulated hand on it",
-                .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
-                  return std::make_unique<ExoskeletonDevice>(
-                      ExoskeletonDevice::Parameters{.rate_hz = rate_hz});
-                }},
+    DeviceEntry{
+        .name = "exoskeleton",
+        .argument = "",
+        .description = "the simulated hand exoskeleton on its arm, 22 degrees of freedom, "
+                       "with a simulated hand on it",
+        .make = [](std::string_view options, double rate_hz) -> std::unique_ptr<HapticDevice> {
+          ExoskeletonDevice::Parameters parameters = exoskeleton_parameters(options);
+          parameters.rate_hz = rate_hz;
+          return std::make_unique<ExoskeletonDevice>(parameters);
+        },
+        .optional_argument = kExoskeletonOptions},
     DeviceEntry{.name = "mouse",
                 .argument = "",
                 .description = "a hand that a person draws with the mouse and sees lag behind, "
@@ -68,18 +71,21 @@ constexpr std::array kDevices = {
                 }},
 };
 
-/// What follows the colon.
+}  // namespace
+
+std::string_view kind_of(std::string_view name) noexcept {
+  return name.substr(0, name.find(':'));
+}
+
 std::string_view argument_of(std::string_view name) noexcept {
   const std::size_t colon = name.find(':');
   return colon == std::string_view::npos ? std::string_view() : name.substr(colon + 1);
 }
 
-}  // namespace
-
 std::span<const DeviceEntry> devices() noexcept { return kDevices; }
 
 const DeviceEntry& device_named(std::string_view name) {
-  const std::string_view kind = name.substr(0, name.find(':'));
+  const std::string_view kind = kind_of(name);
   std::string known;
   for (const DeviceEntry& entry : kDevices) {
     const std::string spelling =
@@ -87,6 +93,7 @@ const DeviceEntry& device_named(std::string_view name) {
         (entry.argument.empty() ? "" : ":" + std::string(entry.argument));
     if (entry.name == kind) {
       if (entry.argument.empty() == argument_of(name).empty()) return entry;
+      if (!entry.optional_argument.empty()) return entry;
       throw core::Error("device: expected " + spelling + ", found " + std::string(name));
     }
     known += (known.empty() ? "" : ", ") + spelling;

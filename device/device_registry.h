@@ -16,7 +16,13 @@ struct DeviceEntry {
   /// The device with its default settings, not opened, for a loop of this rate. Throws
   /// `core::Error` for an argument or a rate it cannot do. Not real time.
   std::unique_ptr<HapticDevice> (*make)(std::string_view argument, double rate_hz);
+  /// What may follow instead, "OPTION,..."; or "".
+  std::string_view optional_argument = "";
 };
+
+/// What stands before the first colon of a device's name, and what after it. Real time.
+[[nodiscard]] std::string_view kind_of(std::string_view name) noexcept;
+[[nodiscard]] std::string_view argument_of(std::string_view name) noexcept;
 
 /// Every device of this program; the first is the default.
 [[nodiscard]] std::span<const DeviceEntry> devices() noexcept;

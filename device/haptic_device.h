@@ -68,8 +68,10 @@ class HapticDevice {
   /// did. Real time.
   [[nodiscard]] virtual core::Fault fault() const noexcept { return core::Fault::kNone; }
 
-  /// Zero force at once and until the next `write`: the watchdog's, which may call it from any
-  /// thread, also while the loop's thread is stuck in the middle of the device. Real time.
+  /// Zero force at once and until a `write` of nothing but zeros: a loop that was held up in
+  /// the middle of a tick must not bring an old force back. The watchdog's, which may call it
+  /// from any thread, also while the loop's thread is stuck in the middle of the device; and
+  /// the loop's, whose writes fail. Real time.
   virtual void halt() noexcept {}
 
   /// The simulated person on it; nullptr: the hand is moved by somebody else.

@@ -71,18 +71,19 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
   require_positive(parameters.heartbeat_timeout_s, "heartbeat_timeout_s");
   require_positive(parameters.fade_out_s, "fade_out_s");
   require_positive(parameters.rearm_s, "rearm_s");
+  require_positive(parameters.reattach_s, "reattach_s");
   core::require(parameters.max_stale_s >= 0.0 && std::isfinite(parameters.max_stale_s),
                 "max_stale_s", "a finite number >= 0", parameters.max_stale_s);
   core::require_bounded(parameters.workspace);
   require_positive(parameters.max_jump_m, "max_jump_m");
   require_positive(parameters.flight_recorder_s, "flight_recorder_s");
+  point_authority_ratio_.fill(1.0);
   telemetry_.sample.tick = parameters.first_tick - 1;
 }
 
 void HapticLoop::render() noexcept {
   // The stop comes first, before anything that could go wrong.
-  const bool stopped = doors_.emergency_stop.is_pressed();
-  if (stopped) latch(Fault::kEmergencyStop);
+  obey_emergency_stop();
   rearm_if_requested();
   obey_watchdog();
   if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost);
@@ -94,11 +95,27 @@ void HapticLoop::render() noexcept {
   compute_force();
   // Held up between the read and here: what was computed is too old to be sent.
   obey_watchdog();
-  if (fault_ == Fault::kWatchdog) force_on_hand_n_ = core::zero_vectors();
-  if (!device_.write(force_on_hand_n_)) {
-    latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
-  }
+  obey_emergency_stop();
+  if (authority_ratio_ == 0.0) force_on_hand_n_ = core::zero_vectors();
+  write_device();
   if (doors_.watchdog != nullptr) doors_.watchdog->beat();
+}
+
+void HapticLoop::write_device() noexcept {
+  if (device_.write(force_on_hand_n_)) {
+    num_failed_writes_ = 0;
+    return;
+  }
+  latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
+  // The zeros to come may get lost as well, and the last force would stand. Several times, for
+  // a single halt may get lost, too; not for ever, for the device may be about to come back.
+  constexpr int kNumHalts = 10;
+  if (num_failed_writes_ < kNumHalts) device_.halt();
+  num_failed_writes_ = std::min(num_failed_writes_ + 1, kNumHalts);
+}
+
+void HapticLoop::obey_emergency_stop() noexcept {
+  if (doors_.emergency_stop.is_pressed()) latch(Fault::kEmergencyStop);
 }
 
 /// It has halted the device, or whoever ticks lost time: whatever was latched before, there is
@@ -113,6 +130,7 @@ void HapticLoop::latch(Fault fault) noexcept {
   // comes on top of it.
   if (fault_ == Fault::kNone || (fault_ == Fault::kHeartbeatLost && fault != fault_)) {
     fault_ = fault;
+    ++telemetry_.num_faults;
   }
   if (fault_ != Fault::kHeartbeatLost) authority_ratio_ = 0.0;
 }
@@ -154,6 +172,7 @@ Fault HapticLoop::read_device() noexcept {
   }
   Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
   has_last_state_ = true;
+  watch_attachment();
   attached_bits_ = 0;
   for (int i = 0; i < kNumContactPoints; ++i) {
     if (!state_.attached[i]) continue;
@@ -165,29 +184,48 @@ Fault HapticLoop::read_device() noexcept {
   return found;
 }
 
+/// A magnet that chatters must not knock: a point that is held again gets its force slowly.
+void HapticLoop::watch_attachment() noexcept {
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    double& ratio = point_authority_ratio_[i];
+    if (state_.attached[i]) {
+      ratio = std::min(1.0, ratio + period_s_ / parameters_.reattach_s);
+      continue;
+    }
+    if (ratio > 0.0) ++telemetry_.num_detachments[i];
+    ratio = 0.0;
+  }
+}
+
+/// Time that is said to have passed widens what a hand may have moved, but no further than a
+/// measurement may stand in: a clock that leaps excuses no leap of the hand.
+double HapticLoop::max_distance_m(double elapsed_s) const noexcept {
+  const double longest_s = static_cast<double>(max_stale_ticks_ + 1) * period_s_;
+  return parameters_.max_jump_m +
+         parameters_.limits.max_speed_m_per_s * std::clamp(elapsed_s, period_s_, longest_s);
+}
+
 Fault HapticLoop::check_against_last() noexcept {
   // Unsigned, for a device may report any time without making the subtraction overflow.
   const auto elapsed_ns =
       static_cast<std::int64_t>(static_cast<std::uint64_t>(state_.device_time_ns) -
                                 static_cast<std::uint64_t>(last_state_.device_time_ns));
   const double elapsed_s = 1e-9 * static_cast<double>(elapsed_ns);
-  const double max_distance_m = parameters_.max_jump_m + parameters_.limits.max_speed_m_per_s *
-                                                             std::max(elapsed_s, period_s_);
-  bool moved = false;
-  bool claims_to_move = false;
+  const double max_m = max_distance_m(elapsed_s);
+  bool moves_without_getting_anywhere = false;
   bool jumped = false;
   for (int i = 0; i < kNumContactPoints; ++i) {
     const double squared_m2 =
         (state_.tip_position_m[i] - last_state_.tip_position_m[i]).squaredNorm();
-    moved |= squared_m2 > 0.0;
-    jumped |= state_.attached[i] && last_state_.attached[i] &&
-              squared_m2 > max_distance_m * max_distance_m;
+    if (!state_.attached[i]) continue;
+    jumped |= last_state_.attached[i] && squared_m2 > max_m * max_m;
     constexpr double kMovingM2PerS2 = 0.05 * 0.05;
-    claims_to_move |= state_.tip_velocity_m_per_s[i].squaredNorm() > kMovingM2PerS2;
+    moves_without_getting_anywhere |=
+        squared_m2 == 0.0 && state_.tip_velocity_m_per_s[i].squaredNorm() > kMovingM2PerS2;
   }
   if (jumped) return Fault::kPositionJump;
-  // Time that stands still, or a hand that moves without getting anywhere.
-  const bool stale = elapsed_s <= 0.0 || (claims_to_move && !moved);
+  // Time that stands still, or a point that moves without getting anywhere.
+  const bool stale = elapsed_s <= 0.0 || moves_without_getting_anywhere;
   num_stale_ticks_ = stale ? num_stale_ticks_ + 1 : 0;
   return num_stale_ticks_ > max_stale_ticks_ ? Fault::kStaleSample : Fault::kNone;
 }
@@ -195,7 +233,7 @@ Fault HapticLoop::check_against_last() noexcept {
 void HapticLoop::take_command() noexcept {
   if (doors_.commands.fetch()) {
     const core::HapticCommand& command = doors_.commands.value();
-    command_is_finite_ = command.medium.is_finite();
+    command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that had met a value that is no number would never get rid of it.
     if (command_is_finite_) ramp_.start(command.medium, command.ramp_s);
   }
@@ -230,8 +268,9 @@ void HapticLoop::compute_force() noexcept {
   if (is_solid) {
     for (int i = 0; i < kNumContactPoints; ++i) force_on_hand_n_[i] += solid_force_n_[i];
   }
-  if (authority_ratio_ < 1.0) {
-    for (Eigen::Vector3d& force : force_on_hand_n_) force *= authority_ratio_;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    const double ratio = authority_ratio_ * point_authority_ratio_[i];
+    if (ratio < 1.0) force_on_hand_n_[i] *= ratio;
   }
   passivity_.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n_);
   limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_);

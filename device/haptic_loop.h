@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 
@@ -39,6 +40,7 @@ class HapticLoop {
     double heartbeat_timeout_s = 0.250;  ///< > 0.
     double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
     double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
+    double reattach_s = 0.200;           ///< Likewise of a point that is held again, > 0.
     /// For how long the last measurement may stand in, >= 0; the device may ask for longer.
     double max_stale_s = 0.005;
     /// Left by an attached point, there is no force until the loop is armed again inside.
@@ -98,13 +100,17 @@ class HapticLoop {
 
  private:
   void latch(core::Fault fault) noexcept;
+  void obey_emergency_stop() noexcept;
   void obey_watchdog() noexcept;
   void rearm_if_requested() noexcept;
   void advance_authority() noexcept;
+  void watch_attachment() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
+  [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
   void take_command() noexcept;
   void compute_force() noexcept;
+  void write_device() noexcept;
 
   Parameters parameters_;
   HapticDevice& device_;
@@ -121,6 +127,7 @@ class HapticLoop {
 
   core::Fault fault_ = core::Fault::kNone;
   double authority_ratio_ = 1.0;
+  std::array<double, core::kNumContactPoints> point_authority_ratio_;  ///< 0: not held.
   core::MediumRamp ramp_;
   bool command_is_finite_ = true;
   core::SolidSurfaces solids_;
@@ -133,6 +140,7 @@ class HapticLoop {
   std::uint8_t immersed_bits_ = 0;
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
+  int num_failed_writes_ = 0;
   bool limited_ = false;
   core::Telemetry telemetry_;
 };

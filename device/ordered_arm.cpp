@@ -32,7 +32,12 @@ bool OrderedArm::is_home() const noexcept {
   return progress >> 32 == last_order_ && (progress & 1) == 1;
 }
 
-void OrderedArm::reset() { arm_ = StrokingArm(parameters_, period_s_); }
+void OrderedArm::reset() {
+  arm_ = StrokingArm(parameters_, period_s_);
+  puts_back_.store(false, std::memory_order_relaxed);
+  (void)orders_.fetch();
+  progress_.store(std::uint64_t{orders_.value().number} << 32 | 1, std::memory_order_relaxed);
+}
 
 void OrderedArm::follow_orders() noexcept {
   if (!orders_.fetch()) return;

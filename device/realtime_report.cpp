@@ -8,6 +8,9 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 #include <cerrno>
 #include <cstdint>
@@ -121,6 +124,19 @@ void obtain_cpu(int cpu, RealtimeReport& report) {
 void prefault_stack() noexcept {
   volatile unsigned char pages[256 * 1024];
   for (std::size_t i = 0; i < sizeof pages; i += 1024) pages[i] = 0;
+}
+
+void flush_denormals() noexcept {
+#if defined(__SSE2__)
+  constexpr unsigned kFlushToZero = 0x8000;
+  constexpr unsigned kDenormalsAreZero = 0x0040;
+  _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero);
+#elif defined(__aarch64__)
+  constexpr std::uint64_t kFlushToZero = std::uint64_t{1} << 24;
+  std::uint64_t control = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(control));
+  asm volatile("msr fpcr, %0" ::"r"(control | kFlushToZero));
+#endif
 }
 
 void AwakeCpus::obtain(RealtimeReport& report) noexcept {

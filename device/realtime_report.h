@@ -39,6 +39,9 @@ void obtain_locked_memory(RealtimeReport& report);
 void obtain_cpu(int cpu, RealtimeReport& report);
 /// Touches the stack that a loop may need, so that no page is missing later.
 void prefault_stack() noexcept;
+/// Numbers too small to be normal count as zero from now on, in this thread: what dies away in
+/// a filter of a hand at rest would cost a hundred times the time of any other.
+void flush_denormals() noexcept;
 
 /// Keeps every CPU out of the idle states that take long to wake up from, while it lives:
 /// latency 0 asked for at /dev/cpu_dma_latency. Costs electricity and no one's CPU time.

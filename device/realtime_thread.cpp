@@ -86,6 +86,7 @@ void RealtimeThread::prepare() noexcept {
   prefault_stack();
   // The page of the kernel's clock is missing until it is read: locking leaves it out.
   (void)monotonic_ns();
+  flush_denormals();
 }
 
 void RealtimeThread::run() noexcept {
@@ -132,8 +133,17 @@ void RealtimeThread::run() noexcept {
 }
 
 void require_realtime(const HapticDevice& device, const RealtimeReport& report,
-                      bool allow_no_realtime) {
+                      bool allow_no_realtime, const RealtimeReport* watchdog) {
   if (device.capabilities().simulated || allow_no_realtime) return;
+  if (watchdog != nullptr && !watchdog->realtime_scheduler) {
+    throw core::Error(
+        std::string(device.name()) +
+        ": expected a real-time scheduler for the watchdog before its motors turn "
+        "on, found " +
+        watchdog->scheduler +
+        "; raise the limit rtprio above the loop's priority, or allow it with "
+        "--allow-no-realtime, which is stored with the session");
+  }
   if (report.realtime_scheduler && report.memory_locked) return;
   throw core::Error(std::string(device.name()) +
                     ": expected a real-time scheduler and locked memory before its motors turn "
@@ -144,8 +154,8 @@ void require_realtime(const HapticDevice& device, const RealtimeReport& report,
 }
 
 void start_haptics(HapticDevice& device, HapticLoop& loop, RealtimeThread& thread,
-                   bool allow_no_realtime) {
-  require_realtime(device, thread.report(), allow_no_realtime);
+                   bool allow_no_realtime, const RealtimeReport* watchdog) {
+  require_realtime(device, thread.report(), allow_no_realtime, watchdog);
   try {
     device.open();
   } catch (...) {

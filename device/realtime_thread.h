@@ -69,14 +69,15 @@ class RealtimeThread {
 };
 
 /// Throws `core::Error` if a real device would be driven without a real-time scheduler and
-/// locked memory, unless `allow_no_realtime`. Call it before `HapticDevice::open`.
+/// locked memory, or watched without such a scheduler, unless `allow_no_realtime`. `watchdog`:
+/// of the watchdog's thread; nullptr: nobody watches. Call it before `HapticDevice::open`.
 void require_realtime(const HapticDevice& device, const RealtimeReport& report,
-                      bool allow_no_realtime);
+                      bool allow_no_realtime, const RealtimeReport* watchdog = nullptr);
 
 /// The one order that is safe: `require_realtime`, then motors, then ticks. Throws
 /// `core::Error` of the first that fails; then the device is closed and not one tick was run.
 /// Not real time.
 void start_haptics(HapticDevice& device, HapticLoop& loop, RealtimeThread& thread,
-                   bool allow_no_realtime);
+                   bool allow_no_realtime, const RealtimeReport* watchdog = nullptr);
 
 }  // namespace jnd::device

@@ -47,7 +47,13 @@ WatchdogThread::WatchdogThread(const Parameters& parameters, HapticDevice& devic
     : watchdog_(parameters.watchdog, device, state),
       period_ns_(std::llround(1e9 * parameters.watchdog.timeout_s / kLooksPerTimeout)),
       priority_(checked_priority(parameters.priority)),
-      thread_([this] { run(); }) {}
+      thread_([this] {
+        obtain_scheduler(priority_, report_);
+        prepared_.release();
+        run();
+      }) {
+  prepared_.acquire();
+}
 
 WatchdogThread::~WatchdogThread() {
   stop_ = true;
@@ -55,8 +61,6 @@ WatchdogThread::~WatchdogThread() {
 }
 
 void WatchdogThread::run() noexcept {
-  RealtimeReport report;
-  obtain_scheduler(priority_, report);
   timespec due{};
   clock_gettime(CLOCK_MONOTONIC, &due);
   while (!stop_.load(std::memory_order_relaxed)) {

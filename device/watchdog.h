@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <semaphore>
 #include <thread>
 
 #include "core/safety/watchdog_state.h"
@@ -54,12 +55,17 @@ class WatchdogThread {
   WatchdogThread(const WatchdogThread&) = delete;
   WatchdogThread& operator=(const WatchdogThread&) = delete;
 
+  /// What its thread was given: without a real-time scheduler it keeps no timeout.
+  [[nodiscard]] const RealtimeReport& report() const noexcept { return report_; }
+
  private:
   void run() noexcept;
 
   Watchdog watchdog_;
   std::int64_t period_ns_;
   int priority_;
+  RealtimeReport report_;
+  std::binary_semaphore prepared_{0};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -73,6 +73,7 @@ const std::vector<CsvColumn> kPresentationColumns = {
     {"delivered_damping_n_s_per_m", "N s/m", "Delivered force over speed, regression slope"},
     {"commanded_damping_n_s_per_m", "N s/m", "Commanded; empty for water"},
     {"limited_ticks", "ticks", "Ticks in which the force limiter changed the force"},
+    {"finger_lag_s", "s", "By which thumb, index and middle trail behind the palm"},
 };
 
 const std::vector<CsvColumn> kEventColumns = {
@@ -192,7 +193,7 @@ class Export {
         table.cell(row.last_tick).cell(row.num_strokes).cell(row.stroke_width_m);
         table.cell(row.max_speed_m_per_s).cell(row.mean_height_m);
         table.cell(row.delivered_damping_n_s_per_m).cell(row.commanded_damping_n_s_per_m);
-        table.cell(row.limited_ticks).end_row();
+        table.cell(row.limited_ticks).cell(row.finger_lag_s).end_row();
       }
     }
     table.finish();

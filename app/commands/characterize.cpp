@@ -219,6 +219,10 @@ void print(const Outcome& outcome, const Options& options) {
     fmt::print("  {:<23} {:5.2f} %\n", kJoints[static_cast<std::size_t>(sensor.joint)],
                100.0 * sensor.mean_relative_error_ratio);
   }
+  if (outcome.free_space.num_samples() < 2) {
+    fmt::print("\nFree space: not measured, for no hand moved with all five points on it\n");
+    return;
+  }
   fmt::print(
       "\nFree space, from the torque sensors: {:.2f} N s/m, and {:.2f} N at any speed "
       "({} samples)\n",

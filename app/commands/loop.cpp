@@ -160,7 +160,10 @@ int run(const Options& options) {
       throw EnvironmentError(error.what());
     }
     // A hand that strokes through water: a tick with everything in it.
-    setup.commands.publish({.sequence = 1, .medium = core::water({})});
+    // A real one stays in free space, for nobody watches over a hand in it here.
+    if (setup.device->capabilities().simulated) {
+      setup.commands.publish({.sequence = 1, .medium = core::water({})});
+    }
     if (device::SimulatedHand* hand = setup.device->simulated_hand()) {
       hand->begin_strokes({}, core::RandomStream(1, "loop"));
     }

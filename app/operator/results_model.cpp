@@ -38,6 +38,7 @@ std::string interval_words(const Interval& ci95) {
 }
 
 std::string published_words(const Estimate& estimate) {
+  if (estimate.published_positive) return "> 0";
   if (!estimate.published) return "";
   return number(*estimate.published, estimate.unit) +
          (estimate.published_sd ? fmt::format(" ± {:.3g}", *estimate.published_sd) : "");

@@ -29,12 +29,14 @@ EllipsoidDrag::EllipsoidDrag(const Parameters& parameters) {
   }
 }
 
-Eigen::Matrix3d hand_axes(const PointVectors& tip_position_m) noexcept {
+Eigen::Matrix3d hand_axes(const PointVectors& tip_position_m,
+                          const std::array<bool, kNumContactPoints>& attached) noexcept {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d normal = hand_plane_normal(tip_position_m);
-  if (normal.squaredNorm() == 0.0) return axes;
+  const std::optional<ContactPoint> tip = tip_of_hand_plane(attached);
+  const Eigen::Vector3d normal = hand_plane_normal(tip_position_m, attached);
+  if (!tip || normal.squaredNorm() == 0.0) return axes;
   // Both points lie in the plane, apart from each other, or it would not be one.
-  const Eigen::Vector3d fingers = (tip_position_m[static_cast<int>(ContactPoint::kIndex)] -
+  const Eigen::Vector3d fingers = (tip_position_m[static_cast<int>(*tip)] -
                                    tip_position_m[static_cast<int>(ContactPoint::kPalmInner)])
                                       .normalized();
   axes.col(0) = fingers;

@@ -39,8 +39,10 @@ class EllipsoidDrag {
 };
 
 /// The hand's axes as columns, in the frame of the tips: along the fingers (from the inner half
-/// of the palm to the index tip), across them, normal of the hand plane. Zero if the hand plane
-/// is not defined. Real time.
-[[nodiscard]] Eigen::Matrix3d hand_axes(const PointVectors& tip_position_m) noexcept;
+/// of the palm to the index tip, or whichever spans the hand plane), across them, normal of the
+/// hand plane. Zero if the hand plane is not defined. Real time.
+[[nodiscard]] Eigen::Matrix3d hand_axes(
+    const PointVectors& tip_position_m,
+    const std::array<bool, kNumContactPoints>& attached = kAllAttached) noexcept;
 
 }  // namespace jnd::core

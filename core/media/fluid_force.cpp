@@ -11,11 +11,11 @@ namespace {
 constexpr double kBuoyancyDepthM = 0.03;
 
 Eigen::Matrix3d ellipsoid_damping(const MediumAmounts& medium,
-                                  const PointVectors& tip_position_m) noexcept {
+                                  const HapticState& state) noexcept {
   const Eigen::Vector3d along_axes(medium.ellipsoid_fingers_n_s_per_m,
                                    medium.ellipsoid_across_n_s_per_m,
                                    medium.ellipsoid_normal_n_s_per_m);
-  const Eigen::Matrix3d axes = hand_axes(tip_position_m);
+  const Eigen::Matrix3d axes = hand_axes(state.tip_position_m, state.attached);
   if (axes.col(2).squaredNorm() == 0.0) return along_axes.mean() * Eigen::Matrix3d::Identity();
   return axes * along_axes.asDiagonal() * axes.transpose();
 }
@@ -53,9 +53,9 @@ void add_up_fluid_force(const MediumAmounts& medium, const ForceMap* map,
   if (!has_ellipsoid && !has_lift && medium.buoyancy_n == 0.0) return;
 
   Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();
-  if (has_ellipsoid) damping = ellipsoid_damping(medium, state.tip_position_m);
+  if (has_ellipsoid) damping = ellipsoid_damping(medium, state);
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  if (has_lift) normal = hand_plane_normal(state.tip_position_m);
+  if (has_lift) normal = hand_plane_normal(state.tip_position_m, state.attached);
   const double lift_n = medium.lift_kg_per_m * motion.speed_m_per_s * motion.speed_m_per_s;
   for (int i = 0; i < kNumContactPoints; ++i) {
     if (!state.attached[i] || (immersed_bits >> i & 1) == 0) continue;

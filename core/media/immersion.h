@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -16,6 +17,13 @@ struct Immersion {
   double origin_x_m = 0.0;
   double origin_y_m = 0.0;
   double origin_z_m = 0.0;  ///< Height of the surface in the workspace frame.
+
+  /// A NaN anywhere, or a place that is nowhere, would take the medium away without a word.
+  /// Real time.
+  [[nodiscard]] bool is_sound() const noexcept {
+    return std::isfinite(origin_x_m) && std::isfinite(origin_y_m) &&
+           std::isfinite(origin_z_m) && radius_m > 0.0 && depth_m > 0.0;
+  }
 
   /// Real time. A NaN coordinate is outside.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point_m) const noexcept {

@@ -13,7 +13,8 @@ namespace jnd::core {
 ///
 /// put into the drag equation as the thesis does with 24/Re, whose `ViscousDrag` is the first
 /// term. The second grows with speed^1.687 and has an amount of its own, the force at 1 m/s.
-/// The correction holds up to Re 800; beyond, drag grows with the square of speed, as water's.
+/// The correction holds up to Re 800; beyond, true drag grows with the square of speed, as
+/// water's, and this one stays below it (`jnd force` says so).
 /// The hand of the thesis's group D has a Re of about 24 and feels this 2.3 times as thick as
 /// without it, so it is never what a study renders unless it says so.
 class InertialDrag {

@@ -77,8 +77,11 @@ std::string_view words(Fault fault) noexcept {
       return "The connection to the device broke off or became too bad: check the network and "
              "the device's own program, then arm it again.";
     case Fault::kSimulationInvalid:
-      return "The simulated apparatus came to a state that no real one can have: arm it again; "
-             "this trial does not count.";
+      return "The simulated apparatus came to a state that no real one can have and was "
+             "stopped: "
+             "leave the session and resume it (a device simulator has to be started anew); "
+             "this "
+             "trial does not count.";
   }
   return "Unknown fault: stop the session.";
 }

@@ -64,6 +64,7 @@ void bind(const PresentationRow& row, Statement& statement) {
       .bind(row.delivered_damping_n_s_per_m)
       .bind(row.commanded_damping_n_s_per_m)
       .bind(row.limited_ticks)
+      .bind(row.finger_lag_s)
       .run();
 }
 
@@ -166,7 +167,8 @@ PresentationRow presentation_row(const Statement& rows) {
           .num_strokes = rows.integer(12),
           .delivered_damping_n_s_per_m = rows.optional_number(13),
           .commanded_damping_n_s_per_m = rows.optional_number(14),
-          .limited_ticks = rows.integer(15)};
+          .limited_ticks = rows.integer(15),
+          .finger_lag_s = rows.optional_number(16)};
 }
 
 TrialRow trial_row(const Statement& rows) {

@@ -56,7 +56,8 @@ struct PresentationRow {
   /// Slope of delivered force against motion on speed; what the stimulus came out as.
   std::optional<double> delivered_damping_n_s_per_m;
   std::optional<double> commanded_damping_n_s_per_m;
-  std::int64_t limited_ticks = 0;  ///< Ticks in which the limiter changed the force.
+  std::int64_t limited_ticks = 0;      ///< Ticks in which the limiter changed the force.
+  std::optional<double> finger_lag_s;  ///< By which the fingers trail behind the palm.
 };
 
 /// One answered trial.

@@ -19,7 +19,10 @@ double period_of(double rate_hz) {
 int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
   core::require(delay_s >= 0.0 && delay_s <= 0.02, "extra_delay_s", "a number in [0, 0.02]",
                 delay_s);
-  return std::min(static_cast<int>(std::lround(delay_s * rate_hz)), max_ticks - 1);
+  const auto ticks = static_cast<int>(std::lround(delay_s * rate_hz));
+  core::require(ticks < max_ticks, "extra_delay_s", "fewer ticks than the delay line holds",
+                delay_s);
+  return ticks;
 }
 
 void require_positive(double value, const char* field) {
@@ -101,21 +104,25 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
       std::all_of(force_on_hand_n.begin(), force_on_hand_n.end(),
                   [](const Eigen::Vector3d& force_n) { return force_n.isZero(0.0); });
   if (nothing_asked) control_.rearm();
-  if (halted_.exchange(false, std::memory_order_acq_rel)) {
-    delay_line_.fill(core::zero_vectors());
-  }
+  // Only zeros end a halt: a loop held up in mid-tick must not bring its force back.
+  const bool halted = nothing_asked ? halted_.exchange(false, std::memory_order_acq_rel)
+                                    : halted_.load(std::memory_order_acquire);
+  if (halted) delay_line_.fill(core::zero_vectors());
   arm_.follow_orders();
   if (arm_.takes_putting_back()) {
     for (int point = 0; point < core::kNumContactPoints; ++point) world_.attach(point);
   }
   // What is no number must not lie in wait in the delay line.
-  JointVector torque_n_m = control_.torque_n_m(kinematics_, measured_,
-                                               std::isfinite(total_of(force_on_hand_n).sum())
-                                                   ? delayed(force_on_hand_n)
-                                                   : force_on_hand_n);
+  core::PointVectors given_n = std::isfinite(total_of(force_on_hand_n).sum())
+                                   ? delayed(within_capabilities(force_on_hand_n))
+                                   : force_on_hand_n;
+  JointVector torque_n_m = control_.torque_n_m(kinematics_, measured_, given_n);
   if (control_.fault() != core::Fault::kNone) delay_line_.fill(core::zero_vectors());
   // Halted in the middle of it: the force goes, the robot's weight stays held.
-  if (halted_.load(std::memory_order_acquire)) torque_n_m = kinematics_.gravity_torque_n_m();
+  if (halted_.load(std::memory_order_acquire)) {
+    torque_n_m = kinematics_.gravity_torque_n_m();
+    given_n = core::zero_vectors();
+  }
 
   arm_.advance();
   const Eigen::Vector3d pull_n =
@@ -123,9 +130,27 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
   const bool stepped = world_.step(torque_n_m, pull_n);
   device_time_ns_ += period_ns_;
   if (!stepped) return false;
-  if (control_.fault() == core::Fault::kNone) add_to_sums(force_on_hand_n);
+  if (control_.fault() == core::Fault::kNone) add_to_sums(given_n);
   measure();
   return control_.fault() == core::Fault::kNone;
+}
+
+/// Whoever writes may have a limiter or none: what the device says of itself it keeps.
+core::PointVectors ExoskeletonDevice::within_capabilities(
+    const core::PointVectors& force_n) const noexcept {
+  core::PointVectors within_n = force_n;
+  double sum_n = 0.0;
+  for (Eigen::Vector3d& force : within_n) {
+    const double magnitude_n = force.norm();
+    if (magnitude_n > parameters_.max_force_per_point_n) {
+      force *= parameters_.max_force_per_point_n / magnitude_n;
+    }
+    sum_n += std::min(magnitude_n, parameters_.max_force_per_point_n);
+  }
+  if (sum_n > parameters_.max_total_force_n) {
+    for (Eigen::Vector3d& force : within_n) force *= parameters_.max_total_force_n / sum_n;
+  }
+  return within_n;
 }
 
 const core::PointVectors& ExoskeletonDevice::delayed(

@@ -72,6 +72,8 @@ class ExoskeletonDevice final : public HapticDevice {
   static constexpr int kMaxDelayTicks = 64;
 
   void measure() noexcept;
+  [[nodiscard]] core::PointVectors within_capabilities(
+      const core::PointVectors& force_n) const noexcept;
   [[nodiscard]] const core::PointVectors& delayed(const core::PointVectors& force_n) noexcept;
   void add_to_sums(const core::PointVectors& force_on_hand_n) noexcept;
 

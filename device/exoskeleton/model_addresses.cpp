@@ -28,7 +28,9 @@ ModelAddresses::ModelAddresses(const mjModel& model) {
     const std::string name(core::kContactPointNames[point]);
     tip_site[point] = id_of(model, mjOBJ_SITE, name + "_tip");
     distal_body[point] = id_of(model, mjOBJ_BODY, name + "_distal");
-    distal_position[point] = model.jnt_qposadr[id_of(model, mjOBJ_JOINT, name + "_distal")];
+    const int distal = id_of(model, mjOBJ_JOINT, name + "_distal");
+    distal_position[point] = model.jnt_qposadr[distal];
+    distal_dof[point] = model.jnt_dofadr[distal];
     magnet[point] = id_of(model, mjOBJ_EQUALITY, name + "_magnet");
   }
   for (int joint = 0; joint < core::kNumArmJoints; ++joint) {

@@ -16,7 +16,7 @@ struct ModelAddresses {
 
   // In qpos and in qvel.
   std::array<int, core::kNumJoints> position{}, dof{};
-  std::array<int, core::kNumContactPoints> distal_position{};
+  std::array<int, core::kNumContactPoints> distal_position{}, distal_dof{};
   std::array<int, 3> hand_position{}, hand_dof{};
   // Sites, bodies and equalities.
   std::array<int, core::kNumContactPoints> tip_site{}, distal_body{}, magnet{};

@@ -89,8 +89,7 @@ void MujocoWorld::place() {
   }
 }
 
-/// A magnet sits where the finger's tip is in the neutral pose, to the last bit: no world
-/// starts with a tug.
+/// A magnet sits where the finger's tip is in the neutral pose, to the last bit.
 void MujocoWorld::anchor_magnets() {
   reset();
   for (int point = 0; point < core::kNumContactPoints; ++point) {
@@ -101,6 +100,9 @@ void MujocoWorld::anchor_magnets() {
         vector_at(model_->site_pos, addresses_.tip_site[point]);
     Map<Vector3d>(model_->eq_data + magnet * mjNEQDATA + 3) =
         rotation_at(data_->xmat, body).transpose() * (tip_m - vector_at(data_->xpos, body));
+    // In the neutral pose the platform's axes are those of the workspace.
+    into_hand_[point] = rotation_at(data_->xmat, body).transpose() *
+                        vector_of(kFingerMounts[point].towards_hand);
   }
 }
 
@@ -119,11 +121,26 @@ void MujocoWorld::reset() {
     data_->xfrc_applied[6 * body + 2] = -model_->opt.gravity[2] * model_->body_mass[body];
   }
   mj_forward(model_.get(), data_.get());
+  hold_weight();
+  mj_forward(model_.get(), data_.get());
   valid_ = true;
   attached_ = parameters_.attached;
   guided_ = {};
   load_n_ = core::zero_vectors();
   feel();
+}
+
+/// The motors hold the robot before anybody asks: nobody takes over one that falls.
+void MujocoWorld::hold_weight() {
+  for (int joint = 0; joint < core::kNumJoints; ++joint) {
+    const int dof = addresses_.dof[joint];
+    data_->qfrc_applied[dof] = data_->qfrc_bias[dof];
+  }
+  // The proximal motor carries the distal link, which follows it.
+  for (int point = 0; point < core::kNumContactPoints; ++point) {
+    data_->qfrc_applied[addresses_.dof[core::finger_joint(point, 2)]] +=
+        data_->qfrc_bias[addresses_.distal_dof[point]];
+  }
 }
 
 bool MujocoWorld::step(const JointVector& torque_n_m, const Vector3d& pull_n) noexcept {
@@ -257,8 +274,16 @@ void MujocoWorld::let_go_where_pulled() noexcept {
     // Three rows each, one an axis; on the finger, and the other way on the hand.
     magnet_force_n_[point] = -Map<const Vector3d>(data_->efc_force + row);
     row += 2;
-    if (magnet_force_n_[point].norm() > parameters_.break_away_n) let_go(point);
+    if (pulling_n(point) > parameters_.break_away_n) let_go(point);
   }
+}
+
+/// What pulls the finger off the hand or shears it along; pressed onto it, a magnet holds.
+double MujocoWorld::pulling_n(int point) const noexcept {
+  const int body = model_->eq_obj2id[addresses_.magnet[point]];
+  const Vector3d into_hand = rotation_at(data_->xmat, body) * into_hand_[point];
+  const Vector3d& force_n = magnet_force_n_[point];
+  return (force_n - std::max(0.0, force_n.dot(into_hand)) * into_hand).norm();
 }
 
 void MujocoWorld::let_go(int point) noexcept {

@@ -84,6 +84,8 @@ class MujocoWorld {
  private:
   void place();
   void anchor_magnets();
+  void hold_weight();
+  [[nodiscard]] double pulling_n(int point) const noexcept;
   void push_from_outside() noexcept;
   void push(int body, const Eigen::Vector3d& force_n,
             const Eigen::Vector3d& torque_n_m) noexcept;
@@ -108,6 +110,7 @@ class MujocoWorld {
   std::array<bool, core::kNumContactPoints> guided_{};
   std::array<double, core::kNumContactPoints> held_s_{};  ///< Since a guided finger is back.
   core::PointVectors load_n_ = core::zero_vectors();
+  core::PointVectors into_hand_;  ///< Unit vectors in the frame of the magnet's body.
   core::PointVectors magnet_force_n_ = core::zero_vectors();
   Eigen::Vector3d hand_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d hand_velocity_m_per_s_ = Eigen::Vector3d::Zero();

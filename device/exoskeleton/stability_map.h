@@ -34,10 +34,10 @@ struct ExoskeletonStability {
 };
 
 /// The largest values for which the simulated exoskeleton settles (`settles`) after each of two
-/// disturbances: every tip pushed by 2 N for 20 ms, all the same way, and alternately to and
-/// fro; across the hand plane for a fluid, across the surface for a plane that the lowest tip
-/// just touches and onto which every tip is pressed by 1 N. The hand is held at home by its arm
-/// and nobody strokes.
+/// disturbances: every tip pushed by 4 N until it moves at 0.15 m/s, for 100 ms at most, all
+/// the same way, and alternately to and fro; across the hand plane for a fluid, across the
+/// surface for a plane that the lowest tip just touches and onto which every tip is pressed by
+/// 1 N. The hand is held at home by its arm and nobody strokes.
 ///
 /// The loop is told that every point is attached, whether or not it is: what the limiter knows
 /// of attachment is out of the way, so that what it protects from can be seen.

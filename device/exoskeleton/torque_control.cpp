@@ -44,6 +44,10 @@ TorqueControl::TorqueControl(const Parameters& parameters, double period_s)
   require_not_negative(parameters.limit_protection_ratio, "limit_protection_ratio");
   feed_forward_weight_ratio_ =
       1.0 - std::exp(-2.0 * std::numbers::pi * parameters.feed_forward_cutoff_hz * period_s);
+  require(feed_forward_weight_ratio_ * (1.0 + parameters.feed_forward_gain_ratio) <= 1.0,
+          "feed_forward_gain_ratio", "a number that this rate and cutoff keep stable",
+          parameters.feed_forward_gain_ratio);
+  require_not_negative(parameters.max_platform_moment_n_m, "max_platform_moment_n_m");
   for (int joint = 0; joint < core::kNumJoints; ++joint) {
     protection_[joint] = default_protection(joint);
     if (joint < core::kNumArmJoints) continue;
@@ -60,11 +64,11 @@ void TorqueControl::reset() noexcept {
 JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
                                       const Measured& measured,
                                       const core::PointVectors& force_on_hand_n) noexcept {
+  const JointVector gravity_n_m = kinematics.gravity_torque_n_m();
   if (!are_finite(force_on_hand_n)) fault_ = core::Fault::kNonFiniteForce;
-  if (fault_ != core::Fault::kNone) return JointVector::Zero();
+  if (fault_ != core::Fault::kNone) return faulted(gravity_n_m);
 
   const double gain = parameters_.feed_forward_gain_ratio;
-  const JointVector gravity_n_m = kinematics.gravity_torque_n_m();
   JointVector torque_n_m = kinematics.torque_of_n_m(force_on_hand_n);
   if (parameters_.compensates_feed_forward) torque_n_m *= 1.0 + gain;
   for (int joint = 0; joint < core::kNumJoints; ++joint) {
@@ -75,6 +79,11 @@ JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
     human_torque_n_m_ +=
         feed_forward_weight_ratio_ *
         (device::human_torque_n_m(measured.torque_n_m, gravity_n_m) - human_torque_n_m_);
+    // Nobody does more to a joint than its motor could; a sensor that says so is broken. What
+    // is no number has to stay one, to be seen below.
+    if (std::isfinite(human_torque_n_m_.sum())) {
+      human_torque_n_m_ = clamped(human_torque_n_m_, max_torque_n_m_);
+    }
     torque_n_m += gain * human_torque_n_m_;
   }
   for (int joint = core::kNumArmJoints; joint < core::kNumJoints; ++joint) {
@@ -83,18 +92,27 @@ JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
         parameters_.friction_compensation_ratio, measured.velocity_rad_per_s[joint],
         parameters_.friction_speed_rad_per_s);
   }
-  torque_n_m += kinematics.torque_of_moment_n_m(
+  Eigen::Vector3d moment_n_m =
       -parameters_.platform_stiffness_n_m_per_rad * kinematics.platform_turn_rad() -
       parameters_.platform_damping_n_m_s_per_rad *
-          kinematics.platform_velocity_rad_per_s(measured.velocity_rad_per_s));
+          kinematics.platform_velocity_rad_per_s(measured.velocity_rad_per_s);
+  const double most_n_m = parameters_.max_platform_moment_n_m;
+  if (moment_n_m.norm() > most_n_m) moment_n_m *= most_n_m / moment_n_m.norm();
+  torque_n_m += kinematics.torque_of_moment_n_m(moment_n_m);
   torque_n_m += gravity_n_m;
   // A clamp would hide what is no number behind its largest torque.
   if (!std::isfinite(torque_n_m.sum())) {
     reset();
     fault_ = core::Fault::kNonFiniteState;
-    return JointVector::Zero();
+    return faulted(gravity_n_m);
   }
   return clamped(torque_n_m, max_torque_n_m_);
+}
+
+/// A robot that falls pulls at the hand more than any force that was ever asked for.
+JointVector TorqueControl::faulted(const JointVector& gravity_n_m) const noexcept {
+  if (!std::isfinite(gravity_n_m.sum())) return JointVector::Zero();
+  return clamped(gravity_n_m, max_torque_n_m_);
 }
 
 }  // namespace jnd::device

@@ -17,12 +17,15 @@ namespace jnd::device {
 ///
 /// The forces of all tips act on the arm as their sum and moment, too (thesis, C.3 and C.4).
 /// Feed-forward divides what the hand feels of the device, and of the rendered force, by 1 + K
-/// (Gil and Sanchez); the rendered force can be made up for that. Anything not finite latches a
-/// fault, with no torque at all until `rearm`. Real time except the constructor.
+/// (Gil and Sanchez); the rendered force can be made up for that. Each stage that the limiter
+/// cannot see is bounded here. Anything not finite latches a fault: until `rearm` the links'
+/// weight is held and nothing else, or nothing at all where the pose is not finite either. Real
+/// time except the constructor.
 class TorqueControl {
  public:
   struct Parameters {
-    /// K, >= 0. The thesis uses feed-forward and gives no number.
+    /// K, >= 0, and with the filter's weight of a tick w: w (1 + K) <= 1, or the loop of sensor
+    /// and motor would swing up. The thesis uses feed-forward and gives no number.
     double feed_forward_gain_ratio = 0.0;
     bool compensates_feed_forward = false;     ///< Rendered force times 1 + K.
     double feed_forward_cutoff_hz = 10.0;      ///< Of the measured torque, > 0.
@@ -33,6 +36,8 @@ class TorqueControl {
     /// hand. >= 0.
     double platform_stiffness_n_m_per_rad = 15.0;
     double platform_damping_n_m_s_per_rad = 1.0;
+    double max_platform_moment_n_m =
+        3.0;  ///< Of the two together, for the hand feels it, >= 0.
     /// Spring and damper before a finger's stops: 1 is the default, >= 0.
     double limit_protection_ratio = 1.0;
   };
@@ -59,6 +64,8 @@ class TorqueControl {
   void rearm() noexcept { fault_ = core::Fault::kNone; }
 
  private:
+  [[nodiscard]] JointVector faulted(const JointVector& gravity_n_m) const noexcept;
+
   Parameters parameters_;
   double feed_forward_weight_ratio_;
   std::array<LimitProtection, core::kNumJoints> protection_;

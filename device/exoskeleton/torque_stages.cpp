@@ -15,28 +15,31 @@ double LimitProtection::torque_n_m(double position_rad,
   const double damping = damping_n_m_s_per_rad * std::min(1.0, depth_rad / kFullDepth_rad);
   const double inward_n_m =
       stiffness_n_m_per_rad * depth_rad + damping * outward * velocity_rad_per_s;
-  return -outward * std::max(0.0, inward_n_m);
+  return -outward * std::clamp(inward_n_m, 0.0, max_torque_n_m);
 }
 
 LimitProtection default_protection(int joint) {
   // The elbow stays up: else the arm, which has a joint more than a platform needs, winds.
-  if (joint == 2) return {-0.35, 0.35, 10.0, 1.0};
+  if (joint == 2) return {-0.35, 0.35, 10.0, 1.0, 10.0};
   if (joint < core::kNumArmJoints) {
     constexpr double kMargin_rad = 0.1;
     const JointRange range = range_of(joint);
     return {.low_rad = range.low_rad + kMargin_rad,
             .high_rad = range.high_rad - kMargin_rad,
             .stiffness_n_m_per_rad = 50.0,
-            .damping_n_m_s_per_rad = 5.0};
+            .damping_n_m_s_per_rad = 5.0,
+            .max_torque_n_m = 20.0};
   }
-  // Play of some 2 cm at the tip each way, then about 200 N/m: assumptions.
+  // Play of some 2 cm at the tip each way, then about 200 N/m, up to 5 N at a tip that is 6 to
+  // 7 cm away: assumptions.
+  constexpr double kMost_n_m = 0.35;
   switch ((joint - core::kNumArmJoints) % core::kNumJointsPerFinger) {
     case 0:
-      return {-0.20, 0.20, 2.0, 0.05};
+      return {-0.20, 0.20, 2.0, 0.05, kMost_n_m};
     case 1:
-      return {kNeutralExtension_rad - 0.15, kNeutralExtension_rad + 0.15, 2.0, 0.05};
+      return {kNeutralExtension_rad - 0.15, kNeutralExtension_rad + 0.15, 2.0, 0.05, kMost_n_m};
     default:
-      return {kNeutralProximal_rad - 0.20, kNeutralProximal_rad + 0.20, 1.5, 0.02};
+      return {kNeutralProximal_rad - 0.20, kNeutralProximal_rad + 0.20, 1.5, 0.02, kMost_n_m};
   }
 }
 

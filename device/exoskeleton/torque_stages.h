@@ -10,11 +10,13 @@ namespace jnd::device {
 ///     torque = -stiffness depth - damping velocity min(1, depth / full_depth),
 ///
 /// never towards the stop, so that it can only keep the joint away from it (thesis, A.3: forces
-/// before the physical limit is reached).
+/// before the physical limit is reached), and never more than the hand may feel of it: no
+/// limiter comes after.
 struct LimitProtection {
   double low_rad, high_rad;      ///< Free in between.
   double stiffness_n_m_per_rad;  ///< >= 0.
   double damping_n_m_s_per_rad;  ///< >= 0.
+  double max_torque_n_m;         ///< >= 0.
   static constexpr double kFullDepth_rad = 0.05;
 
   /// Real time.

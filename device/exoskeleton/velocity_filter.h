@@ -32,8 +32,14 @@ class VelocityFilter {
     velocity_rad_per_s_.setZero();
   }
 
-  /// One period later.
+  /// One period later. A joint whose encoder said what is no number starts again at rest from
+  /// the next number on.
   const JointVector& update(const JointVector& position_rad) noexcept {
+    const auto lost = !(position_rad_ + velocity_rad_per_s_).array().isFinite();
+    if (lost.any()) {
+      position_rad_ = lost.select(position_rad, position_rad_);
+      velocity_rad_per_s_ = lost.select(0.0, velocity_rad_per_s_);
+    }
     velocity_rad_per_s_ +=
         weight_ratio_ * ((position_rad - position_rad_) / period_s_ - velocity_rad_per_s_);
     position_rad_ = position_rad;

@@ -150,7 +150,8 @@ struct Writer {
             {"num_strokes", s.num_strokes},
             {"delivered_damping_n_s_per_m", optional_number(s.delivered_damping_n_s_per_m)},
             {"commanded_damping_n_s_per_m", optional_number(s.commanded_damping_n_s_per_m)},
-            {"limited_ticks", s.limited_ticks}};
+            {"limited_ticks", s.limited_ticks},
+            {"finger_lag_s", optional_number(s.finger_lag_s)}};
   }
   void operator()(const IntensityAdjusted& e) const {
     place(e.trial, e.attempt);
@@ -269,6 +270,8 @@ struct Reader {
     s.delivered_damping_n_s_per_m = optional_number(data, "delivered_damping_n_s_per_m");
     s.commanded_damping_n_s_per_m = optional_number(data, "commanded_damping_n_s_per_m");
     s.limited_ticks = whole_number(data.at("limited_ticks"), "limited_ticks");
+    // Sessions before layout 3 have none.
+    if (data.contains("finger_lag_s")) s.finger_lag_s = optional_number(data, "finger_lag_s");
   }
   void operator()(IntensityAdjusted& e) const {
     place(e);

@@ -70,6 +70,7 @@ struct PresentationSummary {
   std::int64_t num_strokes = 0;
   std::optional<double> delivered_damping_n_s_per_m, commanded_damping_n_s_per_m;
   std::int64_t limited_ticks = 0;
+  std::optional<double> finger_lag_s;  ///< By which the fingers trail behind the palm.
 };
 
 struct PresentationEnded {

@@ -184,7 +184,8 @@ void Session::end_presentation(std::int64_t last_tick, const PresentationSummary
                             .num_strokes = summary.num_strokes,
                             .delivered_damping_n_s_per_m = summary.delivered_damping_n_s_per_m,
                             .commanded_damping_n_s_per_m = summary.commanded_damping_n_s_per_m,
-                            .limited_ticks = summary.limited_ticks};
+                            .limited_ticks = summary.limited_ticks,
+                            .finger_lag_s = summary.finger_lag_s};
   commit(PresentationEnded{number, trial.attempt, presentation, last_tick, summary},
          std::move(rows));
 }

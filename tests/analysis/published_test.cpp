@@ -33,6 +33,7 @@ TEST_F(PublishedTest, FindsAStudyInAnyFileOfTheFolder) {
   EXPECT_EQ(honey.values.at("w").standard_deviation, 0.1);
   EXPECT_EQ(honey.values.at("w").place, "p. 1");
   EXPECT_FALSE(found("water").values.at("k").standard_deviation);
+  EXPECT_FALSE(found("water").values.at("k").positive);
 }
 
 TEST_F(PublishedTest, AnUnknownStudyOrFolderHasNone) {
@@ -43,6 +44,7 @@ TEST_F(PublishedTest, AnUnknownStudyOrFolderHasNone) {
 TEST_F(PublishedTest, AFileThatCannotBeReadAsPublishedValuesIsNamed) {
   for (const char* text : {"{", "[]", "{}", R"({"studies":{"water":{"k":{"value":1}}}})",
                            R"({"citation":"A","studies":{"water":{"k":{}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{"positive":1}}}})",
                            R"({"citation":"A","studies":{"water":{"k":{"value":"one"}}}})"}) {
     write("a.json", text);
     try {
@@ -63,6 +65,9 @@ TEST_F(PublishedTest, TheShippedValuesAreThoseOfTheThesis) {
   const Published discrimination = published_for("viscosity_discrimination", folder);
   EXPECT_EQ(discrimination.values.at("group_d.weber_fraction").value, 0.697);
   EXPECT_EQ(discrimination.values.at("group_e.weber_fraction").value, 0.2928);
+  const PublishedValue& lag = discrimination.values.at("finger_lag_s");
+  EXPECT_TRUE(lag.positive);
+  EXPECT_FALSE(lag.value);
   EXPECT_NE(discrimination.citation.find("Schmidt"), std::string::npos);
 }
 

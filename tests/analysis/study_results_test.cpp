@@ -366,6 +366,27 @@ TEST(StudyResults, MovementIsTheMeanOverParticipantsOfPresentationsWithAWholeStr
               0.5 * (0.2 + 0.5), 1e-12);
 }
 
+TEST(StudyResults, FingersTrailBehindThePalmOfADeviceThatHasThem) {
+  HandMadeStudy study;
+  const auto present = [&](const char* block, std::optional<double> finger_lag_s) {
+    study.compare(block, 12.0, 8.0, true);
+    study.move({.presentation = 1,
+                .interval = "test",
+                .stroke_width_m = 0.3,
+                .max_speed_m_per_s = 0.4,
+                .num_strokes = 2,
+                .finger_lag_s = finger_lag_s});
+  };
+  study.add("P01");
+  present("group_d", std::nullopt);
+  EXPECT_EQ(results(study).find("finger_lag_s"), nullptr);
+  present("group_d", 0.010);
+  present("group_d", 0.014);
+  study.add("P02");
+  present("group_d", 0.020);
+  EXPECT_NEAR(value(results(study), "finger_lag_s"), 0.5 * (0.012 + 0.020), 1e-12);
+}
+
 TEST(StudyResults, TheSameSeedGivesTheSameIntervals) {
   HandMadeStudy study;
   for (int person = 1; person <= 6; ++person) {

@@ -181,6 +181,21 @@ TEST_F(ApparatusTest, InRealTimeTheWindowsStopIsThere) {
   EXPECT_TRUE(wait_until(moves_against_force, true));
 }
 
+TEST_F(ApparatusTest, ALoopThatStandsStillIsToldByItsWatchdog) {
+  Apparatus::Parameters parameters = with_doors("lumped", /*realtime=*/true);
+  parameters.injected_faults = {
+      {.first_tick = 50, .injection = device::Injection::kStall, .magnitude = 1.5}};
+  Apparatus apparatus(parameters, laboratory_);
+  ASSERT_TRUE(
+      wait_until([&] { return apparatus.telemetry().fault == core::Fault::kWatchdog; }, true));
+  EXPECT_LE(apparatus.telemetry().num_ticks, 51) << "told while it stood still, not after";
+  const std::uint64_t num_faults = apparatus.telemetry().num_faults;
+  ASSERT_TRUE(wait_until([&] { return apparatus.telemetry().num_ticks > 60; }, true));
+  EXPECT_EQ(apparatus.telemetry().fault, core::Fault::kWatchdog);
+  EXPECT_EQ(apparatus.telemetry().num_faults, num_faults) << "one fault, told once";
+  EXPECT_THROW(apparatus.run_for(0.01), core::Error);
+}
+
 TEST_F(ApparatusTest, InRealTimeWithoutAWindowItKeepsItselfAlive) {
   Apparatus::Parameters parameters;
   parameters.realtime = true;

@@ -79,7 +79,7 @@ inline std::string presentations_text(const core::StudyStore& store, std::int64_
     text << r.trial << r.attempt << r.presentation << r.sequence << r.interval << r.intensity
          << r.first_tick << r.last_tick << r.stroke_width_m << r.max_speed_m_per_s
          << r.mean_height_m << r.num_strokes << r.delivered_damping_n_s_per_m
-         << r.commanded_damping_n_s_per_m << r.limited_ticks;
+         << r.commanded_damping_n_s_per_m << r.limited_ticks << r.finger_lag_s;
     text.end();
   }
   return text.text();

@@ -104,6 +104,7 @@ TEST(Characterization, AMotorHoldsTheLinksAndTheWeightOnItsLever) {
 /// As the sensors of ideal fingers say it: each gives the hand a fifth of this force.
 core::Sample sample_of(double speed_m_per_s, double against_n) {
   core::Sample sample;
+  sample.attached_bits = 0b11111;
   const JointVector pose_rad = neutral_pose_rad();
   ExoskeletonKinematics kinematics(Eigen::Vector3d::Zero());
   kinematics.update(pose_rad);
@@ -130,6 +131,17 @@ TEST(FreeSpaceRegression, FindsTheLineThatTheSensorsTell) {
   EXPECT_EQ(regression.num_samples(), 4);
   EXPECT_NEAR(regression.viscosity_n_s_per_m(), 5.0, 1e-4);
   EXPECT_NEAR(regression.friction_n(), 0.7, 1e-4);
+}
+
+TEST(FreeSpaceRegression, LeavesOutWhatTellsNothing) {
+  FreeSpaceRegression regression;
+  core::Sample dangling = sample_of(0.3, 2.0);
+  dangling.attached_bits = 0b11110;
+  regression.add(dangling);
+  core::Sample stretched = sample_of(0.3, 2.0);
+  stretched.joint_position_rad[core::finger_joint(2, 2)] = 0.0f;
+  regression.add(stretched);
+  EXPECT_EQ(regression.num_samples(), 0);
 }
 
 TEST(FreeSpaceRegression, AHandThatHardlyMovesSaysNothing) {

@@ -242,20 +242,37 @@ TEST(HapticLoopBadInput, ForceOnAPointThatComesOffIsZeroInTheSameTickAtEveryPhas
 
 TEST(HapticLoopBadInput, APointThatIsHeldAgainFeelsNoStep) {
   for (const Phase phase : {Phase::kInRamp, Phase::kInContact, Phase::kAfterRearm}) {
-    LoopScene scene;
-    scene.bring_to(phase);
-    scene.device.move_all(Eigen::Vector3d::Zero());
-    scene.device.state.attached[0] = false;
-    scene.run(20);
-    scene.device.state.attached[0] = true;
-    double last_n = 0.0;
-    for (int tick = 0; tick < 300; ++tick) {
-      scene.run(1);
-      const double now_n = scene.last_received()[0].norm();
-      ASSERT_LT(std::abs(now_n - last_n), 0.05) << words(phase) << ' ' << tick;
-      last_n = now_n;
+    for (const Eigen::Vector3d& velocity :
+         {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.3, 0.0, 0.0)}) {
+      LoopScene moving;
+      moving.bring_to(phase);
+      moving.device.move_all(velocity);
+      moving.device.state.attached[0] = false;
+      moving.run(20);
+      moving.device.state.attached[0] = true;
+      double last_n = 0.0;
+      for (int tick = 0; tick < 300; ++tick) {
+        moving.run(1);
+        const double now_n = moving.last_received()[0].norm();
+        ASSERT_LT(std::abs(now_n - last_n), 0.05) << words(phase) << ' ' << tick;
+        last_n = now_n;
+      }
     }
   }
+}
+
+TEST(HapticLoopBadInput, AMagnetThatChattersDoesNotKnock) {
+  LoopScene scene;
+  scene.bring_to(Phase::kInContact);
+  scene.device.move_all({0.3, 0.0, 0.0});
+  for (int tick = 0; tick < 200; ++tick) {
+    scene.device.state.attached[0] = tick % 2 == 1;
+    scene.run(1);
+    ASSERT_LT(scene.last_received()[0].norm(), 0.02) << tick;
+  }
+  scene.telemetry_door.fetch();
+  EXPECT_EQ(scene.telemetry_door.value().num_detachments[0], 100U);
+  EXPECT_EQ(scene.telemetry_door.value().num_detachments[1], 0U);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -150,6 +151,119 @@ TEST_F(HapticLoopTest, APointThatCameOffGetsNothingAndTheOthersKeepTheirShare) {
   EXPECT_NEAR(device.received.back()[0].x(), -0.35 * 8.88, 1e-9);
   EXPECT_EQ(telemetry().sample.attached_bits, 0b01111);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
+}
+
+TEST_F(HapticLoopTest, ADanglingFingerDoesNotSteerTheForceOnTheOthers) {
+  constexpr double kRightAngle = std::numbers::pi / 2.0;
+  const core::ForceMap map({{.angle_of_attack_rad = 0.0, .drag_coefficient = 0.3},
+                            {.angle_of_attack_rad = kRightAngle / 2.0,
+                             .drag_coefficient = 0.6,
+                             .lift_coefficient = 0.5},
+                            {.angle_of_attack_rad = kRightAngle, .drag_coefficient = 0.9}});
+  HapticLoop::Parameters parameters;
+  parameters.force_map = &map;
+  for (const core::MediumAmounts& medium :
+       {core::water({}), core::mapped_water({}), core::ellipsoid({.viscosity_pa_s = 10.0})}) {
+    device = ScriptedDevice();
+    make_loop({}, parameters);
+    device.move_all({0.4, 0.1, 0.0});
+    device.state.attached[3] = false;
+    command(medium);
+    run(100);
+    const Eigen::Vector3d before = device.received.back()[0];
+    EXPECT_GT(before.norm(), 0.01);
+    for (int tick = 0; tick < 20; ++tick) {
+      device.state.tip_position_m[3] +=
+          Eigen::Vector3d(tick % 2 == 0 ? 0.08 : -0.08, 0.0, 0.02);
+      run(1);
+      EXPECT_LT((device.received.back()[0] - before).norm(), 1e-9) << tick;
+    }
+    EXPECT_EQ(telemetry().fault, Fault::kNone);
+  }
+}
+
+TEST_F(HapticLoopTest, ADeviceThatTakesNoMoreWritesIsHaltedAndDoesNotKeepItsLastForce) {
+  make_loop({{100, 1'000'000, Injection::kWriteFailure}});
+  device.move_all({0.5, 0.0, 0.0});
+  command(core::viscous({.viscosity_pa_s = 10.0}));
+  run(100);
+  ASSERT_GT(device.standing_n[0].norm(), 1.0);
+  for (int tick = 0; tick < 100; ++tick) {
+    run(1);
+    ASSERT_EQ(device.standing_n, core::zero_vectors()) << tick;
+  }
+  EXPECT_EQ(telemetry().fault, Fault::kDeviceWriteFailed);
+}
+
+TEST_F(HapticLoopTest, AStopOrABiteInTheMiddleOfATickStillCutsItsForce) {
+  for (const bool by_watchdog : {false, true}) {
+    for (const bool in_write : {false, true}) {
+      SCOPED_TRACE(std::string(by_watchdog ? "watchdog" : "stop") +
+                   (in_write ? ", in write" : ", in read"));
+      device = ScriptedDevice();
+      core::EmergencyStop pressed;
+      core::WatchdogState watchdog;
+      HapticLoop watched({}, device,
+                         {commands, telemetry_door, pressed, nullptr, nullptr, &watchdog});
+      device.move_all({0.5, 0.0, 0.0});
+      command(core::viscous({.viscosity_pa_s = 10.0}));
+      for (int tick = 0; tick < 100; ++tick) watched.tick();
+      ASSERT_GT(device.standing_n[0].norm(), 1.0);
+      const auto strike = [&] {
+        if (!by_watchdog) return pressed.press();
+        watchdog.bite();
+        device.halt();
+      };
+      (in_write ? device.before_write : device.while_read) = strike;
+      watched.tick();
+      device.before_write = device.while_read = nullptr;
+      // A stop that comes with the write itself is obeyed in the next tick.
+      if (by_watchdog || !in_write) {
+        EXPECT_EQ(device.standing_n, core::zero_vectors());
+      }
+      watched.tick();
+      EXPECT_EQ(device.standing_n, core::zero_vectors());
+    }
+  }
+}
+
+TEST_F(HapticLoopTest, ALeapOfTheClockExcusesNoLeapOfTheHand) {
+  device.move_all({0.1, 0.0, 0.0});
+  command(core::viscous({.viscosity_pa_s = 10.0}));
+  run(100);
+  device.state.device_time_ns += 1'000'000'000;
+  for (Eigen::Vector3d& position : device.state.tip_position_m) position.x() += 0.05;
+  run(1);
+  EXPECT_EQ(telemetry().fault, Fault::kPositionJump);
+  EXPECT_EQ(device.last_total_n(), Eigen::Vector3d::Zero());
+}
+
+TEST_F(HapticLoopTest, OneFingerThatFreezesAmongMovingOnesIsSeen) {
+  device.move_all({0.2, 0.0, 0.0});
+  command(core::viscous({.viscosity_pa_s = 10.0}));
+  run(100);
+  const Eigen::Vector3d frozen_m = device.state.tip_position_m[2];
+  int ticks = 0;
+  while (telemetry().fault == Fault::kNone && ticks < 50) {
+    device.state.tip_position_m[2] = frozen_m;
+    run(1);
+    ++ticks;
+  }
+  EXPECT_EQ(telemetry().fault, Fault::kStaleSample);
+  EXPECT_LE(ticks, 8);
+}
+
+TEST_F(HapticLoopTest, EveryFaultIsCounted) {
+  EXPECT_EQ(telemetry().num_faults, 0U);
+  for (std::uint64_t fault = 1; fault <= 3; ++fault) {
+    stop.press();
+    run(1);
+    (void)stop.release(stop.num_presses());
+    run(5);
+    EXPECT_EQ(telemetry().num_faults, fault);
+    loop->rearm();
+    run(1);
+  }
 }
 
 TEST_F(HapticLoopTest, ADeviceTimeThatRunsBackIsStale) {

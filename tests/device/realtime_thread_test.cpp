@@ -202,6 +202,10 @@ TEST(RequireRealtime, ARealDeviceIsRefusedWithoutRealTimeUnlessAllowed) {
   EXPECT_THROW(require_realtime(device, no_lock, false), core::Error);
   EXPECT_THROW(require_realtime(device, nothing, false), core::Error);
   EXPECT_NO_THROW(require_realtime(device, nothing, true));
+  EXPECT_NO_THROW(require_realtime(device, full, false, &full));
+  EXPECT_THROW(require_realtime(device, full, false, &nothing), core::Error)
+      << "a watchdog that may come too late";
+  EXPECT_NO_THROW(require_realtime(device, full, true, &nothing));
   device.device_capabilities.simulated = true;
   EXPECT_NO_THROW(require_realtime(device, nothing, false));
 }

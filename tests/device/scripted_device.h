@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "device/haptic_device.h"
@@ -23,11 +24,16 @@ class ScriptedDevice final : public HapticDevice {
   }
   void open() override { ++num_opened; }
   [[nodiscard]] bool read(core::HapticState& measured) noexcept override {
+    if (while_read) while_read();
     measured = state;
     return true;
   }
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
+    if (before_write) before_write();
     received.push_back(force_on_hand_n);
+    const bool is_zero = force_on_hand_n == core::zero_vectors();
+    if (is_zero) halted = false;
+    standing_n = halted ? core::zero_vectors() : force_on_hand_n;
     state.device_time_ns += 1'000'000;
     for (int i = 0; i < core::kNumContactPoints; ++i) {
       state.tip_position_m[i] += 0.001 * state.tip_velocity_m_per_s[i];
@@ -35,6 +41,10 @@ class ScriptedDevice final : public HapticDevice {
     return true;
   }
   void close() noexcept override { ++num_closed; }
+  void halt() noexcept override {
+    halted = true;
+    standing_n = core::zero_vectors();
+  }
 
   void move_all(const Eigen::Vector3d& velocity_m_per_s) {
     state.tip_velocity_m_per_s.fill(velocity_m_per_s);
@@ -48,6 +58,10 @@ class ScriptedDevice final : public HapticDevice {
   core::HapticState state;
   DeviceCapabilities device_capabilities;
   std::vector<core::PointVectors> received;
+  core::PointVectors standing_n = core::zero_vectors();  ///< What the hand feels now.
+  bool halted = false;
+  std::function<void()> while_read;
+  std::function<void()> before_write;
   int num_opened = 0;
   int num_closed = 0;
 };

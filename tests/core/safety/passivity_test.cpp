@@ -152,6 +152,16 @@ TEST(PassivityController, IsNotPoisonedByValuesThatAreNoNumbers) {
   EXPECT_EQ(passivity.credit_j(ContactPoint::kIndex), 0.0);
 }
 
+TEST(PassivityController, AVelocityWhoseSquareIsLostMakesNoInfiniteForce) {
+  for (const double velocity : {1e-7, 1e-160, 1e-170, -1e-170, 1e-323, -1e-323}) {
+    PassivityController passivity = controller();
+    PointVectors force = five_of({std::copysign(3.0, velocity), 2.0, 0.0});
+    const PointVectors asked = force;
+    passivity.control(five_of({0.0, 0.0, 0.0}), five_of({velocity, 0.0, 0.0}), force);
+    EXPECT_EQ(force, asked) << velocity;
+  }
+}
+
 TEST(PassivityController, NamesTheParameterItRejects) {
   EXPECT_THROW(PassivityController({.max_credit_j = 0.0}, kPeriodS), Error);
   EXPECT_THROW(PassivityController({}, 0.0), Error);

@@ -8,7 +8,9 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/random_stream.h"
 #include "device/device_registry.h"
+#include "device/exoskeleton/exoskeleton_options.h"
 #include "device/exoskeleton/mujoco_fixture.h"
 #include "device/haptic_loop.h"
 #include "support/allocation_counter.h"
@@ -300,20 +302,77 @@ TEST(ExoskeletonDevice, TheDelayHoldsTheForceBack) {
   EXPECT_EQ(first_tick_of_torque(0.003), at_once + 3);
 }
 
-TEST(ExoskeletonDevice, AHaltForgetsTheForceUntilTheNextWrite) {
+TEST(ExoskeletonDevice, AHaltLastsUntilZerosAreWritten) {
   ExoskeletonDevice exoskeleton(Parameters{.extra_delay_s = 0.003});
   exoskeleton.open();
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(exoskeleton.write(at_every_point({5.0, 0.0, 0.0})));
   exoskeleton.halt();
   core::HapticState state;
-  // What was still on its way does not come any more; what is written from now on does.
+  // Neither what was still on its way comes any more, nor what an old tick still writes.
   const int joint = core::finger_joint(0, 1);
-  ASSERT_TRUE(exoskeleton.write(at_every_point({5.0, 0.0, 0.0})));
-  ASSERT_TRUE(exoskeleton.read(state));
-  EXPECT_LT(state.joint_torque_n_m[joint], 0.15);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(exoskeleton.write(at_every_point({5.0, 0.0, 0.0})));
+    ASSERT_TRUE(exoskeleton.read(state));
+    EXPECT_LT(state.joint_torque_n_m[joint], 0.15);
+  }
+  ASSERT_TRUE(exoskeleton.write(core::zero_vectors()));
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(exoskeleton.write(at_every_point({5.0, 0.0, 0.0})));
   ASSERT_TRUE(exoskeleton.read(state));
   EXPECT_GT(state.joint_torque_n_m[joint], 0.15);
+}
+
+TEST(ExoskeletonDevice, KeepsToItsOwnLimitsWhateverIsWritten) {
+  core::RandomStream random(1, "force");
+  ExoskeletonDevice bounded(
+      Parameters{.max_force_per_point_n = 4.0, .max_total_force_n = 10.0});
+  ExoskeletonDevice asked_within(
+      Parameters{.max_force_per_point_n = 4.0, .max_total_force_n = 10.0});
+  bounded.open();
+  asked_within.open();
+  for (int i = 0; i < 50; ++i) {
+    const Vector3d direction =
+        random.normal(0.0, 1.0) > 0.0 ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1);
+    // Five points of 1000 N each are 2 N each: 4 a point, scaled to 10 in all.
+    ASSERT_TRUE(bounded.write(at_every_point(1000.0 * direction)));
+    ASSERT_TRUE(asked_within.write(at_every_point(2.0 * direction)));
+    core::HapticState one, other;
+    ASSERT_TRUE(bounded.read(one));
+    ASSERT_TRUE(asked_within.read(other));
+    for (int joint = 0; joint < core::kNumJoints; ++joint) {
+      EXPECT_NEAR(one.joint_torque_n_m[joint], other.joint_torque_n_m[joint], 1e-9);
+    }
+  }
+}
+
+TEST(ExoskeletonDevice, OrdersOfBeforeItWasOpenedAreForgotten) {
+  ExoskeletonDevice exoskeleton(Parameters{});
+  SimulatedHand& hand = *exoskeleton.simulated_hand();
+  hand.begin_strokes({}, core::RandomStream(1, "stroke"));
+  hand.put_fingers_back();
+  exoskeleton.open();
+  EXPECT_TRUE(hand.is_home());
+  core::HapticState state;
+  ASSERT_TRUE(exoskeleton.read(state));
+  const double home_x_m = state.end_effector_position_m.x();
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(exoskeleton.write(core::zero_vectors()));
+  ASSERT_TRUE(exoskeleton.read(state));
+  EXPECT_NEAR(state.end_effector_position_m.x(), home_x_m, 0.005);
+  EXPECT_TRUE(hand.is_home());
+}
+
+TEST(ExoskeletonDevice, OptionsSetFeedForwardAndLockTheArm) {
+  const ExoskeletonDevice::Parameters parameters =
+      exoskeleton_parameters("feed-forward=1.5,compensated,arm-locked");
+  EXPECT_EQ(parameters.control.feed_forward_gain_ratio, 1.5);
+  EXPECT_TRUE(parameters.control.compensates_feed_forward);
+  EXPECT_TRUE(parameters.arm_joint_locked[6]);
+  EXPECT_FALSE(exoskeleton_parameters("").control.compensates_feed_forward);
+  for (const char* wrong : {"x", "feed-forward=", "feed-forward=-1", "feed-forward=1x",
+                            "compensated,,arm-locked", "feed-forward=nan"}) {
+    EXPECT_THROW((void)exoskeleton_parameters(wrong), core::Error) << wrong;
+  }
+  EXPECT_NO_THROW((void)make_device("exoskeleton:feed-forward=0.5", 1000.0));
+  EXPECT_THROW((void)make_device("exoskeleton:fast", 1000.0), core::Error);
 }
 
 TEST(ExoskeletonDevice, AFingerThatComesOffSaysSoAndCanBePutBack) {

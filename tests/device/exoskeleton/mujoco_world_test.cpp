@@ -169,6 +169,27 @@ TEST(MujocoWorld, AMagnetLetsGoAboveItsForceAndNotBelow) {
   }
 }
 
+TEST(MujocoWorld, AMagnetHoldsAFingerThatIsPressedOntoTheHand) {
+  Apparatus apparatus({.arm_joint_locked = kAllLocked, .break_away_n = 6.0});
+  apparatus.rest(100);
+  core::PointVectors force_n = core::zero_vectors();
+  for (int i = 0; i < 300; ++i) {
+    force_n[3] = {8.0 * std::min(1.0, i / 200.0), 0.0, 0.0};
+    ASSERT_TRUE(apparatus.step(apparatus.kinematics.torque_of_n_m(force_n), -force_n[3]));
+  }
+  EXPECT_TRUE(apparatus.world.attached()[3]);
+}
+
+TEST(MujocoWorld, NoWorldBeginsWithATug) {
+  for (const double break_away_n : {0.2, 1.0}) {
+    Apparatus apparatus({.break_away_n = break_away_n});
+    EXPECT_EQ(apparatus.world.attached(), core::kAllAttached) << break_away_n;
+    for (const Eigen::Vector3d& force_n : apparatus.world.magnet_force_on_hand_n()) {
+      EXPECT_LT(force_n.norm(), 0.05);
+    }
+  }
+}
+
 TEST(MujocoWorld, WhatAFingerPushesArrivesAtTheHand) {
   Apparatus apparatus({.arm_joint_locked = kAllLocked});
   core::PointVectors force_n = core::zero_vectors();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/random_stream.h"
 
 namespace jnd::device {
 namespace {
@@ -110,7 +111,8 @@ TEST(TorqueControl, PushesAFingerBackBeforeItsStop) {
   const JointVector torque_n_m =
       control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
       rest.kinematics.gravity_torque_n_m();
-  EXPECT_LT(torque_n_m[joint], -1.0);
+  EXPECT_LT(torque_n_m[joint], -0.3);
+  EXPECT_GE(torque_n_m[joint], -0.35) << "a person's finger is in it";
 }
 
 TEST(TorqueControl, TurnsThePlatformBackUnlessToldNotTo) {
@@ -144,7 +146,52 @@ TEST(TorqueControl, NoForceIsTooLargeForTheClamp) {
   EXPECT_TRUE((torque_n_m.cwiseAbs().array() <= max_torque_n_m().array()).all());
 }
 
-TEST(TorqueControl, AForceThatIsNoNumberMeansNoTorqueUntilRearmed) {
+/// What holds the robot's weight and does nothing else.
+bool is_weight_alone(const JointVector& torque_n_m, const Rest& rest) {
+  return (torque_n_m - rest.kinematics.gravity_torque_n_m()).norm() < 1e-12;
+}
+
+TEST(TorqueControl, WithoutForceNoPoseIsHeldAgainstTheHandByMoreThanAFewNewton) {
+  core::RandomStream random(1, "pose");
+  for (int i = 0; i < 2000; ++i) {
+    Rest rest;
+    for (int joint = 0; joint < core::kNumJoints; ++joint) {
+      const JointRange range = range_of(joint);
+      rest.measured.position_rad[joint] = random.uniform(range.low_rad, range.high_rad);
+      rest.measured.velocity_rad_per_s[joint] = random.normal(0.0, 3.0);
+    }
+    rest.kinematics.update(rest.measured.position_rad);
+    TorqueControl control({}, kPeriod_s);
+    const JointVector torque_n_m =
+        control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
+        rest.kinematics.gravity_torque_n_m();
+    // 5 N on a lever of 7 cm, and less than the friction that it makes up for.
+    for (int joint = core::kNumArmJoints; joint < core::kNumJoints; ++joint) {
+      ASSERT_LE(std::abs(torque_n_m[joint]), 0.35 + 0.1) << core::kJointNames[joint];
+    }
+  }
+}
+
+TEST(TorqueControl, ABrokenTorqueSensorPushesNoMoreThanItsMotorTwice) {
+  for (const double broken_n_m : {500.0, -500.0}) {
+    Rest rest;
+    rest.measured.torque_n_m.array() += broken_n_m;
+    TorqueControl control({.feed_forward_gain_ratio = 1.0}, kPeriod_s);
+    JointVector torque_n_m;
+    for (int tick = 0; tick < 500; ++tick) {
+      torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors());
+    }
+    EXPECT_TRUE((torque_n_m.cwiseAbs().array() <= max_torque_n_m().array()).all());
+    // Mended, it is forgotten within a few time constants of the filter.
+    rest.measured.torque_n_m = rest.kinematics.gravity_torque_n_m();
+    for (int tick = 0; tick < 200; ++tick) {
+      torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors());
+    }
+    EXPECT_LT((torque_n_m - rest.kinematics.gravity_torque_n_m()).cwiseAbs().maxCoeff(), 0.01);
+  }
+}
+
+TEST(TorqueControl, AForceThatIsNoNumberLeavesTheWeightHeldAndNothingElseUntilRearmed) {
   for (const double broken : {kNan, kInfinity, -kInfinity}) {
     for (int point = 0; point < core::kNumContactPoints; ++point) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -152,28 +199,39 @@ TEST(TorqueControl, AForceThatIsNoNumberMeansNoTorqueUntilRearmed) {
         TorqueControl control({.feed_forward_gain_ratio = 0.5}, kPeriod_s);
         core::PointVectors force_n = core::zero_vectors();
         force_n[point][axis] = broken;
-        EXPECT_TRUE(control.torque_n_m(rest.kinematics, rest.measured, force_n).isZero(0.0));
-        EXPECT_EQ(control.fault(), core::Fault::kNonFiniteForce);
         EXPECT_TRUE(
-            control.torque_n_m(rest.kinematics, rest.measured, one_force(1.0)).isZero(0.0));
+            is_weight_alone(control.torque_n_m(rest.kinematics, rest.measured, force_n), rest));
+        EXPECT_EQ(control.fault(), core::Fault::kNonFiniteForce);
+        EXPECT_TRUE(is_weight_alone(
+            control.torque_n_m(rest.kinematics, rest.measured, one_force(1.0)), rest));
         control.rearm();
-        EXPECT_FALSE(
-            control.torque_n_m(rest.kinematics, rest.measured, one_force(1.0)).isZero(0.0));
+        EXPECT_FALSE(is_weight_alone(
+            control.torque_n_m(rest.kinematics, rest.measured, one_force(1.0)), rest));
         EXPECT_EQ(control.fault(), core::Fault::kNone);
       }
     }
   }
 }
 
-TEST(TorqueControl, ASensorThatIsNoNumberMeansNoTorqueAndIsForgotten) {
+TEST(TorqueControl, APoseThatIsNoNumberMeansNoTorqueAtAll) {
+  Rest rest;
+  rest.measured.position_rad[3] = kNan;
+  rest.kinematics.update(rest.measured.position_rad);
+  TorqueControl control({}, kPeriod_s);
+  EXPECT_TRUE(
+      control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()).isZero(0.0));
+  EXPECT_EQ(control.fault(), core::Fault::kNonFiniteState);
+}
+
+TEST(TorqueControl, ASensorThatIsNoNumberLeavesTheWeightHeldAndIsForgotten) {
   for (const double broken : {kNan, kInfinity}) {
     for (int joint = 0; joint < core::kNumJoints; ++joint) {
       Rest rest;
       TorqueControl control({.feed_forward_gain_ratio = 0.5}, kPeriod_s);
       const TorqueControl::Measured sound = rest.measured;
       rest.measured.torque_n_m[joint] = broken;
-      EXPECT_TRUE(
-          control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()).isZero(0.0));
+      EXPECT_TRUE(is_weight_alone(
+          control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()), rest));
       EXPECT_EQ(control.fault(), core::Fault::kNonFiniteState);
       control.rearm();
       const JointVector torque_n_m =
@@ -188,6 +246,9 @@ TEST(TorqueControl, NamesTheParameterItRejects) {
   using Parameters = TorqueControl::Parameters;
   EXPECT_THROW(TorqueControl(Parameters{.feed_forward_gain_ratio = kNan}, kPeriod_s),
                core::Error);
+  EXPECT_THROW(TorqueControl(Parameters{.feed_forward_gain_ratio = 50.0}, kPeriod_s),
+               core::Error)
+      << "sensor and motor would swing up";
   EXPECT_THROW(TorqueControl(Parameters{.feed_forward_cutoff_hz = 0.0}, kPeriod_s),
                core::Error);
   EXPECT_THROW(TorqueControl(Parameters{.friction_compensation_ratio = 1.0}, kPeriod_s),

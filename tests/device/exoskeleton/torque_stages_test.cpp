@@ -12,7 +12,8 @@ namespace {
 constexpr LimitProtection kProtection = {.low_rad = -0.2,
                                          .high_rad = 0.3,
                                          .stiffness_n_m_per_rad = 2.0,
-                                         .damping_n_m_s_per_rad = 0.1};
+                                         .damping_n_m_s_per_rad = 0.1,
+                                         .max_torque_n_m = 10.0};
 
 TEST(LimitProtection, LeavesAJointAloneWithinItsRange) {
   for (const double position_rad : {-0.2, 0.0, 0.3}) {
@@ -37,6 +38,12 @@ TEST(LimitProtection, NeitherPullsTowardsTheStopNorJumpsAtItsEdge) {
     EXPECT_LE(torque_n_m * (position_rad - 0.05), 0.0);
   }
   EXPECT_NEAR(kProtection.torque_n_m(0.3 + 1e-9, 10.0), 0.0, 1e-7);
+}
+
+TEST(LimitProtection, NeverGivesMoreThanItsMost) {
+  EXPECT_EQ(kProtection.torque_n_m(100.0, 0.0), -10.0);
+  EXPECT_EQ(kProtection.torque_n_m(0.4, 1e9), -10.0);
+  EXPECT_EQ(kProtection.torque_n_m(-100.0, 0.0), 10.0);
 }
 
 TEST(LimitProtection, EveryJointIsFreeInTheNeutralPoseAndHeldBeforeItsStop) {

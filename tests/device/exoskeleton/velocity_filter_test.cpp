@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/error.h"
@@ -33,6 +34,23 @@ TEST(VelocityFilter, ReachesASteadyVelocityAtItsTimeConstant) {
     filter.update(JointVector::Constant(3.0 * time_s));
   }
   EXPECT_NEAR(filter.velocity_rad_per_s()[21], 3.0, 1e-9);
+}
+
+TEST(VelocityFilter, OneReadingThatIsNoNumberIsToldAndThenForgotten) {
+  VelocityFilter filter(40.0, 0.001);
+  JointVector position_rad = JointVector::Constant(0.3);
+  filter.start(position_rad);
+  for (const double broken : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    JointVector wrong_rad = position_rad;
+    wrong_rad[5] = broken;
+    EXPECT_FALSE(filter.update(wrong_rad).allFinite());
+    for (int tick = 0; tick < 200; ++tick) {
+      position_rad.array() += 0.001;
+      EXPECT_TRUE(filter.update(position_rad).allFinite());
+    }
+    EXPECT_NEAR(filter.velocity_rad_per_s()[5], 1.0, 1e-6);
+    EXPECT_NEAR(filter.velocity_rad_per_s()[4], 1.0, 1e-6);
+  }
 }
 
 TEST(VelocityFilter, NamesTheParameterItRejects) {

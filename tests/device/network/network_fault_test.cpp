@@ -150,7 +150,7 @@ TEST_P(NetworkFaultTest, CutCorruptAndForeignDatagramsAreAsGoodAsLost) {
       Sent spoilt = sent;
       if (++num_spoilt % 20 == 0) {
         if (fault_kind == 0) spoilt.bytes.resize(spoilt.bytes.size() / 2);
-        if (fault_kind == 1) spoilt.bytes[60] ^= std::byte{16};
+        if (fault_kind == 1) spoilt.bytes[60 % spoilt.bytes.size()] ^= std::byte{16};
         if (fault_kind == 2) spoilt.bytes[4] = std::byte{2};
       }
       network.post(spoilt);
@@ -170,7 +170,7 @@ TEST_P(NetworkFaultTest, NothingButSpoiltDatagramsEndsTheForce) {
     network.on_send = [&](const Sent& sent) {
       Sent spoilt = sent;
       if (fault_kind == 0) spoilt.bytes.resize(spoilt.bytes.size() / 2);
-      if (fault_kind == 1) spoilt.bytes[60] ^= std::byte{16};
+      if (fault_kind == 1) spoilt.bytes[60 % spoilt.bytes.size()] ^= std::byte{16};
       if (fault_kind == 2) spoilt.bytes[4] = std::byte{2};
       network.post(spoilt);
     };

@@ -17,7 +17,8 @@ std::vector<EventData> one_of_each() {
                                     .num_strokes = 3,
                                     .delivered_damping_n_s_per_m = 3.2,
                                     .commanded_damping_n_s_per_m = std::nullopt,
-                                    .limited_ticks = 4};
+                                    .limited_ticks = 4,
+                                    .finger_lag_s = 0.012};
   return {SessionStarted{},
           StageEntered{2},
           ItemAnswered{2, "about_you", "body_height_m", "1.75"},
