@@ -24,6 +24,10 @@
 
 namespace jnd::app {
 
+std::string default_laboratory(std::string_view device) {
+  return device::kind_of(device) == "exoskeleton" ? "thesis_exoskeleton" : "thesis";
+}
+
 void require_device(const std::string& name) {
   try {
     (void)device::device_named(name);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/storage/study_store.h"
@@ -26,6 +27,10 @@ struct SessionSetup {
   bool realtime = false;
   bool record = true;  ///< Samples, besides the summaries of strokes.
 };
+
+/// The shipped laboratory whose simulated hands fit the device: "thesis", or
+/// "thesis_exoskeleton" with an arm that is strong enough for the whole robot.
+[[nodiscard]] std::string default_laboratory(std::string_view device);
 
 /// Throws `UsageError` if no device has this name.
 void require_device(const std::string& name);

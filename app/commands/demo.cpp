@@ -27,7 +27,7 @@ struct Options {
   bool fast = false;
   std::string out;
   std::uint64_t seed = 1;
-  std::string laboratory = "thesis";
+  std::string laboratory;  ///< "": the default of the device.
   int jobs = 2;
   std::string device = "lumped";
   bool json = false;
@@ -55,8 +55,9 @@ int run(const Options& options) {
           "overwritten, choose another --out");
     }
   }
-  const experiments::Laboratory laboratory =
-      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+  const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
+      options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
+      "data/laboratories"));
   nlohmann::json document = {{"out", out.string()}, {"studies", nlohmann::json::array()}};
   const auto start = std::chrono::steady_clock::now();
   double simulated_s = 0.0;
@@ -128,8 +129,9 @@ void add_demo(CLI::App& program, Invocation& invocation) {
   command->add_option("--seed", options->seed, "Of everything that is drawn")
       ->check(seed_number())
       ->capture_default_str();
-  command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
-      ->capture_default_str();
+  command->add_option("--laboratory", options->laboratory,
+                      "Laboratory file, or a shipped one; default: thesis, or "
+                      "thesis_exoskeleton with that device");
   command->add_option("--jobs", options->jobs, "Sessions at once")
       ->check(whole_number(1, 1024))
       ->capture_default_str();

@@ -31,7 +31,7 @@ struct Options {
   bool pilot = false;
   bool allow_no_realtime = false;
   bool headless = false;
-  std::string laboratory = "thesis";
+  std::string laboratory;  ///< "": of `run` the default of the device, of `resume` as it was.
   bool realtime = false;
   bool acknowledge = false;
   std::string choose = "repeat";
@@ -133,8 +133,9 @@ int run(Options options) {
   require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_starts(options.device, study.device.rate_hz);
   options.realtime |= has_own_clock(options.device);
-  const experiments::Laboratory laboratory =
-      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+  const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
+      options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
+      "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate);
   const std::vector<std::int64_t> sessions =
       add_sessions(store,
@@ -229,8 +230,9 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");
   command->add_flag("--headless", options->headless, "Without a window, participant simulated");
-  command->add_option("--laboratory", options->laboratory, "Of the simulated participant")
-      ->capture_default_str();
+  command->add_option("--laboratory", options->laboratory,
+                      "Of the simulated participant; default: thesis, or thesis_exoskeleton "
+                      "with that device");
   command->add_flag("--realtime", options->realtime,
                     "Paced by the clock, not as fast as it goes");
   command->add_flag("--acknowledge", options->acknowledge,

@@ -20,7 +20,7 @@ struct Options {
   std::string file;
   int participants = 0;
   std::string folder;
-  std::string laboratory = "thesis";
+  std::string laboratory;  ///< "": the default of the device.
   std::uint64_t seed = 1;
   int jobs = 2;
   std::string device = "lumped";
@@ -35,8 +35,9 @@ int run(const Options& options) {
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
   require_device_starts(options.device, study.device.rate_hz);
-  const experiments::Laboratory laboratory =
-      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+  const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
+      options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
+      "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const std::vector<std::string> participants = next_participants(store, options.participants);
@@ -95,8 +96,9 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 100000));
   command->add_option("--study", options->folder, "Study folder to store in, made if absent")
       ->required();
-  command->add_option("--laboratory", options->laboratory, "Laboratory file, or a shipped one")
-      ->capture_default_str();
+  command->add_option("--laboratory", options->laboratory,
+                      "Laboratory file, or a shipped one; default: thesis, or "
+                      "thesis_exoskeleton with that device");
   command->add_option("--seed", options->seed, "Of everything that is drawn")
       ->check(seed_number())
       ->capture_default_str();

@@ -21,8 +21,8 @@ namespace {
 std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& device,
                                                         double rate_hz) {
   if (!device::make_device(device, rate_hz)->capabilities().moves_by_itself) return nullptr;
-  return std::make_unique<experiments::Laboratory>(
-      experiments::read_laboratory(user_or_shipped("thesis", "data/laboratories")));
+  return std::make_unique<experiments::Laboratory>(experiments::read_laboratory(
+      user_or_shipped(default_laboratory(device), "data/laboratories")));
 }
 
 }  // namespace

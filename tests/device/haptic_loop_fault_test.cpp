@@ -253,6 +253,21 @@ TEST_F(HapticLoopTest, OneFingerThatFreezesAmongMovingOnesIsSeen) {
   EXPECT_LE(ticks, 8);
 }
 
+TEST_F(HapticLoopTest, AnArmingWhileTheStopIsPressedChangesNothing) {
+  run(50);
+  stop.press();
+  run(5);
+  const std::size_t flight = loop->flight_recorder().contents().size();
+  loop->rearm();
+  run(5);
+  EXPECT_EQ(telemetry().num_faults, 1U);
+  EXPECT_TRUE(loop->flight_recorder().is_frozen());
+  EXPECT_EQ(loop->flight_recorder().contents().size(), flight) << "still that of the stop";
+  (void)stop.release(stop.num_presses());
+  run(5);
+  EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop) << "nor does it wait to take effect";
+}
+
 TEST_F(HapticLoopTest, EveryFaultIsCounted) {
   EXPECT_EQ(telemetry().num_faults, 0U);
   for (std::uint64_t fault = 1; fault <= 3; ++fault) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "core/media/medium.h"
 #include "device/fault_injection.h"
 #include "device/haptic_loop.h"
@@ -72,6 +74,23 @@ TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatHeldItUp) {
     EXPECT_EQ(telemetry_.value().fault, is_fault ? core::Fault::kWatchdog : core::Fault::kNone);
     EXPECT_EQ(total_n(inner.received.back()) == 0.0, is_fault);
   }
+}
+
+TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatBeganTooLate) {
+  // No tick begins within a nanosecond of when it is due, and none here misses a whole period.
+  RealtimeThread thread({.priority = 0,
+                         .lock_memory = false,
+                         .max_spin_s = 0.0,
+                         .max_stall_s = 1e-9,
+                         .keep_cpus_awake = false});
+  HapticLoop slow({.rate_hz = 20.0}, device_,
+                  {.commands = commands_, .telemetry = telemetry_, .emergency_stop = stop_});
+  thread.start(slow);
+  while (thread.timing().num_ticks() < 2) std::this_thread::yield();
+  thread.stop();
+  telemetry_.fetch();
+  EXPECT_EQ(telemetry_.value().fault, core::Fault::kWatchdog);
+  EXPECT_EQ(last_force_n(), 0.0);
 }
 
 }  // namespace
