@@ -1,0 +1,62 @@
+// The second study, shortened, on the simulated exoskeleton: what was seen of people's movement
+// there comes out of the model, for nobody put it in.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "app/json_document.h"
+#include "app/tiny_study.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every level once instead of five times.
+std::string shortened(const fs::path& file) {
+  std::ifstream stream(file);
+  nlohmann::json study = nlohmann::json::parse(stream);
+  const auto shorten = [](auto& self, nlohmann::json& part) -> void {
+    if (part.is_object() && part.contains("repetitions")) part["repetitions"] = 1;
+    if (!part.is_structured()) return;
+    for (nlohmann::json& inner : part) self(self, inner);
+  };
+  shorten(shorten, study);
+  return study.dump();
+}
+
+TEST(ExoskeletonStudy, TheThickFluidIsSlowerThePalmLeadsAndTheFingersFollow) {
+#ifdef JND_SANITIZED
+  GTEST_SKIP() << "minutes of physics; device_test steps through the same code";
+#endif
+  const test_support::TemporaryFolder temporary{test_support::memory_folder()};
+  write_file(temporary.path() / "short.json",
+             shortened(fs::path(JND_SOURCE_DIR) / "protocols/viscosity_discrimination.json"));
+  const auto jnd = [&](const std::vector<std::string>& words) {
+    return test_support::run_program(words, {.folder = temporary.path(), .environment = {}});
+  };
+  const test_support::ProgramOutcome simulated =
+      jnd({"simulate", "short.json", "--participants", "1", "--device", "exoskeleton",
+           "--study", "a.study", "--fast"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  const test_support::ProgramOutcome results =
+      jnd({"results", "a.study", "--resamples", "100", "--json"});
+  ASSERT_EQ(results.exit_code, 0) << results.err;
+  std::map<std::string, double> values;
+  for (const auto& section : document(results.out)["sections"]) {
+    for (const auto& estimate : section["estimates"]) {
+      if (estimate["value"].is_number()) values[estimate["name"]] = estimate["value"];
+    }
+  }
+  EXPECT_LT(values.at("max_speed_m_per_s.group_e"), values.at("max_speed_m_per_s.group_d"));
+  EXPECT_GT(values.at("finger_lag_s.group_d"), 0.002);
+  EXPECT_GT(values.at("finger_lag_s.group_e"), 0.002);
+}
+
+}  // namespace
+}  // namespace jnd::app
