@@ -104,6 +104,24 @@ TEST_F(HapticLoopTest, ACommandThatIsNoNumberIsAFaultThatARepairedCommandEnds) {
   EXPECT_NEAR(device.last_total_n().x(), -0.888, 1e-9);
 }
 
+TEST_F(HapticLoopTest, AMediumThatIsNowhereIsAFaultAndNotFreeSpace) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double core::Immersion::*const field :
+       {&core::Immersion::origin_x_m, &core::Immersion::origin_y_m,
+        &core::Immersion::origin_z_m, &core::Immersion::radius_m, &core::Immersion::depth_m}) {
+    device = ScriptedDevice();
+    make_loop({});
+    device.move_all({0.5, 0.0, 0.0});
+    core::HapticCommand nowhere{.sequence = ++sequence,
+                                .medium = core::viscous({.viscosity_pa_s = 10.0})};
+    nowhere.immersion.*field = nan;
+    commands.publish(nowhere);
+    run(1);
+    EXPECT_EQ(telemetry().fault, Fault::kNonFiniteForce);
+    EXPECT_EQ(device.last_total_n(), Eigen::Vector3d::Zero());
+  }
+}
+
 TEST_F(HapticLoopTest, AMomentWithoutANewMeasurementIsBridged) {
   make_loop({{100, 3, Injection::kStaleTime}});
   device.move_all({0.5, 0.0, 0.0});
