@@ -3,23 +3,28 @@
 #include <cstdint>
 #include <string>
 
+#include "core/telemetry.h"
+
 namespace jnd::app {
 
-/// Which points have to hold the hand: those that did when something began to be felt. Bits as
-/// in `core::Sample::attached_bits`.
+/// Which points have to hold the hand: those that did when something began to be felt, until
+/// somebody gives them up. Bits as in `core::Sample::attached_bits`.
 class AttachmentWatch {
  public:
-  /// Something begins to be felt with these points on the hand.
-  void begin(std::uint8_t attached_bits) noexcept {
-    held_bits_ = static_cast<std::uint8_t>(held_bits_ | attached_bits);
-  }
-  /// The points that held and do not any more.
-  [[nodiscard]] std::uint8_t loose_bits(std::uint8_t attached_bits) const noexcept {
-    return static_cast<std::uint8_t>(held_bits_ & ~attached_bits);
-  }
+  /// Something begins to be felt, by the points that hold now.
+  void begin(const core::Telemetry& now) noexcept;
+  /// The points that held and do not now.
+  [[nodiscard]] std::uint8_t loose_bits(const core::Telemetry& now) const noexcept;
+  /// Those, and the points that came off since `begin` and hold again.
+  [[nodiscard]] std::uint8_t came_off_bits(const core::Telemetry& now) const noexcept;
+  /// The points that do not hold and never did: forgotten, or left out.
+  [[nodiscard]] std::uint8_t absent_bits(const core::Telemetry& now) const noexcept;
+  /// These points are not waited for any more, until they hold again when something begins.
+  void give_up(std::uint8_t given_up) noexcept;
 
  private:
-  std::uint8_t held_bits_ = 0;
+  std::uint8_t held_bits_ = 0, given_up_bits_ = 0;
+  decltype(core::Telemetry::num_detachments) num_detachments_{};  ///< At `begin`.
 };
 
 /// "the index finger", "the inner palm and the thumb": for people. "" for no bits.

@@ -51,9 +51,12 @@ class SimulatedVisit {
       if (!session_.state().ended) session_.complete();
       result.ended = true;
     } catch (const Cancelled&) {
+      // First of all: the disk may take its time.
+      visit_.apparatus().render(core::free_space());
       visit_.keep_timing();
       session_.pause("stopped by the operator");
     } catch (const core::Error&) {
+      visit_.apparatus().render(core::free_space());
       // A fault of the loop is an event of the session, whatever else it ends.
       if (visit_.apparatus().telemetry().fault != core::Fault::kNone) {
         visit_.keep_fault();

@@ -1,6 +1,7 @@
 #include "app/presenter.h"
 
 #include <limits>
+#include <utility>
 
 #include "experiments/session/stimulus.h"
 
@@ -13,18 +14,23 @@ const PresentationState& Presenter::presentation() const {
 }
 
 void Presenter::begin(const Block& block, const std::string& interval) {
-  first_tick_ = apparatus_.next_tick();
-  session_.begin_presentation(interval, first_tick_);
+  session_.begin_presentation(interval, apparatus_.next_tick());
   amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
   limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
   apparatus_.render(amounts_);
+  // The disk may have taken its time: what is felt begins here.
+  switched_tick_ = apparatus_.next_tick();
   under_way_ = true;
   measuring_ = false;
 }
 
 bool Presenter::waits_for_ramp() const { return under_way_ && !measuring_; }
 
-bool Presenter::ramp_has_passed() const { return felt_s() >= needs_.ramp_s; }
+bool Presenter::ramp_has_passed() const {
+  if (apparatus_.realtime_thread() == nullptr) return felt_s() >= needs_.ramp_s;
+  // The tick that ran while the command was sent may have missed it, the next one has not.
+  return apparatus_.next_tick() >= switched_tick_ + 2 && apparatus_.telemetry().ramp_finished;
+}
 
 void Presenter::ramp_is_over() {
   sums_before_ = apparatus_.telemetry().contact_sums;
@@ -32,12 +38,16 @@ void Presenter::ramp_is_over() {
   measuring_ = true;
 }
 
-Presenter::Felt Presenter::end() {
+Presenter::Felt Presenter::end(Afterwards afterwards) {
   PresentationSummary summary;
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   Felt felt{.delivered_damping_n_s_per_m = kUnknown, .device_damping_n_s_per_m = kUnknown};
+  const core::Telemetry last = apparatus_.telemetry();
+  felt.last_tick = apparatus_.next_tick() - 1;
+  felt.duration_s = static_cast<double>(felt.last_tick - switched_tick_) / needs_.rate_hz;
+  if (afterwards == Afterwards::kFreeSpace) apparatus_.render(core::free_space());
   if (measuring_) {
-    core::ContactSums sums = apparatus_.telemetry().contact_sums - sums_before_;
+    core::ContactSums sums = last.contact_sums - sums_before_;
     const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
     summary.stroke_width_m = strokes.stroke_width_m;
     summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
@@ -47,17 +57,13 @@ Presenter::Felt Presenter::end() {
     if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
     // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
-    felt.device_damping_n_s_per_m =
-        apparatus_.telemetry().contact_sums.device_damping_n_s_per_m();
+    felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();
     summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
   }
   if (amounts_.is_plain_damping()) {
     summary.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
   }
-  summary.limited_ticks =
-      static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks) - limited_before_;
-  felt.last_tick = apparatus_.next_tick() - 1;
-  felt.duration_s = static_cast<double>(felt.last_tick - first_tick_) / needs_.rate_hz;
+  summary.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
   session_.end_presentation(felt.last_tick, summary);
   under_way_ = false;
   measuring_ = false;
@@ -65,14 +71,14 @@ Presenter::Felt Presenter::end() {
 }
 
 void Presenter::abandon() {
-  if (measuring_) (void)apparatus_.finish_strokes();
+  const bool metered = std::exchange(measuring_, false);
   under_way_ = false;
-  measuring_ = false;
+  if (metered) (void)apparatus_.finish_strokes();
 }
 
 double Presenter::felt_s() const noexcept {
   if (!under_way_) return 0.0;
-  return static_cast<double>(apparatus_.next_tick() - first_tick_) / needs_.rate_hz;
+  return static_cast<double>(apparatus_.next_tick() - switched_tick_) / needs_.rate_hz;
 }
 
 }  // namespace jnd::app

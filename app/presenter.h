@@ -18,6 +18,12 @@ class Presenter {
             const experiments::DeviceNeeds& needs)
       : apparatus_(apparatus), session_(session), needs_(needs) {}
 
+  /// What is rendered once a presentation has ended.
+  enum class Afterwards {
+    kSameMedium,  ///< Until the next begins.
+    kFreeSpace,   ///< At once: no hand stays in a medium for as long as a disk takes.
+  };
+
   /// What one presentation came to.
   struct Felt {
     /// Slope of the delivered force on speed, after the ramp; NaN if it ended before. As the
@@ -32,17 +38,20 @@ class Presenter {
   /// Stores the presentation's beginning, then switches the medium: "test", "reference" or
   /// "free_space" of the current trial.
   void begin(const experiments::Block& block, const std::string& interval);
-  /// Whether the ramp has had its time and `ramp_is_over` is due.
+  /// Whether `ramp_is_over` is still to come, and whether it is due: the loop renders the
+  /// medium in full.
   [[nodiscard]] bool waits_for_ramp() const;
   [[nodiscard]] bool ramp_has_passed() const;
   /// Felt is what comes after the ramp: from here on it is measured.
   void ramp_is_over();
-  /// Stores what it came to.
-  Felt end();
-  /// It counts for nothing: a fault, a pause. The event of the attempt's end is the caller's.
+  /// Stores what it came to up to now.
+  Felt end(Afterwards afterwards = Afterwards::kSameMedium);
+  /// It counts for nothing: a fault, a pause. The event of the attempt's end is the caller's,
+  /// and so is free space, first: this waits for the disk.
   void abandon();
 
   [[nodiscard]] bool under_way() const noexcept { return under_way_; }
+  /// Since the medium was switched.
   [[nodiscard]] double felt_s() const noexcept;
 
  private:
@@ -53,7 +62,7 @@ class Presenter {
   const experiments::DeviceNeeds& needs_;
   bool under_way_ = false;
   bool measuring_ = false;
-  std::int64_t first_tick_ = 0;
+  std::int64_t switched_tick_ = 0;  ///< The first that can have been in the medium.
   std::int64_t limited_before_ = 0;
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;

@@ -33,25 +33,24 @@ struct TrialPlayer::CameOff {
 };
 
 void TrialPlayer::stop_if_loose() const {
-  const std::uint8_t loose =
-      attachment_.loose_bits(apparatus_.telemetry().sample.attached_bits);
-  if (loose != 0) throw CameOff{loose};
+  const std::uint8_t came_off = attachment_.came_off_bits(apparatus_.telemetry());
+  if (came_off != 0) throw CameOff{came_off};
 }
 
 /// What the experimenter and the person do about it; what was felt counts for nothing.
 void TrialPlayer::put_fingers_back(std::uint8_t loose_bits) {
   constexpr double kPatienceS = 20.0;
   constexpr double kGlanceS = 0.020;
-  presenter_.abandon();
   apparatus_.render(core::free_space());
   apparatus_.go_home();
+  presenter_.abandon();
   const std::optional<std::int64_t> trial = session_.state().current_trial();
   const std::string reason = came_off_reason(loose_bits);
   if (trial && session_.state().trial(*trial).under_way) session_.discard_attempt(reason);
   session_.pause(reason);
   apparatus_.put_fingers_back();
   double waited_s = 0.0;
-  while (attachment_.loose_bits(apparatus_.telemetry().sample.attached_bits) != 0) {
+  while (attachment_.loose_bits(apparatus_.telemetry()) != 0) {
     stop_if_cancelled(run_);
     if (waited_s >= kPatienceS) {
       throw core::Error("device: expected " + words_of_points(loose_bits) +
@@ -76,7 +75,7 @@ void TrialPlayer::explore(const Exploration& exploration) {
 
 void TrialPlayer::feel(const Exploration& exploration) {
   stop_if_cancelled(run_);
-  attachment_.begin(apparatus_.telemetry().sample.attached_bits);
+  attachment_.begin(apparatus_.telemetry());
   const std::int64_t first_tick = apparatus_.next_tick();
   apparatus_.render(amounts_of(exploration.setting));
   StrokeIntent intent = participant_.strokes("");
@@ -128,7 +127,7 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent) {
 }
 
 TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
-  attachment_.begin(apparatus_.telemetry().sample.attached_bits);
+  attachment_.begin(apparatus_.telemetry());
   stop_if_loose();
   presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
@@ -138,6 +137,9 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
       plan_of(intent), stroke_stream(number, trial.attempt,
                                      static_cast<std::int64_t>(trial.presentations.size())));
   apparatus_.run_for(run_.study.device.ramp_s);
+  while (run_.realtime && !presenter_.ramp_has_passed()) {
+    apparatus_.run_for(1.0 / run_.study.device.rate_hz);
+  }
   presenter_.ramp_is_over();
   run_strokes(intent);
   const Presenter::Felt felt = presenter_.end();

@@ -12,11 +12,7 @@
 
 namespace jnd::app {
 
-/// The disk did not take a commit: what it was asked to keep has not happened.
-class StorageError : public core::Error {
- public:
-  using core::Error::Error;
-};
+using core::StorageError;
 
 /// A stored session with its apparatus, from start or resumption to its end or interruption:
 /// what a simulated participant and an operator have in common. Not thread-safe, not real time.

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/attachment_watch.h"
 #include "app/operator/operator_doors.h"
@@ -38,6 +40,8 @@ class OperatedSession {
     bool realtime = true;          ///< Else time passes only in `advance`: for tests.
     bool allow_no_realtime = false;
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
+    /// Gets every sample as `trace` does, from the thread that stores it; may be empty.
+    std::function<void(const core::Sample&)> on_sample;
   };
 
   /// Starts the device; throws `Error` if it cannot be.
@@ -64,7 +68,9 @@ class OperatedSession {
   void carry_out_requests();
   void carry_out(const OperatorRequest& request);
   [[nodiscard]] bool must_wait(const OperatorRequest& request) const;
+  void watch_apparatus();
   void watch_for_faults();
+  void arming_succeeded();
   void watch_for_loose_points();
   [[nodiscard]] std::uint8_t loose_bits() const;
   void follow_session();
@@ -111,8 +117,11 @@ class OperatedSession {
   bool begun_ = false;
   bool left_ = false;
   core::Fault known_fault_ = core::Fault::kNone;
+  std::uint64_t known_num_faults_ = 0;  ///< When `rearm` was asked for.
   bool rearming_ = false;
+  bool was_paused_before_fault_ = false;
   AttachmentWatch attachment_;
+  std::uint8_t paused_for_bits_ = 0;  ///< The points that came off before this pause.
   std::string failure_;
   std::string refusal_;
   std::uint64_t num_refusals_ = 0;

@@ -394,7 +394,11 @@ SessionView OperatedSession::view() const {
     view.fault = std::string(core::words(known_fault_));
     view.fault_name = std::string(core::name(known_fault_));
   }
-  view.loose_points = words_of_points(loose_bits());
+  view.loose_bits = loose_bits();
+  view.loose_points = words_of_points(view.loose_bits);
+  view.came_off_points = words_of_points(paused_for_bits_);
+  const core::Telemetry& now = visit_.apparatus().telemetry();
+  if (now.num_ticks > 0) view.absent_points = words_of_points(attachment_.absent_bits(now));
   view.refusal = refusal_;
   view.num_refusals = num_refusals_;
   view.remark = remark_;

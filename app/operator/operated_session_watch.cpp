@@ -3,46 +3,58 @@
 
 namespace jnd::app {
 
-/// A fault is stored as soon as it is seen; the attempt it hit counts for nothing.
+void OperatedSession::watch_apparatus() {
+  watch_for_faults();
+  watch_for_loose_points();
+}
+
+/// A fault is stored as soon as it is seen; the attempt it hit counts for nothing. The next one
+/// may latch before anybody has seen that the last was over.
 void OperatedSession::watch_for_faults() {
-  const core::Fault fault = visit_.apparatus().telemetry().fault;
-  if (fault == core::Fault::kNone) {
-    if (known_fault_ == core::Fault::kNone || !rearming_) return;
-    known_fault_ = core::Fault::kNone;
-    rearming_ = false;
-    resting_for_trial_ = 0;
-    if (begun_ && state().paused && !state().ended) session_.go_on();
-    return;
-  }
-  if (known_fault_ != core::Fault::kNone || !failure_.empty()) return;
-  known_fault_ = fault;
+  const core::Telemetry now = visit_.apparatus().telemetry();
+  if (now.fault == core::Fault::kNone) return arming_succeeded();
+  const bool latched_anew = rearming_ && now.num_faults != known_num_faults_;
+  if ((now.fault == known_fault_ && !latched_anew) || !failure_.empty()) return;
+  if (known_fault_ == core::Fault::kNone) was_paused_before_fault_ = state().paused;
+  known_fault_ = now.fault;
   rearming_ = false;
   abandon_presentation();
   if (!begun_ || state().ended) return;
   visit_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
-    session_.discard_attempt(std::string("fault: ") + std::string(name(fault)));
+    session_.discard_attempt(std::string("fault: ") + std::string(name(now.fault)));
   }
   visit_.keep_timing();
 }
 
+/// The session goes on by itself only from what the fault alone had stopped.
+void OperatedSession::arming_succeeded() {
+  if (known_fault_ == core::Fault::kNone || !rearming_) return;
+  known_fault_ = core::Fault::kNone;
+  rearming_ = false;
+  resting_for_trial_ = 0;
+  const bool may_go_on = !was_paused_before_fault_ && loose_bits() == 0;
+  if (begun_ && may_go_on && state().paused && !state().ended) session_.go_on();
+}
+
 std::uint8_t OperatedSession::loose_bits() const {
-  return attachment_.loose_bits(visit_.apparatus().telemetry().sample.attached_bits);
+  return attachment_.loose_bits(visit_.apparatus().telemetry());
 }
 
 /// A point that comes off while something is felt: that counts for nothing, and nothing goes on
-/// before the point holds again.
+/// before the operator says so, even if the point holds again.
 void OperatedSession::watch_for_loose_points() {
   if (known_fault_ != core::Fault::kNone || !failure_.empty()) return;
   if (!presenter_.under_way() && !feeling_) return;
-  const std::uint8_t loose = loose_bits();
-  if (loose == 0) return;
+  const std::uint8_t came_off = attachment_.came_off_bits(visit_.apparatus().telemetry());
+  if (came_off == 0) return;
   abandon_presentation();
-  const std::string reason = came_off_reason(loose);
+  const std::string reason = came_off_reason(came_off);
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
     session_.discard_attempt(reason);
   }
   session_.pause(reason);
+  paused_for_bits_ = came_off;
   visit_.apparatus().put_fingers_back();
 }
 

@@ -72,6 +72,12 @@ struct Pause {
   std::string reason;
 };
 struct GoOn {};
+/// Points that came off are left off, as for a sore finger: stored as a note, and nobody waits
+/// for them any more. Goes on after a pause.
+struct GoOnWithout {
+  std::uint8_t point_bits = 0;  ///< All that the operator saw to be loose.
+  std::string reason;
+};
 /// After the emergency stop or a fault: the stop released, force back, the trial run again.
 /// Nothing of it if the stop was pressed again since `num_stop_presses` was seen.
 struct Rearm {
@@ -92,7 +98,7 @@ using OperatorRequest =
     std::variant<operate::Begin, operate::AnswerItem, operate::FeelMedium,
                  operate::FinishMedium, operate::FinishStage, operate::Present, operate::Answer,
                  operate::Adjust, operate::Undo, operate::Correct, operate::AddNote,
-                 operate::Pause, operate::GoOn, operate::Rearm, operate::EndEarly,
-                 operate::Leave>;
+                 operate::Pause, operate::GoOn, operate::GoOnWithout, operate::Rearm,
+                 operate::EndEarly, operate::Leave>;
 
 }  // namespace jnd::app

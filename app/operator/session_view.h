@@ -160,6 +160,9 @@ struct SessionView {
   std::string fault;                ///< One sentence; "" for none.
   std::string fault_name;           ///< "emergency_stop"
   std::string loose_points;         ///< "the index finger": it came off; "" for none.
+  std::uint8_t loose_bits = 0;      ///< The same, as in `GoOnWithout`.
+  std::string came_off_points;      ///< Why the session is paused; "" for another reason.
+  std::string absent_points;        ///< That do not hold the hand and never did; "" for none.
   bool stop_pressed = false;
   std::uint64_t num_stop_presses = 0;  ///< As in `Rearm`.
   std::string refusal;             ///< Why the last request was not carried out; "" otherwise.

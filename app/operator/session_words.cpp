@@ -125,6 +125,18 @@ void add_medium_words(SessionView& view, std::string_view instruction) {
   view.sign = HandSign::kOpenHand;
 }
 
+std::string paused_words(const SessionView& view) {
+  if (!view.loose_points.empty()) {
+    return "Came off: " + view.loose_points +
+           ". Put it back on the hand, then go on; what was felt is repeated.";
+  }
+  if (!view.came_off_points.empty()) {
+    return "Came off and holds again: " + view.came_off_points +
+           ". Go on when the participant is ready; what was felt is repeated.";
+  }
+  return "The hand is in free space. Go on when the participant is ready.";
+}
+
 }  // namespace
 
 std::string number_words(double value) {
@@ -176,11 +188,7 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
       return;
     case Step::kPaused:
       view.heading = "Paused";
-      view.sentence = view.loose_points.empty()
-                          ? "The hand is in free space. Go on when the participant is ready."
-                          : "Came off: " + view.loose_points +
-                                ". Put it back on the hand, then go on; what was felt is "
-                                "repeated.";
+      view.sentence = paused_words(view);
       view.participant_text = own_words(Own::kPause, view.language);
       return;
     case Step::kFault:

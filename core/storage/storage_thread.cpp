@@ -31,11 +31,13 @@ void StorageThread::after(std::int64_t tick, const std::function<void()>& work,
   std::unique_lock lock(mutex_);
   work_ = &work;
   work_tick_ = tick;
+  work_was_done_ = false;
   wake_.notify_one();
   while (!done_.wait_for(lock, kGlance, [&] { return work_ == nullptr; })) {
     if (while_waiting) while_waiting();
   }
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (!work_was_done_) throw StorageError(loss_);
+  if (work_failure_) std::rethrow_exception(std::exchange(work_failure_, nullptr));
 }
 
 void StorageThread::commit(StudyStore& store, const Commit& commit,
@@ -46,10 +48,36 @@ void StorageThread::commit(StudyStore& store, const Commit& commit,
 }
 
 void StorageThread::take_samples() {
-  samples_.drain([this](const Sample& sample) {
-    consumer_.take(sample);
-    last_taken_tick_ = sample.tick;
-  });
+  std::string loss;
+  try {
+    samples_.drain([this](const Sample& sample) {
+      consumer_.take(sample);
+      last_taken_tick_ = sample.tick;
+    });
+    return;
+  } catch (const std::exception& error) {
+    loss = error.what();
+  } catch (...) {
+    loss = "recording: expected to keep a sample, found that it cannot be";
+  }
+  // What else waits is given up with it: the disk has had its time.
+  samples_.drain([](const Sample&) {});
+  const std::lock_guard guard(mutex_);
+  if (loss_.empty()) loss_ = loss + "; samples were lost: leave the session, then resume it";
+}
+
+void StorageThread::do_work(std::unique_lock<std::mutex>& lock) {
+  const std::function<void()>& work = *work_;
+  std::exception_ptr failure;
+  lock.unlock();
+  try {
+    work();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  work_failure_ = failure;
+  work_was_done_ = true;
 }
 
 void StorageThread::run() {
@@ -59,36 +87,16 @@ void StorageThread::run() {
     const bool ending = ending_;
     lock.unlock();
     const std::int64_t before = last_taken_tick_;
-    std::exception_ptr failure;
-    try {
-      take_samples();
-    } catch (...) {
-      // What could not be written is given up; whoever waits or asks next is told.
-      failure = std::current_exception();
-      samples_.drain([](const Sample&) {});
-    }
+    take_samples();
     const auto now = std::chrono::steady_clock::now();
     if (last_taken_tick_ != before) last_progress = now;
     lock.lock();
-    if (failure && !failure_) failure_ = failure;
-    if (work_ != nullptr) {
-      const bool due = last_taken_tick_ >= work_tick_ || now - last_progress > kPatience;
-      if (failure_ || due) {
-        if (!failure_) {
-          const std::function<void()>& work = *work_;
-          lock.unlock();
-          try {
-            work();
-          } catch (...) {
-            failure = std::current_exception();
-          }
-          lock.lock();
-          if (failure) failure_ = failure;
-        }
-        work_ = nullptr;
-        done_.notify_one();
-        continue;
-      }
+    const bool is_due = last_taken_tick_ >= work_tick_ || now - last_progress > kPatience;
+    if (work_ != nullptr && (is_due || !loss_.empty())) {
+      if (loss_.empty()) do_work(lock);
+      work_ = nullptr;
+      done_.notify_one();
+      continue;
     }
     if (ending) return;
     wake_.wait_for(lock, kPoll);

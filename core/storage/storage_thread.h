@@ -6,14 +6,22 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "core/doors/spsc_queue.h"
+#include "core/error.h"
 #include "core/sample.h"
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::core {
+
+/// The disk did not keep what it was asked to: that has not happened.
+class StorageError : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Where the samples of a loop go: to the recording, and to whoever watches them.
 struct SampleConsumer {
@@ -33,8 +41,9 @@ struct SampleConsumer {
 
 /// The one thread that writes a session: it takes the loop's samples from their queue, hands
 /// them to the recording, and carries out what is asked of it in between, so that the recording
-/// is on disk before the event that speaks of it. Whatever fails in it is thrown from the next
-/// call.
+/// is on disk before the event that speaks of it. A sample that could not be written leaves a
+/// hole, and no event may speak of what is not there: from then on every call throws, also when
+/// the disk has recovered.
 class StorageThread {
  public:
   /// `samples` and the consumer's recording must outlive the thread.
@@ -45,9 +54,10 @@ class StorageThread {
   StorageThread& operator=(const StorageThread&) = delete;
 
   /// Runs `work` on the storage thread once every sample up to `tick` has been taken (-1: at
-  /// once) and returns when it is done. Throws what `work` or an earlier sample threw. A tick
-  /// that never comes, because its sample was dropped or the loop stands still, counts as taken
-  /// after a fifth of a second without samples. Not real time.
+  /// once) and returns when it is done. Throws what `work` threw, and `StorageError`, with
+  /// `work` left undone, once a sample was lost. A tick that never comes, because its sample
+  /// was dropped or the loop stands still, counts as taken after a fifth of a second without
+  /// samples. Not real time.
   /// `while_waiting`, if any, is called every 20 ms in the calling thread.
   void after(std::int64_t tick, const std::function<void()>& work,
              const std::function<void()>& while_waiting = {});
@@ -59,6 +69,7 @@ class StorageThread {
  private:
   void run();
   void take_samples();
+  void do_work(std::unique_lock<std::mutex>& lock);
 
   SpscQueue<Sample>& samples_;
   SampleConsumer consumer_;
@@ -66,7 +77,9 @@ class StorageThread {
   std::condition_variable wake_, done_;
   const std::function<void()>* work_ = nullptr;
   std::int64_t work_tick_ = -1;
-  std::exception_ptr failure_;
+  std::exception_ptr work_failure_;
+  bool work_was_done_ = false;
+  std::string loss_;  ///< Why samples were lost; "" while none were.
   bool ending_ = false;
   std::int64_t last_taken_tick_ = -1;
   std::thread thread_;

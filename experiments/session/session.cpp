@@ -144,6 +144,12 @@ double Session::intensity_of(const TrialState& trial, const std::string& interva
   return trial.planned.intensity.value_or(trial.set_intensity);
 }
 
+void Session::require_interval(const std::string& interval) const {
+  const std::optional<std::int64_t> trial = state_.current_trial();
+  if (!trial) cannot("present " + interval, "a trial that waits");
+  (void)intensity_of(state_.trial(*trial), interval);
+}
+
 void Session::begin_presentation(const std::string& interval, std::int64_t tick) {
   const std::int64_t number = open_trial("present a stimulus");
   const TrialState& trial = state_.trial(number);
@@ -244,15 +250,24 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
           .last_tick = trial.last_tick};
 }
 
+/// What is stored for a value that was answered.
+double Session::response_for(double value) const {
+  const TrialState& trial = state_.trial(open_trial("take an answer"));
+  const AnswerKind kind = current_form().answer;
+  const double response = kind == AnswerKind::kMatch ? trial.set_intensity : value;
+  if (!is_answer(kind, response)) cannot("take an answer", kWhatAnAnswerIs);
+  return response;
+}
+
+void Session::require_answer(double value) const { (void)response_for(value); }
+
 void Session::answer(double value, double response_time_s, std::int64_t last_tick) {
   const std::int64_t number = open_trial("take an answer");
   const TrialState& trial = state_.trial(number);
   if (trial.presentations.empty() || !trial.presentations.back().last_tick) {
     cannot("take an answer", "a finished presentation");
   }
-  const AnswerKind kind = current_form().answer;
-  const double response = kind == AnswerKind::kMatch ? trial.set_intensity : value;
-  if (!is_answer(kind, response)) cannot("take an answer", kWhatAnAnswerIs);
+  const double response = response_for(value);
   if (!(response_time_s >= 0.0) || !std::isfinite(response_time_s)) {
     cannot("take an answer", "a response time >= 0");
   }
@@ -270,16 +285,21 @@ void Session::discard_attempt(const std::string& reason) {
   commit(AttemptDiscarded{number, state_.trial(number).attempt, reason});
 }
 
-void Session::undo(const std::string& reason) {
+void Session::require_undo() const {
   const std::optional<std::int64_t> last = state_.last_answered_trial();
   if (!last || state_.trial(*last).stage != state_.stage) {
     cannot("undo", "an answer in this block (correct an earlier one instead)");
   }
+}
+
+void Session::undo(const std::string& reason) {
+  require_undo();
+  const std::int64_t last = *state_.last_answered_trial();
   if (const auto open = state_.current_trial(); open && state_.trial(*open).under_way) {
     discard_attempt("undo of the answer before");
   }
-  const TrialState& trial = state_.trial(*last);
-  commit(AnswerUndone{*last, trial.attempt, trial.answer_sequence, reason});
+  const TrialState& trial = state_.trial(last);
+  commit(AnswerUndone{last, trial.attempt, trial.answer_sequence, reason});
 }
 
 void Session::correct(std::int64_t number, double response, const std::string& reason) {

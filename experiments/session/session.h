@@ -65,18 +65,25 @@ class Session {
   void finish_stage();
 
   void start_trial(std::int64_t tick);
-  /// `interval`: "test", "reference" or "free_space". Ends the presentation under way, if any,
-  /// must have been ended before.
+  /// Of the current trial, under way or not: throws as `begin_presentation` would for an
+  /// interval that it has not.
+  void require_interval(const std::string& interval) const;
+  /// `interval`: "test", "reference" or "free_space". The presentation under way, if any, must
+  /// have been ended before.
   void begin_presentation(const std::string& interval, std::int64_t tick);
   void end_presentation(std::int64_t last_tick, const PresentationSummary& summary);
   /// Production: one step, beyond the range of starting values if need be, never below 0.
   /// Returns false, and does nothing, where the intensity cannot go further.
   bool adjust(Direction direction, StepSize size);
   [[nodiscard]] bool can_adjust(Direction direction, StepSize size) const;
+  /// Throws as `answer` would for this value, so that nothing need be ended for it in vain.
+  void require_answer(double value) const;
   /// Percent, or 1 and 0; in production the set intensity is the answer and `value` is ignored.
   void answer(double value, double response_time_s, std::int64_t last_tick);
   void discard_attempt(const std::string& reason);
 
+  /// Throws as `undo` would where there is nothing to be taken back.
+  void require_undo() const;
   /// Takes the last answer of the current block back; its trial is run again.
   void undo(const std::string& reason);
   /// Sets an earlier answer right, its presentations untouched.
@@ -106,6 +113,7 @@ class Session {
   void draw_trials();
   [[nodiscard]] std::int64_t open_trial(const char* act) const;
   [[nodiscard]] double intensity_of(const TrialState& trial, const std::string& interval) const;
+  [[nodiscard]] double response_for(double value) const;
   [[nodiscard]] double adjusted(Direction direction, StepSize size) const;
   [[nodiscard]] core::TrialRow answered_row(std::int64_t number, double response) const;
 

@@ -4,11 +4,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <thread>
+
 #include "app/session_content.h"
 #include "app/session_setup.h"
 #include "app/tiny_study.h"
 #include "core/error.h"
 #include "core/storage/integrity.h"
+#include "core/storage/recording.h"
 #include "experiments/study/study_reader.h"
 #include "support/temporary_folder.h"
 
@@ -139,6 +143,49 @@ TEST_F(LaboratoryRunTest, AskedToStopItDoesSoInTheMiddleOfAPresentationAndIsResu
   EXPECT_TRUE(run(*store, run_of(*store)).ended);
   EXPECT_TRUE(store->completed(1));
   EXPECT_TRUE(core::verify(*store).complete);
+}
+
+TEST_F(LaboratoryRunTest, AskedToStopInRealTimeItTakesTheMediumAwayBeforeItWaitsForTheDisk) {
+  const auto store = store_with_session("slow");
+  LaboratoryRun to_viscous = run_of(*store);
+  int num_answers = 0;
+  to_viscous.on_event = [&](const core::EventRow& event) {
+    num_answers += event.kind == "trial_answered" ? 1 : 0;
+  };
+  to_viscous.is_cancelled = [&] { return num_answers == 6; };
+  EXPECT_FALSE(run(*store, to_viscous).ended);
+
+  LaboratoryRun stopping = run_of(*store);
+  stopping.realtime = true;
+  bool presenting = false;
+  bool cancelled = false;
+  int num_glances = 0;
+  stopping.on_event = [&](const core::EventRow& event) {
+    presenting |= event.kind == "presentation_started";
+    // As long as a ramp takes and some more, and shorter than a heartbeat may be silent.
+    if (cancelled && event.kind == "loop_measured") {
+      std::this_thread::sleep_for(std::chrono::milliseconds(120));
+    }
+  };
+  stopping.is_cancelled = [&] {
+    num_glances += presenting ? 1 : 0;
+    cancelled |= num_glances > 20;
+    return cancelled;
+  };
+  EXPECT_FALSE(run(*store, stopping).ended);
+  EXPECT_EQ(store->events(1).back().kind, "paused");
+  const core::RecordingReader recording(store->recording_file(1));
+  const std::int64_t last_tick = recording.last_tick();
+  bool felt = false;
+  recording.read(last_tick - 400, last_tick, [&](const core::Sample& sample) {
+    const bool has_force = sample.tip_force_n != decltype(sample.tip_force_n){};
+    felt |= has_force;
+    EXPECT_EQ(sample.fault, 0);
+    if (sample.tick == last_tick) {
+      EXPECT_FALSE(has_force);
+    }
+  });
+  EXPECT_TRUE(felt);
 }
 
 TEST_F(LaboratoryRunTest, AStageThatWasInterruptedGoesOnWithItsNextMedium) {

@@ -1,6 +1,7 @@
 // The card in the middle where no trial is under way.
 
 #include <algorithm>
+#include <array>
 
 #include "app/gui/hand_sign.h"
 #include "app/gui/views/run_parts.h"
@@ -181,6 +182,32 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
   stack.draw(inside.inset(10));
 }
 
+/// Points of the hand that should be looked after before something is felt.
+void draw_points(Ui& ui, Rect& card, const SessionView& view, RunViewState& state) {
+  const bool is_loose = !view.loose_points.empty();
+  if (!is_loose && view.absent_points.empty()) return;
+  constexpr std::array kBeforeSomethingIsFelt = {Step::kBegin, Step::kPaused, Step::kMedium,
+                                                 Step::kRest, Step::kReady};
+  if (std::ranges::find(kBeforeSomethingIsFelt, view.step) == kBeforeSomethingIsFelt.end()) {
+    return;
+  }
+  Rect strip = card.take_bottom(56);
+  strip = strip.middle(strip.width - 32, 44);
+  if (is_loose) {
+    const ButtonStyle style{.key = {letter('G'), true}};
+    const char* label = "Go on without it";
+    const Rect button = strip.take_right(ui.button_width(label, style), 12);
+    if (ui.button("go_on_without", button, label, style)) {
+      open_dialog(state, RunViewState::Dialog::kGoOnWithout);
+      state.given_up_bits = view.loose_bits;
+    }
+  }
+  ui.text(strip,
+          is_loose ? "Came off: " + view.loose_points + "."
+                   : "Not on the hand: " + view.absent_points + ".",
+          {.colour = Colour::kAmber, .align = Align::kCentre});
+}
+
 }  // namespace
 
 void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
@@ -202,6 +229,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
              .align = Align::kCentre,
              .wrap = true});
   }
+  draw_points(ui, inside, view, state);
   switch (view.step) {
     case Step::kBegin:
       return draw_begin(ui, inside, view, result);

@@ -47,6 +47,11 @@ DialogWords words_of(Dialog dialog) {
     case Dialog::kGoOnEarly:
       return {"Go on before the rest is over", "The reason is stored as a note.", "reason",
               "Go on", true};
+    case Dialog::kGoOnWithout:
+      return {"Go on without what came off",
+              "Nobody waits for it any more until it holds again; the reason is stored as a "
+              "note.",
+              "reason", "Go on without it", true};
     case Dialog::kNone:
       break;
   }
@@ -88,6 +93,9 @@ void request(const SessionView& view, const RunViewState& state, RunViewResult& 
       break;
     case Dialog::kGoOnEarly:
       result.requests.emplace_back(operate::FinishStage{view.stage, state.reason});
+      break;
+    case Dialog::kGoOnWithout:
+      result.requests.emplace_back(operate::GoOnWithout{state.given_up_bits, state.reason});
       break;
     case Dialog::kNone:
       break;

@@ -13,12 +13,23 @@ namespace jnd::app::gui {
 
 /// What the window remembers of a running session: words being typed, nothing that counts.
 struct RunViewState {
-  enum class Dialog { kNone, kUndo, kCorrect, kNote, kPause, kEndEarly, kLeave, kGoOnEarly };
+  enum class Dialog {
+    kNone,
+    kUndo,
+    kCorrect,
+    kNote,
+    kPause,
+    kEndEarly,
+    kLeave,
+    kGoOnEarly,
+    kGoOnWithout
+  };
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;    ///< Its first field takes the keyboard.
   bool is_covered = false;       ///< By a dialog of the application, which then draws the stop.
   bool shows_apparatus = false;  ///< Instead of the card and what is around it.
   std::string reason;            ///< Or the note.
+  std::uint8_t given_up_bits = 0;  ///< Points, of the dialog that goes on without them.
   std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
   experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
   std::string correct_value;

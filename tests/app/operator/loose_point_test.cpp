@@ -118,6 +118,73 @@ TEST_F(LoosePointTest, APointThatNeverHeldIsNotWaitedFor) {
   EXPECT_EQ(std::ranges::count(kinds(), "paused"), 0);
 }
 
+TEST_F(LoosePointTest, APointThatNeverHeldIsNamedBeforeSomethingIsFelt) {
+  open();
+  EXPECT_EQ(view().absent_points, "");
+  run_to_block("comparison");
+  const SessionView ready = go_on_with_loose_index(0.0, 1.0);
+  EXPECT_EQ(ready.absent_points, "the index finger");
+  EXPECT_EQ(ready.loose_points, "");
+  pass(1.0);
+  EXPECT_EQ(view().absent_points, "");
+}
+
+TEST_F(LoosePointTest, AMagnetThatComesOffAndHoldsAgainBetweenTwoGlancesIsNotMissed) {
+  open();
+  run_to_block("comparison");
+  const std::int64_t trial = go_on_with_loose_index(1.002, 1.006).trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(1.0);
+  const SessionView paused = view();
+  EXPECT_EQ(paused.step, Step::kPaused);
+  EXPECT_EQ(paused.loose_points, "");
+  EXPECT_EQ(paused.came_off_points, "the index finger");
+  EXPECT_NE(paused.sentence.find("holds again: the index finger"), std::string::npos)
+      << paused.sentence;
+  EXPECT_NE(last_event_of("attempt_discarded").find("came off: index"), std::string::npos);
+  const SessionView again = act(operate::GoOn{});
+  EXPECT_EQ(again.step, Step::kReady);
+  EXPECT_EQ(again.came_off_points, "");
+  answer_trial(again, 1.0);
+  EXPECT_EQ(store_->trials(session_number_).back().attempt, 2);
+}
+
+TEST_F(LoosePointTest, APointCanBeLeftOffForAReasonWhichIsStored) {
+  open();
+  run_to_block("comparison");
+  const std::int64_t trial = go_on_with_loose_index(1.0, 1000.0).trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(1.0);
+  const SessionView paused = view();
+  EXPECT_EQ(paused.step, Step::kPaused);
+  const std::vector<std::string> before = kinds();
+  EXPECT_NE(act(operate::GoOnWithout{paused.loose_bits, ""}).refusal, "");
+  EXPECT_NE(act(operate::GoOnWithout{0b00001, "sore"}).refusal, "")
+      << "not the points that were seen";
+  EXPECT_EQ(kinds(), before);
+  const SessionView ready = act(operate::GoOnWithout{paused.loose_bits, "sore"});
+  EXPECT_EQ(ready.step, Step::kReady) << ready.refusal;
+  EXPECT_EQ(ready.loose_points, "");
+  EXPECT_EQ(ready.absent_points, "") << "nobody forgot it";
+  EXPECT_EQ(ready.notes.back(), "goes on without the index finger: sore");
+  EXPECT_EQ(kinds().back(), "continued");
+  answer_trial(ready, 1.0);
+  EXPECT_EQ(store_->trials(session_number_).back().trial, trial);
+  EXPECT_EQ(std::ranges::count(kinds(), "paused"), 1);
+}
+
+TEST_F(LoosePointTest, APointCanBeLeftOffBetweenTwoTrials) {
+  open();
+  run_to_block("comparison");
+  const SessionView first = go_on_with_loose_index(3.0, 1000.0);
+  answer_trial(first, 1.0);
+  pass(1.0);
+  const SessionView ready = view();
+  EXPECT_EQ(ready.loose_points, "the index finger");
+  EXPECT_EQ(act(operate::GoOnWithout{ready.loose_bits, "sore"}).step, Step::kReady);
+  EXPECT_EQ(act(operate::Present{ready.trial->trial, "reference"}).step, Step::kPresenting);
+}
+
 TEST_F(LoosePointTest, AnEmergencyStopComesBeforeALooseFinger) {
   open();
   run_to_block("comparison");

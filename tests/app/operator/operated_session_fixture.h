@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,8 +48,10 @@ class OperatedSessionTest : public ::testing::Test {
                                     .doors = doors_,
                                     .trace = &trace_,
                                     .scopes = &scopes_,
-                                    .realtime = false,
-                                    .injected_faults = faults});
+                                    .realtime = realtime_,
+                                    .allow_no_realtime = true,
+                                    .injected_faults = faults,
+                                    .on_sample = on_sample_});
     pass(0.1);
   }
 
@@ -152,6 +155,8 @@ class OperatedSessionTest : public ::testing::Test {
   std::unique_ptr<experiments::Study> study_;
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;
+  bool realtime_ = false;  ///< Of sessions opened from now on, as `on_sample_`.
+  std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;
 };
 

@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace jnd::core {
 namespace {
@@ -53,6 +55,26 @@ TEST(StorageThread, ThrowsFromTheNextCallWhatAWriteThrew) {
       samples, {.visit = [](const Sample&) { throw std::runtime_error("disk full"); }});
   ASSERT_TRUE(samples.try_push(at(0)));
   EXPECT_THROW(storage.after(0, [] {}), std::runtime_error);
+}
+
+TEST(StorageThread, NothingIsDoneAfterASampleWasLostThoughTheDiskHasRecovered) {
+  SpscQueue<Sample> samples(16);
+  bool is_full = true;
+  StorageThread storage(samples, {.visit = [&](const Sample&) {
+                          if (std::exchange(is_full, false)) throw Error("disk full");
+                        }});
+  ASSERT_TRUE(samples.try_push(at(0)));
+  bool done = false;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    try {
+      storage.after(0, [&] { done = true; });
+      ADD_FAILURE() << "the hole was forgotten";
+    } catch (const StorageError& error) {
+      EXPECT_NE(std::string(error.what()).find("disk full"), std::string::npos);
+    }
+    ASSERT_TRUE(samples.try_push(at(attempt + 1)));
+  }
+  EXPECT_FALSE(done);
 }
 
 TEST(StorageThread, ThrowsWhatTheWorkThrewAndGoesOn) {

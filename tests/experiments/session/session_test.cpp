@@ -88,6 +88,28 @@ TEST_F(SessionTest, RunsEveryStageAndShowsEachStimulusOncePerRepetition) {
   EXPECT_EQ(s.current_stage(), &production_);
 }
 
+TEST_F(SessionTest, WhatWouldBeRefusedCanBeAskedBeforeAndChangesNothing) {
+  Session s = session();
+  s.start();
+  s.enter_stage();
+  EXPECT_THROW(s.require_interval("test"), core::Error) << "no trial";
+  s.finish_stage();
+  s.enter_stage();
+  EXPECT_THROW(s.require_undo(), core::Error) << "no answer";
+  EXPECT_NO_THROW(s.require_interval("reference")) << "it waits";
+  s.start_trial(0);
+  s.begin_presentation("test", 0);
+  const std::size_t num_events = log_.events.size();
+  EXPECT_NO_THROW(s.require_answer(1.0)) << "the presentation can be ended for it";
+  EXPECT_THROW(s.require_answer(0.5), core::Error);
+  EXPECT_THROW(s.require_answer(std::nan("")), core::Error);
+  EXPECT_THROW(s.require_interval("honey"), core::Error);
+  EXPECT_EQ(log_.events.size(), num_events);
+  s.end_presentation(99, {});
+  s.answer(1.0, 1.0, 99);
+  EXPECT_NO_THROW(s.require_undo());
+}
+
 TEST_F(SessionTest, ReplayingTheLogGivesTheSameState) {
   Session s = session();
   s.start();

@@ -263,6 +263,41 @@ TEST_F(RunView, TheTestHasItsKeyAlsoBeforeItWasFelt) {
   EXPECT_EQ(after_key<operate::Present>(view, {letter('T')}).interval, "test");
 }
 
+TEST_F(RunView, WhatCameOffIsToldWhereverSomethingWaitsToBeFeltAndCanBeGivenUpForAReason) {
+  for (const Step step : {Step::kPaused, Step::kReady}) {
+    SessionView view = comparison();
+    view.step = step;
+    view.loose_points = "the index finger";
+    view.loose_bits = 0b01000;
+    draw(view);
+    EXPECT_TRUE(ui_.drawn().shows("Came off: the index finger."));
+    ui_.press({letter('G'), true});
+    draw(view);
+    view.loose_bits = 0b11000;  // Meanwhile; the operator has not seen it.
+    draw(view);
+    ASSERT_NE(ui_.drawn().find("dialog_do"), nullptr);
+    EXPECT_FALSE(ui_.drawn().find("dialog_do")->enabled) << "a reason is needed";
+    ui_.type("sore");
+    ui_.press(Key::kEnter);
+    const auto without = only<operate::GoOnWithout>(draw(view));
+    EXPECT_EQ(without.point_bits, 0b01000);
+    EXPECT_EQ(without.reason, "sore");
+  }
+}
+
+TEST_F(RunView, APointThatIsNotOnTheHandIsNamedBeforeItCouldBeForgotten) {
+  SessionView view = comparison();
+  view.absent_points = "the thumb";
+  draw(view);
+  EXPECT_FALSE(ui_.drawn().shows("Not on the hand")) << "something is being felt";
+  for (const Step step : {Step::kBegin, Step::kReady}) {
+    view.step = step;
+    draw(view);
+    EXPECT_TRUE(ui_.drawn().shows("Not on the hand: the thumb."));
+    EXPECT_EQ(ui_.drawn().find("go_on_without"), nullptr);
+  }
+}
+
 TEST_F(RunView, AFaultSaysWhatHappenedWhatIsSafeAndHowToGoOn) {
   SessionView view = comparison();
   view.step = Step::kFault;

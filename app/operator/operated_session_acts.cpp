@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "app/operator/operated_session.h"
+#include "core/error.h"
+#include "core/safety/fault.h"
+#include "experiments/session/stimulus.h"
+
+namespace jnd::app {
+
+using namespace experiments;
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
+
+bool felt_the_test(const TrialState& trial) {
+  return std::any_of(trial.presentations.begin(), trial.presentations.end(),
+                     [](const PresentationState& felt) { return felt.interval == "test"; });
+}
+
+bool felt_the_reference(const TrialState& trial) {
+  return std::any_of(
+      trial.presentations.begin(), trial.presentations.end(),
+      [](const PresentationState& felt) { return felt.interval == "reference"; });
+}
+
+}  // namespace
+
+/// What each request does. Throws `Error` for one that is not possible now.
+struct OperatedSession::Act {
+  OperatedSession& my;
+
+  void operator()(const operate::Begin& begin) const {
+    if (my.begun_) refuse("the session has begun already");
+    my.visit_.begin(begin.choice, my.language_);
+    my.begun_ = true;
+    my.begun_s_ = my.now_s();
+  }
+
+  void operator()(const operate::AnswerItem& given) const {
+    require_running();
+    if (given.stage != my.state().stage) refuse("that question's stage is over");
+    if (given.answer.empty()) refuse("expected an answer, found none");
+    const Step step = my.step();
+    if (step != Step::kItem && step != Step::kFeeling && step != Step::kStageDone &&
+        step != Step::kMedium) {
+      refuse("nothing is asked now");
+    }
+    if (step == Step::kFeeling) my.end_feeling(true);
+    my.session_.answer_item(given.item, given.answer);
+  }
+
+  void operator()(const operate::FeelMedium&) const {
+    require_running();
+    const std::optional<Exploration> medium = my.next_medium();
+    if (my.step() != Step::kMedium || !medium) refuse("no medium waits to be felt");
+    begin_feeling();
+    my.feeling_ =
+        Feeling{.first_tick = my.visit_.apparatus().next_tick(), .setting = medium->setting};
+    my.visit_.apparatus().render(amounts_of(medium->setting));
+    constexpr double kTouchingM = -0.005;  // Of the surface, for a solid.
+    my.move_simulated_hand(medium->setting.medium == "solid" ? kTouchingM : -0.15);
+  }
+
+  void operator()(const operate::FinishMedium&) const {
+    require_running();
+    if (my.step() != Step::kFeeling) refuse("no medium is being felt");
+    my.end_feeling(true);
+  }
+
+  void operator()(const operate::FinishStage& finish) const {
+    require_running();
+    if (finish.stage != my.state().stage) return;  // Pressed twice: it is finished.
+    const Step step = my.step();
+    if (step == Step::kBreak) {
+      if (my.now_s() < my.break_until_s_) {
+        if (finish.reason.empty())
+          refuse("the rest is not over; going on early needs a reason");
+        my.session_.note("went on before the end of the rest: " + finish.reason);
+      }
+    } else if (step != Step::kStageDone) {
+      refuse("the stage is not done yet");
+    }
+    my.session_.finish_stage();
+    my.visit_.keep_timing();
+  }
+
+  void operator()(const operate::Present& present) const {
+    const TrialState& trial = require_trial(present.trial);
+    const TrialForm form = my.session_.current_form();
+    if (present.interval == "test" && form.has_reference &&
+        !(trial.under_way && felt_the_reference(trial))) {
+      refuse("the reference comes first");
+    }
+    if (present.interval == "reference" && !form.has_reference) {
+      refuse("this block has no reference");
+    }
+    my.session_.require_interval(present.interval);
+    begin_feeling();
+    if (!trial.under_way) {
+      my.reference_felt_s_.reset();
+      my.session_.start_trial(my.visit_.apparatus().next_tick());
+    }
+    end_presentation();
+    my.presenter_.begin(*my.block(), present.interval);
+    my.move_simulated_hand(-0.15);
+  }
+
+  void operator()(const operate::Answer& answer) const {
+    const TrialState& trial = require_trial(answer.trial);
+    if (!trial.under_way || !my.presenter_.under_way() || !felt_the_test(trial)) {
+      refuse("the test has not been felt yet");
+    }
+    my.session_.require_answer(answer.value);
+    const double response_time_s = my.presenter_.felt_s();
+    const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
+    my.session_.answer(answer.value, response_time_s, felt.last_tick);
+  }
+
+  void operator()(const operate::Adjust& adjust) const {
+    const TrialState& trial = require_trial(adjust.trial);
+    if (!my.presenter_.under_way() || trial.presentations.back().interval != "test") {
+      refuse("the fluid to adjust is not being felt");
+    }
+    const bool possible = my.session_.can_adjust(adjust.direction, adjust.size);
+    // Where levels are hidden, an end of the range looks like any other step.
+    if (!possible && !my.hides_levels_) {
+      refuse(adjust.direction == Direction::kLower ? "it cannot go lower"
+                                                   : "it cannot go higher");
+    }
+    end_presentation();
+    my.session_.adjust(adjust.direction, adjust.size);
+    my.presenter_.begin(*my.block(), "test");
+  }
+
+  void operator()(const operate::Undo& undo) const {
+    require_running();
+    require_reason(undo.reason);
+    my.session_.require_undo();
+    my.abandon_presentation();
+    my.session_.undo(undo.reason);
+    my.resting_for_trial_ = 0;
+  }
+
+  void operator()(const operate::Correct& correct) const {
+    require_reason(correct.reason);
+    my.session_.correct(correct.trial, correct.value, correct.reason);
+  }
+
+  void operator()(const operate::AddNote& note) const {
+    const bool has_words = note.text.find_first_not_of(" \t\n") != std::string::npos;
+    if (!my.begun_ || !has_words) refuse("expected a note, found no words");
+    my.session_.note(note.text);
+  }
+
+  void operator()(const operate::Pause& pause) const {
+    require_running();
+    my.abandon_presentation();
+    if (my.state().current_trial() && my.state().trial(*my.state().current_trial()).under_way) {
+      my.session_.discard_attempt("paused");
+    }
+    my.session_.pause(pause.reason);
+  }
+
+  void operator()(const operate::GoOn&) const {
+    require_begun_and_armed();
+    require_held();
+    go_on();
+  }
+
+  void operator()(const operate::GoOnWithout& without) const {
+    require_begun_and_armed();
+    require_reason(without.reason);
+    const std::uint8_t loose = my.loose_bits();
+    if (loose == 0) refuse("nothing has come off that does not hold again");
+    if (without.point_bits != loose) refuse("other points have come off by now");
+    my.session_.note("goes on without " + words_of_points(loose) + ": " + without.reason);
+    my.attachment_.give_up(loose);
+    if (my.state().paused) go_on();
+  }
+
+  void operator()(const operate::Rearm& rearm) const {
+    if (my.known_fault_ == core::Fault::kNone) refuse("there is nothing to arm");
+    if (!my.parameters_.doors.emergency_stop.release(rearm.num_stop_presses)) {
+      refuse("the emergency stop was pressed again");
+    }
+    my.known_num_faults_ = my.visit_.apparatus().telemetry().num_faults;
+    my.visit_.apparatus().rearm();
+    my.rearming_ = true;
+  }
+
+  void operator()(const operate::EndEarly& end) const {
+    if (!my.begun_ || my.state().ended) refuse("there is no session under way");
+    require_reason(end.reason);
+    my.abandon_presentation();
+    my.visit_.keep_timing();
+    my.session_.end_early(end.reason);
+  }
+
+  void operator()(const operate::Leave& leave) const {
+    my.left_ = true;  // Whatever the disk says to the rest.
+    my.abandon_presentation();
+    if (!my.begun_ || my.state().ended) return;
+    my.visit_.keep_timing();
+    my.session_.pause(leave.reason.empty() ? "left by the operator" : leave.reason);
+  }
+
+ private:
+  void require_begun_and_armed() const {
+    if (!my.begun_) refuse("the session has not begun yet");
+    if (my.state().ended) refuse("the session is over");
+    if (my.known_fault_ != core::Fault::kNone) refuse("the device has to be armed first");
+  }
+
+  void require_running() const {
+    require_begun_and_armed();
+    if (my.state().paused) refuse("the session is paused");
+  }
+
+  void go_on() const {
+    my.session_.go_on();
+    my.paused_for_bits_ = 0;
+    my.resting_for_trial_ = 0;
+  }
+
+  /// Every point that has ever held, so that none is forgotten between two trials.
+  void require_held() const {
+    const std::uint8_t loose = my.loose_bits();
+    if (loose == 0) return;
+    my.visit_.apparatus().put_fingers_back();
+    refuse(words_of_points(loose) +
+           " came off: put back what came off first, or go on without it");
+  }
+
+  void begin_feeling() const {
+    require_held();
+    my.attachment_.begin(my.visit_.apparatus().telemetry());
+  }
+
+  static void require_reason(const std::string& reason) {
+    if (reason.empty()) refuse("expected a reason, found none");
+  }
+
+  /// The trial that the operator saw must still be the one that waits: a key pressed twice
+  /// does not reach into the next.
+  const TrialState& require_trial(std::int64_t number) const {
+    require_running();
+    const std::optional<std::int64_t> current = my.state().current_trial();
+    if (my.block() == nullptr || !my.state().stage_open || current != number) {
+      refuse("that trial is answered already");
+    }
+    return my.state().trial(number);
+  }
+
+  void end_presentation() const {
+    if (!my.presenter_.under_way()) return;
+    const bool was_reference =
+        my.state().trial(*my.state().current_trial()).presentations.back().interval ==
+        "reference";
+    const Presenter::Felt felt = my.presenter_.end();
+    if (was_reference) my.reference_felt_s_ = felt.duration_s;
+  }
+};
+
+void OperatedSession::carry_out(const OperatorRequest& request) {
+  std::visit(Act{*this}, request);
+}
+
+}  // namespace jnd::app

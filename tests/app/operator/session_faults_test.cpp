@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/operator/operated_session_fixture.h"
+#include "core/safety/fault.h"
+#include "core/storage/flight_record.h"
+#include "core/storage/integrity.h"
+
+namespace jnd::app {
+namespace {
+
+/// Faults that come in a row, and pauses around them.
+class SessionFaultsTest : public OperatedSessionTest {
+ protected:
+  /// In a block, at its next trial, on a device that goes wrong so, from then on, in seconds.
+  SessionView go_on_with(device::Injection injection, double from_s, double to_s) {
+    open();
+    run_to_block("comparison");
+    reopen({{.first_tick = std::llround(1000.0 * from_s),
+             .num_ticks = std::llround(1000.0 * (to_s - from_s)),
+             .injection = injection,
+             .magnitude = 2.0}});
+    return act(operate::Begin{"repeat"});
+  }
+
+  void stop() {
+    doors_.emergency_stop.press();
+    pass(0.05);
+    EXPECT_EQ(view().step, Step::kFault);
+  }
+  SessionView rearm() {
+    act(operate::Rearm{view().num_stop_presses});
+    pass(0.05);
+    return view();
+  }
+  [[nodiscard]] std::vector<std::string> faults_stored() const {
+    std::vector<std::string> data;
+    for (const core::EventRow& event : store_->events(session_number_)) {
+      if (event.kind == "fault_raised") data.push_back(event.data);
+    }
+    return data;
+  }
+  [[nodiscard]] std::size_t num_flight_records() const {
+    return core::flight_records(store_->recording_file(session_number_)).size();
+  }
+};
+
+TEST_F(SessionFaultsTest, AStopDuringAPauseEndsThePauseForNobody) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(0.5);
+  act(operate::Pause{"the magnets are looked after"});
+  stop();
+  const SessionView armed = rearm();
+  EXPECT_EQ(armed.fault, "");
+  EXPECT_EQ(armed.step, Step::kPaused) << "whoever paused goes on";
+  EXPECT_EQ(std::ranges::count(kinds(), "continued"), 0);
+  EXPECT_EQ(act(operate::GoOn{}).step, Step::kReady);
+}
+
+TEST_F(SessionFaultsTest, AStopWithoutAPauseGoesOnByItselfAlsoASecondTime) {
+  open();
+  run_to_block("comparison");
+  for (int time = 1; time <= 2; ++time) {
+    stop();
+    EXPECT_EQ(rearm().step, Step::kReady);
+    EXPECT_EQ(std::ranges::count(kinds(), "continued"), time);
+  }
+}
+
+TEST_F(SessionFaultsTest, NothingGoesOnByItselfWithALooseFinger) {
+  const std::int64_t trial =
+      go_on_with(device::Injection::kDetachedPoint, 1.5, 3.0).trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(0.5);
+  stop();
+  pass(1.2);
+  const SessionView armed = rearm();
+  EXPECT_EQ(armed.step, Step::kPaused);
+  EXPECT_EQ(armed.loose_points, "the index finger");
+  EXPECT_NE(act(operate::GoOn{}).refusal.find("the index finger"), std::string::npos);
+  pass(2.0);
+  EXPECT_EQ(act(operate::GoOn{}).step, Step::kReady);
+}
+
+TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
+  // The hand leaves the workspace while there is no force anyway, and comes back later.
+  go_on_with(device::Injection::kPositionJump, 0.5, 2.0);
+  stop();
+  EXPECT_EQ(num_flight_records(), 1U);
+  pass(0.6);
+  SessionView armed = rearm();
+  EXPECT_EQ(armed.step, Step::kFault);
+  EXPECT_EQ(armed.fault_name, "outside_workspace");
+  EXPECT_EQ(armed.fault, core::words(core::Fault::kOutsideWorkspace));
+  ASSERT_EQ(faults_stored().size(), 2U);
+  const std::string start(core::words(core::Fault::kOutsideWorkspace).substr(0, 15));
+  EXPECT_NE(faults_stored().back().find(start), std::string::npos) << faults_stored().back();
+  EXPECT_EQ(num_flight_records(), 2U);
+
+  // The same again is a fault of its own.
+  armed = rearm();
+  EXPECT_EQ(armed.fault_name, "outside_workspace");
+  EXPECT_EQ(faults_stored().size(), 3U);
+  EXPECT_EQ(num_flight_records(), 3U);
+
+  pass(1.5);
+  EXPECT_EQ(faults_stored().size(), 3U) << "one that stays is none more";
+  EXPECT_EQ(rearm().step, Step::kReady);
+  answer_trial(view(), 1.0);
+  session_.reset();
+  EXPECT_TRUE(core::verify(*store_).problems.empty());
+}
+
+}  // namespace
+}  // namespace jnd::app
