@@ -23,7 +23,7 @@ std::unique_ptr<HapticDevice> network_device(std::string_view argument, double r
   const Address server = resolved(endpoint);
   std::random_device draw;
   auto device = std::make_unique<NetworkDevice>(
-      std::make_unique<UdpPort>(any_address_for(server)), server,
+      UdpPort::connected_to(server), server,
       NetworkDevice::Parameters{.rate_hz = rate_hz,
                                 .token = std::uint64_t{draw()} << 32 | draw()});
   if (!argument.empty()) device->ask();

@@ -68,6 +68,10 @@ class HapticDevice {
   /// did. Real time.
   [[nodiscard]] virtual core::Fault fault() const noexcept { return core::Fault::kNone; }
 
+  /// Whether a person may bring the force back now, after a fault. False: not before whatever
+  /// is wrong has mended; `fault` says what, or the connection. Real time.
+  [[nodiscard]] virtual bool may_arm() const noexcept { return true; }
+
   /// Zero force at once and until a `write` of nothing but zeros: a loop that was held up in
   /// the middle of a tick must not bring an old force back. The watchdog's, which may call it
   /// from any thread, also while the loop's thread is stuck in the middle of the device; and

@@ -141,6 +141,9 @@ void HapticLoop::rearm_if_requested() noexcept {
   if (doors_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
   fault_ = Fault::kNone;
   authority_ratio_ = 0.0;
+  if (!device_.may_arm()) {
+    return latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kLinkLost);
+  }
   limiter_.rearm();
   passivity_.reset();
   solids_.release();

@@ -84,7 +84,9 @@ class HapticLoop {
   void warm() const noexcept;
 
   /// Asks for the force back, faded in from zero. Takes effect in the next tick, unless the
-  /// emergency stop is still pressed. Any thread. Real time.
+  /// emergency stop is still pressed. If the device may not be armed now, that is a fault anew:
+  /// the request is refused, not kept, for nobody expects the force minutes later. Any thread.
+  /// Real time.
   void rearm() noexcept { rearm_requested_.store(true, std::memory_order_release); }
 
   /// Time was lost between two ticks, more than a hand should have been left to itself: the

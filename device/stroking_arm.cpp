@@ -11,6 +11,35 @@ namespace {
 
 using core::require;
 
+struct Range {
+  double StrokePlan::*value;
+  const char* field;
+  double lowest, highest;
+  const char* words;
+
+  /// Not of NaN.
+  [[nodiscard]] bool contains(double number) const noexcept {
+    return number >= lowest && number <= highest;
+  }
+};
+
+constexpr std::array kRanges = {
+    Range{&StrokePlan::amplitude_m, "amplitude_m", 0.001, 2.0, "a number in [0.001, 2]"},
+    Range{&StrokePlan::max_speed_m_per_s, "max_speed_m_per_s", 0.001, 5.0,
+          "a number in [0.001, 5]"},
+    Range{&StrokePlan::height_m, "height_m", -5.0, 5.0, "a number in [-5, 5]"},
+    Range{&StrokePlan::lift_m, "lift_m", -1.0, 1.0, "a number in [-1, 1]"},
+    Range{&StrokePlan::amplitude_sd_ratio, "amplitude_sd_ratio", 0.0, 0.3,
+          "a number in [0, 0.3]"},
+    Range{&StrokePlan::speed_sd_ratio, "speed_sd_ratio", 0.0, 0.3, "a number in [0, 0.3]"},
+    Range{&StrokePlan::height_sd_m, "height_sd_m", 0.0, 0.5, "a number in [0, 0.5]"},
+    Range{&StrokePlan::sideways_sd_m, "sideways_sd_m", 0.0, 0.5, "a number in [0, 0.5]"},
+};
+
+bool is_possible(std::int64_t num_strokes) noexcept {
+  return num_strokes >= 0 && num_strokes <= 1'000'000;
+}
+
 double clipped_normal(core::RandomStream& random) noexcept {
   // With the largest spread allowed, 0.3, no factor 1 + sd z comes near zero.
   return std::clamp(random.normal(), -2.5, 2.5);
@@ -19,25 +48,18 @@ double clipped_normal(core::RandomStream& random) noexcept {
 }  // namespace
 
 void require_valid(const StrokePlan& plan) {
-  const auto positive = [](double value, const char* field) {
-    require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-  };
-  const auto spread = [](double value, const char* field) {
-    require(value >= 0.0 && value <= 0.3, field, "a number in [0, 0.3]", value);
-  };
-  const auto not_negative = [](double value, const char* field) {
-    require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
-  };
-  positive(plan.amplitude_m, "amplitude_m");
-  positive(plan.max_speed_m_per_s, "max_speed_m_per_s");
-  require(std::isfinite(plan.height_m), "height_m", "a finite number", plan.height_m);
-  require(std::isfinite(plan.lift_m), "lift_m", "a finite number", plan.lift_m);
-  spread(plan.amplitude_sd_ratio, "amplitude_sd_ratio");
-  spread(plan.speed_sd_ratio, "speed_sd_ratio");
-  not_negative(plan.height_sd_m, "height_sd_m");
-  not_negative(plan.sideways_sd_m, "sideways_sd_m");
-  require(plan.num_strokes >= 0, "num_strokes", "a number >= 0",
+  for (const Range& range : kRanges) {
+    const double value = plan.*range.value;
+    require(range.contains(value), range.field, range.words, value);
+  }
+  require(is_possible(plan.num_strokes), "num_strokes", "a number in [0, 1000000]",
           static_cast<double>(plan.num_strokes));
+}
+
+bool is_valid(const StrokePlan& plan) noexcept {
+  return is_possible(plan.num_strokes) &&
+         std::all_of(kRanges.begin(), kRanges.end(),
+                     [&plan](const Range& range) { return range.contains(plan.*range.value); });
 }
 
 StrokingArm::StrokingArm(const Parameters& parameters, double period_s)

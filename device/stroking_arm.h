@@ -10,21 +10,25 @@ namespace jnd::device {
 
 /// One presentation's movement, as its person tends to make it.
 struct StrokePlan {
-  double amplitude_m = 0.28;        ///< Half the width of a stroke, > 0.
-  double max_speed_m_per_s = 0.45;  ///< Of the reference, in mid-stroke, > 0.
-  double height_m = -0.15;          ///< Mean height in the workspace frame.
-  double lift_m = 0.015;  ///< Lower by this in mid-stroke forward, higher on the way back.
+  double amplitude_m = 0.28;        ///< Half the width of a stroke, [0.001, 2].
+  double max_speed_m_per_s = 0.45;  ///< Of the reference, in mid-stroke, [0.001, 5].
+  double height_m = -0.15;          ///< Mean height in the workspace frame, [-5, 5].
+  /// Lower by this in mid-stroke forward, higher on the way back; [-1, 1].
+  double lift_m = 0.015;
   /// Spread between strokes (sd): relative for amplitude and speed.
   double amplitude_sd_ratio = 0.05;  ///< [0, 0.3]
   double speed_sd_ratio = 0.05;      ///< [0, 0.3]
-  double height_sd_m = 0.005;        ///< >= 0.
-  double sideways_sd_m = 0.005;      ///< >= 0. Of the turning points, along y.
-  /// Then home; 0 is to go on until told otherwise.
+  double height_sd_m = 0.005;        ///< [0, 0.5]
+  double sideways_sd_m = 0.005;      ///< [0, 0.5] Of the turning points, along y.
+  /// Then home, [0, 1'000'000]; 0 is to go on until told otherwise.
   std::int64_t num_strokes = 0;
 };
 
 /// Throws `Error` naming the field that is out of range. Not real time.
 void require_valid(const StrokePlan& plan);
+
+/// Whether every field is within its range, which no arm's arithmetic overflows in. Real time.
+[[nodiscard]] bool is_valid(const StrokePlan& plan) noexcept;
 
 /// A simulated person's arm: it pulls the hand with a finite impedance towards a point that
 /// strokes back and forth along x,

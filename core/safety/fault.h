@@ -23,6 +23,7 @@ enum class Fault : std::uint8_t {
   kLinkLost = 12,
   kSimulationInvalid = 13,
 };
+inline constexpr Fault kLastFault = Fault::kSimulationInvalid;
 
 /// "emergency_stop", as events and JSON spell it. Real time.
 [[nodiscard]] std::string_view name(Fault fault) noexcept;

@@ -115,6 +115,7 @@ void fields(Bytes& bytes, T& welcome) noexcept {
   positive(bytes, can.max_force_per_point_n);
   positive(bytes, can.max_total_force_n);
   not_negative(bytes, can.max_stale_s);
+  if (!(can.max_stale_s <= kMostStale_s)) bytes.refuse(Problem::kOutOfRange);
   count(bytes, can.num_contact_points, core::kNumContactPoints);
   count(bytes, can.num_joints, core::kNumJoints);
   flag(bytes, can.simulated);
@@ -150,7 +151,7 @@ void fields(Bytes& bytes, T& state) noexcept {
   flag(bytes, state.armed);
   flag(bytes, state.is_measured);
   flag(bytes, state.is_home);
-  choice(bytes, state.fault, core::Fault::kNone, core::Fault::kSimulationInvalid);
+  choice(bytes, state.fault, core::Fault::kNone, core::kLastFault);
   choice(bytes, state.level, LinkLevel::kUnacceptable, LinkLevel::kExcellent);
 }
 
@@ -170,18 +171,16 @@ void fields(Bytes& bytes, T& order) noexcept {
   bytes.number(order.num_put_back);
   flag(bytes, order.stroke);
   auto& plan = order.plan;
-  positive(bytes, plan.amplitude_m);
-  positive(bytes, plan.max_speed_m_per_s);
+  bytes.number(plan.amplitude_m);
+  bytes.number(plan.max_speed_m_per_s);
   bytes.number(plan.height_m);
   bytes.number(plan.lift_m);
-  not_negative(bytes, plan.amplitude_sd_ratio);
-  not_negative(bytes, plan.speed_sd_ratio);
-  not_negative(bytes, plan.height_sd_m);
-  not_negative(bytes, plan.sideways_sd_m);
-  if (!(plan.amplitude_sd_ratio <= 0.3 && plan.speed_sd_ratio <= 0.3)) {
-    bytes.refuse(Problem::kOutOfRange);
-  }
-  not_negative(bytes, plan.num_strokes);
+  bytes.number(plan.amplitude_sd_ratio);
+  bytes.number(plan.speed_sd_ratio);
+  bytes.number(plan.height_sd_m);
+  bytes.number(plan.sideways_sd_m);
+  bytes.number(plan.num_strokes);
+  if (!is_valid(plan)) bytes.refuse(Problem::kOutOfRange);
   auto state = std::bit_cast<std::uint64_t>(order.random);
   bytes.number(state);
   if constexpr (Bytes::kReads) order.random = std::bit_cast<core::RandomStream>(state);

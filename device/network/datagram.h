@@ -26,12 +26,15 @@ inline constexpr std::size_t kHeaderBytes = 40;
 inline constexpr std::size_t kChecksumBytes = 4;
 /// Of the largest datagram; below what any Ethernet carries in one piece.
 inline constexpr std::size_t kMaxBytes = 1024;
+/// However long a device says that its measurements may stand in: more is refused.
+inline constexpr double kMostStale_s = 0.1;
 
 /// What every datagram begins with, besides magic, version, kind and size.
 struct Header {
   /// Drawn by the device for each connection; 0 where there is none yet.
   std::uint64_t stream_id = 0;
-  /// One more than the sender's last on this stream, whatever its kind; wraps.
+  /// One more than the sender's last on this stream, whatever its kind; wraps. 0 in hellos,
+  /// welcomes and refusals, which belong to none.
   std::uint32_t sequence = 0;
   std::int64_t sent_ns = 0;  ///< The sender's clock, any epoch.
   std::int64_t echo_ns = 0;  ///< `sent_ns` of the newest that it had received; 0: none.

@@ -28,8 +28,11 @@ core::ForceLimiter::Parameters limits_of(const DeviceCapabilities& can, double s
   return limits;
 }
 
-wire::Welcome welcome_of(const HapticDevice& device) {
+/// A state may be late for as long as a command.
+wire::Welcome welcome_of(const HapticDevice& device, double watchdog_s) {
   wire::Welcome welcome{.capabilities = device.capabilities()};
+  double& max_stale_s = welcome.capabilities.max_stale_s;
+  max_stale_s = std::min(std::max(max_stale_s, watchdog_s), wire::kMostStale_s);
   const std::string_view name = device.name();
   std::copy_n(name.begin(), std::min(name.size(), welcome.name.size()), welcome.name.begin());
   return welcome;
@@ -69,7 +72,7 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
           1e-9 *
           static_cast<double>(nanoseconds(parameters.max_answer_age_s, "max_answer_age_s")) *
           device.capabilities().rate_hz))),
-      welcome_(welcome_of(device)),
+      welcome_(welcome_of(device, parameters.watchdog_s)),
       limiter_(limits_of(device.capabilities(), parameters.slew_n_per_s),
                1.0 / device.capabilities().rate_hz),
       quality_(parameters.quality),
@@ -78,9 +81,11 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
 
 void DeviceServer::step(std::int64_t now_ns) noexcept {
   ++counts_.num_steps;
+  welcomed_in_step_ = false;
   refused_in_step_ = false;
   take_in(now_ns);
   if (client_) quality_.end_tick();
+  watch_own_pace(now_ns);
   watch(now_ns);
   measure();
   apply_force();
@@ -92,8 +97,15 @@ void DeviceServer::dismiss(std::int64_t now_ns) noexcept {
   for (int i = 0; client_ && i < 2; ++i) {
     send(client_->address, client_->stream_id, wire::Goodbye{}, now_ns);
   }
-  end_session();
+  part_with_client();
   apply_force();
+}
+
+void DeviceServer::renew_device() {
+  if (!was_used_) return;
+  device_.close();
+  device_.open();
+  was_used_ = false;
 }
 
 void DeviceServer::take_in(std::int64_t now_ns) noexcept {
@@ -106,38 +118,41 @@ void DeviceServer::take_in(std::int64_t now_ns) noexcept {
     const wire::Problem problem = wire::decode(received, incoming_);
     if (problem != wire::Problem::kNone) {
       quality_.refused();
-      const bool answer = problem == wire::Problem::kWrongVersion && !refused_in_step_;
-      refused_in_step_ |= answer;
-      if (answer) {
-        send(from, 0, wire::Refusal{.reason = wire::RefusalReason::kOtherVersion}, now_ns);
+      if (problem == wire::Problem::kWrongVersion) {
+        refuse(from, 0, {.reason = wire::RefusalReason::kOtherVersion}, now_ns);
       }
       continue;
     }
     if (const auto* hello = std::get_if<wire::Hello>(&incoming_.content)) {
-      take(*hello, from, now_ns);
+      if (!welcomed_in_step_) take(*hello, from, now_ns);
     } else if (client_ && from == client_->address &&
                incoming_.header.stream_id == client_->stream_id) {
       take_from_client(incoming_.header, incoming_.content, now_ns);
-    } else if (std::holds_alternative<wire::Command>(incoming_.content) && !refused_in_step_) {
-      // One answer a step: nobody is to be flooded through us.
-      refused_in_step_ = true;
-      send(from, incoming_.header.stream_id,
-           wire::Refusal{.reason = wire::RefusalReason::kUnknownStream}, now_ns);
+    } else if (std::holds_alternative<wire::Command>(incoming_.content)) {
+      refuse(from, incoming_.header.stream_id, {.reason = wire::RefusalReason::kUnknownStream},
+             now_ns);
     }
   }
 }
 
+void DeviceServer::refuse(const Address& to, std::uint64_t stream_id,
+                          const wire::Refusal& refusal, std::int64_t now_ns) noexcept {
+  if (refused_in_step_) return;
+  refused_in_step_ = true;
+  send(to, stream_id, refusal, now_ns);
+}
+
 void DeviceServer::take(const wire::Hello& hello, const Address& from,
                         std::int64_t now_ns) noexcept {
+  const bool is_known = client_ && from == client_->address;
+  if (client_ && !is_known && !hello.only_asks) {
+    ++counts_.num_turned_away;
+    return refuse(from, 0, {.token = hello.token, .reason = wire::RefusalReason::kBusy},
+                  now_ns);
+  }
+  welcomed_in_step_ = true;
   welcome_.token = hello.token;
   if (hello.only_asks) return send(from, 0, welcome_, now_ns);
-  const bool is_known = client_ && from == client_->address;
-  if (client_ && !is_known) {
-    ++counts_.num_turned_away;
-    return send(from, 0,
-                wire::Refusal{.token = hello.token, .reason = wire::RefusalReason::kBusy},
-                now_ns);
-  }
   // The same hello again: our answer was lost.
   if (!is_known || hello.token != client_->token) {
     end_session();
@@ -161,7 +176,10 @@ void DeviceServer::take_from_client(const wire::Header& header, const wire::Cont
   const LinkQuality::Verdict verdict = quality_.received(header.sequence);
   if (verdict == LinkQuality::Verdict::kRepeated) return;
   client_->last_heard_ns = now_ns;
-  if (verdict == LinkQuality::Verdict::kNewest) client_->last_sent_ns = header.sent_ns;
+  if (verdict == LinkQuality::Verdict::kNewest) {
+    client_->last_sent_ns = header.sent_ns;
+    quality_.echoed(header.echo_ns, now_ns);
+  }
   if (const auto* command = std::get_if<wire::Command>(&content)) {
     take(header, *command, now_ns);
   } else if (const auto* order = std::get_if<wire::Order>(&content)) {
@@ -169,7 +187,7 @@ void DeviceServer::take_from_client(const wire::Header& header, const wire::Cont
   } else if (std::holds_alternative<wire::Halt>(content)) {
     disarm(Fault::kWatchdog);
   } else if (std::holds_alternative<wire::Goodbye>(content)) {
-    end_session();
+    part_with_client();
   }
 }
 
@@ -178,7 +196,7 @@ void DeviceServer::take(const wire::Header& header, const wire::Command& command
   Client& client = *client_;
   const auto ahead = static_cast<std::int32_t>(header.sequence - client.command_sequence);
   if (client.commanded && ahead <= 0) return;
-  client.commanded = true;
+  client.commanded = client.is_recent = true;
   client.command_sequence = header.sequence;
   client.command_ns = now_ns;
   client.command = command;
@@ -200,9 +218,19 @@ void DeviceServer::take(const wire::Order& order) noexcept {
   }
 }
 
+/// Held up with the whole machine, what waits here may be as old as the pause: nobody could
+/// tell its age, for our own states stood still, too.
+void DeviceServer::watch_own_pace(std::int64_t now_ns) noexcept {
+  const std::int64_t pause_ns = now_ns - last_step_ns_.value_or(now_ns);
+  last_step_ns_ = now_ns;
+  if (pause_ns < watchdog_ns_) return;
+  disarm(Fault::kWatchdog);
+  if (client_) client_->is_recent = false;
+}
+
 void DeviceServer::watch(std::int64_t now_ns) noexcept {
   if (!client_) return;
-  if (now_ns - client_->last_heard_ns >= client_timeout_ns_) return end_session();
+  if (now_ns - client_->last_heard_ns >= client_timeout_ns_) return part_with_client();
   arm_or_disarm();
   if (!armed_) return;
   if (now_ns - client_->command_ns >= watchdog_ns_ || !answers_in_time() ||
@@ -217,7 +245,7 @@ bool DeviceServer::answers_in_time() const noexcept {
 
 void DeviceServer::arm_or_disarm() noexcept {
   const wire::Command& command = client_->command;
-  if (!client_->commanded || command.arm_number == state_.armed_number) return;
+  if (!client_->is_recent || command.arm_number == state_.armed_number) return;
   // It asks for another arming, so it means no force of the one before.
   armed_ = false;
   if (quality_.is_broken()) quality_.restart();
@@ -283,6 +311,12 @@ void DeviceServer::tell_client(std::int64_t now_ns) noexcept {
   send(client_->address, client_->stream_id, state_, now_ns);
 }
 
+/// Not where a program whose connection broke off says hello anew: for that the hand goes on.
+void DeviceServer::part_with_client() noexcept {
+  was_used_ |= client_.has_value();
+  end_session();
+}
+
 void DeviceServer::end_session() noexcept {
   armed_ = false;
   if (!client_) return;
@@ -292,7 +326,9 @@ void DeviceServer::end_session() noexcept {
 
 void DeviceServer::send(const Address& to, std::uint64_t stream_id,
                         const wire::Content& content, std::int64_t now_ns) noexcept {
-  const bool is_of_stream = client_ && stream_id == client_->stream_id;
+  // Whoever is welcomed or refused has no stream yet, or none any more.
+  const bool is_of_stream = std::holds_alternative<wire::State>(content) ||
+                            std::holds_alternative<wire::Goodbye>(content);
   const wire::Datagram datagram{.header = {.stream_id = stream_id,
                                            .sequence = is_of_stream ? sequence_++ : 0,
                                            .sent_ns = now_ns,

@@ -17,6 +17,7 @@ namespace jnd::device {
 ///   - the connection has been good for a while when it was armed;
 ///   - a command newer than all before has come within `watchdog_s`;
 ///   - that command answers to a state younger than `max_answer_age_s`;
+///   - the steps themselves came without a pause of `watchdog_s`;
 ///   - the device was read in this step;
 /// and within limits of its own, as `core::ForceLimiter` has them. Whatever fails means no
 /// force at once, until the program arms again by a command with a new number and without any
@@ -26,7 +27,7 @@ namespace jnd::device {
 class DeviceServer {
  public:
   struct Parameters {
-    double watchdog_s = 0.020;          ///< > 0.
+    double watchdog_s = 0.020;          ///< > 0. As long may a state be late, see `Welcome`.
     double max_answer_age_s = 0.040;    ///< > 0; a stand-in and the way there and back.
     double client_timeout_s = 1.0;      ///< Silence after which another may connect, > 0.
     double slew_n_per_s = 2000.0;       ///< > 0.
@@ -54,6 +55,9 @@ class DeviceServer {
   /// One of the device's ticks: takes in what has come, reads the device, writes its force,
   /// tells the program. The device is opened and closed by the caller. Real time.
   void step(std::int64_t now_ns) noexcept;
+  /// Between steps: opens the device anew if a program has left it since, so that the next one
+  /// finds a simulation as it was at the start. Throws what `open` throws. Not real time.
+  void renew_device();
   /// Says goodbye to the program, and no force. Real time.
   void dismiss(std::int64_t now_ns) noexcept;
 
@@ -71,6 +75,7 @@ class DeviceServer {
     std::int64_t last_heard_ns = 0;
     std::int64_t last_sent_ns = 0;  ///< Its own clock, of the newest that has come.
     bool commanded = false;         ///< A command has come.
+    bool is_recent = false;         ///< And no pause of our own since.
     std::uint32_t command_sequence = 0;
     std::int64_t command_ns = 0;  ///< When the newest command came.
     wire::Command command;
@@ -78,6 +83,8 @@ class DeviceServer {
   };
 
   void take_in(std::int64_t now_ns) noexcept;
+  void refuse(const Address& to, std::uint64_t stream_id, const wire::Refusal& refusal,
+              std::int64_t now_ns) noexcept;
   void take(const wire::Hello& hello, const Address& from, std::int64_t now_ns) noexcept;
   void take_from_client(const wire::Header& header, const wire::Content& content,
                         std::int64_t now_ns) noexcept;
@@ -88,10 +95,12 @@ class DeviceServer {
   void arm_or_disarm() noexcept;
   void disarm(core::Fault fault) noexcept;
   void watch(std::int64_t now_ns) noexcept;
+  void watch_own_pace(std::int64_t now_ns) noexcept;
   void measure() noexcept;
   void apply_force() noexcept;
   void tell_client(std::int64_t now_ns) noexcept;
   void end_session() noexcept;
+  void part_with_client() noexcept;
   void send(const Address& to, std::uint64_t stream_id, const wire::Content& content,
             std::int64_t now_ns) noexcept;
 
@@ -109,7 +118,10 @@ class DeviceServer {
   std::uint64_t next_stream_id_;
   std::uint32_t sequence_;
   bool armed_ = false;
-  bool refused_in_step_ = false;
+  bool was_used_ = false;  ///< A program has left the device since it was opened.
+  std::optional<std::int64_t> last_step_ns_;
+  // One answer of each kind a step: nobody is to be flooded through us.
+  bool welcomed_in_step_ = false, refused_in_step_ = false;
   wire::State state_;
   wire::Datagram incoming_;
 };

@@ -45,6 +45,7 @@ void LinkQuality::restart() noexcept {
   came_.fill(0);
   broken_ = false;
   num_good_ = 0;
+  has_round_trip_ = false;
   round_trip_ns_ = 0.0;
 }
 
@@ -81,14 +82,14 @@ LinkQuality::Verdict LinkQuality::received(std::uint32_t sequence) noexcept {
     num_expected_ = 1;
   } else if (ahead > 0) {
     advance_to(sequence);
-  } else if (ahead <= -static_cast<std::int32_t>(kWindow) || is_marked(sequence)) {
+  } else if (ahead <= -static_cast<std::int32_t>(num_expected_) || is_marked(sequence)) {
+    // One from before the first that came was never missed: counted, it would hide a loss.
     ++counts_.doubled;
     return Verdict::kRepeated;
   } else {
     verdict = Verdict::kReordered;
     ++counts_.reordered;
-    // One from before the first that came was never missed.
-    if (static_cast<std::uint32_t>(-ahead) < num_expected_) --counts_.lost;
+    --counts_.lost;
   }
   mark(sequence, true);
   ++counts_.received;
@@ -97,11 +98,13 @@ LinkQuality::Verdict LinkQuality::received(std::uint32_t sequence) noexcept {
   return verdict;
 }
 
-void LinkQuality::round_trip(std::int64_t duration_ns) noexcept {
-  const auto newest_ns = static_cast<double>(std::max<std::int64_t>(0, duration_ns));
-  round_trip_ns_ = round_trip_ns_ == 0.0
-                       ? newest_ns
-                       : round_trip_ns_ + kSmoothing * (newest_ns - round_trip_ns_);
+void LinkQuality::echoed(std::int64_t echo_ns, std::int64_t now_ns) noexcept {
+  if (!(echo_ns > last_echo_ns_ && echo_ns <= now_ns)) return;
+  last_echo_ns_ = echo_ns;
+  const auto newest_ns = static_cast<double>(now_ns - echo_ns);
+  round_trip_ns_ =
+      has_round_trip_ ? round_trip_ns_ + kSmoothing * (newest_ns - round_trip_ns_) : newest_ns;
+  has_round_trip_ = true;
 }
 
 void LinkQuality::end_tick() noexcept {

@@ -32,9 +32,10 @@ struct LinkCounts {
 /// | poor         | at most 51 (10 %)       | at most 16 ms        |
 /// | unacceptable | more                    | more                 |
 ///
-/// Unacceptable also until 50 have come. A round trip is from a datagram's sending until the
-/// first answer that had seen it is taken in, so it holds the waiting for the ticks of both
-/// sides: two periods and the network. Used by one thread; real time.
+/// Unacceptable also until 50 have come; whether it is settled is not known before a round trip
+/// has been measured. A round trip is from a datagram's sending until the first answer that had
+/// seen it is taken in, so it holds the waiting for the ticks of both sides: two periods and
+/// the network. Used by one thread; real time.
 class LinkQuality {
  public:
   struct Parameters {
@@ -46,27 +47,36 @@ class LinkQuality {
   enum class Verdict {
     kNewest,     ///< Newer than all before.
     kReordered,  ///< Older than the newest, and new to us.
-    kRepeated,   ///< Seen before, or too old to tell.
+    kRepeated,   ///< Seen before, or too old to tell, or from before the first.
   };
 
   explicit LinkQuality(const Parameters& parameters) noexcept : parameters_(parameters) {}
 
   /// Another stream of datagrams, or the same after a pause: all is to be shown anew. The
-  /// counts go on.
+  /// counts go on, and so does our clock, of which no echo counts twice.
   void restart() noexcept;
   [[nodiscard]] Verdict received(std::uint32_t sequence) noexcept;
   void refused() noexcept { ++counts_.refused; }
-  void round_trip(std::int64_t duration_ns) noexcept;
+  /// What the other side says it has seen last of our clock, 0: nothing. It measures a round
+  /// trip only if it is newer than all before and not from the future: else nothing is known.
+  void echoed(std::int64_t echo_ns, std::int64_t now_ns) noexcept;
   /// Once a tick of the receiver, after it has taken in what there was.
   void end_tick() noexcept;
 
   [[nodiscard]] LinkLevel level() const noexcept;
   /// At least good for as long as was asked for, up to now.
-  [[nodiscard]] bool is_settled() const noexcept { return num_good_ >= parameters_.good_for; }
+  [[nodiscard]] bool is_settled() const noexcept {
+    return num_good_ >= parameters_.good_for && has_round_trip_;
+  }
   /// Too many in a row were lost since `restart`.
   [[nodiscard]] bool is_broken() const noexcept { return broken_; }
+  /// Since `restart`.
+  [[nodiscard]] bool has_round_trip() const noexcept { return has_round_trip_; }
   /// Smoothed over some 16 round trips; 0 before the first.
   [[nodiscard]] double round_trip_s() const noexcept { return 1e-9 * round_trip_ns_; }
+  /// Our own clock, as the other side had seen it last: what was sent later may not have
+  /// arrived. 0: nothing yet.
+  [[nodiscard]] std::int64_t last_echo_ns() const noexcept { return last_echo_ns_; }
   [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
 
  private:
@@ -87,7 +97,9 @@ class LinkQuality {
   bool came_in_tick_ = false;
   bool broken_ = false;
   int num_good_ = 0;
+  bool has_round_trip_ = false;
   double round_trip_ns_ = 0.0;
+  std::int64_t last_echo_ns_ = 0;
 };
 
 }  // namespace jnd::device

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/require.h"
-#include "device/network/udp_port.h"
-
 namespace jnd::device {
 namespace {
 
@@ -19,8 +15,18 @@ constexpr std::int64_t kHelloEvery_ns = 50'000'000;
 constexpr std::int64_t kStreamOver_ns = 200'000'000;
 /// From opening the device to the first ticks of a loop a program may take its time.
 constexpr std::int64_t kGrace_ns = 200'000'000;
+/// On top of what states may be missing for: a score of lost commands and the way there and
+/// back.
+constexpr std::int64_t kMostDeaf_ns = 40'000'000;
+/// Commands in a row that the system does not take: fewer than the device's watchdog needs.
+constexpr int kMostFailedSends = 5;
+/// Where nobody can be hurt, as the simulated devices themselves have it.
+constexpr double kSimulatedWatchdog_s = 0.250;
 
-std::int64_t nanoseconds(double duration_s) { return std::llround(1e9 * duration_s); }
+bool has_force(const core::PointVectors& force_n) noexcept {
+  return std::any_of(force_n.begin(), force_n.end(),
+                     [](const Eigen::Vector3d& force) { return !force.isZero(0.0); });
+}
 
 bool is_same(const wire::Welcome& a, const wire::Welcome& b) noexcept {
   const DeviceCapabilities& one = a.capabilities;
@@ -32,33 +38,7 @@ bool is_same(const wire::Welcome& a, const wire::Welcome& b) noexcept {
          one.num_joints == other.num_joints && one.moves_by_itself == other.moves_by_itself;
 }
 
-std::string shown(double number) {
-  std::string digits = std::to_string(number);
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.back() == '.') digits.pop_back();
-  return digits;
-}
-
 }  // namespace
-
-NetworkDevice::NetworkDevice(std::unique_ptr<DatagramPort> port, const Address& server,
-                             const Parameters& parameters)
-    : port_(std::move(port)),
-      server_(server),
-      parameters_(parameters),
-      max_stale_ns_(nanoseconds(parameters.max_stale_s)),
-      token_(parameters.token),
-      quality_(parameters.quality),
-      sequence_(parameters.first_sequence) {
-  const auto positive = [](double value, const char* field) {
-    core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-  };
-  positive(parameters.rate_hz, "rate_hz");
-  positive(parameters.max_stale_s, "max_stale_s");
-  positive(parameters.patience_s, "patience_s");
-}
-
-NetworkDevice::~NetworkDevice() { close(); }
 
 std::string_view NetworkDevice::served_name() const noexcept {
   if (!device_) return "";
@@ -71,102 +51,13 @@ DeviceCapabilities NetworkDevice::capabilities() const noexcept {
       device_ ? device_->capabilities : DeviceCapabilities{.rate_hz = parameters_.rate_hz};
   can.max_stale_s = std::max(can.max_stale_s, parameters_.max_stale_s);
   can.has_own_clock = true;
+  if (can.simulated) can.watchdog_timeout_s = kSimulatedWatchdog_s;
   return can;
 }
 
 SimulatedHand* NetworkDevice::simulated_hand() noexcept {
   const DeviceCapabilities can = capabilities();
   return can.simulated && can.moves_by_itself ? &hand_ : nullptr;
-}
-
-void NetworkDevice::ask() {
-  device_.reset();
-  const std::int64_t deadline_ns = port_->now_ns() + nanoseconds(parameters_.patience_s);
-  last_hello_ns_ = 0;
-  for (std::int64_t now_ns = port_->now_ns(); now_ns < deadline_ns; now_ns = port_->now_ns()) {
-    take_in(now_ns);
-    if (device_ || other_version_ != 0) break;
-    say_hello(true, now_ns);
-    port_->pause(1'000'000);
-  }
-  if (!device_) throw DeviceUnreachable(what_is_wrong());
-}
-
-/// The loop's rate and the device's own.
-void NetworkDevice::require_same_rate() const {
-  const double rate_hz = device_->capabilities.rate_hz;
-  if (std::abs(rate_hz / parameters_.rate_hz - 1.0) <= 0.001) return;
-  throw core::Error("network " + text_of(server_) + ": expected a device at " +
-                    shown(parameters_.rate_hz) + " Hz, found " + std::string(served_name()) +
-                    " at " + shown(rate_hz) +
-                    " Hz; start it with the rate that the study asks for");
-}
-
-void NetworkDevice::open() {
-  close();
-  if (!device_) ask();
-  require_same_rate();
-  hand_.reset();
-  ++token_;
-  refusal_.reset();
-  is_another_ = false;
-  phase_ = Phase::kSeeking;
-  last_hello_ns_ = 0;
-  first_read_ns_ = 0;
-  const std::int64_t deadline_ns = port_->now_ns() + nanoseconds(parameters_.patience_s);
-  for (std::int64_t now_ns = port_->now_ns(); now_ns < deadline_ns; now_ns = port_->now_ns()) {
-    take_in(now_ns);
-    judge(now_ns);
-    if (phase_ == Phase::kUp) return;
-    speak(core::zero_vectors(), now_ns);
-    port_->pause(nanoseconds(1.0 / parameters_.rate_hz));
-  }
-  const std::string why = what_is_wrong();
-  close();
-  throw DeviceUnreachable(why);
-}
-
-std::string NetworkDevice::what_is_wrong() const {
-  const std::string place = "network " + text_of(server_) + ": expected ";
-  if (other_version_ != 0) {
-    return place + "datagrams of version " + std::to_string(wire::kVersion) +
-           ", found version " + std::to_string(other_version_) +
-           "; use the same release of this program on both sides";
-  }
-  if (is_another_) {
-    return place + "the same device as before, found another; start the one that was there, " +
-           "or this program anew";
-  }
-  if (phase_ == Phase::kArming) {
-    const LinkCounts& counts = quality_.counts();
-    if (quality_.is_settled() && !is_silent(port_->now_ns())) {
-      return place + "the device to arm, found that it does not (" +
-             std::string(newest_.fault == Fault::kNone ? device::name(newest_.level)
-                                                       : core::name(newest_.fault)) +
-             "); look at the device's own program";
-    }
-    return place + "a good connection, found an " +
-           std::string(device::name(quality_.level())) + " one (" +
-           std::to_string(counts.lost) + " of " +
-           std::to_string(counts.lost + counts.received) + " datagrams lost, round trip " +
-           shown(1e3 * quality_.round_trip_s()) + " ms); use a cable of its own";
-  }
-  if (refusal_ == wire::RefusalReason::kBusy) {
-    return place + "a device that is free, found that another program uses it; end that one";
-  }
-  return place + "a device to answer, found none; start its program (`jnd device-simulator`) " +
-         "and check address and port";
-}
-
-void NetworkDevice::close() noexcept {
-  if (phase_ != Phase::kClosed) {
-    // Twice, for there is no answer; the device would notice the silence, too.
-    send(wire::Goodbye{}, port_->now_ns());
-    send(wire::Goodbye{}, port_->now_ns());
-  }
-  phase_ = Phase::kClosed;
-  fault_ = Fault::kNone;
-  stream_id_ = 0;
 }
 
 bool NetworkDevice::read(core::HapticState& state) noexcept {
@@ -180,15 +71,20 @@ bool NetworkDevice::read(core::HapticState& state) noexcept {
   return true;
 }
 
-/// Between `open` and the first ticks the device may have missed commands, and disarmed itself
-/// before there was any force: nobody needs to know.
+/// Between `open` and the first ticks the device may have missed commands, and disarmed itself:
+/// before there was any force, nobody needs to know.
 bool NetworkDevice::is_trusted(std::int64_t now_ns) const noexcept {
   if (phase_ == Phase::kUp) return true;
-  return phase_ == Phase::kArming && fault_ == Fault::kLinkLost &&
+  return phase_ == Phase::kArming && fault_ == Fault::kLinkLost && !had_force_ &&
          now_ns - first_read_ns_ < kGrace_ns;
 }
 
+bool NetworkDevice::may_arm() const noexcept {
+  return phase_ == Phase::kUp && quality_.is_settled() && newest_.level >= LinkLevel::kGood;
+}
+
 bool NetworkDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
+  had_force_ |= has_force(force_on_hand_n);
   for (const Eigen::Vector3d& force : force_on_hand_n) {
     if (force.allFinite()) continue;
     // The device would refuse the datagram, and go on with the force before.
@@ -247,7 +143,7 @@ void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcom
   newest_.armed = false;
   newest_.armed_number = 0;
   newest_ns_ = now_ns;
-  peer_sent_ns_ = last_echo_ns_ = 0;
+  peer_sent_ns_ = 0;
   arm_number_ = 1;
   phase_ = Phase::kArming;
 }
@@ -277,14 +173,26 @@ void NetworkDevice::take(const wire::Header& header, const wire::State& state,
   newest_sequence_ = header.sequence;
   newest_ns_ = now_ns;
   peer_sent_ns_ = header.sent_ns;
-  if (header.echo_ns != 0 && header.echo_ns != last_echo_ns_) {
-    last_echo_ns_ = header.echo_ns;
-    quality_.round_trip(now_ns - header.echo_ns);
-  }
+  quality_.echoed(header.echo_ns, now_ns);
+}
+
+/// The device may ask for more patience than we have.
+std::int64_t NetworkDevice::max_stale_ns() const noexcept {
+  return std::llround(1e9 * capabilities().max_stale_s);
 }
 
 bool NetworkDevice::is_silent(std::int64_t now_ns) const noexcept {
-  return now_ns - newest_ns_ >= max_stale_ns_;
+  return now_ns - newest_ns_ >= max_stale_ns();
+}
+
+/// States come, but nothing in them has seen what we sent.
+bool NetworkDevice::is_deaf(std::int64_t now_ns) const noexcept {
+  return now_ns - quality_.last_echo_ns() >= max_stale_ns() + kMostDeaf_ns;
+}
+
+/// By the number that we ask for: an arming that was not ours is none.
+bool NetworkDevice::is_armed() const noexcept {
+  return newest_.armed && newest_.armed_number == arm_number_;
 }
 
 /// It had granted the arming, and took it back.
@@ -294,10 +202,10 @@ bool NetworkDevice::has_disarmed() const noexcept {
 
 void NetworkDevice::judge(std::int64_t now_ns) noexcept {
   if (phase_ == Phase::kUp) {
-    if (is_silent(now_ns) || quality_.is_broken() ||
+    if (is_silent(now_ns) || is_deaf(now_ns) || quality_.is_broken() ||
         quality_.level() == LinkLevel::kUnacceptable) {
       lose(Fault::kLinkLost, Phase::kArming);
-    } else if (has_disarmed() || !newest_.is_measured) {
+    } else if (!is_armed() || !newest_.is_measured) {
       lose(newest_.fault != Fault::kNone ? newest_.fault : Fault::kLinkLost, Phase::kArming);
     }
     return;
@@ -310,15 +218,16 @@ void NetworkDevice::judge(std::int64_t now_ns) noexcept {
     quality_.restart();
   } else if (has_disarmed()) {
     ++arm_number_;
-  } else if (newest_.armed && newest_.armed_number == arm_number_ && newest_.is_measured &&
-             quality_.is_settled() && !is_silent(now_ns)) {
+  } else if (is_armed() && newest_.is_measured && quality_.is_settled() && !is_silent(now_ns) &&
+             !is_deaf(now_ns)) {
     phase_ = Phase::kUp;
     fault_ = Fault::kNone;
   }
 }
 
 void NetworkDevice::lose(Fault fault, Phase phase) noexcept {
-  fault_ = fault;
+  // A heartbeat is ours alone. From elsewhere it must not let a force fade that is gone there.
+  fault_ = fault == Fault::kHeartbeatLost ? Fault::kLinkLost : fault;
   phase_ = phase;
   ++arm_number_;
   quality_.restart();
@@ -329,10 +238,14 @@ void NetworkDevice::speak(const core::PointVectors& force_on_hand_n,
                           std::int64_t now_ns) noexcept {
   if (phase_ == Phase::kClosed) return;
   if (phase_ == Phase::kSeeking) return say_hello(false, now_ns);
-  send(wire::Command{.arm_number = arm_number_,
-                     .answered_sequence = newest_sequence_,
-                     .force_on_hand_n = force_on_hand_n},
-       now_ns);
+  const bool sent = send(wire::Command{.arm_number = arm_number_,
+                                       .answered_sequence = newest_sequence_,
+                                       .force_on_hand_n = force_on_hand_n},
+                         now_ns);
+  num_failed_sends_ = sent ? 0 : std::min(num_failed_sends_ + 1, kMostFailedSends);
+  if (num_failed_sends_ == kMostFailedSends && phase_ == Phase::kUp) {
+    lose(Fault::kLinkLost, Phase::kArming);
+  }
   if (const wire::Order* order = hand_.order_after(newest_)) send(*order, now_ns);
 }
 
@@ -347,7 +260,7 @@ void NetworkDevice::say_hello(bool only_asks, std::int64_t now_ns) noexcept {
   port_->send(std::span(bytes).first(size), server_);
 }
 
-void NetworkDevice::send(const wire::Content& content, std::int64_t now_ns) noexcept {
+bool NetworkDevice::send(const wire::Content& content, std::int64_t now_ns) noexcept {
   const wire::Datagram datagram{.header = {.stream_id = stream_id_,
                                            .sequence = sequence_.fetch_add(1),
                                            .sent_ns = now_ns,
@@ -355,7 +268,7 @@ void NetworkDevice::send(const wire::Content& content, std::int64_t now_ns) noex
                                 .content = content};
   std::array<std::byte, wire::kMaxBytes> bytes;
   const std::size_t size = wire::encode(datagram, bytes);
-  port_->send(std::span(bytes).first(size), server_);
+  return port_->send(std::span(bytes).first(size), server_);
 }
 
 }  // namespace jnd::device

@@ -19,8 +19,9 @@ namespace jnd::device {
 /// the datagrams of README.md. It has a clock of its own, so the loop has to run in real time.
 ///
 /// `read` takes in all that has come; the newest state wins and stands in for those that are
-/// missing, for `max_stale_s`. Beyond that, or where the device disarmed itself, was restarted
-/// or the connection is too bad, `read` fails with a fault, so that the loop latches. From then
+/// missing, for `max_stale_s` or as long as the device says. Beyond that, or where the device
+/// is not armed, does not hear us, was restarted or the connection is too bad, `read` fails
+/// with a fault, so that the loop latches; so does `write` when nothing can be sent. From then
 /// on each tick works at coming back, without ever waiting: the same stream if it is there
 /// still, else a new one; good quality for a while; and a new arming, which the device grants
 /// to a command without force alone. Then `read` succeeds again, and force comes back when the
@@ -58,6 +59,8 @@ class NetworkDevice final : public HapticDevice {
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override;
   [[nodiscard]] core::Fault fault() const noexcept override { return fault_; }
+  /// The connection has been good for a while, both ways.
+  [[nodiscard]] bool may_arm() const noexcept override;
   void halt() noexcept override;
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override;
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
@@ -87,21 +90,23 @@ class NetworkDevice final : public HapticDevice {
   template <typename Content>
   void take(const wire::Header&, const Content&, std::int64_t) noexcept {}
 
+  [[nodiscard]] std::int64_t max_stale_ns() const noexcept;
   [[nodiscard]] bool is_silent(std::int64_t now_ns) const noexcept;
+  [[nodiscard]] bool is_deaf(std::int64_t now_ns) const noexcept;
+  [[nodiscard]] bool is_armed() const noexcept;
   [[nodiscard]] bool has_disarmed() const noexcept;
   [[nodiscard]] bool is_trusted(std::int64_t now_ns) const noexcept;
   void judge(std::int64_t now_ns) noexcept;
   void lose(core::Fault fault, Phase phase) noexcept;
   void speak(const core::PointVectors& force_on_hand_n, std::int64_t now_ns) noexcept;
   void say_hello(bool only_asks, std::int64_t now_ns) noexcept;
-  void send(const wire::Content& content, std::int64_t now_ns) noexcept;
+  bool send(const wire::Content& content, std::int64_t now_ns) noexcept;
   void require_same_rate() const;
   [[nodiscard]] std::string what_is_wrong() const;
 
   std::unique_ptr<DatagramPort> port_;
   Address server_;
   Parameters parameters_;
-  std::int64_t max_stale_ns_;
 
   std::optional<wire::Welcome> device_;  ///< As it introduced itself.
   bool is_another_ = false;              ///< It introduced itself as something else since.
@@ -115,16 +120,18 @@ class NetworkDevice final : public HapticDevice {
   wire::State newest_;
   std::uint32_t newest_sequence_ = 0;
   std::int64_t newest_ns_ = 0;  ///< When it came.
-  std::int64_t peer_sent_ns_ = 0, last_echo_ns_ = 0;
+  std::int64_t peer_sent_ns_ = 0;
   std::int64_t last_hello_ns_ = 0;
   std::int64_t first_read_ns_ = 0;  ///< 0: not read since it was opened.
+  bool had_force_ = false;          ///< The loop has asked for one since it was opened.
+  int num_failed_sends_ = 0;        ///< Commands in a row that the system did not take.
+  std::uint32_t arm_number_ = 0;
   RemoteHand hand_;
   wire::Datagram incoming_;
 
-  // Of those who may halt as well.
+  // Whoever halts needs these as well, from any thread.
   std::atomic<std::uint64_t> stream_id_{0};
   std::atomic<std::uint32_t> sequence_;
-  std::atomic<std::uint32_t> arm_number_{0};
 };
 
 }  // namespace jnd::device

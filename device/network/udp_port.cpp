@@ -13,6 +13,7 @@
 #include <ctime>
 
 #include "core/error.h"
+#include "device/haptic_device.h"
 
 namespace jnd::device {
 namespace {
@@ -81,9 +82,12 @@ Address resolved(const Endpoint& endpoint) {
                       endpoint.host + " (" + ::gai_strerror(error) +
                       "); check its spelling and the network");
   }
+  const addrinfo* chosen = found;
+  while (chosen != nullptr && chosen->ai_family != AF_INET) chosen = chosen->ai_next;
+  if (chosen == nullptr) chosen = found;
   SystemAddress system;
-  system.size = found->ai_addrlen;
-  std::memcpy(&system.storage, found->ai_addr, found->ai_addrlen);
+  system.size = chosen->ai_addrlen;
+  std::memcpy(&system.storage, chosen->ai_addr, chosen->ai_addrlen);
   ::freeaddrinfo(found);
   return address_of(system);
 }
@@ -100,13 +104,6 @@ std::string text_of(const Address& address) {
   return (is_6 ? "[" + std::string(host) + "]" : host) + ":" + port;
 }
 
-Address any_address_for(const Address& peer) {
-  SystemAddress system;
-  system.storage.ss_family = system_address(peer).storage.ss_family;
-  system.size = peer.num_bytes;
-  return address_of(system);
-}
-
 UdpPort::UdpPort(const Address& local) {
   SystemAddress system = system_address(local);
   socket_ = ::socket(system.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
@@ -115,6 +112,17 @@ UdpPort::UdpPort(const Address& local) {
   if (socket_ >= 0) ::close(socket_);
   throw core::Error("network: expected " + text_of(local) + " to be free, found: " + why +
                     "; choose another port or address");
+}
+
+std::unique_ptr<UdpPort> UdpPort::connected_to(const Address& peer) {
+  SystemAddress any;
+  SystemAddress system = system_address(peer);
+  any.storage.ss_family = system.storage.ss_family;
+  any.size = peer.num_bytes;
+  auto port = std::make_unique<UdpPort>(address_of(any));
+  if (::connect(port->socket_, system.get(), system.size) == 0) return port;
+  throw DeviceUnreachable("network: expected a way to " + text_of(peer) +
+                          ", found: " + std::strerror(errno) + "; check address and network");
 }
 
 UdpPort::~UdpPort() { ::close(socket_); }
@@ -130,14 +138,20 @@ Address UdpPort::local() const {
 
 bool UdpPort::send(std::span<const std::byte> datagram, const Address& to) noexcept {
   SystemAddress system = system_address(to);
-  const ssize_t sent = ::sendto(socket_, datagram.data(), datagram.size(),
-                                MSG_DONTWAIT | MSG_NOSIGNAL, system.get(), system.size);
-  return sent == static_cast<ssize_t>(datagram.size());
+  // A connected socket tells with the next call that nobody was there for the datagram before.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const ssize_t sent = ::sendto(socket_, datagram.data(), datagram.size(),
+                                  MSG_DONTWAIT | MSG_NOSIGNAL, system.get(), system.size);
+    if (sent >= 0) return sent == static_cast<ssize_t>(datagram.size());
+    if (errno != ECONNREFUSED) return false;
+  }
+  return false;
 }
 
 std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept {
   SystemAddress system;
-  // An empty datagram is as good as none, but must not hide what comes behind it.
+  // An empty datagram is as good as none, but must not hide what comes behind it; nor must the
+  // word that nobody was there.
   for (int attempt = 0; attempt < 16; ++attempt) {
     const ssize_t size = ::recvfrom(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT,
                                     system.get(), &system.size);
@@ -145,7 +159,7 @@ std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept
       from = address_of(system);
       return static_cast<std::size_t>(size);
     }
-    if (size < 0 && errno != EINTR) return 0;
+    if (size < 0 && errno != EINTR && errno != ECONNREFUSED) return 0;
     system.size = sizeof system.storage;
   }
   return 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,8 @@ struct Endpoint {
 /// Throws `core::Error` saying what a host and a port look like. Not real time.
 [[nodiscard]] Endpoint endpoint_of(std::string_view text);
 
-/// Throws `core::Error` if the system does not know the host. Not real time.
+/// Of several addresses an IPv4 one: `localhost` is often both, and servers listen at
+/// 127.0.0.1. Throws `core::Error` if the system does not know the host. Not real time.
 [[nodiscard]] Address resolved(const Endpoint& endpoint);
 
 /// "127.0.0.1:4700". Not real time.
@@ -29,6 +31,9 @@ class UdpPort final : public DatagramPort {
   /// Receives at this address; port 0 is any that is free. Throws `core::Error` if it cannot be
   /// had. Not real time.
   explicit UdpPort(const Address& local);
+  /// Any free port, for talking with `peer` alone: the system drops what others send. Throws
+  /// `DeviceUnreachable` if there is no way to it. Not real time.
+  [[nodiscard]] static std::unique_ptr<UdpPort> connected_to(const Address& peer);
   ~UdpPort() override;
   UdpPort(const UdpPort&) = delete;
   UdpPort& operator=(const UdpPort&) = delete;
@@ -45,8 +50,5 @@ class UdpPort final : public DatagramPort {
  private:
   int socket_ = -1;
 };
-
-/// Any free port of the kind of address that `peer` is. Not real time.
-[[nodiscard]] Address any_address_for(const Address& peer);
 
 }  // namespace jnd::device

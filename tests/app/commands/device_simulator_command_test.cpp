@@ -1,16 +1,21 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
+#include "device/device_registry.h"
+#include "device/simulated_hand.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -82,6 +87,26 @@ TEST_F(DeviceSimulatorTest, ServesTheLoopAndCountsWhatCame) {
   const ProgramOutcome served = simulator_->wait();
   EXPECT_EQ(served.exit_code, 0) << served.err;
   EXPECT_NE(served.out.find("1 programs connected"), std::string::npos) << served.out;
+}
+
+TEST_F(DeviceSimulatorTest, EachProgramFindsTheDeviceAsItWasAtTheStart) {
+  const std::unique_ptr<device::HapticDevice> device =
+      device::make_device("network:" + start(), 1000.0);
+  core::HapticState state;
+  device->open();
+  ASSERT_TRUE(device->read(state));
+  const Eigen::Vector3d home_m = state.tip_position_m[0];
+  device->simulated_hand()->begin_strokes({}, core::RandomStream(1, "strokes"));
+  for (int i = 0; i < 10'000 && (state.tip_position_m[0] - home_m).norm() < 0.05; ++i) {
+    (void)device->write(core::zero_vectors());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    (void)device->read(state);
+  }
+  ASSERT_GE((state.tip_position_m[0] - home_m).norm(), 0.05);
+  device->close();
+  device->open();
+  ASSERT_TRUE(device->read(state));
+  EXPECT_EQ(state.tip_position_m[0], home_m) << "it was not brought home, it starts there";
 }
 
 TEST_F(DeviceSimulatorTest, EndsByItselfWithOneJsonDocument) {

@@ -327,6 +327,19 @@ TEST(ExoskeletonDevice, AHaltLastsUntilZerosAreWritten) {
   }
 }
 
+TEST(ExoskeletonDevice, WhatWasOnItsWayBeforeAFaultDoesNotComeAfterIt) {
+  ExoskeletonDevice exoskeleton(Parameters{.extra_delay_s = 0.003});
+  exoskeleton.open();
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(exoskeleton.write(at_every_point({5.0, 0.0, 0.0})));
+  EXPECT_FALSE(exoskeleton.write(at_every_point({kNan, 0.0, 0.0})));
+  core::HapticState state;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(exoskeleton.write(core::zero_vectors()));
+    ASSERT_TRUE(exoskeleton.read(state));
+    EXPECT_LT(state.joint_torque_n_m[core::finger_joint(0, 1)], 0.15) << i;
+  }
+}
+
 TEST(ExoskeletonDevice, KeepsToItsOwnLimitsWhateverIsWritten) {
   core::RandomStream random(1, "force");
   ExoskeletonDevice bounded(

@@ -137,6 +137,18 @@ TEST(TorqueControl, TurnsThePlatformBackUnlessToldNotTo) {
             1e-12);
 }
 
+TEST(TorqueControl, ThePlatformIsTurnedBackByNoMoreThanItsMost) {
+  Rest rest;
+  TorqueControl control({.max_platform_moment_n_m = 3.0}, kPeriod_s);
+  rest.measured.position_rad[6] += 0.1;
+  rest.measured.velocity_rad_per_s[6] = 5.0;
+  rest.kinematics.update(rest.measured.position_rad);
+  const JointVector torque_n_m =
+      control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
+      rest.kinematics.gravity_torque_n_m();
+  EXPECT_NEAR(torque_n_m[6], -3.0, 1e-9);
+}
+
 TEST(TorqueControl, NoForceIsTooLargeForTheClamp) {
   Rest rest;
   TorqueControl control({}, kPeriod_s);

@@ -29,7 +29,7 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
                                          .rate_hz = random.uniform(1.0, 5000.0),
                                          .max_force_per_point_n = random.uniform(0.1, 9.0),
                                          .max_total_force_n = random.uniform(0.1, 9.0),
-                                         .max_stale_s = random.uniform(),
+                                         .max_stale_s = random.uniform(0.0, 0.1),
                                          .simulated = random.with_probability(0.5),
                                          .num_joints = 22,
                                          .moves_by_itself = random.with_probability(0.5)}};
@@ -260,7 +260,10 @@ TEST(Datagram, ValuesOutOfRangeAreRefused) {
   };
   EXPECT_TRUE(refused(wire::State{}, 712, 0x20)) << "a sixth point";
   EXPECT_TRUE(refused(wire::State{}, 713, 2)) << "armed twice";
-  EXPECT_TRUE(refused(wire::State{}, 716, 14)) << "an unknown fault";
+  const int unknown_fault = static_cast<int>(core::kLastFault) + 1;
+  EXPECT_EQ(core::name(static_cast<core::Fault>(unknown_fault)), "unknown");
+  EXPECT_NE(core::name(core::kLastFault), "unknown");
+  EXPECT_TRUE(refused(wire::State{}, 716, unknown_fault));
   EXPECT_TRUE(refused(wire::State{}, 717, 4)) << "an unknown level";
   EXPECT_TRUE(refused(wire::Hello{}, 48, 2)) << "a flag of two";
   EXPECT_TRUE(refused(wire::Refusal{}, 48, 0)) << "a refusal for no reason";
@@ -268,6 +271,31 @@ TEST(Datagram, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(refused(wire::Welcome{}, 90, 7)) << "a name that rings a bell";
   EXPECT_TRUE(refused(wire::Welcome{}, 91, 'x')) << "a letter behind the end of the name";
   EXPECT_TRUE(refused(wire::Order{}, 53 + 7, 0x80)) << "a negative width";
+}
+
+TEST(Datagram, MeasurementsThatWouldStandInForTooLongAreRefused) {
+  const auto problem_at = [](double max_stale_s) {
+    Datagram back;
+    return wire::decode(
+        encoded({{}, wire::Welcome{.capabilities = {.max_stale_s = max_stale_s}}}), back);
+  };
+  EXPECT_EQ(problem_at(0.0), Problem::kNone);
+  EXPECT_EQ(problem_at(0.1), Problem::kNone);
+  EXPECT_EQ(problem_at(std::nextafter(0.1, 1.0)), Problem::kOutOfRange);
+  EXPECT_EQ(problem_at(1e300), Problem::kOutOfRange);
+}
+
+TEST(Datagram, APlanThatNoArmCouldFollowIsRefused) {
+  const auto problem_of = [](const StrokePlan& plan) {
+    Datagram back;
+    return wire::decode(encoded({{}, wire::Order{.number = 1, .stroke = true, .plan = plan}}),
+                        back);
+  };
+  EXPECT_EQ(problem_of({}), Problem::kNone);
+  EXPECT_EQ(problem_of({.amplitude_m = 1e308}), Problem::kOutOfRange);
+  EXPECT_EQ(problem_of({.max_speed_m_per_s = 1e-300}), Problem::kOutOfRange);
+  EXPECT_EQ(problem_of({.height_m = 1e300}), Problem::kOutOfRange);
+  EXPECT_EQ(problem_of({.sideways_sd_m = 1e300}), Problem::kOutOfRange);
 }
 
 TEST(Datagram, APlanThatComesThroughIsValid) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace jnd::device {
 namespace {
 
@@ -9,6 +11,7 @@ using Verdict = LinkQuality::Verdict;
 
 LinkQuality fed(std::uint32_t first, int num, int every_lost = 0) {
   LinkQuality quality{{}};
+  quality.echoed(1, 2'000'001);
   for (int i = 0; i < num; ++i) {
     if (every_lost > 0 && i % every_lost == every_lost - 1) continue;
     (void)quality.received(first + static_cast<std::uint32_t>(i));
@@ -36,6 +39,19 @@ TEST(LinkQuality, OneFromLongAgoCountsAsRepeated) {
   EXPECT_EQ(quality.received(1000), Verdict::kRepeated);
   EXPECT_EQ(quality.received(1599 - 512), Verdict::kRepeated);
   EXPECT_EQ(quality.counts().received, 600);
+}
+
+TEST(LinkQuality, OnesFromBeforeTheFirstHideNoLoss) {
+  LinkQuality quality{{}};
+  (void)quality.received(1000);
+  for (std::uint32_t i = 1; i <= 40; ++i) {
+    EXPECT_EQ(quality.received(1000 - i), Verdict::kRepeated) << i;
+  }
+  for (std::uint32_t i = 0; i < 99; ++i) {
+    if (i % 5 < 3) (void)quality.received(1001 + i);
+  }
+  EXPECT_EQ(quality.level(), LinkLevel::kPoor) << "forty of ninety-nine are missing";
+  EXPECT_EQ(quality.counts().received, 61);
 }
 
 TEST(LinkQuality, SequenceNumbersMayWrap) {
@@ -77,13 +93,47 @@ TEST(LinkQuality, WhatIsMissingIsForgottenAfterAWindow) {
 TEST(LinkQuality, TheLevelFollowsFromTheRoundTripToo) {
   const auto level_at = [](std::int64_t round_trip_ns) {
     LinkQuality quality = fed(1, 200);
-    for (int i = 0; i < 200; ++i) quality.round_trip(round_trip_ns);
+    for (std::int64_t sent_ns = 2; sent_ns <= 201; ++sent_ns) {
+      quality.echoed(sent_ns, sent_ns + round_trip_ns);
+    }
     return quality.level();
   };
   EXPECT_EQ(level_at(2'000'000), LinkLevel::kExcellent);
   EXPECT_EQ(level_at(6'000'000), LinkLevel::kGood);
   EXPECT_EQ(level_at(12'000'000), LinkLevel::kPoor);
   EXPECT_EQ(level_at(20'000'000), LinkLevel::kUnacceptable);
+}
+
+TEST(LinkQuality, IsNotSettledBeforeARoundTripHasBeenMeasured) {
+  LinkQuality quality = fed(1, 200);
+  quality.restart();
+  for (std::uint32_t i = 201; i <= 500; ++i) (void)quality.received(i);
+  EXPECT_EQ(quality.level(), LinkLevel::kExcellent);
+  EXPECT_FALSE(quality.has_round_trip());
+  EXPECT_FALSE(quality.is_settled());
+  quality.echoed(1, 600);
+  EXPECT_FALSE(quality.is_settled()) << "this one has been heard before";
+  quality.echoed(2, 600);
+  EXPECT_TRUE(quality.is_settled());
+}
+
+TEST(LinkQuality, AnEchoThatCannotBeMeasuresNothing) {
+  constexpr std::int64_t kNow_ns = 5'000'000'000;
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
+  LinkQuality quality{{}};
+  for (const std::int64_t echo_ns :
+       {std::int64_t{0}, std::int64_t{-1}, kNow_ns + 1, kHighest, kLowest}) {
+    quality.echoed(echo_ns, kNow_ns);
+    EXPECT_FALSE(quality.has_round_trip()) << echo_ns;
+  }
+  quality.echoed(kNow_ns, kNow_ns);
+  EXPECT_TRUE(quality.has_round_trip()) << "in no time at all";
+  for (const std::int64_t echo_ns : {kNow_ns, kNow_ns - 1, std::int64_t{0}, kLowest}) {
+    quality.echoed(echo_ns, kNow_ns + 1'000'000'000);
+    EXPECT_EQ(quality.round_trip_s(), 0.0) << echo_ns << " is no newer";
+    EXPECT_EQ(quality.last_echo_ns(), kNow_ns);
+  }
 }
 
 TEST(LinkQuality, HasToBeGoodForAWhile) {

@@ -155,6 +155,46 @@ TEST_F(NetworkDeviceTest, ABadConnectionIsNoneToBeginWith) {
   EXPECT_EQ(max_total_since_n(0), 0.0);
 }
 
+TEST_F(NetworkDeviceTest, ADeviceThatDoesNotRepeatOurClockIsNamed) {
+  device = make_device();
+  device->ask();
+  change_states([](wire::Header& header, wire::State&) { header.echo_ns = 0; });
+  const std::string said = sentence([this] { device->open(); });
+  EXPECT_NE(said.find("expected states that repeat the newest clock of our commands"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(max_total_since_n(0), 0.0);
+}
+
+TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
+  serve({.watchdog_s = 0.050, .max_answer_age_s = 0.070});
+  start();
+  EXPECT_EQ(device->capabilities().max_stale_s, 0.050);
+  for (const bool the_loop : {true, false}) {
+    (the_loop ? loop_runs : server_runs) = false;
+    run(45);
+    EXPECT_EQ(total_now_n() > 0.5, true);
+    loop_runs = server_runs = true;
+    run(300);
+    EXPECT_EQ(fault(), Fault::kNone);
+    EXPECT_GT(total_now_n(), 0.5);
+  }
+  server_runs = false;
+  run(51);
+  EXPECT_EQ(fault(), Fault::kLinkLost);
+}
+
+TEST_F(NetworkDeviceTest, WhereNobodyCanBeHurtTheWatchdogIsPatient) {
+  device = make_device();
+  device->ask();
+  EXPECT_EQ(device->capabilities().watchdog_timeout_s, 0.020);
+  scripted.device_capabilities.simulated = true;
+  serve({});
+  device->ask();
+  EXPECT_EQ(device->capabilities().watchdog_timeout_s,
+            LumpedHandDevice({}).capabilities().watchdog_timeout_s);
+}
+
 TEST_F(NetworkDeviceTest, SequenceNumbersMayWrapInMidFlight) {
   serve({.first_sequence = 0xffffff00u});
   start({.first_sequence = 0xfffffe80u});
@@ -210,91 +250,35 @@ TEST_F(NetworkDeviceTest, ALoopThatStartsLateIsNoFault) {
   EXPECT_TRUE(server->is_armed());
 }
 
+TEST_F(NetworkDeviceTest, ADisarmingAfterTheFirstForceIsToldHoweverEarly) {
+  connect();
+  run(10);
+  ASSERT_GT(total_now_n(), 0.0);
+  lose_next(21, kServer);
+  run(25);
+  EXPECT_EQ(fault(), Fault::kLinkLost);
+  const std::size_t disarmed = mark();
+  run(600);
+  EXPECT_EQ(fault(), Fault::kLinkLost);
+  EXPECT_EQ(max_total_since_n(disarmed), 0.0) << "nobody has armed";
+}
+
+TEST_F(NetworkDeviceTest, AForceForADeviceThatHasDisarmedIsAFault) {
+  connect();
+  loop_runs = false;
+  run(60);
+  loop_runs = true;
+  const std::size_t first = mark();
+  run(600);
+  EXPECT_EQ(fault(), Fault::kLinkLost);
+  EXPECT_EQ(max_total_since_n(first), 0.0);
+}
+
 TEST_F(NetworkDeviceTest, TheEmergencyStopReachesTheDeviceInOneTick) {
   start();
   stop.press();
   run(2);
   EXPECT_EQ(total_now_n(), 0.0);
-}
-
-TEST_F(NetworkDeviceTest, OrdersReachASimulatedHandThroughABadNetwork) {
-  LumpedHandDevice lumped({});
-  lumped.open();
-  served = &lumped;
-  serve({});
-  start();
-  network.on_send = [this, n = 0](const SimulatedNetwork::Sent& sent) mutable {
-    if (++n % 40 >= 10) network.post(sent);
-  };
-  SimulatedHand* hand = device->simulated_hand();
-  ASSERT_NE(hand, nullptr);
-  EXPECT_THROW(hand->begin_strokes({.amplitude_m = -1.0}, core::RandomStream(1, "x")),
-               core::Error);
-  hand->begin_strokes({.num_strokes = 2}, core::RandomStream(4, "strokes"));
-  EXPECT_FALSE(hand->is_home()) << "an order given counts at once";
-  EXPECT_EQ(hand->strokes_finished(), 0);
-  network.on_send = nullptr;
-  int num_ms = 0;
-  while (!hand->is_home() && num_ms++ < 60'000) run(1);
-  EXPECT_EQ(hand->strokes_finished(), 2);
-  hand->begin_strokes({}, core::RandomStream(4, "strokes"));
-  EXPECT_EQ(hand->strokes_finished(), 0);
-  run(3000);
-  EXPECT_FALSE(hand->is_home());
-  EXPECT_GT(device->contact_sums().num_ticks, 3000);
-  EXPECT_GT(device->contact_sums().rendered_opposing_n, 0.0);
-  hand->go_home();
-  run(5000);
-  EXPECT_TRUE(hand->is_home());
-}
-
-TEST_F(NetworkDeviceTest, TheHandMovesAsItWouldWithoutANetwork) {
-  const StrokePlan plan{.num_strokes = 1};
-  const core::RandomStream random(9, "strokes");
-  const auto path_of = [](LumpedHandDevice& lumped, const std::function<void()>& tick) {
-    std::vector<double> path;
-    core::HapticState state;
-    while (path.size() < 2000) {
-      tick();
-      (void)lumped.read(state);
-      if (!path.empty() || state.tip_velocity_m_per_s[0].norm() > 0.0) {
-        path.push_back(state.tip_position_m[0].x());
-      }
-    }
-    return path;
-  };
-  LumpedHandDevice near({}), far({});
-  near.open();
-  near.simulated_hand()->begin_strokes(plan, random);
-  const std::vector<double> expected =
-      path_of(near, [&] { (void)near.write(core::zero_vectors()); });
-  far.open();
-  served = &far;
-  serve({});
-  device = make_device();
-  device->open();
-  device->simulated_hand()->begin_strokes(plan, random);
-  core::HapticState state;
-  EXPECT_EQ(path_of(far,
-                    [&] {
-                      run(1);
-                      (void)device->read(state);
-                      (void)device->write(core::zero_vectors());
-                    }),
-            expected);
-}
-
-TEST_F(NetworkDeviceTest, AHandWhoseProgramIsGoneGoesHome) {
-  LumpedHandDevice lumped({});
-  lumped.open();
-  served = &lumped;
-  serve({});
-  start();
-  device->simulated_hand()->begin_strokes({}, core::RandomStream(4, "strokes"));
-  run(1000);
-  loop_runs = false;
-  run(4000);
-  EXPECT_TRUE(lumped.simulated_hand()->is_home());
 }
 
 /// Answers as a device does, without a heap: for counting.

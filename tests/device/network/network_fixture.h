@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,7 +24,7 @@ class NetworkTest : public ::testing::Test {
  protected:
   NetworkTest() {
     network.on_millisecond = [this] {
-      if (server != nullptr) server->step(network.now_ns);
+      if (server != nullptr && server_runs) server->step(network.now_ns);
     };
     serve({});
   }
@@ -46,6 +47,12 @@ class NetworkTest : public ::testing::Test {
 
   /// Connects, arms and waits until the force is there.
   void start(const NetworkDevice::Parameters& parameters = {}) {
+    connect(parameters);
+    run(200);
+  }
+
+  /// Connects and arms, and is about to run.
+  void connect(const NetworkDevice::Parameters& parameters = {}) {
     device = make_device(parameters);
     device->ask();
     device->open();
@@ -56,7 +63,46 @@ class NetworkTest : public ::testing::Test {
                       .medium = core::viscous({.viscosity_pa_s = 8.0}),
                       .immersion = {.radius_m = 10.0, .depth_m = 10.0},
                       .ramp_s = 0.0});
-    run(200);
+  }
+
+  /// Loses the next `num` datagrams to this address.
+  void lose_next(int num, const Address& to) {
+    network.on_send = [this, num, to](const SimulatedNetwork::Sent& sent) mutable {
+      if (sent.to == to && num > 0) {
+        --num;
+      } else {
+        network.post(sent);
+      }
+    };
+  }
+
+  /// Loses every so-manieth datagram to this address.
+  void lose_every(int nth, const Address& to) {
+    network.on_send = [this, nth, to, num = 0](const SimulatedNetwork::Sent& sent) mutable {
+      if (!(sent.to == to) || ++num % nth != 0) network.post(sent);
+    };
+  }
+
+  /// Lets a controller of somebody else's speak: its states say what `change` makes of ours.
+  void change_states(std::function<void(wire::Header&, wire::State&)> change) {
+    network.on_send = [this, change = std::move(change)](const SimulatedNetwork::Sent& sent) {
+      wire::Datagram datagram;
+      SimulatedNetwork::Sent changed = sent;
+      if (sent.to == kProgram && wire::decode(sent.bytes, datagram) == wire::Problem::kNone) {
+        if (auto* state = std::get_if<wire::State>(&datagram.content)) {
+          change(datagram.header, *state);
+          changed.bytes = encoded(datagram);
+        }
+      }
+      network.post(changed);
+    };
+  }
+
+  void press_and_release_stop() {
+    stop.press();
+    run(50);
+    EXPECT_EQ(total_now_n(), 0.0);
+    EXPECT_TRUE(stop.release(stop.num_presses()));
   }
 
   /// So many of both sides' ticks; stops what the test has stopped.
@@ -137,7 +183,7 @@ class NetworkTest : public ::testing::Test {
   core::LatestValue<core::Telemetry> telemetry_door;
   core::EmergencyStop stop;
   std::unique_ptr<HapticLoop> loop;
-  bool loop_runs = true;
+  bool loop_runs = true, server_runs = true;
   int num_run = 0;
   std::uint64_t next_stream_id = 0;
   std::uint64_t next_token = 0;

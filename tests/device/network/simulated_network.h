@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,7 @@ class SimulatedNetwork {
     Port(SimulatedNetwork& network, const Address& own) : network_(network), own_(own) {}
 
     bool send(std::span<const std::byte> datagram, const Address& to) noexcept override {
+      if (network_.unplugged && *network_.unplugged == own_) return false;
       network_.carry({.bytes = {datagram.begin(), datagram.end()},
                       .from = own_,
                       .to = to,
@@ -79,6 +81,7 @@ class SimulatedNetwork {
   std::int64_t now_ns = 1'000'000'000;
   std::function<void(const Sent&)> on_send;  ///< Posts what is to arrive, changed or not.
   std::function<void()> on_millisecond;
+  std::optional<Address> unplugged;  ///< Whose system takes nothing to send.
 
  private:
   std::size_t deliver(const Address& to, std::span<std::byte> bytes, Address& from) {

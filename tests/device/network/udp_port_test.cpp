@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <span>
 #include <string>
 
 #include "core/error.h"
@@ -31,7 +33,6 @@ TEST(Endpoint, WhatIsNoneIsToldHowOneLooks) {
 TEST(Address, SaysWhatItIs) {
   EXPECT_EQ(text_of(resolved({"127.0.0.1", 4700})), "127.0.0.1:4700");
   EXPECT_EQ(text_of(resolved({"::1", 4700})), "[::1]:4700");
-  EXPECT_EQ(text_of(any_address_for(resolved({"127.0.0.1", 4700}))), "0.0.0.0:0");
   EXPECT_FALSE(resolved({"127.0.0.1", 1}) == resolved({"127.0.0.1", 2}));
 }
 
@@ -52,6 +53,48 @@ TEST(UdpPort, CarriesDatagramsBothWays) {
   EXPECT_TRUE(far.send(sent, from));
   EXPECT_EQ(near.receive(bytes, from), 3u);
   EXPECT_EQ(from, far.local());
+}
+
+TEST(Address, OfSeveralAnIPv4OneIsTaken) {
+  EXPECT_EQ(text_of(resolved({"localhost", 4700})), "127.0.0.1:4700");
+}
+
+TEST(UdpPort, AConnectedOneHearsNobodyElse) {
+  const Address any = resolved({"127.0.0.1", 0});
+  UdpPort server(any), stranger(any);
+  const std::unique_ptr<UdpPort> program = UdpPort::connected_to(server.local());
+  const std::array<std::byte, 2> sent = {std::byte{1}, std::byte{2}};
+  EXPECT_TRUE(program->send(sent, server.local()));
+  std::array<std::byte, 16> bytes;
+  Address from;
+  ASSERT_EQ(server.receive(bytes, from), 2u);
+  EXPECT_EQ(from, program->local());
+  EXPECT_TRUE(stranger.send(sent, from));
+  EXPECT_EQ(program->receive(bytes, from), 0u);
+  EXPECT_TRUE(server.send(std::span(sent).first(1), program->local()));
+  EXPECT_EQ(program->receive(bytes, from), 1u);
+  EXPECT_EQ(from, server.local());
+}
+
+TEST(UdpPort, NobodyAtTheOtherEndHidesNoDatagram) {
+  const Address any = resolved({"127.0.0.1", 0});
+  auto server = std::make_unique<UdpPort>(any);
+  const Address place = server->local();
+  const std::unique_ptr<UdpPort> program = UdpPort::connected_to(place);
+  const std::array<std::byte, 2> sent = {std::byte{1}, std::byte{2}};
+  server.reset();
+  std::array<std::byte, 16> bytes;
+  Address from;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(program->send(sent, place));
+    EXPECT_TRUE(program->send(sent, place)) << "the refusal of the one before is not its own";
+    EXPECT_EQ(program->receive(bytes, from), 0u);
+  }
+  server = std::make_unique<UdpPort>(place);
+  EXPECT_TRUE(program->send(sent, place));
+  EXPECT_EQ(server->receive(bytes, from), 2u);
+  EXPECT_TRUE(server->send(sent, from));
+  EXPECT_EQ(program->receive(bytes, from), 2u);
 }
 
 TEST(UdpPort, APlaceThatIsTakenIsNamed) {
