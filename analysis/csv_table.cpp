@@ -314,10 +314,18 @@ std::vector<double> CsvReader::numbers(std::string_view name) {
 }
 
 std::vector<double> CsvReader::numbers_until_empty(std::string_view name) {
+  std::vector<std::size_t> all(table_.num_rows());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return numbers_until_empty(name, all);
+}
+
+std::vector<double> CsvReader::numbers_until_empty(std::string_view name,
+                                                   const std::vector<std::size_t>& rows) {
   std::vector<double> values;
   const std::optional<std::size_t> place = column(name);
+  if (!place) return values;
   bool ended = false;
-  for (std::size_t row = 0; place && row < table_.num_rows(); ++row) {
+  for (const std::size_t row : rows) {
     if (table_.cell(row, *place).empty()) {
       ended = true;
     } else if (ended) {

@@ -56,6 +56,9 @@ class CsvReader {
 
   /// The numbers down to the first empty cell, after which all must be empty.
   [[nodiscard]] std::vector<double> numbers_until_empty(std::string_view name);
+  /// The same of some rows, ascending: an empty cell ends the column for them.
+  [[nodiscard]] std::vector<double> numbers_until_empty(std::string_view name,
+                                                        const std::vector<std::size_t>& rows);
 
   /// A problem "NAME:LINE: column: expected RULE, found CELL".
   void report(std::size_t row, std::string_view column, std::string_view rule);

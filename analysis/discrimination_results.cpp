@@ -4,108 +4,23 @@
 #include <limits>
 #include <map>
 
-#include "analysis/fits/psychometric_fit.h"
+#include "analysis/discrimination_answers.h"
+#include "analysis/discrimination_group.h"
 #include "analysis/groups/summary.h"
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
 namespace {
 
-/// Answers of one participant in one block, by level.
-struct Answers {
-  std::string participant;
-  double reference = 0.0;
-  std::map<double, AnswerCount> levels;
-};
-
-std::vector<AnswerCount> rows_of(const std::map<double, AnswerCount>& levels) {
-  std::vector<AnswerCount> rows;
-  for (const auto& [intensity, count] : levels) rows.push_back(count);
-  return rows;
-}
-
-std::vector<Answers> answers_in(const StudyData& data, const BlockDesign& block,
-                                std::vector<ExcludedParticipant>& excluded) {
-  std::vector<Answers> all;
-  for (const ParticipantData& participant : data.participants) {
-    Answers answers{.participant = participant.participant};
-    for (const core::TrialRow& trial : participant.trials_in(block.block)) {
-      if (!trial.intensity || !trial.response || !trial.reference_intensity) continue;
-      answers.reference = *trial.reference_intensity;
-      AnswerCount& count = answers.levels[*trial.intensity];
-      count.intensity = *trial.intensity;
-      count.num_yes += *trial.response > 0.5 ? 1 : 0;
-      ++count.num_trials;
-    }
-    if (answers.levels.empty()) {
-      excluded.push_back({participant.participant, "no answers in " + block.block});
-    } else {
-      all.push_back(std::move(answers));
-    }
-  }
-  return all;
-}
-
-PsychometricFit pooled_fit(const std::vector<Answers>& all,
-                           const std::vector<std::size_t>& drawn, PsychometricMethod method,
-                           Solver solver) {
-  std::map<double, AnswerCount> pooled;
-  for (const std::size_t index : drawn) {
-    for (const auto& [intensity, count] : all[index].levels) {
-      AnswerCount& sum = pooled[intensity];
-      sum.intensity = intensity;
-      sum.num_yes += count.num_yes;
-      sum.num_trials += count.num_trials;
-    }
-  }
-  return fit_psychometric(rows_of(pooled), {.reference = all.front().reference,
-                                            .method = method,
-                                            .intervals = false,
-                                            .solver = solver});
-}
-
-/// The Weber fraction of a fit; where there is none, its limit: 0 if thicker was said of the
-/// thicker ones all the same (separated), else infinite (flat, inverted).
-double fraction_or_limit(const PsychometricFit& fit, const std::vector<Answers>& all,
-                         const std::vector<std::size_t>& drawn) {
-  if (fit.weber_fraction) return *fit.weber_fraction;
-  double order = 0.0;
-  for (const std::size_t index : drawn) {
-    for (const auto& [intensity, count] : all[index].levels) {
-      order +=
-          (2.0 * static_cast<double>(count.num_yes) - static_cast<double>(count.num_trials)) *
-          std::log(intensity / all[index].reference);
-    }
-  }
-  return order > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
-}
-
-PsychometricFit individual_fit(const Answers& answers) {
-  return fit_psychometric(rows_of(answers.levels),
-                          {.reference = answers.reference, .intervals = false});
-}
-
-/// The fit with half a "yes" and half a "no" added in all, spread over the levels (the count of
-/// Firth 1993 for one parameter): it exists for answers that separate the stimuli perfectly,
-/// and moves the others little. Counts are multiplied to stay whole, which leaves the estimate
-/// as it is.
-PsychometricFit corrected_fit(const Answers& answers) {
-  std::vector<AnswerCount> rows = rows_of(answers.levels);
-  const auto factor = 2 * static_cast<std::int64_t>(rows.size());
-  for (AnswerCount& row : rows) {
-    row.num_yes = factor * row.num_yes + 1;
-    row.num_trials = factor * row.num_trials + 2;
-  }
-  return fit_psychometric(rows, {.reference = answers.reference, .intervals = false});
-}
+using Everybody = std::vector<DiscriminationAnswers>;
 
 /// Individual Weber fractions; those without one are named.
 std::map<std::string, double> individual_weber_fractions(
-    const std::vector<Answers>& all, bool corrected, std::vector<ExcludedParticipant>& excluded,
-    const std::string& block) {
+    const Everybody& all, const OwnFitOptions& options,
+    std::vector<ExcludedParticipant>& excluded, const std::string& block) {
   std::map<std::string, double> fractions;
-  for (const Answers& answers : all) {
-    const PsychometricFit fit = corrected ? corrected_fit(answers) : individual_fit(answers);
+  for (const DiscriminationAnswers& answers : all) {
+    const PsychometricFit fit = own_fit(answers, options);
     if (fit.weber_fraction) {
       fractions[answers.participant] = *fit.weber_fraction;
     } else {
@@ -132,13 +47,12 @@ struct IndividualFraction {
 
 /// Median, quartiles and robust spread, which some fractions beyond the stimuli leave as they
 /// are.
-void add_individual(ResultsSection& section, const std::vector<Answers>& all,
-                    const BlockDesign& block, const ResultsOptions& options) {
+void add_individual(ResultsSection& section, const Everybody& all, const BlockDesign& block,
+                    const ResultsOptions& options) {
   std::vector<IndividualFraction> individual;
   std::vector<double> with_fit;
-  for (const Answers& answers : all) {
-    const PsychometricFit fit =
-        fit_psychometric(rows_of(answers.levels), {.reference = answers.reference});
+  for (const DiscriminationAnswers& answers : all) {
+    const PsychometricFit fit = own_fit(answers, {.intervals = true});
     section.participants.push_back({answers.participant, block.block + ".weber_fraction",
                                     fit.weber_fraction, fit.weber_fraction_ci95, fit.reason});
     const double largest = answers.levels.rbegin()->first / answers.reference - 1.0;
@@ -151,7 +65,8 @@ void add_individual(ResultsSection& section, const std::vector<Answers>& all,
       section.excluded.push_back(
           {answers.participant,
            block.block + ": no Weber fraction of their own, " + fit.reason});
-      if (corrected_fit(answers).weber_fraction.value_or(largest) < largest) one = {};
+      if (own_fit(answers, {.corrected = true}).weber_fraction.value_or(largest) < largest)
+        one = {};
     }
     individual.push_back(one);
   }
@@ -217,6 +132,12 @@ void add_individual(ResultsSection& section, const std::vector<Answers>& all,
 /// Where individual Weber fractions are compared: their spread is even there.
 double log_log(double weber_fraction) { return std::log(std::log1p(weber_fraction)); }
 
+std::vector<double> log_log_of(const std::map<std::string, double>& fractions) {
+  std::vector<double> values = values_of(fractions);
+  for (double& value : values) value = log_log(value);
+  return values;
+}
+
 /// Student's t with pooled variance, the test that was published.
 Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
   const Summary first = summary_of(a);
@@ -228,82 +149,74 @@ Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
                        {*second.mean, *second.standard_deviation, second.num_values});
 }
 
+/// Tests between the fractions that people have of their own, free or with the pse at the
+/// reference, with or without those who have none uncorrected.
+void add_own_fraction_tests(ResultsSection& section, const Everybody& first_answers,
+                            const BlockDesign& first, const Everybody& second_answers,
+                            const BlockDesign& second, const OwnFitOptions& options) {
+  std::vector<ExcludedParticipant> without_fit;
+  const auto a = individual_weber_fractions(first_answers, options, without_fit, first.block);
+  const auto b = individual_weber_fractions(second_answers, options, without_fit, second.block);
+  std::vector<double> paired_a, paired_b;
+  for (const auto& [participant, fraction] : a) {
+    const auto other = b.find(participant);
+    if (other == b.end()) continue;
+    paired_a.push_back(log_log(fraction));
+    paired_b.push_back(log_log(other->second));
+  }
+  // Everybody with the same small correction, so that a perfect observer has a fraction too.
+  const std::string who =
+      std::string(options.free_pse ? ", pse free" : "") +
+      (options.corrected ? ", with degenerate participants (half an answer added)"
+                         : ", without degenerate participants");
+  if (options.corrected && !options.free_pse) {
+    section.excluded.insert(section.excluded.end(), without_fit.begin(), without_fit.end());
+  }
+  const auto add = [&](const std::string& name, const Comparison& comparison) {
+    section.comparisons.push_back(
+        {first.block + " - " + second.block + ": " + name + who, comparison});
+  };
+  add("ln ln(1 + w), paired", paired_t_test(paired_a, paired_b));
+  add("ln ln(1 + w), Wilcoxon", wilcoxon_test(paired_a, paired_b));
+  if (options.free_pse) return;
+  add("ln ln(1 + w), unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
+  add("w, unpaired, Welch", welch_t_test(values_of(a), values_of(b)));
+  add("w, unpaired, pooled variance, as published", pooled(values_of(a), values_of(b)));
+}
+
 }  // namespace
 
 ResultsSection discrimination_results(const StudyData& data, const BlockDesign& block,
                                       const ResultsOptions& options) {
   ResultsSection section{.name = block.block};
-  const std::vector<Answers> all = answers_in(data, block, section.excluded);
+  const Everybody all = discrimination_answers(data, block, false, section.excluded);
   if (all.empty()) return section;
-  std::vector<std::size_t> everyone(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) everyone[i] = i;
-
-  const auto add_pooled = [&](const std::string& name, PsychometricMethod method,
-                              const std::string& meaning) {
-    const PsychometricFit pooled_curve = pooled_fit(all, everyone, method, Solver::kCeres);
-    if (!pooled_curve.weber_fraction) {
-      section.excluded.push_back({"everyone", block.block + "." + name +
-                                                  ": no value, the pooled " + "answers are " +
-                                                  pooled_curve.reason});
-    }
-    Estimate estimate{.name = block.block + "." + name,
-                      .value = pooled_curve.weber_fraction,
-                      .unit = "1",
-                      .meaning = meaning,
-                      .n = static_cast<int>(all.size())};
-    if (estimate.value && all.size() > 1) {
-      estimate.ci95 =
-          resample_participants(all.size(), options.num_resamples, options.seed,
-                                [&](const std::vector<std::size_t>& drawn) {
-                                  const PsychometricFit fit =
-                                      pooled_fit(all, drawn, method, Solver::kNewton);
-                                  return std::optional(fraction_or_limit(fit, all, drawn));
-                                })
-              .ci95;
-    }
-    section.estimates.push_back(std::move(estimate));
-  };
-  add_pooled("weber_fraction", PsychometricMethod::kLeastSquares,
-             "Weber fraction of the pooled curve, least squares on proportions");
-  add_pooled("weber_fraction_ml", PsychometricMethod::kMaximumLikelihood,
-             "Weber fraction of the pooled curve, maximum likelihood");
-
+  add_group_estimates(section, data, block, options);
   add_individual(section, all, block, options);
+  add_trial_trends(section, all, block);
   return section;
 }
 
 ResultsSection discrimination_comparison(const StudyData& data, const BlockDesign& first,
                                          const BlockDesign& second) {
   ResultsSection section{.name = first.block + "_against_" + second.block};
-  const std::vector<Answers> first_answers = answers_in(data, first, section.excluded);
-  const std::vector<Answers> second_answers = answers_in(data, second, section.excluded);
-  for (const bool corrected : {false, true}) {
-    std::vector<ExcludedParticipant> without_fit;
-    const auto a =
-        individual_weber_fractions(first_answers, corrected, without_fit, first.block);
-    const auto b =
-        individual_weber_fractions(second_answers, corrected, without_fit, second.block);
-    std::vector<double> paired_a;
-    std::vector<double> paired_b;
-    for (const auto& [participant, fraction] : a) {
-      const auto other = b.find(participant);
-      if (other == b.end()) continue;
-      paired_a.push_back(log_log(fraction));
-      paired_b.push_back(log_log(other->second));
-    }
-    // Everybody with the same small correction, so that a perfect observer has a fraction too.
-    const std::string who = corrected ? ", with degenerate participants (half an answer added)"
-                                      : ", without degenerate participants";
-    if (corrected) {
-      section.excluded.insert(section.excluded.end(), without_fit.begin(), without_fit.end());
-    }
-    const std::string pair = first.block + " - " + second.block + ": ";
+  const Everybody first_answers = discrimination_answers(data, first, false, section.excluded);
+  const Everybody second_answers =
+      discrimination_answers(data, second, false, section.excluded);
+  const std::string pair = first.block + " - " + second.block + ": ";
+  for (const bool free_pse : {true, false}) {
     section.comparisons.push_back(
-        {pair + "ln ln(1 + w), paired" + who, paired_t_test(paired_a, paired_b)});
-    section.comparisons.push_back(
-        {pair + "w, unpaired, Welch" + who, welch_t_test(values_of(a), values_of(b))});
-    section.comparisons.push_back({pair + "w, unpaired, pooled variance, as published" + who,
-                                   pooled(values_of(a), values_of(b))});
+        {pair + "ln ln(1 + w) of the median person, hierarchical, " +
+             (free_pse ? "pse free (primary)" : "pse at the reference (secondary)"),
+         median_person_difference(
+             first_answers, first, second_answers, second,
+             free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference)});
+  }
+  for (const bool free_pse : {false, true}) {
+    for (const bool corrected : {false, true}) {
+      add_own_fraction_tests(section, first_answers, first, second_answers, second,
+                             {.corrected = corrected, .free_pse = free_pse});
+    }
   }
   return section;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/error.h"
 
@@ -34,14 +35,20 @@ std::vector<core::TrialRow> ParticipantData::trials_in(const std::string& block)
   return found;
 }
 
-StudyData load_study(const core::StudyStore& store) {
+StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   StudyData data;
   const std::string place = store.folder().string();
   std::map<std::string, BlockDesign> blocks;
+  std::set<std::string> known_protocols;
   for (const core::SessionRow& session : store.sessions()) {
-    if (session.pilot) continue;
+    if (session.pilot && !with_pilots) continue;
     data.protocol_sha256 = session.protocol_sha256;
     data.simulated = data.simulated || session.simulated;
+    if (known_protocols.insert(session.protocol_sha256).second) {
+      merge_items(data.items,
+                  questionnaire_items(parsed(store.protocol(session.protocol_sha256).text,
+                                             place + ": protocol")));
+    }
     if (!session.laboratory.empty()) {
       const json laboratory = parsed(session.laboratory, place + ": laboratory");
       data.laboratory_text = session.laboratory;
@@ -60,8 +67,19 @@ StudyData load_study(const core::StudyStore& store) {
                .num_trials = std::max(block.num_trials, ++num_trials[row.block])};
     }
     ParticipantData& participant = of(data.participants, session.participant);
+    if (!session.cells.empty()) participant.cells = session.cells;
+    for (core::AnswerRow& answer : store.answers(session.session)) {
+      participant.answers.push_back(std::move(answer));
+    }
+    std::set<std::int64_t> standing;
     for (core::TrialRow& trial : store.trials(session.session)) {
+      standing.insert(trial.trial);
       participant.trials.push_back(std::move(trial));
+    }
+    for (core::TrialRow& trial : store.trials(session.session, /*include_excluded=*/true)) {
+      if (!standing.contains(trial.trial)) {
+        participant.excluded_trials.push_back(std::move(trial));
+      }
     }
     for (core::PresentationRow& row : store.presentations(session.session)) {
       participant.presentations[block_of_trial[row.trial]].push_back(std::move(row));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/questionnaire_items.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {
@@ -13,7 +14,10 @@ namespace jnd::analysis {
 struct ParticipantData {
   std::string participant;
   std::vector<core::TrialRow> trials;
+  std::vector<core::TrialRow> excluded_trials;  ///< Set aside by hand, otherwise complete.
   std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
+  std::string cells;                     ///< Counterbalancing, as a session keeps it.
+  std::vector<core::AnswerRow> answers;  ///< Outside of trials, in the order of the sessions.
 
   [[nodiscard]] std::vector<core::TrialRow> trials_in(const std::string& block) const;
 };
@@ -36,9 +40,11 @@ struct StudyData {
   std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
   std::vector<ParticipantData> participants;        ///< By pseudonym.
   std::vector<BlockDesign> blocks;                  ///< By name.
+  std::vector<QuestionnaireItem> items;             ///< In the order of the study file.
 };
 
 /// Reads the folder's database; nothing is computed yet. Throws `Error` for a damaged study.
-[[nodiscard]] StudyData load_study(const core::StudyStore& store);
+/// `with_pilots`: pilot sessions as well.
+[[nodiscard]] StudyData load_study(const core::StudyStore& store, bool with_pilots = false);
 
 }  // namespace jnd::analysis

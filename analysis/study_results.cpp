@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "analysis/exploratory_results.h"
+#include "analysis/questionnaire_results.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -60,6 +63,11 @@ StudyResults results_of(const StudyData& data, const Published& published,
         discrimination_comparison(data, discriminations[i], discriminations[i + 1]));
   }
   results.sections.push_back(movement_results(data));
+  if (ResultsSection exploratory = exploratory_results(data, results.sections);
+      !exploratory.estimates.empty() || !exploratory.comparisons.empty()) {
+    results.sections.push_back(std::move(exploratory));
+  }
+  if (!data.items.empty()) results.sections.push_back(questionnaire_results(data));
 
   for (ResultsSection& section : results.sections) {
     for (Estimate& estimate : section.estimates) {

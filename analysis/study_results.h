@@ -44,6 +44,17 @@ struct ParticipantEstimate {
 struct NamedComparison {
   std::string name;  ///< "group_d - group_e: ln ln(1 + w), paired"
   Comparison comparison;
+  /// Adjusted by Holm (1979) for the tests of its family; absent where none was made.
+  std::optional<double> p_value_holm;
+  std::string family;  ///< "exploratory, t"; "" with a test that stands alone.
+};
+
+/// What a participant said in words of their own.
+struct FreeAnswer {
+  std::string participant;
+  std::string item;      ///< "missing_sensations"
+  std::string question;  ///< As it was asked.
+  std::string answer;
 };
 
 struct ResultsSection {
@@ -52,6 +63,7 @@ struct ResultsSection {
   std::vector<ParticipantEstimate> participants;
   std::vector<NamedComparison> comparisons;
   std::vector<ExcludedParticipant> excluded;
+  std::vector<FreeAnswer> free_answers;
 };
 
 /// Everything a study's design calls for, as plain data; the command line, the report and the

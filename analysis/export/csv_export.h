@@ -2,20 +2,19 @@
 
 #include <filesystem>
 
-#include "core/storage/study_store.h"
+#include "analysis/export/export_options.h"
 
 namespace jnd::analysis {
 
-struct CsvExportOptions {
-  bool recordings = false;  ///< Also every sample, one file a session.
-  bool pilot = false;       ///< Also pilot sessions.
-};
-
-/// Writes a study as tables: sessions.csv, trials.csv (one row a trial), presentations.csv,
-/// events.csv, answers.csv, and codebook.csv with the meaning and unit of every column. UTF-8,
-/// LF, "." decimals, the shortest digits that read back as the same number; rows by session,
-/// so the same study gives the same bytes. `folder` must not exist or be empty. Throws `Error`.
+/// Writes a study as tables: sessions.csv, participants.csv, trials.csv (one row a trial),
+/// presentations.csv, events.csv, answers.csv (everything that was answered outside of trials),
+/// questionnaires.csv (the questions, with how each was asked), and codebook.csv with the
+/// meaning and unit of every column; on request recordings/SESSION.csv, every sample to the
+/// step it was stored in, and recordings/gaps.csv, the ticks that are missing in them. UTF-8,
+/// LF, "." decimals, the shortest digits that read back as the same number; rows by session, so
+/// the same study gives the same bytes. `folder` must not exist or be empty; it is there as a
+/// whole or not at all. Throws `Error`.
 void export_csv(const core::StudyStore& store, const std::filesystem::path& folder,
-                const CsvExportOptions& options);
+                const ExportOptions& options);
 
 }  // namespace jnd::analysis

@@ -1,53 +1,118 @@
 #include "analysis/export/csv_table_writer.h"
 
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/error.h"
 
 namespace jnd::analysis {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1U << 16U;
+constexpr std::array<std::int64_t, 10> kPowerOfTen = {
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000};
+
+std::vector<std::string> names_of(const std::vector<CsvColumn>& columns) {
+  std::vector<std::string> names;
+  for (const CsvColumn& column : columns) names.emplace_back(column.name);
+  return names;
+}
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (letter == '"') result += '"';
+    result += letter;
+  }
+  return result + '"';
+}
+
+}  // namespace
 
 CsvTableWriter::CsvTableWriter(std::filesystem::path file,
-                               const std::vector<CsvColumn>& columns)
-    : file_(std::move(file)), stream_(file_, std::ios::binary), num_columns_(columns.size()) {
-  for (const CsvColumn& column : columns) cell(std::string(column.name));
+                               const std::vector<CsvColumn>& columns, TableStyle style)
+    : CsvTableWriter(std::move(file), names_of(columns), style) {}
+
+CsvTableWriter::CsvTableWriter(std::filesystem::path file,
+                               const std::vector<std::string>& names, TableStyle style)
+    : file_(std::move(file)), style_(style), num_columns_(names.size()) {
+  stream_.reset(std::fopen(file_.c_str(), "wb"));
+  if (!stream_) fail(errno);
+  std::setvbuf(stream_.get(), nullptr, _IONBF, 0);  // `buffer_` is one already.
+  buffer_.reserve(2 * kBufferBytes);
+  if (style == TableStyle::kBidsWithoutNames) return;
+  for (const std::string& name : names) cell(name);
   end_row();
 }
 
-CsvTableWriter& CsvTableWriter::cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) {
-    put(text);
+CsvTableWriter& CsvTableWriter::cell(std::string_view text) {
+  if (style_ == TableStyle::kCsv) {
+    if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
+      put(text);
+    } else {
+      put(quoted(text));
+    }
     return *this;
   }
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"') quoted += '"';
-    quoted += letter;
+  if (text.empty()) return nothing();
+  std::string plain(text);
+  for (char& letter : plain) {
+    if (letter == '\t' || letter == '\n' || letter == '\r') letter = ' ';
   }
-  put(quoted + '"');
+  put(plain);
   return *this;
 }
 
 CsvTableWriter& CsvTableWriter::cell(std::int64_t number) {
-  put(std::to_string(number));
+  char digits[24];
+  char* const end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+  put({digits, static_cast<std::size_t>(end - digits)});
   return *this;
 }
 
 CsvTableWriter& CsvTableWriter::cell(double number) {
-  if (!std::isfinite(number)) {
-    put("");
-    return *this;
-  }
+  if (!std::isfinite(number)) return nothing();
   char digits[32];
   char* const end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-  put(std::string(digits, end));
+  put({digits, static_cast<std::size_t>(end - digits)});
   return *this;
 }
 
-void CsvTableWriter::put(const std::string& text) {
-  if (num_cells_++ > 0) stream_ << ',';
-  stream_ << text;
+CsvTableWriter& CsvTableWriter::fixed_cell(double number, int decimals) {
+  const std::int64_t unit = kPowerOfTen.at(static_cast<std::size_t>(decimals));
+  const double multiple = number * static_cast<double>(unit);
+  // Also false for NaN. What lies off the grid by more than rounding is written in full.
+  if (!(std::abs(multiple) < 1e15) || std::abs(multiple - std::round(multiple)) > 1e-3) {
+    return cell(number);
+  }
+  const std::int64_t whole = std::llround(multiple);
+  const std::int64_t magnitude = whole < 0 ? -whole : whole;
+  char digits[32];
+  char* end = digits;
+  if (whole < 0) *end++ = '-';
+  end = std::to_chars(end, digits + sizeof digits, magnitude / unit).ptr;
+  std::int64_t rest = magnitude % unit;
+  if (rest != 0) *end++ = '.';
+  for (std::int64_t place = unit / 10; rest != 0; place /= 10) {
+    *end++ = static_cast<char>('0' + rest / place);
+    rest %= place;
+  }
+  put({digits, static_cast<std::size_t>(end - digits)});
+  return *this;
+}
+
+CsvTableWriter& CsvTableWriter::nothing() {
+  put(style_ == TableStyle::kCsv ? "" : "n/a");
+  return *this;
+}
+
+void CsvTableWriter::put(std::string_view text) {
+  if (num_cells_++ > 0) buffer_ += style_ == TableStyle::kCsv ? ',' : '\t';
+  buffer_ += text;
 }
 
 void CsvTableWriter::end_row() {
@@ -55,17 +120,29 @@ void CsvTableWriter::end_row() {
     throw core::Error(file_.string() + ": expected " + std::to_string(num_columns_) +
                       " cells in a row, found " + std::to_string(num_cells_));
   }
-  stream_ << '\n';
+  buffer_ += '\n';
   num_cells_ = 0;
+  if (buffer_.size() >= kBufferBytes) flush();
+}
+
+void CsvTableWriter::flush() {
+  errno = 0;
+  if (std::fwrite(buffer_.data(), 1, buffer_.size(), stream_.get()) != buffer_.size()) {
+    fail(errno);
+  }
+  buffer_.clear();
 }
 
 void CsvTableWriter::finish() {
-  stream_.flush();
-  if (!stream_) {
-    throw core::Error(file_.string() +
-                      ": expected to write this file, found that it cannot be "
-                      "written or the disk is full");
-  }
+  flush();
+  // Some file systems tell of a full disk only now.
+  if (std::fclose(stream_.release()) != 0) fail(errno);
+}
+
+void CsvTableWriter::fail(int reason) const {
+  throw core::Error(
+      file_.string() +
+      ": expected to write this file, found that it cannot be: " + std::strerror(reason));
 }
 
 }  // namespace jnd::analysis

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/fits/psychometric_json.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -43,6 +45,7 @@ Json to_json(const PsychometricFit& fit) {
   }
   json["num_levels"] = fit.num_levels;
   json["num_trials"] = fit.num_trials;
+  add_psychometric_details(json, fit);
   return json;
 }
 
@@ -79,12 +82,22 @@ Json to_json(const Comparison& comparison) {
   json["statistic"] = number(comparison.statistic);
   json["degrees_of_freedom"] = number(comparison.degrees_of_freedom);
   json["p_value"] = number(comparison.p_value);
-  if (comparison.kind == Comparison::Kind::kPaired) {
+  using Kind = Comparison::Kind;
+  const Kind kind = comparison.kind;
+  if (kind == Kind::kPaired || kind == Kind::kOneSample) {
     json["cohen_dz"] = number(comparison.cohen_dz);
+    json["cohen_dz_ci95"] = interval(comparison.cohen_dz_ci95);
   }
-  if (comparison.kind == Comparison::Kind::kWilcoxon) {
+  if (kind == Kind::kPaired || kind == Kind::kOneSample || kind == Kind::kWelch ||
+      kind == Kind::kPooled) {
+    json["hedges_g"] = number(comparison.hedges_g);
+    json["hedges_g_ci95"] = interval(comparison.hedges_g_ci95);
+  }
+  if (kind == Kind::kWilcoxon || kind == Kind::kRankSum) {
     json["median_difference"] = number(comparison.median_difference);
     json["median_difference_ci95"] = interval(comparison.median_difference_ci95);
+    json["rank_biserial"] = number(comparison.rank_biserial);
+    json["rank_biserial_ci95"] = interval(comparison.rank_biserial_ci95);
   }
   json["num_a"] = comparison.num_a;
   json["num_b"] = comparison.num_b;

@@ -6,14 +6,14 @@
 
 namespace jnd::analysis {
 
-/// Parametric bootstrap of the Weber fraction (Efron 1979): draws each level's answers anew
-/// from the fitted curve, binomially, refits, and takes the 2.5 and 97.5 percentiles. A refit
-/// without optimum counts as the value it tends to, 0 or infinity, so that leaving it out
-/// cannot narrow the interval. An interval that misses `estimate` is refused: both ends open,
-/// `method` says so.
+/// Bootstrap of the Weber fraction (Efron 1979): draws each level's answers anew, refits, and
+/// takes the 2.5 and 97.5 percentiles, and those corrected for bias and acceleration (BCa,
+/// Efron 1987; the acceleration by the jackknife over answers). A refit without optimum counts
+/// as the value it tends to, 0 or infinity, so that leaving it out cannot narrow the interval.
+/// An interval that misses the estimate is refused: both ends open, and its method says so.
 [[nodiscard]] BootstrapInterval bootstrapped_weber_fraction(const PsychometricSearch& search,
                                                             const PsychometricLevels& levels,
                                                             const PsychometricCurve& fitted,
-                                                            int num_refits, std::uint64_t seed);
+                                                            const BootstrapOptions& options);
 
 }  // namespace jnd::analysis

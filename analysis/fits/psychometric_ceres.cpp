@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "analysis/fits/ceres_descent.h"
-#include "analysis/fits/normal_tail.h"
 #include "analysis/fits/psychometric_descent.h"
 
 namespace jnd::analysis {
@@ -110,8 +109,9 @@ PsychometricCurve least_squares(const PsychometricLevels& levels, const FreePara
       if (level == levels.size()) {
         residuals[level] = curve.lapse - levels.zero_yes / levels.zero_trials;
       } else {
-        const double u = levels.log_ratio[level];
-        const NormalTails tails = normal_tails(curve.slope * u + curve.offset);
+        const double u = levels.abscissa[level];
+        const SigmoidTails tails =
+            sigmoid_tails(levels.sigmoid, curve.slope * u + curve.offset);
         residuals[level] = curve.lapse + share * tails.lower - levels.proportion(level);
         row << share * tails.density * u, share * tails.density, tails.upper - tails.lower;
       }

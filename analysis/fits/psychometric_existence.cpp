@@ -47,7 +47,7 @@ struct Reach {
 Reach reach_of(const PsychometricLevels& levels) noexcept {
   Reach reach;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double u = levels.log_ratio[level];
+    const double u = levels.abscissa[level];
     if (levels.num_yes[level] > 0.0) {
       reach.first_yes = std::min(reach.first_yes, u);
       reach.last_yes = std::max(reach.last_yes, u);
@@ -76,7 +76,7 @@ double rise_of_answers(const PsychometricLevels& levels, bool free_pse) noexcept
   const double expected = free_pse ? yes / trials : 0.5;
   double sum = 0.0, size = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double u = levels.log_ratio[level];
+    const double u = levels.abscissa[level];
     sum += (levels.num_yes[level] - expected * levels.num_trials[level]) * u;
     size += levels.num_trials[level] * std::fabs(u);
   }
@@ -93,7 +93,7 @@ std::string_view why_unidentified(const PsychometricLevels& levels, bool free_ps
     return free_lapse && num_levels < 3 ? kTooFewForLapse : std::string_view();
   }
   std::vector<double> distances;  // A curve through the reference is symmetric about it.
-  for (const double u : levels.log_ratio) {
+  for (const double u : levels.abscissa) {
     if (u != 0.0) distances.push_back(std::fabs(u));
   }
   std::sort(distances.begin(), distances.end());

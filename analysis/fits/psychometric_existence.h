@@ -36,7 +36,7 @@ struct PsychometricExistence {
 [[nodiscard]] PsychometricExistence lower_limit(const PsychometricLevels& levels, bool free_pse,
                                                 double step_cost, double flat_cost);
 
-/// Rise of the answers along the levels, in trials: sum of (num_yes - expected) log_ratio. At
+/// Rise of the answers along the levels, in trials: sum of (num_yes - expected) abscissa. At
 /// most 0 if they do not rise.
 [[nodiscard]] double rise_of_answers(const PsychometricLevels& levels, bool free_pse) noexcept;
 

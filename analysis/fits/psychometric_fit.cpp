@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/fits/psychometric_bootstrap.h"
+#include "analysis/fits/psychometric_goodness.h"
 #include "analysis/fits/psychometric_interval.h"
-#include "analysis/fits/psychometric_limits.h"
+#include "analysis/fits/psychometric_posterior.h"
 #include "analysis/fits/psychometric_search.h"
 
 namespace jnd::analysis {
@@ -19,21 +21,6 @@ constexpr double kLikelihoodDrop = 1.9207294103470617;
 
 std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
-
-/// Log-likelihood of the model that fits every level's proportion exactly.
-double saturated_log_likelihood(const PsychometricLevels& levels) {
-  const auto term = [](double yes, double trials) {
-    double value = 0.0;
-    if (yes > 0.0) value += yes * std::log(yes / trials);
-    if (yes < trials) value += (trials - yes) * std::log1p(-yes / trials);
-    return value;
-  };
-  double sum = levels.zero_trials > 0.0 ? term(levels.zero_yes, levels.zero_trials) : 0.0;
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    sum += term(levels.num_yes[level], levels.num_trials[level]);
-  }
-  return sum;
 }
 
 /// Sum of squares of the proportions about their mean.
@@ -69,21 +56,22 @@ std::optional<double> standard_error(const PsychometricLevels& levels,
     information(parameter, parameter) = 1.0;
   }
   const double variance = information.inverse()(0, 0) * scale;
-  // |dw / dslope| of w = exp(unit / slope) - 1.
-  const double slope = curve.slope;
-  return finite(std::sqrt(variance) * std::exp(levels.unit / slope) * levels.unit /
-                (slope * slope));
+  // |dw / dslope| of w = exp(c unit / slope) - 1, or c unit / slope over the reference.
+  const double step = sigmoid_jnd(levels.sigmoid) * levels.unit / curve.slope;
+  const double by_step = levels.logarithmic() ? std::exp(step) : 1.0 / levels.reference;
+  return finite(std::sqrt(variance) * by_step * step / curve.slope);
 }
 
 void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
                      const PsychometricOptions& options, const FreeParameters& free,
                      const PsychometricOptimum& optimum) {
+  const bool free_pse = free[1];
   double drop = kLikelihoodDrop;
   if (options.method == kMaximumLikelihood) {
     fit.standard_error = standard_error(levels, optimum.curve, free, optimum.cost.hessian, 1.0);
   } else {
     const int degrees_of_freedom = fit.num_levels - 1 - free[1] - free[2];
-    if (options.free_pse) fit.pse_ci95 = Interval{};
+    if (free_pse) fit.pse_ci95 = Interval{};
     if (degrees_of_freedom < 1) return;
     const double variance = optimum.cost.value / degrees_of_freedom;
     fit.standard_error = standard_error(levels, optimum.curve, free,
@@ -94,8 +82,49 @@ void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
   if (!options.intervals) return;
   fit.weber_fraction_ci95 =
       weber_fraction_interval(levels, options.method, free, optimum, drop);
-  if (options.free_pse) {
+  if (free_pse) {
     fit.pse_ci95 = pse_interval(levels, options.method, free, optimum, drop);
+  }
+}
+
+/// The curve in the family's own words.
+void add_parameters(PsychometricFit& fit, const PsychometricLevels& levels,
+                    const PsychometricCurve& curve) {
+  switch (levels.family) {
+    case PsychometricFamily::kWeber:
+      break;
+    case PsychometricFamily::kGauss:
+      fit.parameters = {{"mean", *fit.pse}, {"standard_deviation", levels.unit / curve.slope}};
+      break;
+    case PsychometricFamily::kWeibull: {
+      const double shape = curve.slope / levels.unit;
+      const double scale = *fit.pse * std::pow(std::numbers::ln2, -1.0 / shape);
+      fit.parameters = {{"scale", scale}, {"shape", shape}};
+      break;
+    }
+  }
+}
+
+/// What is known to make the intervals above too narrow.
+void add_warnings(PsychometricFit& fit, const PsychometricLevels& levels,
+                  const PsychometricOptions& options) {
+  constexpr double kFewTrials = 15.0;
+  double most_trials = levels.zero_trials;
+  for (const double trials : levels.num_trials) most_trials = std::max(most_trials, trials);
+  if (fit.bootstrap.n > 0 && most_trials < kFewTrials) {
+    fit.warnings.emplace_back(
+        "bootstrap intervals cover less than 95 % at so few answers a level (79 to 93 % at "
+        "five): rather use the likelihood ratio's");
+  }
+  if (options.method == PsychometricMethod::kLeastSquares) {
+    fit.warnings.emplace_back(
+        "least squares takes every level's proportion as equally precise, which they are not: "
+        "rather use maximum likelihood's interval");
+  }
+  if (fit.goodness.p_value && *fit.goodness.p_value < 0.05) {
+    fit.warnings.emplace_back(
+        "the answers lie farther from the curve than chance has them (p < 0.05): the intervals "
+        "are too narrow");
   }
 }
 
@@ -103,13 +132,17 @@ void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
 
 PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                                  const PsychometricOptions& options) {
-  const PsychometricLevels levels = pooled_levels(data, options.reference, options.free_pse);
+  const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;
+  const PsychometricLevels levels =
+      pooled_levels(data, options.reference, free_pse, options.family);
   PsychometricFit fit;
+  fit.family = options.family;
   fit.method = options.method;
   fit.num_levels = static_cast<int>(levels.size()) + (levels.zero_trials > 0.0 ? 1 : 0);
   for (const AnswerCount& row : data) fit.num_trials += row.num_trials;
 
-  const PsychometricSearch search(levels, options.method, options.free_pse, options.free_lapse);
+  const PsychometricSearch search(levels, options.method, free_pse, options.free_lapse);
+  if (options.posterior) fit.posterior = posterior_on_grid(levels, search.free());
   const PsychometricSearchResult found = search.find(
       levels, options.solver == Solver::kCeres ? minimised_by_ceres : minimised_by_newton);
   if (found.supremum == PsychometricSupremum::kNotConverged) {
@@ -123,8 +156,9 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
 
   const PsychometricCurve& curve = found.optimum.curve;
   const double weber_fraction = curve.weber_fraction(levels);
-  const double pse = options.free_pse ? curve.pse(levels) : options.reference;
-  if (!(std::isfinite(weber_fraction) && std::isfinite(pse) && pse > 0.0)) {
+  const double pse = free_pse ? curve.pse(levels) : options.reference;
+  const bool pse_in_range = std::isfinite(pse) && (pse > 0.0 || !levels.logarithmic());
+  if (!(std::isfinite(weber_fraction) && pse_in_range)) {
     fit.reason = "flat: the answers rise so little that the values exceed the range of numbers";
     return fit;
   }
@@ -134,18 +168,21 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   fit.lapse_rate = curve.lapse;
   const double log_likelihood = -psychometric_cost(levels, kMaximumLikelihood, curve).value;
   fit.log_likelihood = finite(log_likelihood);
-  if (fit.log_likelihood) {
-    fit.deviance = std::max(0.0, 2.0 * (saturated_log_likelihood(levels) - log_likelihood));
-  }
+  if (fit.log_likelihood) fit.deviance = deviance_of(levels, log_likelihood);
+  add_parameters(fit, levels, curve);
   if (options.method == PsychometricMethod::kLeastSquares) {
     const double about_mean = sum_about_mean(levels);
     if (about_mean > 0.0) fit.r_squared = 1.0 - found.optimum.cost.value / about_mean;
   }
   add_uncertainty(fit, levels, options, search.free(), found.optimum);
   if (options.num_bootstrap > 0) {
-    fit.bootstrap =
-        bootstrapped_weber_fraction(search, levels, curve, options.num_bootstrap, options.seed);
+    fit.bootstrap = bootstrapped_weber_fraction(
+        search, levels, curve, {options.num_bootstrap, options.seed, options.bootstrap_kind});
   }
+  if (options.diagnostics) {
+    fit.goodness = goodness_of_fit(search, levels, curve, options.num_goodness, options.seed);
+  }
+  add_warnings(fit, levels, options);
   return fit;
 }
 

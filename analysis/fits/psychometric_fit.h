@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/fits/fit_status.h"
+#include "analysis/fits/psychometric_family.h"
 
 namespace jnd::analysis {
 
@@ -25,23 +26,66 @@ enum class PsychometricMethod {
   return method == PsychometricMethod::kMaximumLikelihood ? "ml" : "lsq";
 }
 
+enum class BootstrapKind {
+  kParametric,     ///< Answers drawn from the fitted curve.
+  kNonparametric,  ///< Answers drawn from the answers, within each level.
+};
+
+struct BootstrapOptions {
+  int num_refits = 0;
+  std::uint64_t seed = 1;
+  BootstrapKind kind = BootstrapKind::kParametric;
+};
+
 struct PsychometricOptions {
   double reference = 0.0;  ///< > 0, unit of the intensities. The pse, unless that is free.
+  PsychometricFamily family = PsychometricFamily::kWeber;
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
-  bool free_pse = false;
+  bool free_pse = false;  ///< Some families have it free always.
   bool free_lapse = false;
-  int num_bootstrap = 0;   ///< Refits of the bootstrap; 0 leaves it out.
-  std::uint64_t seed = 1;  ///< Of the bootstrap: the same seed gives the same interval.
-  bool intervals = true;   ///< False leaves out the profile intervals, where only w is wanted.
+  int num_bootstrap = 0;  ///< Refits of the bootstrap; 0 leaves it out.
+  BootstrapKind bootstrap_kind = BootstrapKind::kParametric;
+  bool diagnostics = false;  ///< Residuals and overdispersion.
+  int num_goodness = 0;      ///< Redraws for the p values beside them; 0 leaves those out.
+  bool posterior = false;    ///< Also the Bayesian estimate.
+  std::uint64_t seed = 1;    ///< Of both: the same seed gives the same numbers.
+  bool intervals = true;  ///< False leaves out the profile intervals, where only w is wanted.
   Solver solver = Solver::kCeres;
 };
 
-/// Percentile interval of the Weber fraction over data redrawn from the fitted curve.
+/// Intervals of the Weber fraction over answers drawn anew.
 struct BootstrapInterval {
   int n = 0;               ///< Refits asked for.
   int num_degenerate = 0;  ///< Of these, refits without an optimum, counted at their limit.
-  Interval ci95;           ///< An end among refits without an optimum is open.
+  Interval ci95;           ///< Percentiles. An end among refits without an optimum is open.
   std::string method;      ///< "" if none was asked for.
+  Interval bca_ci95;       ///< Corrected for bias and acceleration; open with a reason.
+  std::string bca_reason;
+  std::optional<double> bias_correction, acceleration;
+};
+
+/// How well the curve describes the answers.
+struct PsychometricGoodness {
+  int n = 0;                      ///< Redraws behind the p values; 0: none were asked for.
+  std::optional<double> p_value;  ///< Share of redrawn data with at least this deviance.
+  int degrees_of_freedom = 0;     ///< Levels minus parameters.
+  std::optional<double> overdispersion;  ///< Pearson's chi-squared over these; about 1.
+  /// Of the deviance residuals with the fitted probability: a curve of the wrong shape.
+  std::optional<double> level_correlation, level_correlation_p_value;
+  struct Residual {
+    double intensity, fitted, deviance_residual;
+  };
+  std::vector<Residual> residuals;  ///< By level > 0; the squares add up to the deviance.
+};
+
+/// Medians and central 95 % of the posterior.
+struct PsychometricPosterior {
+  FitStatus status = FitStatus::kNotRun;
+  std::string reason;
+  std::string priors, note;
+  std::optional<double> weber_fraction, pse, lapse_rate;
+  Interval weber_fraction_ci95;
+  std::optional<Interval> pse_ci95;
 };
 
 /// A fitted psychometric function, with the words of the JSON output. Where `status` is not
@@ -69,11 +113,23 @@ struct PsychometricFit {
   std::optional<double> lapse_rate;
   std::optional<double> r_squared;  ///< lsq: 1 - sse / sst about the mean proportion.
   BootstrapInterval bootstrap;
+  PsychometricFamily family = PsychometricFamily::kWeber;
+  struct Parameter {
+    std::string_view name;
+    double value;
+  };
+  std::vector<Parameter> parameters;  ///< In the family's own words, beside w, pse and lapse.
+  PsychometricGoodness goodness;
+  PsychometricPosterior posterior;
+  /// Where an interval above is known to be too narrow, one sentence each.
+  std::vector<std::string> warnings;
   int num_levels = 0;           ///< Distinct intensities with trials.
   std::int64_t num_trials = 0;  ///< Over all levels.
 };
 
-/// Fits p(x) = lapse + (1 - 2 lapse) Phi( ln(x / pse) / ln(1 + w) ), the curve of
+/// Fits a curve of the family, p(x) = lapse + (1 - 2 lapse) F. For all of them the pse is where
+/// F = 0.5, and F = 84.13 % at pse (1 + w); for kGauss w is the standard deviation over the
+/// reference. kWeber is Phi( ln(x / pse) / ln(1 + w) ), the curve of
 /// core::PsychometricFunction, in its slope s = 1 / ln(1 + w) > 0: there it is a probit line,
 /// whose likelihood has one optimum (Bergmann Tiest et al. 2013 for the curve). Rows of the
 /// same intensity are pooled into one level. The optimum is global: least squares and free

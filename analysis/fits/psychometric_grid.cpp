@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/fits/normal_tail.h"
 #include "analysis/fits/psychometric_limits.h"
 
 namespace jnd::analysis {
@@ -18,14 +17,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope) {
   constexpr double kReachZ = 6.0, kSpacingZ = 0.7, kMostPlaces = 400.0;
   const double reach = kReachZ / slope;
-  const double range = levels.log_ratio.back() - levels.log_ratio.front();
+  const double range = levels.abscissa.back() - levels.abscissa.front();
   const double spacing = std::max(kSpacingZ / slope, range / kMostPlaces);
   std::vector<double> places;
-  double next = levels.log_ratio.front() - reach;
+  double next = levels.abscissa.front() - reach;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double here = levels.log_ratio[level];
+    const double here = levels.abscissa[level];
     if (here - reach > next) {
-      places.push_back(0.5 * (levels.log_ratio[level - 1] + here));
+      places.push_back(0.5 * (levels.abscissa[level - 1] + here));
       next = here - reach;
     }
     for (; next <= here + reach; next += spacing) places.push_back(next);
@@ -37,8 +36,9 @@ std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope
 
 PsychometricGrid::PsychometricGrid(const PsychometricLevels& levels, bool free_pse) {
   // A search may leave this range.
-  constexpr double kFlattest = 0.002, kRatio = 1.2, kSteepestZ = 18.0, kSmallestGap = 1e-3;
-  const double steepest = kSteepestZ / std::max(levels.smallest_gap(free_pse), kSmallestGap);
+  constexpr double kFlattest = 0.002, kRatio = 1.2, kSmallestGap = 1e-3;
+  const double steepest_z = 2.25 * sigmoid_reach(levels.sigmoid);
+  const double steepest = steepest_z / std::max(levels.smallest_gap(free_pse), kSmallestGap);
   for (double slope = kFlattest; slope < steepest * kRatio; slope *= kRatio) {
     slope_begin_.push_back(points_.size());
     if (!free_pse) {
@@ -54,13 +54,12 @@ PsychometricGrid::PsychometricGrid(const PsychometricLevels& levels, bool free_p
 
 void PsychometricGrid::add(const PsychometricLevels& levels, bool free_pse, double slope,
                            double place) {
-  constexpr double kTailsEndAtZ = 8.0;  ///< Phi(-8) is lost in rounding beside 1.
   int num_rising = 0;
-  for (const double u : levels.log_ratio) {
+  for (const double u : levels.abscissa) {
     const double z = slope * (u - place);
-    lower_tail_.push_back(normal_tails(z).lower);
+    lower_tail_.push_back(sigmoid_tails(levels.sigmoid, z).lower);
     // A level at a fixed pse is at f = 0.5 whatever the slope.
-    if ((free_pse || u != 0.0) && std::fabs(z) < kTailsEndAtZ) ++num_rising;
+    if ((free_pse || u != 0.0) && std::fabs(z) < sigmoid_reach(levels.sigmoid)) ++num_rising;
   }
   points_.push_back({slope, place, num_rising < (free_pse ? 2 : 1)});
 }

@@ -23,7 +23,7 @@ class PsychometricGrid {
 
  private:
   struct Point {
-    double slope, place;  ///< z = slope (log_ratio - place)
+    double slope, place;  ///< z = slope (abscissa - place)
     bool is_step;         ///< At most one level is where the curve rises.
   };
 
@@ -34,7 +34,7 @@ class PsychometricGrid {
 
   std::vector<Point> points_;             ///< By slope, then by place.
   std::vector<std::size_t> slope_begin_;  ///< Of each slope in the points, then their end.
-  std::vector<double> lower_tail_;        ///< Phi(z) at each point and level, levels fastest.
+  std::vector<double> lower_tail_;        ///< F(z) at each point and level, levels fastest.
 };
 
 }  // namespace jnd::analysis

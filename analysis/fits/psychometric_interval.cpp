@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kLargestLog = 700.0;  ///< exp of more would leave the range of double.
 constexpr double kStepZ = 40.0;        ///< Neighbouring levels this many z apart: a step.
+/// A curve over the intensity itself that rises less than this from end to end is flat.
+constexpr double kFlattestLinear = 1e-6;
 
 /// Where `excess`, < 0 at `from`, first is 0 when going by growing steps toward `limit`; absent
 /// if it is not by then.
@@ -85,7 +87,7 @@ class PseProfile {
 
   double operator()(double place) {
     for (std::size_t level = 0; level < levels_.size(); ++level) {
-      shifted_.log_ratio[level] = levels_.log_ratio[level] - place;
+      shifted_.abscissa[level] = levels_.abscissa[level] - place;
     }
     // The best slope may be 0 or infinite here, though it is not at the optimum.
     double best = std::min(flat_limit_cost(shifted_, method_, false, free_[2]),
@@ -113,14 +115,15 @@ Interval weber_fraction_interval(const PsychometricLevels& levels, PsychometricM
                                  double drop) {
   const double level = optimum.cost.value + drop;
   const double log_slope = std::log(optimum.curve.slope);
-  const double flattest = std::log(levels.unit / kLargestLog);
+  const double flattest =
+      std::log(levels.logarithmic() ? levels.unit / kLargestLog : kFlattestLinear);
   const double steepest = std::log(kStepZ / levels.smallest_gap(free[1]));
   const auto end = [&](double limit) -> std::optional<double> {
     SlopeProfile profile(levels, method, free, optimum.curve);
     const std::optional<double> found =
         crossing([&](double place) { return profile(place) - level; }, log_slope, 0.1, limit);
     if (!found) return std::nullopt;
-    return std::expm1(levels.unit * std::exp(-*found));
+    return levels.weber_fraction_at(std::exp(*found));
   };
   return {.low = end(std::max(steepest, log_slope + 1.0)),
           .high = end(std::min(flattest, log_slope))};
@@ -135,10 +138,13 @@ Interval pse_interval(const PsychometricLevels& levels, PsychometricMethod metho
     PseProfile profile(levels, method, free, optimum.curve);
     const std::optional<double> found = crossing([&](double at) { return profile(at) - level; },
                                                  place, 0.1 / optimum.curve.slope, limit);
-    const double pse = levels.origin * std::exp(found.value_or(0.0) * levels.unit);
-    return found && std::isfinite(pse) && pse > 0.0 ? std::optional<double>(pse) : std::nullopt;
+    const double pse = levels.intensity_at(found.value_or(0.0));
+    const bool usable = std::isfinite(pse) && (pse > 0.0 || !levels.logarithmic());
+    return found && usable ? std::optional<double>(pse) : std::nullopt;
   };
-  const double farthest = std::max(kLargestLog / levels.unit, std::fabs(place));
+  const double farthest =
+      std::max(levels.logarithmic() ? kLargestLog / levels.unit : 1.0 / kFlattestLinear,
+               std::fabs(place));
   return {.low = end(-farthest), .high = end(farthest)};
 }
 

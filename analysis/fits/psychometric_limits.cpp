@@ -131,10 +131,9 @@ double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod meth
     return errors.cost(lapse, method) + at.cost(at_threshold, method);
   };
   if (!free_pse) {
-    const auto first_at =
-        std::lower_bound(levels.log_ratio.begin(), levels.log_ratio.end(), 0.0);
-    const bool level_at = first_at != levels.log_ratio.end() && *first_at == 0.0;
-    return cost_with(static_cast<std::size_t>(first_at - levels.log_ratio.begin()), level_at);
+    const auto first_at = std::lower_bound(levels.abscissa.begin(), levels.abscissa.end(), 0.0);
+    const bool level_at = first_at != levels.abscissa.end() && *first_at == 0.0;
+    return cost_with(static_cast<std::size_t>(first_at - levels.abscissa.begin()), level_at);
   }
   // Where the free value at a threshold would leave [lapse, 1 - lapse], the best curve has that
   // level below or above instead, which is among the others.

@@ -6,7 +6,6 @@
 #include <map>
 #include <string>
 
-#include "analysis/fits/normal_tail.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -27,11 +26,14 @@ struct LevelCost {
 };
 
 /// k ln f + (n-k) ln(1-f), negated. Without lapses by log tails, which do not underflow.
-LevelCost minus_log_likelihood(double yes, double no, double z, double lapse) noexcept {
+LevelCost minus_log_likelihood(Sigmoid sigmoid, double yes, double no, double z,
+                               double lapse) noexcept {
   const double share = 1.0 - 2.0 * lapse;
-  double log_f, log_g, f_z, g_z, f_lapse, g_lapse;  // f's derivatives over f, and over 1-f.
+  double log_f, log_g, f_z, g_z, f_lapse, g_lapse,
+      bend;  // f's derivatives over f, and over 1-f.
   if (lapse == 0.0) {
-    const LogNormalTails tails = log_normal_tails(z);
+    const LogSigmoidTails tails = log_sigmoid_tails(sigmoid, z);
+    bend = tails.bend;
     log_f = tails.log_lower;
     log_g = tails.log_upper;
     f_z = tails.mills_lower;
@@ -39,7 +41,8 @@ LevelCost minus_log_likelihood(double yes, double no, double z, double lapse) no
     f_lapse = (tails.upper - tails.lower) / tails.lower;
     g_lapse = (tails.upper - tails.lower) / tails.upper;
   } else {
-    const NormalTails tails = normal_tails(z);
+    const SigmoidTails tails = sigmoid_tails(sigmoid, z);
+    bend = tails.bend;
     const double f = lapse + share * tails.lower;
     const double g = lapse + share * tails.upper;
     log_f = std::log(f);
@@ -55,7 +58,7 @@ LevelCost minus_log_likelihood(double yes, double no, double z, double lapse) no
     cost.value -= yes * log_f;
     cost.z -= yes * f_z;
     cost.lapse -= yes * f_lapse;
-    cost.zz += yes * f_z * (z + f_z);
+    cost.zz += yes * f_z * (f_z - bend);
     cost.z_lapse += yes * f_z * (2.0 / share + f_lapse);
     cost.lapse_lapse += yes * f_lapse * f_lapse;
   }
@@ -63,15 +66,16 @@ LevelCost minus_log_likelihood(double yes, double no, double z, double lapse) no
     cost.value -= no * log_g;
     cost.z += no * g_z;
     cost.lapse += no * g_lapse;
-    cost.zz += no * g_z * (g_z - z);
+    cost.zz += no * g_z * (g_z + bend);
     cost.z_lapse += no * g_z * (g_lapse - 2.0 / share);
     cost.lapse_lapse += no * g_lapse * g_lapse;
   }
   return cost;
 }
 
-LevelCost squared_residual(double proportion, double z, double lapse) noexcept {
-  const NormalTails tails = normal_tails(z);
+LevelCost squared_residual(Sigmoid sigmoid, double proportion, double z,
+                           double lapse) noexcept {
+  const SigmoidTails tails = sigmoid_tails(sigmoid, z);
   const double share = 1.0 - 2.0 * lapse;
   const double residual = lapse + share * tails.lower - proportion;
   const double f_z = share * tails.density;
@@ -79,7 +83,7 @@ LevelCost squared_residual(double proportion, double z, double lapse) noexcept {
   return {.value = residual * residual,
           .z = 2.0 * residual * f_z,
           .lapse = 2.0 * residual * f_lapse,
-          .zz = 2.0 * f_z * (f_z - residual * z),
+          .zz = 2.0 * f_z * (f_z + residual * tails.bend),
           .z_lapse = 2.0 * (f_z * f_lapse - 2.0 * residual * tails.density),
           .lapse_lapse = 2.0 * f_lapse * f_lapse};
 }
@@ -127,25 +131,36 @@ double PsychometricLevels::smallest_gap(bool between_levels) const noexcept {
   double gap = std::numeric_limits<double>::infinity();
   for (std::size_t level = 0; level < size(); ++level) {
     if (!between_levels) {
-      if (log_ratio[level] != 0.0) gap = std::min(gap, std::fabs(log_ratio[level]));
+      if (abscissa[level] != 0.0) gap = std::min(gap, std::fabs(abscissa[level]));
     } else if (level > 0) {
-      gap = std::min(gap, log_ratio[level] - log_ratio[level - 1]);
+      gap = std::min(gap, abscissa[level] - abscissa[level - 1]);
     }
   }
   return gap;
 }
 
+double PsychometricLevels::intensity_at(double place) const noexcept {
+  return logarithmic() ? origin * std::exp(place * unit) : origin + place * unit;
+}
+
+double PsychometricLevels::weber_fraction_at(double slope) const noexcept {
+  const double step = sigmoid_jnd(sigmoid) * unit / slope;
+  return logarithmic() ? std::expm1(step) : step / reference;
+}
+
 PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double reference,
-                                 bool free_pse) {
+                                 bool free_pse, PsychometricFamily family) {
   check(data, reference);
   struct Count {
     double num_yes = 0.0, num_trials = 0.0;
   };
   std::map<double, Count> by_intensity;
-  PsychometricLevels levels;
+  const bool logarithmic = traits_of(family).logarithmic;
+  PsychometricLevels levels{
+      .family = family, .sigmoid = traits_of(family).sigmoid, .reference = reference};
   for (const AnswerCount& row : data) {
     if (row.num_trials == 0) continue;
-    if (row.intensity == 0.0) {
+    if (row.intensity == 0.0 && logarithmic) {
       levels.zero_yes += static_cast<double>(row.num_yes);
       levels.zero_trials += static_cast<double>(row.num_trials);
       continue;
@@ -163,30 +178,32 @@ PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double re
   }
   double largest = 0.0;
   for (const auto& [intensity, count] : by_intensity) {
-    levels.log_ratio.push_back(log_ratio(intensity, levels.origin));
+    levels.abscissa.push_back(logarithmic ? log_ratio(intensity, levels.origin)
+                                          : intensity - levels.origin);
     levels.num_yes.push_back(count.num_yes);
     levels.num_trials.push_back(count.num_trials);
-    largest = std::max(largest, std::fabs(levels.log_ratio.back()));
+    largest = std::max(largest, std::fabs(levels.abscissa.back()));
   }
   if (largest > 0.0) {
     levels.unit = largest;
-    for (double& ratio : levels.log_ratio) ratio /= largest;
+    for (double& place : levels.abscissa) place /= largest;
   }
   return levels;
 }
 
 double PsychometricCurve::weber_fraction(const PsychometricLevels& levels) const noexcept {
-  return std::expm1(levels.unit / slope);
+  return levels.weber_fraction_at(slope);
 }
 
 double PsychometricCurve::pse(const PsychometricLevels& levels) const noexcept {
-  return levels.origin * std::exp(-offset / slope * levels.unit);
+  return levels.intensity_at(-offset / slope);
 }
 
 double PsychometricCurve::probability(const PsychometricLevels& levels,
                                       std::size_t level) const noexcept {
   return lapse +
-         (1.0 - 2.0 * lapse) * normal_tails(slope * levels.log_ratio[level] + offset).lower;
+         (1.0 - 2.0 * lapse) *
+             sigmoid_tails(levels.sigmoid, slope * levels.abscissa[level] + offset).lower;
 }
 
 PsychometricCost psychometric_cost(const PsychometricLevels& levels, PsychometricMethod method,
@@ -195,13 +212,14 @@ PsychometricCost psychometric_cost(const PsychometricLevels& levels, Psychometri
   double slope_slope = 0.0, slope_offset = 0.0, offset_offset = 0.0;
   double slope_lapse = 0.0, offset_lapse = 0.0, lapse_lapse = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double u = levels.log_ratio[level];
+    const double u = levels.abscissa[level];
     const double z = curve.slope * u + curve.offset;
     const double yes = levels.num_yes[level];
     const double trials = levels.num_trials[level];
-    const LevelCost cost = method == kMaximumLikelihood
-                               ? minus_log_likelihood(yes, trials - yes, z, curve.lapse)
-                               : squared_residual(yes / trials, z, curve.lapse);
+    const LevelCost cost =
+        method == kMaximumLikelihood
+            ? minus_log_likelihood(levels.sigmoid, yes, trials - yes, z, curve.lapse)
+            : squared_residual(levels.sigmoid, yes / trials, z, curve.lapse);
     value += cost.value;
     slope += cost.z * u;
     offset += cost.z;
@@ -227,8 +245,8 @@ Eigen::Matrix3d squared_jacobian(const PsychometricLevels& levels,
                                  const PsychometricCurve& curve) noexcept {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double u = levels.log_ratio[level];
-    const NormalTails tails = normal_tails(curve.slope * u + curve.offset);
+    const double u = levels.abscissa[level];
+    const SigmoidTails tails = sigmoid_tails(levels.sigmoid, curve.slope * u + curve.offset);
     const double f_z = (1.0 - 2.0 * curve.lapse) * tails.density;
     const Eigen::Vector3d row(f_z * u, f_z, tails.upper - tails.lower);
     sum += row * row.transpose();

@@ -4,34 +4,46 @@
 #include <vector>
 
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/fits/sigmoid.h"
 
 namespace jnd::analysis {
 
-/// The data of a fit, one entry per distinct intensity > 0 with trials, ascending, in scaled
-/// logarithms, so that the fit does not know the unit of the intensities.
+/// The data of a fit, one entry per distinct intensity with trials, ascending, scaled, so that
+/// the fit does not know the unit of the intensities.
 struct PsychometricLevels {
-  double origin = 1.0;  ///< Intensity at log_ratio 0: the reference, or a level if pse is free.
-  double unit = 1.0;    ///< What log_ratio is scaled by: its largest |ln(x / origin)|, or 1.
-  std::vector<double> log_ratio;  ///< ln(x / origin) / unit, so within [-1, 1].
+  PsychometricFamily family = PsychometricFamily::kWeber;
+  Sigmoid sigmoid = Sigmoid::kNormal;  ///< The family's.
+  double reference = 1.0;
+  double origin = 1.0;  ///< Intensity at abscissa 0: the reference, or a level if pse is free.
+  double unit = 1.0;    ///< Largest |ln(x / origin)|, or |x - origin|; 1 if that is 0.
+  std::vector<double> abscissa;  ///< ln(x / origin) / unit, or (x - origin) / unit.
   std::vector<double> num_yes, num_trials;
-  double zero_yes = 0.0, zero_trials = 0.0;  ///< Of the level at intensity 0.
+  /// Of the level at intensity 0, which a logarithmic family keeps apart.
+  double zero_yes = 0.0, zero_trials = 0.0;
 
-  [[nodiscard]] std::size_t size() const noexcept { return log_ratio.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return abscissa.size(); }
   [[nodiscard]] double proportion(std::size_t level) const noexcept {
     return num_yes[level] / num_trials[level];
   }
   /// Smallest distance that tells two things apart: between levels, or from the origin.
   [[nodiscard]] double smallest_gap(bool between_levels) const noexcept;
+  [[nodiscard]] bool logarithmic() const noexcept { return traits_of(family).logarithmic; }
+  /// Intensity at a place on the abscissa, which may leave the range of numbers.
+  [[nodiscard]] double intensity_at(double place) const noexcept;
+  /// Relative step from the pse, or for a linear family step over the reference, at which a
+  /// curve of this slope is 84.13 %.
+  [[nodiscard]] double weber_fraction_at(double slope) const noexcept;
 };
 
 /// Pools the rows. Throws `core::Error` as `fit_psychometric` says.
-[[nodiscard]] PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data,
-                                               double reference, bool free_pse);
+[[nodiscard]] PsychometricLevels pooled_levels(
+    const std::vector<AnswerCount>& data, double reference, bool free_pse,
+    PsychometricFamily family = PsychometricFamily::kWeber);
 
-/// The curve, linear in z = slope log_ratio + offset: f = lapse + (1 - 2 lapse) Phi(z).
+/// The curve, linear in z = slope abscissa + offset: f = lapse + (1 - 2 lapse) F(z).
 struct PsychometricCurve {
-  double slope = 1.0;   ///< unit / ln(1 + w)
-  double offset = 0.0;  ///< -slope ln(pse / origin) / unit
+  double slope = 1.0;   ///< unit / ln(1 + w) of the Weber curve
+  double offset = 0.0;  ///< -slope times the pse's place on the abscissa
   double lapse = 0.0;   ///< [0, 0.5)
 
   [[nodiscard]] double weber_fraction(const PsychometricLevels& levels) const noexcept;

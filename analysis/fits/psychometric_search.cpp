@@ -6,9 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/fits/normal_tail.h"
 #include "analysis/fits/psychometric_limits.h"
-#include "core/psychometric_function.h"
 
 namespace jnd::analysis {
 namespace {
@@ -27,16 +25,17 @@ PsychometricCurve concave_start(const PsychometricLevels& levels, bool free_pse)
   for (std::size_t level = 0; level < levels.size(); ++level) {
     yes += levels.num_yes[level];
     trials += levels.num_trials[level];
-    moment += levels.num_trials[level] * levels.log_ratio[level];
+    moment += levels.num_trials[level] * levels.abscissa[level];
   }
   const double mean = free_pse ? moment / trials : 0.0;
   double squares = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double distance = levels.log_ratio[level] - mean;
+    const double distance = levels.abscissa[level] - mean;
     squares += levels.num_trials[level] * distance * distance;
   }
-  const double z = free_pse ? core::standard_normal_quantile(yes / trials) : 0.0;
-  const double slope = rise_of_answers(levels, free_pse) / (normal_tails(z).density * squares);
+  const double z = free_pse ? sigmoid_quantile(levels.sigmoid, yes / trials) : 0.0;
+  const double slope =
+      rise_of_answers(levels, free_pse) / (sigmoid_tails(levels.sigmoid, z).density * squares);
   return {slope, z - slope * mean, 0.0};
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/groups/comparison_parts.h"
+#include "analysis/groups/effect_size.h"
 #include "analysis/groups/signed_rank.h"
 #include "analysis/groups/summary.h"
 #include "core/require.h"
@@ -15,12 +17,6 @@ namespace {
 
 using boost::math::complement;
 using boost::math::students_t;
-
-void require_finite(const std::vector<double>& values, const char* name) {
-  for (const double value : values) {
-    core::require(std::isfinite(value), name, "a finite number", value);
-  }
-}
 
 void require_pairs(const std::vector<double>& a, const std::vector<double>& b) {
   require_finite(a, "a");
@@ -58,17 +54,6 @@ Interval grown(const Interval& interval, int exponent) {
   return {.low = grown(interval.low, exponent), .high = grown(interval.high, exponent)};
 }
 
-Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
-                   std::size_t num_b) {
-  Comparison result;
-  result.kind = kind;
-  result.status = FitStatus::kDegenerate;
-  result.method = method;
-  result.num_a = static_cast<int>(num_a);
-  result.num_b = static_cast<int>(num_b);
-  return result;
-}
-
 /// Rounding of values as large as `largest` leaves a spread of this where there is none.
 double rounding(double largest) {
   return 8.0 * std::numeric_limits<double>::epsilon() * largest;
@@ -92,6 +77,36 @@ void fill_t(Comparison& result, double standard_error, double degrees_of_freedom
   result.status = FitStatus::kOk;
 }
 
+/// Student's t of differences whose unit is 2^exponent; nothing but the mean where a reason
+/// stands already. `largest` is that of the values they were made of.
+void test_differences(Comparison& result, const std::vector<double>& differences, int exponent,
+                      double largest) {
+  const Summary summary = summary_of(differences);
+  result.estimate = grown(summary.mean, exponent);
+  if (!result.reason.empty()) return;
+  const double deviation = *summary.standard_deviation;
+  if (!(deviation > rounding(std::ldexp(largest, -exponent)))) {
+    result.reason = result.kind == Comparison::Kind::kOneSample
+                        ? "all values are alike: t is undefined"
+                        : "all differences are alike: t is undefined";
+    return;
+  }
+  const double n = static_cast<double>(differences.size());
+  result.estimate = summary.mean;
+  fill_t(result, deviation / std::sqrt(n), n - 1.0);
+  add_effect_of_differences(result, *summary.mean / deviation, summary.num_values);
+  result.estimate = grown(result.estimate, exponent);
+  result.ci95 = grown(result.ci95, exponent);
+}
+
+void add_rank_biserial(Comparison& result, const SignedRanks& ranks) {
+  const double n = ranks.num_nonzero;
+  const double all = 0.5 * n * (n + 1.0);
+  result.rank_biserial = (ranks.positive_sum - ranks.negative_sum) / all;
+  result.rank_biserial_ci95 = fisher_interval(
+      *result.rank_biserial, std::sqrt(n * (n + 1.0) * (2.0 * n + 1.0) / 6.0) / all);
+}
+
 void fill_welch(Comparison& result, const PublishedGroup& a, const PublishedGroup& b) {
   const double part_a = a.standard_deviation * a.standard_deviation / a.num_values;
   const double part_b = b.standard_deviation * b.standard_deviation / b.num_values;
@@ -103,28 +118,41 @@ void fill_welch(Comparison& result, const PublishedGroup& a, const PublishedGrou
 
 }  // namespace
 
+void require_finite(const std::vector<double>& values, const char* name) {
+  for (const double value : values) {
+    core::require(std::isfinite(value), name, "a finite number", value);
+  }
+}
+
+Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
+                   std::size_t num_b) {
+  Comparison result;
+  result.kind = kind;
+  result.status = FitStatus::kDegenerate;
+  result.method = method;
+  result.num_a = static_cast<int>(num_a);
+  result.num_b = static_cast<int>(num_b);
+  return result;
+}
+
 Comparison paired_t_test(const std::vector<double>& a, const std::vector<double>& b) {
   require_pairs(a, b);
   Comparison result = started(Comparison::Kind::kPaired, "paired t", a.size(), b.size());
   const double largest = largest_magnitude(a, b);
   const int exponent = exponent_of(largest);
-  const Summary summary = summary_of(shrunk_differences(a, b, exponent));
-  result.estimate = grown(summary.mean, exponent);
-  if (a.size() < 2) {
-    result.reason = "too few pairs: a t test needs two";
-    return result;
-  }
-  const double deviation = *summary.standard_deviation;
-  if (!(deviation > rounding(std::ldexp(largest, -exponent)))) {
-    result.reason = "all differences are alike: t is undefined";
-    return result;
-  }
-  const double n = static_cast<double>(a.size());
-  result.estimate = summary.mean;
-  fill_t(result, deviation / std::sqrt(n), n - 1.0);
-  result.cohen_dz = *summary.mean / deviation;
-  result.estimate = grown(result.estimate, exponent);
-  result.ci95 = grown(result.ci95, exponent);
+  if (a.size() < 2) result.reason = "too few pairs: a t test needs two";
+  test_differences(result, shrunk_differences(a, b, exponent), exponent, largest);
+  return result;
+}
+
+Comparison one_sample_t_test(const std::vector<double>& values) {
+  require_finite(values, "values");
+  Comparison result =
+      started(Comparison::Kind::kOneSample, "one-sample t against 0", values.size(), 0);
+  const double largest = largest_magnitude(values, {});
+  const int exponent = exponent_of(largest);
+  if (values.size() < 2) result.reason = "too few values: a t test needs two";
+  test_differences(result, shrunk(values, exponent), exponent, largest);
   return result;
 }
 
@@ -148,8 +176,10 @@ Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>&
     return result;
   }
   result.estimate = difference;
-  fill_welch(result, {*of_a.mean, *of_a.standard_deviation, result.num_a},
-             {*of_b.mean, *of_b.standard_deviation, result.num_b});
+  const PublishedGroup group_a{*of_a.mean, *of_a.standard_deviation, result.num_a};
+  const PublishedGroup group_b{*of_b.mean, *of_b.standard_deviation, result.num_b};
+  fill_welch(result, group_a, group_b);
+  add_effect_of_groups(result, group_a, group_b);
   result.estimate = grown(result.estimate, exponent);
   result.ci95 = grown(result.ci95, exponent);
   return result;
@@ -176,6 +206,7 @@ Comparison pooled_t_test(const PublishedGroup& a, const PublishedGroup& b) {
   }
   fill_t(result, std::sqrt(variance * (1.0 / a.num_values + 1.0 / b.num_values)),
          degrees_of_freedom);
+  add_effect_of_groups(result, a, b);
   return result;
 }
 
@@ -250,6 +281,7 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
   result.method += ranks.exact ? ", exact" : ", normal approximation corrected for ties";
   result.median_difference = grown(ranks.median, exponent);
   result.median_difference_ci95 = grown(ranks.median_ci95, exponent);
+  add_rank_biserial(result, ranks);
   result.status = FitStatus::kOk;
   return result;
 }

@@ -21,6 +21,7 @@ void add_resume(CLI::App& program, Invocation& invocation);
 void add_simulate(CLI::App& program, Invocation& invocation);
 void add_demo(CLI::App& program, Invocation& invocation);
 void add_results(CLI::App& program, Invocation& invocation);
+void add_report(CLI::App& program, Invocation& invocation);
 void add_exclude(CLI::App& program, Invocation& invocation);
 void add_unblind(CLI::App& program, Invocation& invocation);
 void add_backup(CLI::App& program, Invocation& invocation);

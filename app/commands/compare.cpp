@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "analysis/csv_table.h"
 #include "analysis/fits/fit_json.h"
 #include "analysis/groups/comparison.h"
+#include "analysis/groups/comparison_data.h"
+#include "analysis/groups/multiplicity.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 
@@ -15,24 +18,24 @@ namespace jnd::app {
 namespace {
 
 using analysis::Comparison;
+using analysis::FitStatus;
+using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string csv, test;
+  std::vector<std::string> group_by;
   bool json = false;
 };
 
-/// Both columns as the test needs them: pairs, or for Welch two columns of their own lengths.
-/// Throws `core::Error` where the table has problems.
-Comparison compared(const Options& options) {
-  const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
-  analysis::CsvReader reader(table);
-  const bool welch = options.test == "welch";
-  const std::vector<double> a = welch ? reader.numbers_until_empty("a") : reader.numbers("a");
-  const std::vector<double> b = welch ? reader.numbers_until_empty("b") : reader.numbers("b");
-  reader.throw_problems();
-  if (welch) return analysis::welch_t_test(a, b);
-  if (options.test == "pearson") return analysis::pearson_correlation(a, b);
-  if (options.test == "wilcoxon") return analysis::wilcoxon_test(a, b);
+bool is_paired(const std::string& test) { return test != "welch" && test != "ranksum"; }
+
+Comparison compared(const std::string& test, const analysis::ComparedColumns& columns) {
+  const std::vector<double>&a = columns.a, &b = columns.b;
+  if (test == "welch") return analysis::welch_t_test(a, b);
+  if (test == "pearson") return analysis::pearson_correlation(a, b);
+  if (test == "wilcoxon") return analysis::wilcoxon_test(a, b);
+  if (test == "ranksum") return analysis::rank_sum_test(a, b);
+  if (test == "spearman") return analysis::spearman_correlation(a, b);
   return analysis::paired_t_test(a, b);
 }
 
@@ -45,24 +48,116 @@ void print_interval(const char* name, const analysis::Interval& interval) {
   fmt::print("  {:<24} {:.4g} to {:.4g}\n", name, *interval.low, *interval.high);
 }
 
+void print_effect(const char* name, const std::optional<double>& value,
+                  const analysis::Interval& interval) {
+  if (!value) return;
+  fmt::print("  {:<24} {}\n", name, number(value));
+  print_interval("  95 %", interval);
+}
+
+const char* statistic_name(Comparison::Kind kind) {
+  if (kind == Comparison::Kind::kRankSum) return "U";
+  return kind == Comparison::Kind::kWilcoxon ? "smaller sum of ranks" : "t";
+}
+
 void print_for_people(const Comparison& result) {
-  const bool correlation = result.kind == Comparison::Kind::kPearson;
-  const bool ranks = result.kind == Comparison::Kind::kWilcoxon;
+  using Kind = Comparison::Kind;
+  const bool correlation = result.kind == Kind::kPearson || result.kind == Kind::kSpearman;
   fmt::print("{}, {} and {} values\n", result.method, result.num_a, result.num_b);
   if (!result.reason.empty()) fmt::print("  {}\n", result.reason);
-  fmt::print("  {:<24} {}\n", correlation ? "r" : "mean of a - b", number(result.estimate));
+  const char* difference = result.kind == Kind::kWelch || result.kind == Kind::kRankSum
+                               ? "mean of a - mean of b"
+                               : "mean of a - b";
+  fmt::print("  {:<24} {}\n", correlation ? "r" : difference, number(result.estimate));
   print_interval("  95 %", result.ci95);
-  if (result.median_difference) {
-    fmt::print("  {:<24} {}\n", "median of a - b", number(result.median_difference));
-    print_interval("  95 %", result.median_difference_ci95);
-  }
+  print_effect("median of a - b", result.median_difference, result.median_difference_ci95);
   if (result.status != analysis::FitStatus::kOk) return;
-  fmt::print("  {:<24} {}\n", ranks ? "smaller sum of ranks" : "t", number(result.statistic));
+  fmt::print("  {:<24} {}\n", statistic_name(result.kind), number(result.statistic));
   if (result.degrees_of_freedom) {
     fmt::print("  {:<24} {}\n", "degrees of freedom", number(result.degrees_of_freedom));
   }
   fmt::print("  {:<24} {}\n", "p, two-sided", number(result.p_value));
-  if (result.cohen_dz) fmt::print("  {:<24} {}\n", "Cohen's dz", number(result.cohen_dz));
+  print_effect("Cohen's dz", result.cohen_dz, result.cohen_dz_ci95);
+  print_effect("Hedges' g", result.hedges_g, result.hedges_g_ci95);
+  print_effect("rank-biserial r", result.rank_biserial, result.rank_biserial_ci95);
+}
+
+/// The groups of a table with their tests, and the p values adjusted for there being several.
+struct Tests {
+  std::vector<analysis::ComparedColumns> columns;
+  std::vector<Comparison> results;
+  std::vector<std::optional<double>> p_values_holm;
+};
+
+/// Throws `core::Error` where the table has problems.
+Tests tests_of(const Options& options) {
+  Tests tests{.columns = analysis::read_compared(analysis::CsvTable::read(options.csv),
+                                                 options.group_by, is_paired(options.test))};
+  std::vector<std::optional<double>> p_values;
+  for (const analysis::ComparedColumns& columns : tests.columns) {
+    tests.results.push_back(compared(options.test, columns));
+    p_values.push_back(tests.results.back().p_value);
+  }
+  tests.p_values_holm = analysis::holm_adjusted(p_values);
+  return tests;
+}
+
+Json to_json(const Tests& tests) {
+  Json groups = Json::array();
+  for (std::size_t i = 0; i < tests.results.size(); ++i) {
+    Json json;
+    for (const auto& [column, value] : tests.columns[i].key) json["group"][column] = value;
+    json.update(analysis::to_json(tests.results[i]));
+    const std::optional<double>& p_value = tests.p_values_holm[i];
+    json["p_value_holm"] = p_value ? Json(*p_value) : Json(nullptr);
+    groups.push_back(std::move(json));
+  }
+  return {{"groups", std::move(groups)}};
+}
+
+void print_for_people(const Tests& tests) {
+  for (std::size_t i = 0; i < tests.results.size(); ++i) {
+    std::string heading;
+    for (const auto& [column, value] : tests.columns[i].key) {
+      heading += (heading.empty() ? "" : ", ") + column + " " + value;
+    }
+    fmt::print("{}\n", heading);
+    print_for_people(tests.results[i]);
+    if (tests.p_values_holm[i]) {
+      fmt::print("  {:<24} {}\n", "p adjusted by Holm", number(tests.p_values_holm[i]));
+    }
+  }
+}
+
+int run(const Options& options) {
+  const Tests tests = tests_of(options);
+  if (options.json) {
+    fmt::print("{}\n", json_text(options.group_by.empty() ? analysis::to_json(tests.results[0])
+                                                          : to_json(tests)));
+  } else if (options.group_by.empty()) {
+    print_for_people(tests.results[0]);
+  } else {
+    print_for_people(tests);
+  }
+  if (tests.results.empty()) {
+    fmt::print(stderr, "jnd: {}: expected rows below the header, found none\n", options.csv);
+    return kHasProblems;
+  }
+  const auto lacks = [](const Comparison& one) { return one.status != FitStatus::kOk; };
+  const auto first = std::ranges::find_if(tests.results, lacks);
+  if (first == tests.results.end()) return kDone;
+  if (tests.results.size() == 1) {
+    fmt::print(stderr, "jnd: {}: expected columns that can be compared, found: {}\n",
+               options.csv, first->reason);
+  } else {
+    fmt::print(
+        stderr,
+        "jnd: {}: expected columns that can be compared in every group, found none in {} "
+        "of {}: {}\n",
+        options.csv, std::ranges::count_if(tests.results, lacks), tests.results.size(),
+        first->reason);
+  }
+  return kHasProblems;
 }
 
 }  // namespace
@@ -71,24 +166,20 @@ void add_compare(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<Options>();
   CLI::App& compare = *program.add_subcommand("compare", "Compare two columns of a table");
   compare.add_option("--csv", options->csv, "table with the columns a,b")->required();
-  compare.add_option("--test", options->test, "paired, welch, pearson or wilcoxon")
+  compare
+      .add_option("--test", options->test,
+                  "paired, welch, pearson or wilcoxon; also ranksum (two groups, by ranks) and "
+                  "spearman")
       ->required()
-      ->check(CLI::IsMember({"paired", "welch", "pearson", "wilcoxon"}));
+      ->check(CLI::IsMember({"paired", "welch", "pearson", "wilcoxon", "ranksum", "spearman"}));
+  compare
+      .add_option("--group-by", options->group_by,
+                  "columns; one test for each of their values, p adjusted by Holm")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   compare.add_flag("--json", options->json, "print one JSON document");
-  compare.callback([&invocation, options] {
-    invocation.run = [options] {
-      const Comparison result = compared(*options);
-      if (options->json) {
-        fmt::print("{}\n", json_text(analysis::to_json(result)));
-      } else {
-        print_for_people(result);
-      }
-      if (result.status == analysis::FitStatus::kOk) return kDone;
-      fmt::print(stderr, "jnd: {}: expected columns that can be compared, found: {}\n",
-                 options->csv, result.reason);
-      return kHasProblems;
-    };
-  });
+  compare.callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -10,6 +10,8 @@
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
 #include "app/commands/commands.h"
+#include "app/commands/fit_group.h"
+#include "app/commands/fit_words.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 
@@ -21,6 +23,9 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string csv, weber_method = "ml", power_method = "nls";
+  std::string family = "weber", bootstrap_kind = "parametric";
+  int num_goodness = 0;
+  bool posterior = false;
   double reference = 0.0;
   std::vector<std::string> free, group_by;
   int num_bootstrap = 0;
@@ -30,16 +35,33 @@ struct Options {
   bool json = false;
 };
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4g}", *value) : "-";
+void print_posterior(const analysis::PsychometricPosterior& posterior) {
+  if (posterior.status != FitStatus::kOk) return;
+  fmt::print("  posterior       {:<8}  95 % {}, median of the Weber fraction\n",
+             number(posterior.weber_fraction), range(posterior.weber_fraction_ci95));
+  if (posterior.pse_ci95) {
+    fmt::print("  posterior pse   {:<8}  95 % {}\n", number(posterior.pse),
+               range(*posterior.pse_ci95));
+  }
+  fmt::print("    priors: {}\n", posterior.priors);
+  if (!posterior.note.empty()) fmt::print("    note: {}\n", posterior.note);
 }
 
-/// "0.32 to 1.6", an end that the data leave open in words.
-std::string range(const analysis::Interval& interval) {
-  const auto end = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.4g}", *value) : std::string("open");
-  };
-  return end(interval.low) + " to " + end(interval.high);
+/// What goes beyond the curve itself.
+void print_details(const analysis::PsychometricFit& fit) {
+  for (const analysis::PsychometricFit::Parameter& one : fit.parameters) {
+    fmt::print("  {:<18} {}\n", one.name, number(one.value));
+  }
+  if (fit.goodness.overdispersion) {
+    fmt::print("  overdispersion  {:<8}  Pearson's chi-squared over {}\n",
+               number(fit.goodness.overdispersion), fit.goodness.degrees_of_freedom);
+  }
+  if (fit.goodness.p_value) {
+    fmt::print("  goodness of fit p = {}  deviance against {} redrawn data sets\n",
+               number(fit.goodness.p_value), fit.goodness.n);
+  }
+  print_posterior(fit.posterior);
+  for (const std::string& warning : fit.warnings) fmt::print("  note: {}\n", warning);
 }
 
 void print_for_people(const analysis::PsychometricFit& fit, const Options& options) {
@@ -49,6 +71,7 @@ void print_for_people(const analysis::PsychometricFit& fit, const Options& optio
              fit.num_levels, fit.num_trials);
   if (fit.status != FitStatus::kOk) {
     fmt::print("  no Weber fraction: {}\n", fit.reason);
+    print_posterior(fit.posterior);
     return;
   }
   fmt::print("  Weber fraction  {:<8}  95 % {}, standard error {}\n",
@@ -58,6 +81,8 @@ void print_for_people(const analysis::PsychometricFit& fit, const Options& optio
     fmt::print("    bootstrap               95 % {} ({}, {} refits, {} without an optimum)\n",
                range(fit.bootstrap.ci95), fit.bootstrap.method, fit.bootstrap.n,
                fit.bootstrap.num_degenerate);
+    fmt::print("    corrected (BCa)         95 % {}{}\n", range(fit.bootstrap.bca_ci95),
+               fit.bootstrap.bca_reason.empty() ? "" : ": " + fit.bootstrap.bca_reason);
   }
   fmt::print("  PSE             {:<8}  {}, in the unit of the intensities\n", number(fit.pse),
              fit.pse_ci95 ? "95 % " + range(*fit.pse_ci95) : "fixed at the reference");
@@ -68,6 +93,7 @@ void print_for_people(const analysis::PsychometricFit& fit, const Options& optio
   fmt::print("  log-likelihood  {:<8}  deviance {}\n", number(fit.log_likelihood),
              number(fit.deviance));
   if (fit.r_squared) fmt::print("  R squared       {}\n", number(fit.r_squared));
+  print_details(fit);
 }
 
 void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lines) {
@@ -156,12 +182,20 @@ int fit_weber(const Options& options) {
   };
   const analysis::PsychometricOptions how = {
       .reference = options.reference,
+      .family = analysis::psychometric_family_named(options.family)
+                    .value_or(analysis::PsychometricFamily::kWeber),
       .method = options.weber_method == "lsq"
                     ? analysis::PsychometricMethod::kLeastSquares
                     : analysis::PsychometricMethod::kMaximumLikelihood,
       .free_pse = is_free("pse"),
       .free_lapse = is_free("lapse"),
       .num_bootstrap = options.num_bootstrap,
+      .bootstrap_kind = options.bootstrap_kind == "nonparametric"
+                            ? analysis::BootstrapKind::kNonparametric
+                            : analysis::BootstrapKind::kParametric,
+      .diagnostics = true,
+      .num_goodness = options.num_goodness,
+      .posterior = options.posterior,
       .seed = options.seed};
   return fit_groups(
       read_groups(options, analysis::read_answer_counts), options, "Weber fraction",
@@ -245,11 +279,27 @@ void add_fit(CLI::App& program, Invocation& invocation) {
       .add_option("--bootstrap", options->num_bootstrap,
                   "refits for a percentile interval of the Weber fraction")
       ->check(whole_number(0, 10'000'000));
-  weber.add_option("--seed", options->seed, "of the bootstrap")
+  weber
+      .add_option("--bootstrap-kind", options->bootstrap_kind,
+                  "answers drawn from the curve, or from the answers within each level")
+      ->check(CLI::IsMember({"parametric", "nonparametric"}))
+      ->capture_default_str();
+  weber.add_option("--goodness", options->num_goodness, "redraws for the goodness of fit")
+      ->check(whole_number(0, 10'000'000));
+  weber.add_flag("--posterior", options->posterior,
+                 "also the Bayesian estimate on a grid, with its priors");
+  weber
+      .add_option("--family", options->family,
+                  "the curve's form; gauss and weibull free the pse")
+      ->check(CLI::IsMember({"weber", "gauss", "weibull"}))
+      ->capture_default_str();
+  weber.add_option("--seed", options->seed, "of bootstrap and goodness of fit")
       ->check(seed_number())
       ->capture_default_str();
   weber.callback(
       [&invocation, options] { invocation.run = [options] { return fit_weber(*options); }; });
+
+  add_fit_group(fit, invocation);
 
   CLI::App& power = *fit.add_subcommand("power", "Power law from magnitudes");
   add_table_options(power, *options, "intensity,magnitude");

@@ -10,7 +10,7 @@ const std::vector<Registration>& registrations() {
       add_run,       add_simulate,     add_resume,    // Running it.
       add_verify,    add_backup,                      // Keeping it.
       add_exclude,   add_unblind,      add_withdraw,  // Acts on what is kept.
-      add_results,   add_export,                      // What came of it.
+      add_results,   add_report,       add_export,    // What came of it.
       add_fit,       add_compare,                     // Other people's data.
       add_force,     add_loop,         add_devices,
       add_doctor,  // The apparatus.

@@ -1,11 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "analysis/movement/delivered_intensity.h"
+#include "analysis/movement/recorded_results.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/results_output.h"
+#include "app/session_setup.h"
 
 namespace jnd::app {
 namespace {
@@ -13,16 +18,40 @@ namespace {
 struct Options {
   std::string folder;
   bool json = false;
+  bool delivered = false;
+  bool movement = false;
   analysis::ResultsOptions results;
 };
 
+/// What the intensities are that the fits rest on.
+nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
+  return {{"basis", "delivered"},
+          {"num_trials", study.num_replaced},
+          {"num_left_out", study.num_left_out}};
+}
+
 int run(const Options& options) {
-  const analysis::StudyResults results = results_of_folder(options.folder, options.results);
-  if (options.json) {
-    std::puts(json_text(to_json(results)).c_str());
-  } else {
-    std::fputs(to_table(results).c_str(), stdout);
+  const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
+  analysis::DeliveredStudy study{.data = analysis::load_study(store)};
+  if (options.delivered) study = analysis::with_delivered(std::move(study.data), store);
+  analysis::StudyResults results = results_of_data(study.data, options.results);
+  if (options.movement) {
+    results.sections.push_back(
+        analysis::recorded_results(analysis::analyse_movement(store, {.explored = false})));
   }
+  if (options.json) {
+    nlohmann::json document = to_json(results);
+    if (options.delivered) document["intensities"] = basis_of(study);
+    std::puts(json_text(document).c_str());
+    return kDone;
+  }
+  if (options.delivered) {
+    std::printf("intensities: as delivered, in %lld trials; %lld left out\n",
+                static_cast<long long>(study.num_replaced),
+                static_cast<long long>(study.num_left_out));
+  }
+  std::fputs(to_table(results).c_str(), stdout);
   return kDone;
 }
 
@@ -43,6 +72,10 @@ void add_results(CLI::App& program, Invocation& invocation) {
   command->add_option("--seed", options->results.seed, "Of the resampling")
       ->check(seed_number())
       ->capture_default_str();
+  command->add_flag("--delivered", options->delivered,
+                    "Fit on what the device delivered instead of what was commanded");
+  command->add_flag("--movement", options->movement,
+                    "What the recordings say of movement as well; reads every sample");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

@@ -48,7 +48,8 @@ std::string p_words(double p_value) {
   return p_value < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.4f}", p_value);
 }
 
-std::string comparison_words(const analysis::Comparison& c) {
+std::string comparison_words(const analysis::NamedComparison& named) {
+  const analysis::Comparison& c = named.comparison;
   if (c.status != analysis::FitStatus::kOk) return c.reason;
   std::string words = interval_words(c.ci95);
   const auto add = [&words](const std::string& part) {
@@ -58,6 +59,7 @@ std::string comparison_words(const analysis::Comparison& c) {
     add(fmt::format("t({:.4g}) = {:.2f}", *c.degrees_of_freedom, *c.statistic));
   }
   if (c.p_value) add(p_words(*c.p_value));
+  if (named.p_value_holm) add("Holm " + p_words(*named.p_value_holm));
   return words;
 }
 
@@ -112,7 +114,7 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
     for (const analysis::NamedComparison& named : section.comparisons) {
       model.comparisons.push_back({.name = with_titles(source, named.name),
                                    .estimate = named.comparison.estimate,
-                                   .detail = comparison_words(named.comparison)});
+                                   .detail = comparison_words(named)});
     }
   }
 }

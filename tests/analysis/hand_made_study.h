@@ -20,11 +20,12 @@ class HandMadeStudy {
   [[nodiscard]] const core::StudyStore& store() const { return store_; }
 
   std::int64_t add(const std::string& participant, bool pilot = false,
-                   const std::string& laboratory = "") {
+                   const std::string& laboratory = "", const std::string& cells = "") {
     trial_ = 0;
     sequence_ = 0;
     session_ = store_.add_session({.participant = participant,
                                    .protocol_sha256 = hash_,
+                                   .cells = cells,
                                    .pilot = pilot,
                                    .simulated = !laboratory.empty(),
                                    .laboratory = laboratory,
@@ -80,6 +81,17 @@ class HandMadeStudy {
     row.sequence = sequence_;
     ended.presentation = std::move(row);
     store_.append(ended);
+  }
+
+  /// An answer outside of any trial.
+  void say(const std::string& stage, const std::string& item, const std::string& answer) {
+    core::Commit answered = event("item_answered");
+    answered.answers.push_back({.session = session_,
+                                .sequence = sequence_,
+                                .stage = stage,
+                                .item = item,
+                                .answer = answer});
+    store_.append(answered);
   }
 
   void estimate(double intensity, double percent, std::int64_t repetition = 1) {

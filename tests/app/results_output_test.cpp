@@ -76,5 +76,50 @@ TEST(ResultsOutput, TheComparisonTellsWhatWasCalibratedFromWhatWasHeldOut) {
   EXPECT_NE(table.find("1.3000 (sd 0.1000)"), std::string::npos) << table;
 }
 
+/// A section as the questionnaires and the exploratory tests make it.
+analysis::StudyResults answered_results() {
+  analysis::StudyResults results{.study = "honey", .num_participants = 2};
+  analysis::ResultsSection section{.name = "questionnaires"};
+  section.participants.push_back({"P01", "questionnaire.safety", 10.0, {}, ""});
+  section.participants.push_back({"P02", "questionnaire.safety", 7.0, {}, ""});
+  section.participants.push_back({"P01", "questionnaire.freedom", 3.0, {}, ""});
+  section.participants.push_back({"P01", "own.k", 0.5, {.low = 0.25, .high = 1.0}, ""});
+  section.comparisons.push_back({.name = "against 0, t",
+                                 .comparison = analysis::one_sample_t_test({1.0, 2.0, 4.0}),
+                                 .p_value_holm = 0.5,
+                                 .family = "exploratory, t tests"});
+  section.comparisons.push_back({.name = "against 0, ranks",
+                                 .comparison = analysis::wilcoxon_test({1, 2, 4}, {0, 0, 0})});
+  section.free_answers.push_back({"P02", "remarks", "Anything else?", "wetness"});
+  results.sections.push_back(section);
+  return results;
+}
+
+TEST(ResultsOutput, JsonHasTheAdjustedTestsEffectSizesAndFreeAnswers) {
+  const nlohmann::json section = to_json(answered_results())["sections"][0];
+  const nlohmann::json& t = section["comparisons"][0];
+  EXPECT_EQ(t["p_value_holm"], 0.5);
+  EXPECT_EQ(t["family"], "exploratory, t tests");
+  EXPECT_TRUE(t["hedges_g_ci95"][0].is_number());
+  const nlohmann::json& ranks = section["comparisons"][1];
+  EXPECT_TRUE(ranks["p_value_holm"].is_null());
+  EXPECT_EQ(ranks["rank_biserial"], 1.0);
+  EXPECT_EQ(ranks["median_difference"], 2.25);
+  EXPECT_EQ(section["free_answers"], nlohmann::json::parse(R"([{"participant": "P02",
+      "item": "remarks", "question": "Anything else?", "answer": "wetness"}])"));
+}
+
+TEST(ResultsOutput, TheTablePutsPlainNumbersInColumnsAndSaysWhatWasSaid) {
+  const std::string table = to_table(answered_results());
+  EXPECT_NE(table.find("              safety   freedom\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("  P01            10.0000    3.0000\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("  P02             7.0000         -\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("P01 own.k"), std::string::npos) << table;
+  EXPECT_NE(table.find("P02 remarks: wetness"), std::string::npos) << table;
+  EXPECT_NE(table.find("Holm p = 0.5000"), std::string::npos) << table;
+  EXPECT_NE(table.find("median 2.2500"), std::string::npos) << table;
+  EXPECT_NE(table.find("smaller sum of ranks = 0.0"), std::string::npos) << table;
+}
+
 }  // namespace
 }  // namespace jnd::app

@@ -162,7 +162,8 @@ TEST_F(WrongUsageTest, WhatDoesNotExistIsNamed) {
       {{"demo", "--device", "nonsense"}, {"--device", "nonsense"}},
       {{"resume", ".", "--choose", "repaet"},
        {"expected repeat, restart or end", "did you mean `repeat`?"}},
-      {{"export", "xlsx", ".", "--out", "x"}, {"FORMAT: expected csv, found `xlsx`"}},
+      {{"export", "xlsx", ".", "--out", "x"},
+       {"FORMAT: expected csv, bids or hdf5, found `xlsx`"}},
       {{"force", "honey"}, {"law: expected ", "viscous", "`honey`"}},
       {{"compare", "--csv", "/dev/null", "--test", "pared"}, {"did you mean `paired`?"}},
   });

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <locale>
@@ -68,6 +69,8 @@ class CsvExportTest : public ::testing::Test {
 
 constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.csv",
                                    "events.csv", "answers.csv"};
+// Worked out of several tables, or of the study file.
+constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv"};
 
 TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
   export_csv(study_.store(), out(), {});
@@ -79,10 +82,12 @@ TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
   }
   EXPECT_EQ(told.size(), codebook.num_rows()) << "each once";
   std::set<std::string> there;
-  for (const char* name : kTables) {
-    const CsvTable columns = table(name);
+  std::vector<std::string> names(std::begin(kTables), std::end(kTables));
+  names.insert(names.end(), std::begin(kMadeTables), std::end(kMadeTables));
+  for (const std::string& name : names) {
+    const CsvTable columns = table(name.c_str());
     for (const std::string& column : columns.columns()) {
-      there.insert(std::string(name) + ":" + column);
+      there.insert(name + ":" + column);
       EXPECT_EQ(column.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"),
                 std::string::npos)
           << column;
@@ -155,6 +160,50 @@ TEST_F(CsvExportTest, PilotsAreThereOnlyWhenAskedFor) {
   for (const char* name : kTables) {
     EXPECT_EQ(bytes(out() / name).find("PILOT"), std::string::npos) << name;
   }
+}
+
+TEST_F(CsvExportTest, ParticipantsAreCountedWithWhatWasSetAside) {
+  export_csv(study_.store(), out(), {});
+  const CsvTable participants = table("participants.csv");
+  ASSERT_EQ(participants.num_rows(), 1U) << "the pilot is not one";
+  EXPECT_EQ(cell(participants, 0, "participant"), "P01");
+  EXPECT_EQ(cell(participants, 0, "num_sessions"), "1");
+  EXPECT_EQ(cell(participants, 0, "num_completed_sessions"), "0");
+  EXPECT_EQ(cell(participants, 0, "num_trials"), "2");
+  EXPECT_EQ(cell(participants, 0, "num_excluded_trials"), "1");
+}
+
+TEST_F(CsvExportTest, QuestionnairesAreThereWithTheirQuestionsAlsoThoseNotAnswered) {
+  HandMadeStudy study(R"({"name": "asked", "stages": [
+      {"kind": "questionnaire", "name": "about_you", "items": [
+        {"name": "age_years", "kind": "number", "unit": "years",
+         "question": {"de": "Wie alt?", "en": "How old?"}},
+        {"name": "safety", "kind": "scale", "question": {"en": "Safe?"}}]}]})");
+  study.add("P01");
+  export_csv(study.store(), out(), {});
+  const CsvTable asked = table("questionnaires.csv");
+  ASSERT_EQ(asked.num_rows(), 2U);
+  EXPECT_EQ(cell(asked, 0, "question"), "How old?");
+  EXPECT_EQ(cell(asked, 0, "unit"), "years");
+  EXPECT_EQ(cell(asked, 0, "answer"), "");
+  EXPECT_EQ(cell(asked, 1, "num_steps"), "10");
+}
+
+TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
+  {
+    core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                                 core::Durability::kAtClose);
+    for (const std::int64_t tick : {0, 1, 5, 6}) writer.append({.tick = tick});
+  }
+  export_csv(study_.store(), out(), {.recordings = true});
+  EXPECT_EQ(table("recordings/0001.csv").num_rows(), 4U);
+  EXPECT_EQ(bytes(out() / "recordings/gaps.csv"), "session,first_tick,last_tick\n1,2,4\n");
+}
+
+TEST_F(CsvExportTest, WhatFailsHalfWayLeavesNothing) {
+  std::ofstream(study_.store().recording_file(1)) << "no recording";
+  EXPECT_THROW(export_csv(study_.store(), out(), {.recordings = true}), core::Error);
+  EXPECT_TRUE(fs::is_empty(temporary_.path()));
 }
 
 TEST_F(CsvExportTest, TheSameStudyGivesTheSameBytes) {

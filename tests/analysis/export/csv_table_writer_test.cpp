@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <iterator>
 
 #include "core/error.h"
@@ -49,9 +50,48 @@ TEST_F(CsvTableWriterTest, NamesAFileThatCannotBeWritten) {
 }
 
 TEST_F(CsvTableWriterTest, AFullDiskIsAnErrorNotATruncatedTable) {
-  CsvTableWriter table("/dev/full", {{"a", "", ""}});
-  for (int row = 0; row < 100000; ++row) table.cell("0123456789").end_row();
-  EXPECT_THROW(table.finish(), core::Error);
+  EXPECT_THROW(
+      {
+        CsvTableWriter table("/dev/full", {{"a", "", ""}});
+        for (int row = 0; row < 100000; ++row) table.cell("0123456789").end_row();
+        table.finish();
+      },
+      core::Error);
+  EXPECT_THROW(
+      {
+        CsvTableWriter table("/dev/full", {{"a", "", ""}});
+        table.finish();
+      },
+      core::Error)
+      << "also of a table that fits the buffer";
+}
+
+TEST_F(CsvTableWriterTest, WritesStoredStepsAsTheDecimalFractionTheyAre) {
+  CsvTableWriter table(file_, {{"number", "", ""}});
+  for (const double number : {0.0, -0.0, 3 * 1e-7, -1234567 * 1e-7, 12.0, -0.05 + 0.0499999}) {
+    table.fixed_cell(number, 7).end_row();
+  }
+  table.fixed_cell(1.0 / 3.0, 7).end_row();
+  table.fixed_cell(1e300, 7).end_row();
+  table.fixed_cell(NAN, 7).end_row();
+  table.fixed_cell(31.0, 0).end_row();
+  table.finish();
+  EXPECT_EQ(written(),
+            "number\n0\n0\n0.0000003\n-0.1234567\n12\n-0.0000001\n0.3333333333333333\n"
+            "1e+300\n\n31\n");
+}
+
+TEST_F(CsvTableWriterTest, WritesTabsAndWhatThereIsNotAsBidsWantsIt) {
+  const std::vector<CsvColumn> columns = {{"text", "", ""}, {"number", "", ""}};
+  CsvTableWriter table(file_, columns, TableStyle::kBids);
+  table.cell("a\tb\r\nc, \"d\"").cell(NAN).end_row();
+  table.cell("").cell(std::optional<std::int64_t>()).end_row();
+  table.finish();
+  EXPECT_EQ(written(), "text\tnumber\na b  c, \"d\"\tn/a\nn/a\tn/a\n");
+  CsvTableWriter bare(file_, columns, TableStyle::kBidsWithoutNames);
+  bare.cell("a").cell(0.5).end_row();
+  bare.finish();
+  EXPECT_EQ(written(), "a\t0.5\n");
 }
 
 }  // namespace

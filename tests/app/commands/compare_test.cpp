@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
@@ -10,17 +12,19 @@ namespace {
 
 using test_support::ProgramOutcome;
 
-ProgramOutcome compared(const std::string& text, const char* test) {
+ProgramOutcome compared(const std::string& text, const char* test,
+                        const std::vector<std::string>& more = {"--json"}) {
   const test_support::TemporaryFolder temporary;
   write_file(temporary.path() / "t.csv", text);
-  return test_support::run_program({"compare", "--csv", "t.csv", "--test", test, "--json"},
-                                   {.folder = temporary.path(), .environment = {}});
+  std::vector<std::string> arguments = {"compare", "--csv", "t.csv", "--test", test};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return test_support::run_program(arguments, {.folder = temporary.path(), .environment = {}});
 }
 
 constexpr char kPairs[] = "a,b\n1,0\n3,1\n4,3\n8,4\n";
 
 TEST(CompareCommand, PrintsTheKeysOfTheContractForEveryTest) {
-  for (const char* test : {"paired", "welch", "pearson", "wilcoxon"}) {
+  for (const char* test : {"paired", "welch", "pearson", "wilcoxon", "ranksum"}) {
     const ProgramOutcome outcome = compared(kPairs, test);
     EXPECT_EQ(outcome.exit_code, 0) << test << outcome.err;
     const auto json = document(outcome.out);
@@ -61,6 +65,67 @@ TEST(CompareCommand, WhatIsUndefinedIsDegenerateAndExit1NeverZeroOrNan) {
     EXPECT_EQ(json["status"], "degenerate") << test << text;
     EXPECT_TRUE(json["p_value"].is_null()) << test << text;
   }
+}
+
+TEST(CompareCommand, GivesEffectSizesWithIntervalsThatHoldThem) {
+  const auto inside = [](const nlohmann::json& json, const std::string& key) {
+    const auto& ci95 = json[key + "_ci95"];
+    return ci95[0] < json[key] && json[key] < ci95[1];
+  };
+  const auto paired = document(compared(kPairs, "paired").out);
+  EXPECT_TRUE(inside(paired, "cohen_dz"));
+  EXPECT_TRUE(inside(paired, "hedges_g"));
+  EXPECT_TRUE(inside(document(compared(kPairs, "welch").out), "hedges_g"));
+  EXPECT_TRUE(inside(document(compared(kPairs, "ranksum").out), "rank_biserial"));
+  const auto spearman = document(compared("a,b\n1,0\n3,1\n4,3\n8,2\n9,9\n", "spearman").out);
+  EXPECT_NEAR(spearman["estimate"].get<double>(), 0.9, 1e-12);
+}
+
+constexpr char kGroups[] = "who,a,b\nx,1,0\ny,5,1\nx,3,1\ny,4,2\nx,4,3\ny,9,3\nx,8,4\n";
+
+TEST(CompareCommand, GroupsAreTestedEachAndAdjustedByHolm) {
+  const ProgramOutcome outcome = compared(kGroups, "paired", {"--group-by", "who", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["groups"].size(), 2U);
+  const auto &x = json["groups"][0], &y = json["groups"][1];
+  EXPECT_EQ(x["group"]["who"], "x");
+  EXPECT_EQ(x["num_a"], 4);
+  EXPECT_NEAR(x["statistic"].get<double>(), 2.8284271247461903, 1e-9) << "as by itself";
+  EXPECT_EQ(y["num_a"], 3);
+  const double smaller = std::min(x["p_value"].get<double>(), y["p_value"].get<double>());
+  EXPECT_NEAR(std::min(x["p_value_holm"].get<double>(), y["p_value_holm"].get<double>()),
+              2.0 * smaller, 1e-12);
+  const ProgramOutcome people = compared(kGroups, "paired", {"--group-by", "who"});
+  EXPECT_NE(people.out.find("who x"), std::string::npos) << people.out;
+  EXPECT_NE(people.out.find("p adjusted by Holm"), std::string::npos) << people.out;
+}
+
+TEST(CompareCommand, OneGroupWithoutATestIsExit1AndLeavesTheOthers) {
+  const ProgramOutcome outcome = compared("who,a,b\nx,1,0\nx,3,1\nx,4,1\ny,1,0\n", "paired",
+                                          {"--group-by", "who", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("found none in 1 of 2"), std::string::npos) << outcome.err;
+  const auto json = document(outcome.out);
+  EXPECT_EQ(json["groups"][0]["status"], "ok");
+  EXPECT_EQ(json["groups"][0]["p_value_holm"], json["groups"][0]["p_value"]);
+  EXPECT_EQ(json["groups"][1]["status"], "degenerate");
+  EXPECT_TRUE(json["groups"][1]["p_value_holm"].is_null());
+}
+
+TEST(CompareCommand, AnEmptyCellEndsAColumnOfItsGroupAlone) {
+  const char* table = "who,a,b\nx,1,2\nx,2,4\nx,3,\ny,1,2\ny,,3\n";
+  const auto json = document(compared(table, "welch", {"--group-by", "who", "--json"}).out);
+  EXPECT_EQ(json["groups"][0]["num_a"], 3);
+  EXPECT_EQ(json["groups"][0]["num_b"], 2);
+  EXPECT_EQ(json["groups"][1]["num_a"], 1);
+  const ProgramOutcome wrong =
+      compared("who,a,b\nx,,2\nx,2,4\n", "welch", {"--group-by", "who", "--json"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_NE(wrong.err.find("t.csv:3"), std::string::npos) << wrong.err;
+  const ProgramOutcome missing = compared(kPairs, "paired", {"--group-by", "who"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.err.find("who"), std::string::npos) << missing.err;
 }
 
 }  // namespace

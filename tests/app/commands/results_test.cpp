@@ -83,6 +83,38 @@ TEST_F(ResultsCommandTest, PrintsTheKeysOfTheContractForTheMagnitudeStudy) {
   }
 }
 
+TEST_F(ResultsCommandTest, HasWhatTheThesisLeftOpenAdjustedAndTheQuestionnaires) {
+  simulate("magnitude_of_virtual_water", "m.study", 4);
+  const auto json = document(jnd({"results", "m.study", "--resamples", "100", "--json"}).out);
+  expect_finite(json);
+  const std::set<std::string> names = names_in(json);
+  for (const char* name :
+       {"magnitude_estimation.geometric.a", "magnitude_estimation.equalised.k",
+        "magnitude_estimation.mean_at_0.5", "magnitude_production.intensity_on_magnitude.a",
+        "combined.geometric_mean.a", "combined.within_shared_range.a",
+        "magnitude_production.starting_value_slope", "questionnaire.realism",
+        "questionnaire.realism.sd", "questionnaire.gender.female", "questionnaire.age_years"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  std::size_t num_adjusted = 0;
+  for (const auto& section : json["sections"]) {
+    for (const auto& comparison : section["comparisons"]) {
+      if (comparison["p_value_holm"].is_null()) continue;
+      EXPECT_EQ(section["name"], "exploratory");
+      EXPECT_GE(comparison["p_value_holm"], comparison["p_value"]);
+      ++num_adjusted;
+    }
+    if (section["name"] != "questionnaires") continue;
+    EXPECT_FALSE(section["free_answers"].empty());
+    for (const auto& answer : section["free_answers"]) {
+      EXPECT_NE(answer["answer"].get<std::string>().find("simulated"), std::string::npos);
+    }
+  }
+  EXPECT_GT(num_adjusted, 8U);
+  EXPECT_NE(jnd({"results", "m.study", "--resamples", "100"}).out.find("Holm"),
+            std::string::npos);
+}
+
 TEST_F(ResultsCommandTest, PrintsTheNamesOfTheContractForTheDiscriminationStudy) {
   simulate("viscosity_discrimination", "v.study", 2);
   const auto json = document(jnd({"results", "v.study", "--resamples", "100", "--json"}).out);

@@ -179,6 +179,15 @@ TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
     EXPECT_EQ(fault(), Fault::kNone);
     EXPECT_GT(total_now_n(), 0.5);
   }
+  run(600);
+  lose_next(20, kProgram);
+  run(21);
+  EXPECT_EQ(fault(), Fault::kLinkLost) << "patience is for what is late, not for what is lost";
+  network.on_send = nullptr;
+  run(600);
+  loop->rearm();
+  run(600);
+  EXPECT_EQ(fault(), Fault::kNone);
   server_runs = false;
   run(51);
   EXPECT_EQ(fault(), Fault::kLinkLost);

@@ -81,6 +81,17 @@ TEST_P(NetworkTrustTest, AnArmingThatIsNotOursEndsTheForce) {
   }
 }
 
+TEST_P(NetworkTrustTest, AMeasurementThatFailedIsNoneWhateverTheDeviceGoesOnWith) {
+  change_states([](wire::Header&, wire::State& state) { state.is_measured = false; });
+  run(2);
+  EXPECT_EQ(fault(), Fault::kLinkLost);
+  EXPECT_EQ(total_now_n(), 0.0);
+  run(500);
+  EXPECT_EQ(total_now_n(), 0.0);
+  network.on_send = nullptr;
+  expect_force_comes_back_when_armed();
+}
+
 TEST_P(NetworkTrustTest, ADeviceThatDoesNotHearUsIsNotTrusted) {
   for (const std::int64_t echo_ns : {std::int64_t{0}, network.now_ns + 1'000'000'000'000'000,
                                      std::numeric_limits<std::int64_t>::min()}) {

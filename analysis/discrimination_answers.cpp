@@ -1,0 +1,74 @@
+#include "analysis/discrimination_answers.h"
+
+#include <algorithm>
+
+namespace jnd::analysis {
+namespace {
+
+void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
+  if (!trial.intensity || !trial.response || !trial.reference_intensity) return;
+  const bool yes = *trial.response > 0.5;
+  answers.reference = *trial.reference_intensity;
+  AnswerCount& count = answers.levels[*trial.intensity];
+  count.intensity = *trial.intensity;
+  count.num_yes += yes ? 1 : 0;
+  ++count.num_trials;
+  answers.in_order.push_back({.intensity = *trial.intensity,
+                              .num_yes = yes ? 1.0 : 0.0,
+                              .trial = static_cast<double>(trial.trial)});
+}
+
+}  // namespace
+
+std::vector<AnswerCount> DiscriminationAnswers::rows() const {
+  std::vector<AnswerCount> all;
+  for (const auto& [intensity, count] : levels) all.push_back(count);
+  return all;
+}
+
+std::vector<DiscriminationAnswers> discrimination_answers(
+    const StudyData& data, const BlockDesign& block, bool with_excluded,
+    std::vector<ExcludedParticipant>& excluded) {
+  std::vector<DiscriminationAnswers> all;
+  for (const ParticipantData& participant : data.participants) {
+    DiscriminationAnswers answers{.participant = participant.participant};
+    for (const core::TrialRow& trial : participant.trials_in(block.block)) {
+      add_trial(answers, trial);
+    }
+    for (const core::TrialRow& trial : participant.excluded_trials) {
+      if (with_excluded && trial.block == block.block) add_trial(answers, trial);
+    }
+    if (answers.levels.empty()) {
+      excluded.push_back({participant.participant, "no answers in " + block.block});
+    } else {
+      all.push_back(std::move(answers));
+    }
+  }
+  return all;
+}
+
+PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOptions& options) {
+  std::vector<AnswerCount> rows = answers.rows();
+  if (options.corrected) {
+    // Counts are multiplied to stay whole, which leaves the estimate as it is.
+    const auto factor = 2 * static_cast<std::int64_t>(rows.size());
+    for (AnswerCount& row : rows) {
+      row.num_yes = factor * row.num_yes + 1;
+      row.num_trials = factor * row.num_trials + 2;
+    }
+  }
+  return fit_psychometric(rows, {.reference = answers.reference,
+                                 .free_pse = options.free_pse,
+                                 .intervals = options.intervals});
+}
+
+std::vector<ParticipantAnswers> participant_answers(
+    const std::vector<DiscriminationAnswers>& all, const std::string& condition) {
+  std::vector<ParticipantAnswers> answers;
+  for (const DiscriminationAnswers& one : all) {
+    answers.push_back({one.participant, condition, one.reference, one.rows()});
+  }
+  return answers;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "analysis/fits/psychometric_effects.h"
+#include "analysis/groups/hierarchical_fit.h"
+#include "analysis/study_results.h"
+
+namespace jnd::analysis {
+
+/// Answers of one participant in one block of comparisons, by level.
+struct DiscriminationAnswers {
+  std::string participant;
+  double reference = 0.0;
+  std::map<double, AnswerCount> levels;
+  std::vector<OrderedAnswers> in_order;  ///< One a trial.
+
+  [[nodiscard]] std::vector<AnswerCount> rows() const;
+};
+
+/// Everybody's answers in a block; who has none is named. `with_excluded`: those in trials that
+/// were set aside as well.
+[[nodiscard]] std::vector<DiscriminationAnswers> discrimination_answers(
+    const StudyData& data, const BlockDesign& block, bool with_excluded,
+    std::vector<ExcludedParticipant>& excluded);
+
+/// One participant's fit. `corrected` adds half a "yes" and half a "no" in all, spread over the
+/// levels (the count of Firth 1993 for one parameter): it exists for answers that separate the
+/// stimuli perfectly, and moves the others little.
+struct OwnFitOptions {
+  bool corrected = false;
+  bool free_pse = false;
+  bool intervals = false;
+};
+[[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,
+                                      const OwnFitOptions& options);
+
+/// As the hierarchical fit takes them.
+[[nodiscard]] std::vector<ParticipantAnswers> participant_answers(
+    const std::vector<DiscriminationAnswers>& all, const std::string& condition);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,224 @@
+#include "analysis/discrimination_group.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/groups/summary.h"
+
+namespace jnd::analysis {
+namespace {
+
+using Everybody = std::vector<DiscriminationAnswers>;
+
+PsychometricFit pooled_fit(const Everybody& all, const std::vector<std::size_t>& drawn,
+                           PsychometricMethod method, bool free_pse, Solver solver) {
+  std::map<double, AnswerCount> pooled;
+  for (const std::size_t index : drawn) {
+    for (const auto& [intensity, count] : all[index].levels) {
+      AnswerCount& sum = pooled[intensity];
+      sum.intensity = intensity;
+      sum.num_yes += count.num_yes;
+      sum.num_trials += count.num_trials;
+    }
+  }
+  std::vector<AnswerCount> rows;
+  for (const auto& [intensity, count] : pooled) rows.push_back(count);
+  return fit_psychometric(rows, {.reference = all.front().reference,
+                                 .method = method,
+                                 .free_pse = free_pse,
+                                 .intervals = false,
+                                 .solver = solver});
+}
+
+/// The Weber fraction of a fit; where there is none, its limit: 0 if thicker was said of the
+/// thicker ones all the same (separated), else infinite (flat, inverted).
+double fraction_or_limit(const PsychometricFit& fit, const Everybody& all,
+                         const std::vector<std::size_t>& drawn) {
+  if (fit.weber_fraction) return *fit.weber_fraction;
+  double order = 0.0;
+  for (const std::size_t index : drawn) {
+    for (const auto& [intensity, count] : all[index].levels) {
+      order +=
+          (2.0 * static_cast<double>(count.num_yes) - static_cast<double>(count.num_trials)) *
+          std::log(intensity / all[index].reference);
+    }
+  }
+  return order > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+/// Where the estimates of one set of people go, and what their names and meanings end with.
+struct Target {
+  ResultsSection& section;
+  const BlockDesign& block;
+  const ResultsOptions& options;
+  std::string suffix, words;
+};
+
+void add(const Target& target, Estimate estimate, const std::string& name,
+         const std::string& meaning, std::size_t n) {
+  estimate.name = target.block.block + "." + name + target.suffix;
+  estimate.meaning = meaning + target.words;
+  estimate.n = static_cast<int>(n);
+  target.section.estimates.push_back(std::move(estimate));
+}
+
+std::string unit_of(const BlockDesign& block) {
+  return block.quantity == "viscosity_pa_s" ? "Pa s" : "1";
+}
+
+void no_value(const Target& target, const std::string& name, const std::string& reason) {
+  target.section.excluded.push_back(
+      {"everyone", target.block.block + "." + name + target.suffix + ": no value, " + reason});
+}
+
+void add_pooled(const Target& target, const Everybody& all, const std::string& name,
+                PsychometricMethod method, bool free_pse, const std::string& meaning) {
+  std::vector<std::size_t> everyone(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) everyone[i] = i;
+  const PsychometricFit fit = pooled_fit(all, everyone, method, free_pse, Solver::kCeres);
+  if (!fit.weber_fraction) no_value(target, name, "the pooled answers are " + fit.reason);
+  Estimate fraction{.value = fit.weber_fraction, .unit = "1"};
+  Estimate pse{.value = fit.pse};
+  if (fit.weber_fraction && all.size() > 1) {
+    const auto resampled = [&](bool of_pse) {
+      return resample_participants(
+                 all.size(), target.options.num_resamples, target.options.seed,
+                 [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+                   const PsychometricFit other =
+                       pooled_fit(all, drawn, method, free_pse, Solver::kNewton);
+                   if (of_pse) return other.pse;
+                   return fraction_or_limit(other, all, drawn);
+                 })
+          .ci95;
+    };
+    fraction.ci95 = resampled(false);
+    if (free_pse) pse.ci95 = resampled(true);
+  }
+  add(target, fraction, name, "pooled-curve w: " + meaning, all.size());
+  if (!free_pse) return;
+  pse.unit = unit_of(target.block);
+  add(target, pse, "pse", "pse of the pooled curve: " + meaning, all.size());
+}
+
+void add_median_person(const Target& target, const Everybody& all, HierarchicalPse pse) {
+  const bool free_pse = pse == HierarchicalPse::kPersonal;
+  const std::string name =
+      free_pse ? "weber_fraction_median_person" : "weber_fraction_median_person_at_reference";
+  const HierarchicalFit fit =
+      fit_hierarchical(participant_answers(all, target.block.block), {.pse = pse});
+  Estimate fraction{.unit = "1"}, place{.unit = unit_of(target.block)};
+  Estimate spread{.unit = "1"};
+  if (fit.status == FitStatus::kOk) {
+    const HierarchicalCondition& one = fit.conditions.front();
+    fraction.value = one.weber_fraction;
+    fraction.ci95 = one.weber_fraction_ci95;
+    place.value = one.pse;
+    place.ci95 = one.pse_ci95.value_or(Interval{});
+    spread.value = one.slope_sd;
+  } else {
+    no_value(target, name, fit.reason);
+  }
+  const std::string method =
+      "hierarchical " + (fit.method.empty() ? std::string("probit") : fit.method);
+  add(target, fraction, name,
+      "median person's w: " + method + (free_pse ? " (primary)" : " (secondary)"), all.size());
+  if (!free_pse) return;
+  add(target, place, "pse_median_person", "median person's pse: " + method, all.size());
+  add(target, spread, "slope_sd_between_people",
+      "sd of ln ln(1 + w) between people: " + method +
+          (fit.note.empty() ? "" : "; " + fit.note),
+      all.size());
+}
+
+/// What is shown again for another set of people or trials.
+void add_main(const Target& target, const Everybody& all) {
+  add_pooled(target, all, "weber_fraction", PsychometricMethod::kLeastSquares, false,
+             "least squares on proportions, pse at the reference");
+  add_median_person(target, all, HierarchicalPse::kPersonal);
+}
+
+}  // namespace
+
+void add_group_estimates(ResultsSection& section, const StudyData& data,
+                         const BlockDesign& block, const ResultsOptions& options) {
+  std::vector<ExcludedParticipant> named_before;
+  const Everybody all = discrimination_answers(data, block, false, named_before);
+  const Target target{section, block, options, "", ""};
+  add_pooled(target, all, "weber_fraction", PsychometricMethod::kLeastSquares, false,
+             "least squares on proportions, pse at the reference, as published");
+  add_pooled(target, all, "weber_fraction_ml", PsychometricMethod::kMaximumLikelihood, false,
+             "maximum likelihood, pse at the reference");
+  add_pooled(target, all, "weber_fraction_free_pse", PsychometricMethod::kMaximumLikelihood,
+             true, "maximum likelihood, pse free");
+  add_median_person(target, all, HierarchicalPse::kPersonal);
+  add_median_person(target, all, HierarchicalPse::kReference);
+
+  Everybody with_own_fit;
+  for (const DiscriminationAnswers& one : all) {
+    if (own_fit(one, {}).weber_fraction) with_own_fit.push_back(one);
+  }
+  if (with_own_fit.size() < all.size() && !with_own_fit.empty()) {
+    add_main({section, block, options, ".without_degenerate",
+              "; without those who have no fraction of their own"},
+             with_own_fit);
+  }
+  const bool some_set_aside = std::any_of(
+      data.participants.begin(), data.participants.end(), [&](const ParticipantData& one) {
+        return std::any_of(
+            one.excluded_trials.begin(), one.excluded_trials.end(),
+            [&](const core::TrialRow& trial) { return trial.block == block.block; });
+      });
+  if (some_set_aside) {
+    add_main({section, block, options, ".with_excluded_trials",
+              "; with the trials that were set aside"},
+             discrimination_answers(data, block, true, named_before));
+  }
+}
+
+void add_trial_trends(ResultsSection& section, const Everybody& all, const BlockDesign& block) {
+  std::vector<double> drift, learning;
+  for (const DiscriminationAnswers& one : all) {
+    const TrialTrend trend = trial_trend(one.in_order, one.reference);
+    if (trend.drift) drift.push_back(*trend.drift);
+    if (trend.learning) learning.push_back(*trend.learning);
+  }
+  section.comparisons.push_back(
+      {block.block + ": \"yes\" becomes more frequent over the trials, exploratory (mean of "
+                     "participants' z)",
+       one_sample_t_test(drift)});
+  section.comparisons.push_back(
+      {block.block + ": right answers become more frequent over the trials, exploratory (mean "
+                     "of participants' z)",
+       one_sample_t_test(learning)});
+}
+
+Comparison median_person_difference(const Everybody& first_answers, const BlockDesign& first,
+                                    const Everybody& second_answers, const BlockDesign& second,
+                                    HierarchicalPse pse) {
+  std::vector<ParticipantAnswers> both = participant_answers(first_answers, first.block);
+  const std::vector<ParticipantAnswers> others =
+      participant_answers(second_answers, second.block);
+  both.insert(both.end(), others.begin(), others.end());
+  const HierarchicalFit fit = fit_hierarchical(both, {.pse = pse});
+  Comparison comparison{.status = fit.status, .reason = fit.reason, .method = fit.method};
+  comparison.num_a = static_cast<int>(first_answers.size());
+  comparison.num_b = static_cast<int>(second_answers.size());
+  if (fit.status != FitStatus::kOk || fit.differences.empty()) {
+    if (comparison.status == FitStatus::kOk) comparison.status = FitStatus::kDegenerate;
+    if (comparison.reason.empty()) comparison.reason = "answers in one condition only";
+    return comparison;
+  }
+  const HierarchicalDifference& difference = fit.differences.front();
+  const auto negated = [](const std::optional<double>& value) {
+    return value ? std::optional(-*value) : std::nullopt;
+  };
+  comparison.estimate = -difference.estimate;  // First minus second.
+  comparison.ci95 = {negated(difference.ci95.high), negated(difference.ci95.low)};
+  comparison.statistic = negated(difference.statistic);
+  comparison.p_value = difference.p_value;
+  comparison.degrees_of_freedom = difference.degrees_of_freedom;
+  return comparison;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "analysis/discrimination_answers.h"
+
+namespace jnd::analysis {
+
+/// Adds the pooled curve's and the median person's Weber fraction and pse of one block, each
+/// with its estimand in `meaning`: with a free pse (primary) and with the pse at the reference;
+/// and, where somebody is degenerate or a trial was set aside, without and with those.
+void add_group_estimates(ResultsSection& section, const StudyData& data,
+                         const BlockDesign& block, const ResultsOptions& options);
+
+/// Adds whether answers change over the trials: exploratory.
+void add_trial_trends(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
+                      const BlockDesign& block);
+
+/// Difference of two blocks in the median person's ln ln(1 + w), slopes of the same person
+/// correlated, first minus second.
+[[nodiscard]] Comparison median_person_difference(
+    const std::vector<DiscriminationAnswers>& first_answers, const BlockDesign& first,
+    const std::vector<DiscriminationAnswers>& second_answers, const BlockDesign& second,
+    HierarchicalPse pse);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "analysis/study_results.h"
+
+namespace jnd::analysis {
+
+/// What nobody set out to test, each effect as one number a participant, so that people and not
+/// answers are counted:
+/// - production: how far the set value follows the starting value;
+/// - estimation and production: how answers change over the trials of a block;
+/// - estimation: how an answer leans on the stimulus before it;
+/// - every counterbalance (priming, order of the methods): whether the participants' own
+///   parameters, taken from `sections`, differ between its arms.
+/// All p values are adjusted by Holm, the t tests as one family and the rank tests as another.
+/// No estimates and no comparisons where a study has nothing of this.
+[[nodiscard]] ResultsSection exploratory_results(const StudyData& data,
+                                                 const std::vector<ResultsSection>& sections);
+
+}  // namespace jnd::analysis

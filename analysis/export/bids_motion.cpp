@@ -1,0 +1,185 @@
+#include "analysis/export/bids_motion.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "analysis/export/bids_text.h"
+#include "core/sample_table.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BidsChannel {
+  std::string name, component, type, tracked_point, units, description;
+};
+
+std::string component_of(const std::string& name) {
+  for (const char* axis : {"x", "y", "z"}) {
+    for (const char* unit : {"_m_per_s", "_m", "_n"}) {
+      if (name.ends_with(std::string("_") + axis + unit)) return axis;
+    }
+  }
+  return "n/a";
+}
+
+/// BIDS has no type of force: it goes with what is miscellaneous.
+std::string type_of(const RecordingColumn& column) {
+  if (column.name.ends_with("_position_rad")) return "JNTANG";
+  if (column.unit == "m") return "POS";
+  return column.unit == "m/s" ? "VEL" : "MISC";
+}
+
+std::string tracked_point_of(const std::string& name) {
+  for (const char* what : {"_position_", "_velocity_", "_force_", "_torque_"}) {
+    const std::size_t at = name.find(what);
+    if (at != std::string::npos) return name.substr(0, at);
+  }
+  return "hand";
+}
+
+std::vector<BidsChannel> channels_of(const std::vector<RecordingColumn>& columns) {
+  std::vector<BidsChannel> channels = {
+      {"latency", "n/a", "LATENCY", "n/a", "s", "Time since the first sample of the block"}};
+  for (const RecordingColumn& column : columns) {
+    if (column.name == "tick") continue;
+    channels.push_back({.name = column.name,
+                        .component = component_of(column.name),
+                        .type = type_of(column),
+                        .tracked_point = tracked_point_of(column.name),
+                        .units = column.unit,
+                        .description = column.meaning});
+  }
+  return channels;
+}
+
+void write_channels(const fs::path& front, const std::vector<BidsChannel>& channels,
+                    double rate_hz) {
+  CsvTableWriter table(
+      front.string() + "_channels.tsv",
+      std::vector<std::string>{"name", "component", "type", "tracked_point", "units",
+                               "sampling_frequency", "reference_frame", "description"},
+      TableStyle::kBids);
+  for (const BidsChannel& channel : channels) {
+    const bool spatial = channel.component != "n/a";
+    table.cell(channel.name).cell(channel.component).cell(channel.type);
+    table.cell(channel.tracked_point).cell(channel.units).cell(rate_hz);
+    table.cell(spatial ? "workspace" : "").cell(channel.description).end_row();
+  }
+  table.finish();
+  write_json(front.string() + "_channels.json",
+             {{"reference_frame",
+               {{"Levels",
+                 {{"workspace",
+                   {{"SpatialAxes", "RAS"},
+                    {"Description",
+                     "x to the participant's right, y away, z up; forces are those on the "
+                     "hand"}}}}}}}});
+}
+
+struct Written {
+  std::int64_t num_rows = 0;
+  std::vector<RecordingGap> gaps;
+};
+
+/// A row a tick from the block's first to its last, whatever the recording lacks.
+Written write_samples(const fs::path& file, const BidsBlock& block, double rate_hz,
+                      const core::RecordingReader& recording,
+                      const std::vector<RecordingColumn>& columns) {
+  std::vector<std::string> names;
+  for (const RecordingColumn& column : columns) names.push_back(column.name);
+  CsvTableWriter table(file, names, TableStyle::kBidsWithoutNames);
+  const bool with_joints = recording.has_joints();
+  Written written;
+  std::int64_t next = block.first_tick;
+  const auto latency = [&](std::int64_t tick) {
+    table.cell(static_cast<double>(tick - block.first_tick) / rate_hz);
+    ++written.num_rows;
+  };
+  const auto mark_missing = [&](std::int64_t end) {
+    if (next < end) written.gaps.push_back({next, end - 1});
+    for (; next < end; ++next) {
+      latency(next);
+      for (std::size_t i = 1; i < columns.size(); ++i) table.nothing();
+      table.end_row();
+    }
+  };
+  recording.read(block.first_tick, block.last_tick, [&](const core::Sample& sample) {
+    if (sample.tick < next) return;  // Told before, by an earlier segment.
+    mark_missing(sample.tick);
+    latency(sample.tick);
+    const std::vector<double> values = core::sample_values(sample, with_joints);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      table.fixed_cell(values[i], columns[i].decimals);
+    }
+    table.end_row();
+    next = sample.tick + 1;
+  });
+  mark_missing(block.last_tick + 1);
+  table.finish();
+  return written;
+}
+
+void write_sidecar(const fs::path& front, const BidsTask& task, const core::SessionRow& session,
+                   const std::vector<BidsChannel>& channels, std::int64_t num_rows) {
+  std::map<std::string, int> num_of;
+  std::vector<std::string> points;
+  for (const BidsChannel& channel : channels) {
+    ++num_of[channel.type];
+    if (channel.type == "POS") points.push_back(channel.tracked_point);
+  }
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  const nlohmann::ordered_json sidecar = {
+      {"TaskName", task.task_name},
+      {"TaskDescription", task.description},
+      {"SamplingFrequency", session.rate_hz},
+      {"SamplingFrequencyEffective", session.rate_hz},
+      {"RecordingDuration", static_cast<double>(num_rows) / session.rate_hz},
+      {"RecordingType", "continuous"},
+      {"TrackingSystemName", "haptic"},
+      {"ManufacturersModelName",
+       session.device + (session.simulated ? " (SIMULATED participant and apparatus)" : "")},
+      {"SoftwareVersions", "jnd " + session.program_version},
+      {"MissingValues", "n/a"},
+      {"MotionChannelCount", std::ssize(channels)},
+      {"TrackedPointsCount", std::ssize(points)},
+      {"POSChannelCount", num_of["POS"]},
+      {"VELChannelCount", num_of["VEL"]},
+      {"JNTANGChannelCount", num_of["JNTANG"]},
+      {"LATENCYChannelCount", num_of["LATENCY"]},
+      {"MISCChannelCount", num_of["MISC"]},
+  };
+  write_json(front.string() + "_motion.json", sidecar);
+}
+
+bool holds_any(const core::RecordingReader& recording, const BidsBlock& block) {
+  bool any = false;
+  recording.read(block.first_tick, block.first_tick,
+                 [&any](const core::Sample&) { any = true; });
+  if (any) return true;
+  recording.read(block.first_tick, block.last_tick,
+                 [&any](const core::Sample&) { any = true; });
+  return any;
+}
+
+}  // namespace
+
+std::string write_bids_motion(const fs::path& folder, const BidsTask& task,
+                              const BidsBlock& block, const core::SessionRow& session,
+                              const core::RecordingReader& recording) {
+  if (!holds_any(recording, block)) return "";
+  const fs::path front = folder / (task.front + "_tracksys-haptic");
+  const std::vector<RecordingColumn> columns = recording_columns(recording.has_joints());
+  const std::vector<BidsChannel> channels = channels_of(columns);
+  const std::string name = front.filename().string() + "_motion.tsv";
+  const Written written =
+      write_samples(folder / name, block, session.rate_hz, recording, columns);
+  write_channels(front, channels, session.rate_hz);
+  write_sidecar(front, task, session, channels, written.num_rows);
+  write_bids_events(front, block, session.rate_hz, written.gaps);
+  return name;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,191 @@
+#include "analysis/export/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+static_assert(sizeof(herr_t) == sizeof(int));
+
+constexpr unsigned kDeflateLevel = 1;  // Higher ones cost much time and save few bytes.
+
+[[noreturn]] void fail(const std::string& place) {
+  const std::string reason = errno == 0 ? "" : std::string(": ") + std::strerror(errno);
+  throw core::Error(place + ": expected to write this, found that it cannot be" + reason);
+}
+
+void check(herr_t result, const std::string& place) {
+  if (result < 0) fail(place);
+}
+
+Hdf5Handle handle(hid_t identifier, herr_t (*closing)(hid_t), const std::string& place) {
+  if (identifier < 0) fail(place);
+  return {identifier, closing};
+}
+
+hid_t create_file(const std::string& file) {
+  // The library would print its own stack of errors.
+  (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  errno = 0;
+  return H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+Hdf5Handle text_type(std::size_t num_bytes, const std::string& place) {
+  Hdf5Handle type = handle(H5Tcopy(H5T_C_S1), H5Tclose, place);
+  check(H5Tset_size(type.get(), std::max<std::size_t>(num_bytes, 1)), place);
+  check(H5Tset_cset(type.get(), H5T_CSET_UTF8), place);
+  check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), place);
+  return type;
+}
+
+void write_attribute(const Hdf5Handle& object, const std::string& name, hid_t type,
+                     hid_t memory_type, const void* value, const std::string& place) {
+  const Hdf5Handle scalar = handle(H5Screate(H5S_SCALAR), H5Sclose, place);
+  const Hdf5Handle attribute = handle(
+      H5Acreate2(object.get(), name.c_str(), type, scalar.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, place);
+  check(H5Awrite(attribute.get(), memory_type, value), place);
+}
+
+void write_text(const Hdf5Handle& object, const std::string& name, const std::string& text,
+                const std::string& place) {
+  const Hdf5Handle type = text_type(text.size(), place);
+  write_attribute(object, name, type.get(), type.get(), text.c_str(), place);
+}
+
+hid_t file_type(Hdf5Number type) {
+  switch (type) {
+    case Hdf5Number::kInt64:
+      return H5T_STD_I64LE;
+    case Hdf5Number::kUint8:
+      return H5T_STD_U8LE;
+    case Hdf5Number::kDouble:
+      break;
+  }
+  return H5T_IEEE_F64LE;
+}
+
+/// Without time stamps, which would make every file another one.
+Hdf5Handle dataset_settings(const std::string& place) {
+  Hdf5Handle settings = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, place);
+  check(H5Pset_obj_track_times(settings.get(), false), place);
+  return settings;
+}
+
+}  // namespace
+
+Hdf5Handle::~Hdf5Handle() { (void)close(); }
+
+Hdf5Handle::Hdf5Handle(Hdf5Handle&& other) noexcept
+    : identifier_(std::exchange(other.identifier_, -1)), close_(other.close_) {}
+
+bool Hdf5Handle::close() noexcept {
+  const std::int64_t identifier = std::exchange(identifier_, -1);
+  return identifier < 0 || close_(identifier) >= 0;
+}
+
+void Hdf5Column::append(const std::vector<double>& numbers) {
+  if (numbers.empty()) return;
+  errno = 0;
+  const hsize_t first = num_rows_, count = numbers.size();
+  num_rows_ += count;
+  const hsize_t total = num_rows_;
+  check(H5Dset_extent(dataset_.get(), &total), place_);
+  const Hdf5Handle in_file = handle(H5Dget_space(dataset_.get()), H5Sclose, place_);
+  check(H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, &first, nullptr, &count, nullptr),
+        place_);
+  const Hdf5Handle in_memory = handle(H5Screate_simple(1, &count, nullptr), H5Sclose, place_);
+  check(H5Dwrite(dataset_.get(), H5T_NATIVE_DOUBLE, in_memory.get(), in_file.get(), H5P_DEFAULT,
+                 numbers.data()),
+        place_);
+}
+
+Hdf5Group Hdf5Group::group(const std::string& name) const {
+  const std::string place = place_ + "/" + name;
+  errno = 0;
+  const Hdf5Handle settings = handle(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, place);
+  check(H5Pset_obj_track_times(settings.get(), false), place);
+  return {place, handle(H5Gcreate2(handle_.get(), name.c_str(), H5P_DEFAULT, settings.get(),
+                                   H5P_DEFAULT),
+                        H5Gclose, place)};
+}
+
+void Hdf5Group::attribute(const std::string& name, const std::string& text) const {
+  write_text(handle_, name, text, place_);
+}
+
+void Hdf5Group::attribute(const std::string& name, double number) const {
+  write_attribute(handle_, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &number, place_);
+}
+
+void Hdf5Group::attribute(const std::string& name, std::int64_t number) const {
+  write_attribute(handle_, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &number, place_);
+}
+
+Hdf5Column Hdf5Group::column(const std::string& name, Hdf5Number type, const std::string& unit,
+                             const std::string& meaning) const {
+  const std::string place = place_ + "/" + name;
+  errno = 0;
+  const hsize_t none = 0, without_end = H5S_UNLIMITED, chunk = Hdf5Column::kChunkRows;
+  const Hdf5Handle settings = dataset_settings(place);
+  check(H5Pset_chunk(settings.get(), 1, &chunk), place);
+  check(H5Pset_shuffle(settings.get()), place);
+  check(H5Pset_deflate(settings.get(), kDeflateLevel), place);
+  const Hdf5Handle space = handle(H5Screate_simple(1, &none, &without_end), H5Sclose, place);
+  Hdf5Handle dataset = handle(H5Dcreate2(handle_.get(), name.c_str(), file_type(type),
+                                         space.get(), H5P_DEFAULT, settings.get(), H5P_DEFAULT),
+                              H5Dclose, place);
+  if (!unit.empty()) write_text(dataset, "unit", unit, place);
+  write_text(dataset, "meaning", meaning, place);
+  return {place, std::move(dataset)};
+}
+
+void Hdf5Group::texts(const std::string& name, const std::vector<std::string>& texts,
+                      const std::string& meaning) const {
+  const std::string place = place_ + "/" + name;
+  errno = 0;
+  std::size_t longest = 1;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  std::string bytes;
+  for (const std::string& text : texts) {
+    bytes += text;
+    bytes.append(longest - text.size(), '\0');
+  }
+  const Hdf5Handle type = text_type(longest, place);
+  const hsize_t count = texts.size();
+  const Hdf5Handle space = handle(H5Screate_simple(1, &count, nullptr), H5Sclose, place);
+  const Hdf5Handle settings = dataset_settings(place);
+  const Hdf5Handle dataset =
+      handle(H5Dcreate2(handle_.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                        settings.get(), H5P_DEFAULT),
+             H5Dclose, place);
+  if (!texts.empty()) {
+    check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()),
+          place);
+  }
+  write_text(dataset, "meaning", meaning, place);
+}
+
+Hdf5File::Hdf5File(const std::filesystem::path& file)
+    : place_(file.string()),
+      file_(handle(create_file(place_), H5Fclose, place_)),
+      root_(place_, handle(H5Gopen2(file_.get(), "/", H5P_DEFAULT), H5Gclose, place_)) {}
+
+void Hdf5File::finish() {
+  errno = 0;
+  const bool written = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
+  const int reason = errno;
+  if (root_.handle_.close() && file_.close() && written) return;
+  if (reason != 0) errno = reason;
+  fail(place_);
+}
+
+}  // namespace jnd::analysis

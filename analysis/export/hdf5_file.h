@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace jnd::analysis {
+
+/// What `hdf5.h` calls hid_t, closed when it goes. Not for use outside of these files.
+class Hdf5Handle {
+ public:
+  using Close = int (*)(std::int64_t);
+  Hdf5Handle(std::int64_t identifier, Close closing)
+      : identifier_(identifier), close_(closing) {}
+  ~Hdf5Handle();
+  Hdf5Handle(Hdf5Handle&& other) noexcept;
+  Hdf5Handle& operator=(Hdf5Handle&&) = delete;
+  [[nodiscard]] std::int64_t get() const noexcept { return identifier_; }
+  /// False if what was still to be written could not be.
+  [[nodiscard]] bool close() noexcept;
+
+ private:
+  std::int64_t identifier_;
+  Close close_;
+};
+
+enum class Hdf5Number { kDouble, kInt64, kUint8 };
+
+/// A column of numbers that grows: chunks of `kChunkRows`, shuffled and deflated.
+class Hdf5Column {
+ public:
+  static constexpr std::size_t kChunkRows = 16384;
+
+  /// Missing values are NaN. Throws `Error`.
+  void append(const std::vector<double>& numbers);
+
+ private:
+  friend class Hdf5Group;
+  Hdf5Column(std::string place, Hdf5Handle dataset)
+      : place_(std::move(place)), dataset_(std::move(dataset)) {}
+
+  std::string place_;
+  Hdf5Handle dataset_;
+  std::uint64_t num_rows_ = 0;
+};
+
+/// A group of an HDF5 file, with attributes of text and numbers. All throw `Error` naming file
+/// and object. Not real time.
+class Hdf5Group {
+ public:
+  [[nodiscard]] Hdf5Group group(const std::string& name) const;
+  void attribute(const std::string& name, const std::string& text) const;
+  void attribute(const std::string& name, double number) const;
+  void attribute(const std::string& name, std::int64_t number) const;
+
+  /// With the attributes `unit`, if it has one, and `meaning`.
+  [[nodiscard]] Hdf5Column column(const std::string& name, Hdf5Number type,
+                                  const std::string& unit, const std::string& meaning) const;
+  /// A whole column of texts, UTF-8 of one length, padded with zeros.
+  void texts(const std::string& name, const std::vector<std::string>& texts,
+             const std::string& meaning) const;
+
+ private:
+  friend class Hdf5File;
+  Hdf5Group(std::string place, Hdf5Handle handle)
+      : place_(std::move(place)), handle_(std::move(handle)) {}
+
+  std::string place_;
+  Hdf5Handle handle_;
+};
+
+/// A new HDF5 file that any library since 1.8 reads: plain numbers and texts, no time stamps,
+/// so that the same content gives the same bytes. Throws `Error`. Not thread-safe.
+class Hdf5File {
+ public:
+  explicit Hdf5File(const std::filesystem::path& file);
+  [[nodiscard]] const Hdf5Group& root() const noexcept { return root_; }
+  /// Everything is in the file; groups and columns have to be gone. Throws `Error` if it is
+  /// not.
+  void finish();
+
+ private:
+  std::string place_;
+  Hdf5Handle file_;
+  Hdf5Group root_;
+};
+
+}  // namespace jnd::analysis

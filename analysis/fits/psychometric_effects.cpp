@@ -1,0 +1,168 @@
+#include "analysis/fits/psychometric_effects.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <map>
+
+#include "analysis/fits/probit_regression.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr double kWaldReach = 1.959963984540054;
+
+struct Term {
+  std::string name, meaning;
+  Eigen::VectorXd column;
+};
+
+void check(const std::vector<OrderedAnswers>& answers, double reference) {
+  core::require(reference > 0.0 && std::isfinite(reference), "reference", "a finite number > 0",
+                reference);
+  for (const OrderedAnswers& row : answers) {
+    core::require(row.intensity > 0.0 && std::isfinite(row.intensity), "intensity",
+                  "a finite number > 0", row.intensity);
+    core::require(row.num_yes >= 0.0 && row.num_yes <= row.num_trials, "num_yes",
+                  "0 to num_trials", row.num_yes);
+  }
+}
+
+/// Running numbers from -0.5 at the first trial to 0.5 at the last; empty if not all have one.
+Eigen::VectorXd times_of(const std::vector<OrderedAnswers>& answers) {
+  Eigen::VectorXd times(static_cast<Eigen::Index>(answers.size()));
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    if (!answers[row].trial) return {};
+    times(static_cast<Eigen::Index>(row)) = *answers[row].trial;
+  }
+  if (times.size() == 0 || !(times.maxCoeff() > times.minCoeff())) return {};
+  const double first = times.minCoeff(), range = times.maxCoeff() - first;
+  return (times.array() - first) / range - 0.5;
+}
+
+std::vector<Term> terms_of(const std::vector<OrderedAnswers>& answers,
+                           const Eigen::VectorXd& log_ratio) {
+  std::vector<Term> terms;
+  terms.push_back({"response_bias", "z at the reference, above 0: yes too readily",
+                   Eigen::VectorXd::Ones(log_ratio.size())});
+  Eigen::VectorXd order(log_ratio.size());
+  bool known = !answers.empty();
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    known = known && answers[row].test_first.has_value();
+    order(static_cast<Eigen::Index>(row)) =
+        answers[row].test_first.value_or(false) ? 0.5 : -0.5;
+  }
+  if (known && order.maxCoeff() > order.minCoeff()) {
+    terms.push_back(
+        {"interval_order", "z with the test first minus z with the test second", order});
+  }
+  const Eigen::VectorXd times = times_of(answers);
+  if (times.size() > 0) {
+    terms.push_back({"drift", "change of z at the reference from first to last trial", times});
+    terms.push_back({"learning",
+                     "change of the slope from first to last trial, over the mean slope",
+                     times.cwiseProduct(log_ratio)});
+  }
+  return terms;
+}
+
+/// Design of the slope and the terms, all or all but one.
+Eigen::MatrixXd design_of(const Eigen::VectorXd& log_ratio, const std::vector<Term>& terms,
+                          std::size_t left_out) {
+  std::vector<Eigen::VectorXd> columns = {log_ratio};
+  for (std::size_t term = 0; term < terms.size(); ++term) {
+    if (term != left_out) columns.push_back(terms[term].column);
+  }
+  Eigen::MatrixXd design(log_ratio.size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t place = 0; place < columns.size(); ++place) {
+    design.col(static_cast<Eigen::Index>(place)) = columns[place];
+  }
+  return design;
+}
+
+}  // namespace
+
+std::vector<PsychometricEffect> psychometric_effects(const std::vector<OrderedAnswers>& answers,
+                                                     double reference) {
+  check(answers, reference);
+  const auto size = static_cast<Eigen::Index>(answers.size());
+  Eigen::VectorXd log_ratio(size), num_yes(size), num_trials(size);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const OrderedAnswers& one = answers[static_cast<std::size_t>(row)];
+    log_ratio(row) = std::log(one.intensity / reference);
+    num_yes(row) = one.num_yes;
+    num_trials(row) = one.num_trials;
+  }
+  const std::vector<Term> terms = terms_of(answers, log_ratio);
+  const ProbitRegression full =
+      answers.empty()
+          ? ProbitRegression{.status = FitStatus::kDegenerate, .reason = "no answers"}
+          : fit_probit(design_of(log_ratio, terms, terms.size()), num_yes, num_trials);
+  std::vector<PsychometricEffect> effects;
+  for (std::size_t term = 0; term < terms.size(); ++term) {
+    PsychometricEffect effect{.status = full.status,
+                              .reason = full.reason,
+                              .name = terms[term].name,
+                              .meaning = terms[term].meaning};
+    if (full.status == FitStatus::kOk) {
+      const auto at = static_cast<Eigen::Index>(term) + 1;
+      // Of the slope's change, the mean slope is the unit, taken as known.
+      const double unit = effect.name == "learning" ? full.coefficients(0) : 1.0;
+      const double reach = kWaldReach * std::sqrt(full.covariance(at, at)) / std::fabs(unit);
+      effect.estimate = full.coefficients(at) / unit;
+      effect.ci95 = {*effect.estimate - reach, *effect.estimate + reach};
+      const ProbitRegression without =
+          fit_probit(design_of(log_ratio, terms, term), num_yes, num_trials);
+      effect.status = without.status;
+      effect.reason = without.reason;
+      if (without.status == FitStatus::kOk) {
+        const double gain = 2.0 * (full.log_likelihood - without.log_likelihood);
+        effect.statistic = std::max(0.0, gain);
+        effect.p_value = boost::math::cdf(
+            boost::math::complement(boost::math::chi_squared(1.0), *effect.statistic));
+      }
+    }
+    effects.push_back(std::move(effect));
+  }
+  return effects;
+}
+
+TrialTrend trial_trend(const std::vector<OrderedAnswers>& answers, double reference) {
+  check(answers, reference);
+  struct Level {
+    double n = 0.0, yes = 0.0, time = 0.0, time_time = 0.0, yes_time = 0.0;
+  };
+  std::map<double, Level> levels;
+  const Eigen::VectorXd times = times_of(answers);
+  if (times.size() == 0) return {};
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    const OrderedAnswers& one = answers[row];
+    const double time = times(static_cast<Eigen::Index>(row));
+    Level& level = levels[one.intensity];
+    level.n += one.num_trials;
+    level.yes += one.num_yes;
+    level.time += one.num_trials * time;
+    level.time_time += one.num_trials * time * time;
+    level.yes_time += one.num_yes * time;
+  }
+  double drift = 0.0, learning = 0.0, drift_variance = 0.0, learning_variance = 0.0;
+  for (const auto& [intensity, level] : levels) {
+    if (level.n < 2.0) continue;
+    const double covariance = level.yes_time - level.yes * level.time / level.n;
+    const double of_answers = level.yes - level.yes * level.yes / level.n;
+    const double of_times = level.time_time - level.time * level.time / level.n;
+    const double variance = of_answers * of_times / (level.n - 1.0);
+    drift += covariance;
+    drift_variance += variance;
+    if (intensity == reference) continue;
+    learning += intensity > reference ? covariance : -covariance;
+    learning_variance += variance;
+  }
+  TrialTrend trend;
+  if (drift_variance > 0.0) trend.drift = drift / std::sqrt(drift_variance);
+  if (learning_variance > 0.0) trend.learning = learning / std::sqrt(learning_variance);
+  return trend;
+}
+
+}  // namespace jnd::analysis

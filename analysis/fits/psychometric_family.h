@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "analysis/fits/sigmoid.h"
+
+namespace jnd::analysis {
+
+enum class PsychometricFamily {
+  kWeber,    ///< Phi(ln(x / pse) / ln(1 + w))
+  kGauss,    ///< Phi((x - mean) / standard_deviation)
+  kWeibull,  ///< 1 - exp(-(x / scale)^shape)
+};
+
+/// What makes a family: a shape, over the intensity or its logarithm.
+struct PsychometricFamilyTraits {
+  PsychometricFamily family;
+  std::string_view name;
+  std::string_view formula;
+  Sigmoid sigmoid;
+  bool logarithmic;
+  bool always_free_pse;  ///< There is no curve through a reference.
+};
+
+[[nodiscard]] const PsychometricFamilyTraits& traits_of(PsychometricFamily family) noexcept;
+
+/// "weber", "gauss", "weibull".
+[[nodiscard]] std::optional<PsychometricFamily> psychometric_family_named(
+    std::string_view name) noexcept;
+
+}  // namespace jnd::analysis

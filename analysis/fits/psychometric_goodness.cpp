@@ -1,0 +1,141 @@
+#include "analysis/fits/psychometric_goodness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/fits/psychometric_limits.h"
+#include "analysis/fits/psychometric_redraw.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+
+/// Log-likelihood of a level at its own proportion.
+double saturated_term(double yes, double trials) {
+  double value = 0.0;
+  if (yes > 0.0) value += yes * std::log(yes / trials);
+  if (yes < trials) value += (trials - yes) * std::log1p(-yes / trials);
+  return value;
+}
+
+/// Root of a level's share in the deviance, with the sign of observed minus fitted.
+double deviance_residual(double yes, double trials, double fitted) {
+  const double no = trials - yes;
+  double log_likelihood = 0.0;
+  if (yes > 0.0) log_likelihood += yes * std::log(fitted);
+  if (no > 0.0) log_likelihood += no * std::log1p(-fitted);
+  const double share = 2.0 * (saturated_term(yes, trials) - log_likelihood);
+  return std::copysign(std::sqrt(std::max(0.0, share)), yes / trials - fitted);
+}
+
+struct Residuals {
+  std::vector<double> fitted, deviance;  ///< By level.
+  double pearson = 0.0;                  ///< Sum of squared standardised residuals.
+};
+
+Residuals residuals_of(const PsychometricLevels& levels, const PsychometricCurve& curve) {
+  Residuals all;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double fitted = curve.probability(levels, level);
+    const double difference = levels.num_yes[level] - levels.num_trials[level] * fitted;
+    const double variance = levels.num_trials[level] * fitted * (1.0 - fitted);
+    if (variance > 0.0) all.pearson += difference * difference / variance;
+    all.fitted.push_back(fitted);
+    all.deviance.push_back(
+        deviance_residual(levels.num_yes[level], levels.num_trials[level], fitted));
+  }
+  return all;
+}
+
+std::optional<double> correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() < 3) return std::nullopt;
+  const auto n = static_cast<double>(a.size());
+  double mean_a = 0.0, mean_b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    mean_a += a[i] / n;
+    mean_b += b[i] / n;
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+  }
+  const double value = ab / std::sqrt(aa * bb);
+  return aa > 0.0 && bb > 0.0 && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// Log-likelihood that a search without optimum tends to.
+double limit_log_likelihood(const PsychometricLevels& levels, const FreeParameters& free,
+                            PsychometricSupremum supremum) {
+  return supremum == PsychometricSupremum::kStep
+             ? -step_limit_cost(levels, kMaximumLikelihood, free[1], free[2])
+             : -flat_limit_cost(levels, kMaximumLikelihood, free[1], free[2]);
+}
+
+}  // namespace
+
+double deviance_of(const PsychometricLevels& levels, double log_likelihood) {
+  double saturated =
+      levels.zero_trials > 0.0 ? saturated_term(levels.zero_yes, levels.zero_trials) : 0.0;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    saturated += saturated_term(levels.num_yes[level], levels.num_trials[level]);
+  }
+  return std::max(0.0, 2.0 * (saturated - log_likelihood));
+}
+
+PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
+                                     const PsychometricLevels& levels,
+                                     const PsychometricCurve& fitted, int num_redraws,
+                                     std::uint64_t seed) {
+  const auto log_likelihood = [&](const PsychometricLevels& data,
+                                  const PsychometricCurve& curve) {
+    return -psychometric_cost(data, kMaximumLikelihood, curve).value;
+  };
+  const Residuals residuals = residuals_of(levels, fitted);
+  PsychometricGoodness goodness;
+  goodness.degrees_of_freedom = static_cast<int>(levels.size()) - 1 - search.free()[1] -
+                                (search.free()[2] && fitted.lapse > 0.0 ? 1 : 0);
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    goodness.residuals.push_back({levels.intensity_at(levels.abscissa[level]),
+                                  residuals.fitted[level], residuals.deviance[level]});
+  }
+  if (goodness.degrees_of_freedom > 0) {
+    goodness.overdispersion = residuals.pearson / goodness.degrees_of_freedom;
+  }
+  goodness.level_correlation = correlation(residuals.fitted, residuals.deviance);
+  if (num_redraws == 0) return goodness;
+
+  const double deviance = deviance_of(levels, log_likelihood(levels, fitted));
+  const AnswerRedraw redraw(levels, fitted);
+  core::RandomStream random(seed, "goodness of fit of a psychometric function");
+  PsychometricLevels redrawn = levels;
+  int num_as_far = 0, num_as_correlated = 0, num_correlations = 0;
+  for (int draw = 0; draw < num_redraws; ++draw) {
+    redraw.draw(random, redrawn);
+    const PsychometricSearchResult found = search.find(redrawn, minimised_by_newton, &fitted);
+    const bool attained = found.supremum == PsychometricSupremum::kAttained;
+    const double value = attained
+                             ? log_likelihood(redrawn, found.optimum.curve)
+                             : limit_log_likelihood(redrawn, search.free(), found.supremum);
+    // Ties are common at few answers: rounding must not break them.
+    if (deviance_of(redrawn, value) >= deviance * (1.0 - 1e-9)) ++num_as_far;
+    if (!attained || !goodness.level_correlation) continue;
+    const Residuals of_redrawn = residuals_of(redrawn, found.optimum.curve);
+    const auto other = correlation(of_redrawn.fitted, of_redrawn.deviance);
+    if (!other) continue;
+    ++num_correlations;
+    if (std::fabs(*other) >= std::fabs(*goodness.level_correlation) - 1e-12) {
+      ++num_as_correlated;
+    }
+  }
+  goodness.n = num_redraws;
+  goodness.p_value = (1.0 + num_as_far) / (1.0 + num_redraws);
+  if (num_correlations > 0) {
+    goodness.level_correlation_p_value = (1.0 + num_as_correlated) / (1.0 + num_correlations);
+  }
+  return goodness;
+}
+
+}  // namespace jnd::analysis

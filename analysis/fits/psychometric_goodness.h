@@ -1,0 +1,18 @@
+#pragma once
+
+#include "analysis/fits/psychometric_search.h"
+
+namespace jnd::analysis {
+
+/// Twice the log-likelihood that the saturated model, each level's own proportion, has more.
+[[nodiscard]] double deviance_of(const PsychometricLevels& levels, double log_likelihood);
+
+/// Residuals, overdispersion and, with `num_redraws` > 0, how often data drawn from the fitted
+/// curve and refitted lie at least as far off: chi-squared does not hold at few answers a level
+/// (Wichmann and Hill 2001). A refit without an optimum has the deviance of its limit.
+[[nodiscard]] PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
+                                                   const PsychometricLevels& levels,
+                                                   const PsychometricCurve& fitted,
+                                                   int num_redraws, std::uint64_t seed);
+
+}  // namespace jnd::analysis

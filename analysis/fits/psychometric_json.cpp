@@ -1,0 +1,86 @@
+#include "analysis/fits/psychometric_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace jnd::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json interval(const Interval& ends) {
+  return Json::array({number(ends.low), number(ends.high)});
+}
+
+Json sentence(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json to_json(const PsychometricGoodness& goodness) {
+  Json json = {{"n", goodness.n},
+               {"p_value", number(goodness.p_value)},
+               {"degrees_of_freedom", goodness.degrees_of_freedom},
+               {"overdispersion", number(goodness.overdispersion)},
+               {"residual_level_correlation", number(goodness.level_correlation)},
+               {"residual_level_p_value", number(goodness.level_correlation_p_value)},
+               {"residuals", Json::array()}};
+  for (const PsychometricGoodness::Residual& one : goodness.residuals) {
+    json["residuals"].push_back({{"intensity", number(one.intensity)},
+                                 {"fitted", number(one.fitted)},
+                                 {"deviance_residual", number(one.deviance_residual)}});
+  }
+  return json;
+}
+
+Json to_json(const PsychometricPosterior& posterior) {
+  return {{"status", to_string(posterior.status)},
+          {"reason", sentence(posterior.reason)},
+          {"priors", sentence(posterior.priors)},
+          {"note", sentence(posterior.note)},
+          {"weber_fraction", number(posterior.weber_fraction)},
+          {"weber_fraction_ci95", interval(posterior.weber_fraction_ci95)},
+          {"pse", number(posterior.pse)},
+          {"pse_ci95", posterior.pse_ci95 ? interval(*posterior.pse_ci95) : Json(nullptr)},
+          {"lapse_rate", number(posterior.lapse_rate)}};
+}
+
+}  // namespace
+
+void add_psychometric_details(Json& json, const PsychometricFit& fit) {
+  json["family"] = traits_of(fit.family).name;
+  json["parameters"] = Json::object();
+  for (const PsychometricFit::Parameter& one : fit.parameters) {
+    json["parameters"][std::string(one.name)] = number(one.value);
+  }
+  if (!fit.bootstrap.method.empty()) {
+    json["bootstrap"]["bca_ci95"] = interval(fit.bootstrap.bca_ci95);
+    json["bootstrap"]["bca_reason"] = sentence(fit.bootstrap.bca_reason);
+    json["bootstrap"]["bias_correction"] = number(fit.bootstrap.bias_correction);
+    json["bootstrap"]["acceleration"] = number(fit.bootstrap.acceleration);
+  }
+  json["goodness_of_fit"] =
+      fit.goodness.residuals.empty() ? Json(nullptr) : to_json(fit.goodness);
+  json["posterior"] =
+      fit.posterior.status == FitStatus::kNotRun ? Json(nullptr) : to_json(fit.posterior);
+  json["warnings"] = fit.warnings;
+}
+
+Json to_json(const std::vector<PsychometricEffect>& effects) {
+  Json json = {{"status", to_string(FitStatus::kOk)}, {"effects", Json::array()}};
+  for (const PsychometricEffect& effect : effects) {
+    if (effect.status != FitStatus::kOk) json["status"] = to_string(effect.status);
+    json["effects"].push_back({{"name", effect.name},
+                               {"status", to_string(effect.status)},
+                               {"reason", sentence(effect.reason)},
+                               {"meaning", effect.meaning},
+                               {"estimate", number(effect.estimate)},
+                               {"ci95", interval(effect.ci95)},
+                               {"statistic", number(effect.statistic)},
+                               {"p_value", number(effect.p_value)}});
+  }
+  return json;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,39 @@
+#pragma once
+
+namespace jnd::analysis {
+
+/// The shapes of a psychometric function: F(z) rises from 0 to 1 and F(0) = 0.5.
+enum class Sigmoid {
+  kNormal,   ///< Phi(z)
+  kWeibull,  ///< 1 - 2^(-e^z): with z = shape ln(x / median), Weibull's distribution of x.
+};
+
+/// Both tails at one z, neither computed as 1 - the other where that would cancel.
+struct SigmoidTails {
+  double density;       ///< F'(z)
+  double lower, upper;  ///< F(z), 1 - F(z)
+  double bend;          ///< F''(z) / F'(z)
+};
+
+[[nodiscard]] SigmoidTails sigmoid_tails(Sigmoid sigmoid, double z) noexcept;
+
+/// With logarithms and ratios, which stay finite where the tails themselves underflow.
+struct LogSigmoidTails {
+  double lower, upper;
+  double log_lower, log_upper;      ///< ln F(z), ln (1 - F(z))
+  double mills_lower, mills_upper;  ///< F' / F, F' / (1 - F)
+  double bend;
+};
+
+[[nodiscard]] LogSigmoidTails log_sigmoid_tails(Sigmoid sigmoid, double z) noexcept;
+
+/// z at F(z) = probability, which is in (0, 1).
+[[nodiscard]] double sigmoid_quantile(Sigmoid sigmoid, double probability) noexcept;
+
+/// z at F(z) = Phi(1) = 84.13 %, one just noticeable difference above the median.
+[[nodiscard]] double sigmoid_jnd(Sigmoid sigmoid) noexcept;
+
+/// Beyond this |z| the tails are lost in rounding beside 1.
+[[nodiscard]] double sigmoid_reach(Sigmoid sigmoid) noexcept;
+
+}  // namespace jnd::analysis

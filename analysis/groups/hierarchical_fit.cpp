@@ -1,0 +1,316 @@
+#include "analysis/groups/hierarchical_fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <map>
+
+#include "analysis/fits/psychometric_model.h"
+#include "analysis/groups/hierarchical_search.h"
+#include "core/error.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// The answers as the model takes them.
+struct Arranged {
+  std::vector<std::string> conditions;  ///< In the order of their first answers.
+  std::vector<double> reference;        ///< Of each condition.
+  std::vector<std::string> participants;
+  std::vector<HierarchicalPerson> people;
+  std::vector<std::vector<AnswerCount>> pooled;  ///< Rows of each condition.
+  std::vector<int> num_in_condition;
+  bool yes_at_zero = false;
+};
+
+template <typename Name>
+std::size_t place_of(std::vector<Name>& names, const Name& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) names.push_back(name);
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
+  Arranged all;
+  for (const ParticipantAnswers& one : answers) {
+    const PsychometricLevels levels = pooled_levels(one.rows, one.reference, false);
+    all.yes_at_zero = all.yes_at_zero || levels.zero_yes > 0.0;
+    if (levels.size() == 0) continue;
+    const std::size_t condition = place_of(all.conditions, one.condition);
+    const std::size_t person = place_of(all.participants, one.participant);
+    all.reference.resize(all.conditions.size(), one.reference);
+    all.pooled.resize(all.conditions.size());
+    all.num_in_condition.resize(all.conditions.size());
+    all.people.resize(all.participants.size());
+    core::require(one.reference == all.reference[condition], "reference",
+                  "the same for everybody in condition \"" + one.condition + "\"",
+                  one.reference);
+    HierarchicalCell cell{.condition = static_cast<int>(condition)};
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      cell.log_ratio.push_back(levels.abscissa[level] * levels.unit);
+      cell.num_yes.push_back(levels.num_yes[level]);
+      cell.num_no.push_back(levels.num_trials[level] - levels.num_yes[level]);
+    }
+    ++all.num_in_condition[condition];
+    all.people[person].push_back(std::move(cell));
+    all.pooled[condition].insert(all.pooled[condition].end(), one.rows.begin(), one.rows.end());
+  }
+  return all;
+}
+
+HierarchicalStructure structure_of(int num_conditions, const HierarchicalOptions& options) {
+  HierarchicalStructure structure{.link = options.link,
+                                  .num_conditions = num_conditions,
+                                  .has_places = options.pse != HierarchicalPse::kReference};
+  int parameter = structure.num_numbers();
+  const bool correlated =
+      options.slopes == HierarchicalSlopes::kCorrelated && num_conditions == 2;
+  if (correlated) {
+    structure.loadings = {{0, 0, parameter}, {1, 0, parameter + 1}, {1, 1, parameter + 2}};
+    parameter += 3;
+    structure.num_random_effects = 2;
+  } else {
+    for (int condition = 0; condition < num_conditions; ++condition) {
+      structure.loadings.push_back({condition, 0, parameter});
+    }
+    parameter += 1;
+  }
+  if (options.pse == HierarchicalPse::kPersonal) {
+    for (int condition = 0; condition < num_conditions; ++condition) {
+      structure.loadings.push_back(
+          {num_conditions + condition, structure.num_random_effects, parameter});
+    }
+    parameter += 1;
+    ++structure.num_random_effects;
+  }
+  structure.num_parameters = parameter;
+  return structure;
+}
+
+int usual_num_nodes(int num_random_effects) {
+  return num_random_effects == 1 ? 15 : num_random_effects == 2 ? 7 : 5;
+}
+
+/// Where the search starts: the pooled curves, and people who differ by a fifth. Absent, with a
+/// reason, where a condition's pooled answers have no curve.
+std::optional<Eigen::VectorXd> start_of(const Arranged& all,
+                                        const HierarchicalStructure& structure,
+                                        std::string& reason) {
+  constexpr double kSlopeSd = 0.2, kPlaceSd = 0.1;
+  Eigen::VectorXd start(structure.num_parameters);
+  for (int condition = 0; condition < structure.num_conditions; ++condition) {
+    const auto at = static_cast<std::size_t>(condition);
+    const PsychometricFit pooled =
+        fit_psychometric(all.pooled[at], {.reference = all.reference[at],
+                                          .free_pse = structure.has_places,
+                                          .intervals = false,
+                                          .solver = Solver::kNewton});
+    if (pooled.status != FitStatus::kOk) {
+      const std::string& name = all.conditions[at];
+      reason = (name.empty() ? "the pooled answers are " : name + ": the pooled answers are ") +
+               pooled.reason;
+      return std::nullopt;
+    }
+    const double slope = 1.0 / std::log1p(*pooled.weber_fraction);
+    const double place = std::log(*pooled.pse / all.reference[at]);
+    const bool linear = structure.link == HierarchicalLink::kLinear;
+    start(condition) = linear ? slope : std::log(slope);
+    if (structure.has_places) {
+      start(structure.num_conditions + condition) = linear ? -slope * place : place;
+    }
+    const double scale = linear ? slope : 1.0;
+    for (const HierarchicalStructure::Loading& one : structure.loadings) {
+      if (one.number == condition) start(one.parameter) = kSlopeSd * scale;
+      if (one.number == structure.num_conditions + condition) {
+        start(one.parameter) = kPlaceSd * scale;
+      }
+    }
+  }
+  return start;
+}
+
+std::optional<double> fraction_at(HierarchicalLink link, double slope_number) {
+  const double slope =
+      link == HierarchicalLink::kLinear ? slope_number : std::exp(slope_number);
+  const double fraction = std::expm1(1.0 / slope);
+  return slope > 0.0 && std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
+}
+
+/// Half the 95 % interval of a number with this variance.
+double reach_of(double variance, int num_participants) {
+  const double n = num_participants;
+  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
+  return t * std::sqrt(variance * n / (n - 1.0));
+}
+
+double pse_of(HierarchicalLink link, double reference, double slope_number, double place) {
+  return reference *
+         std::exp(link == HierarchicalLink::kLinear ? -place / slope_number : place);
+}
+
+/// The pse's interval: on ln pse, for a linear one by the delta method.
+Interval pse_interval(const HierarchicalStructure& structure, const HierarchicalOptimum& found,
+                      int condition, double pse, int num_participants) {
+  const int place_at = structure.num_conditions + condition;
+  Eigen::VectorXd by_parameter = Eigen::VectorXd::Zero(structure.num_parameters);
+  by_parameter(place_at) = 1.0;
+  if (structure.link == HierarchicalLink::kLinear) {
+    const double slope = found.parameters(condition);
+    by_parameter(place_at) = -1.0 / slope;
+    by_parameter(condition) = found.parameters(place_at) / (slope * slope);
+  }
+  const double reach =
+      reach_of(by_parameter.dot(found.covariance * by_parameter), num_participants);
+  return {pse * std::exp(-reach), pse * std::exp(reach)};
+}
+
+void fill_conditions(HierarchicalFit& fit, const Arranged& all,
+                     const HierarchicalStructure& structure, const HierarchicalOptimum& found,
+                     const HierarchicalOptions& options) {
+  for (int condition = 0; condition < structure.num_conditions; ++condition) {
+    const auto at = static_cast<std::size_t>(condition);
+    HierarchicalCondition one{.condition = all.conditions[at],
+                              .num_participants = all.num_in_condition[at]};
+    one.slope_number = found.parameters(condition);
+    one.slope_standard_error = std::sqrt(found.covariance(condition, condition));
+    one.weber_fraction = fraction_at(options.link, one.slope_number);
+    if (one.num_participants >= 2) {
+      const double reach =
+          reach_of(found.covariance(condition, condition), one.num_participants);
+      one.weber_fraction_ci95 = {fraction_at(options.link, one.slope_number + reach),
+                                 fraction_at(options.link, one.slope_number - reach)};
+    }
+    one.pse = all.reference[at];
+    if (structure.has_places) {
+      const int place_at = structure.num_conditions + condition;
+      one.place_number = found.parameters(place_at);
+      one.place_standard_error = std::sqrt(found.covariance(place_at, place_at));
+      one.pse = pse_of(options.link, all.reference[at], one.slope_number, one.place_number);
+      one.pse_ci95 = one.num_participants < 2 ? Interval{}
+                                              : pse_interval(structure, found, condition,
+                                                             *one.pse, one.num_participants);
+    }
+    double slope_variance = 0.0;
+    for (const HierarchicalStructure::Loading& loading : structure.loadings) {
+      const double value = found.parameters(loading.parameter);
+      if (loading.number == condition) slope_variance += value * value;
+      if (loading.number == structure.num_conditions + condition) {
+        one.place_sd = std::fabs(value);
+      }
+    }
+    one.slope_sd = std::sqrt(slope_variance);
+    fit.conditions.push_back(std::move(one));
+  }
+}
+
+void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
+                      HierarchicalLink link) {
+  const double sign = link == HierarchicalLink::kLogSlope ? -1.0 : 1.0;
+  for (std::size_t second = 1; second < fit.conditions.size(); ++second) {
+    const auto at = static_cast<Eigen::Index>(second);
+    HierarchicalDifference one{.first = fit.conditions[0].condition,
+                               .second = fit.conditions[second].condition};
+    one.estimate = sign * (found.parameters(at) - found.parameters(0));
+    const double variance =
+        found.covariance(at, at) + found.covariance(0, 0) - 2.0 * found.covariance(at, 0);
+    const int n =
+        std::min(fit.conditions[0].num_participants, fit.conditions[second].num_participants);
+    if (n >= 2 && variance > 0.0) {
+      const double reach = reach_of(variance, n);
+      one.degrees_of_freedom = n - 1.0;
+      one.standard_error = std::sqrt(variance);
+      one.ci95 = {one.estimate - reach, one.estimate + reach};
+      one.statistic = one.estimate / std::sqrt(variance * n / (n - 1.0));
+      one.p_value = 2.0 * boost::math::cdf(boost::math::complement(
+                              boost::math::students_t(n - 1.0), std::fabs(*one.statistic)));
+    }
+    fit.differences.push_back(std::move(one));
+  }
+}
+
+/// Correlation of the slopes in two conditions, and a word on spreads that ended at 0.
+void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
+                 const HierarchicalOptimum& found) {
+  constexpr double kNone = 1e-6;
+  const bool correlated = structure.num_conditions == 2 && structure.loadings.size() >= 3 &&
+                          structure.loadings[1].parameter != structure.loadings[0].parameter;
+  if (correlated && fit.conditions[0].slope_sd > kNone && fit.conditions[1].slope_sd > kNone) {
+    const double own = found.parameters(structure.loadings[0].parameter);
+    const double shared = found.parameters(structure.loadings[1].parameter);
+    fit.correlation = std::copysign(1.0, own) * shared / fit.conditions[1].slope_sd;
+  }
+  const bool none =
+      std::any_of(fit.conditions.begin(), fit.conditions.end(),
+                  [](const HierarchicalCondition& one) { return one.slope_sd <= kNone; });
+  if (none) {
+    fit.note =
+        "the spread of the slopes between people is at its bound 0: the answers show none "
+        "beyond chance, which with few answers a person does not mean that there is none";
+  }
+}
+
+std::string method_of(const HierarchicalOptions& options, int num_nodes) {
+  std::string words = options.link == HierarchicalLink::kLogSlope
+                          ? "probit, ln slope normal between people"
+                          : "probit, slope normal between people";
+  words += options.pse == HierarchicalPse::kReference ? ", pse = reference"
+           : options.pse == HierarchicalPse::kCommon  ? ", pse free, common"
+                                                      : ", pse free, personal";
+  return words + (num_nodes == 1 ? ", Laplace"
+                                 : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
+                                       " nodes a dimension");
+}
+
+}  // namespace
+
+HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
+                                 const HierarchicalOptions& options) {
+  const Arranged all = arranged(answers);
+  HierarchicalFit fit;
+  fit.num_participants = static_cast<int>(all.people.size());
+  const auto num_conditions = static_cast<int>(all.conditions.size());
+  const bool too_many =
+      num_conditions > (options.slopes == HierarchicalSlopes::kCorrelated ? 2 : 8);
+  if (too_many) {
+    throw core::Error(
+        "conditions: expected one or two, or up to eight with shared slopes, found " +
+        std::to_string(num_conditions));
+  }
+  fit.status = FitStatus::kDegenerate;
+  if (all.yes_at_zero) {
+    fit.reason = "impossible: a yes at intensity 0 has probability 0 without lapses";
+    return fit;
+  }
+  if (fit.num_participants < 2) {
+    fit.reason = "fewer than two participants with answers: how people differ is unknown";
+    return fit;
+  }
+  const HierarchicalStructure structure = structure_of(num_conditions, options);
+  fit.num_nodes =
+      options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
+  fit.method = method_of(options, fit.num_nodes);
+  const std::optional<Eigen::VectorXd> start = start_of(all, structure, fit.reason);
+  if (!start) return fit;
+  const HierarchicalLikelihood likelihood(structure, all.people, fit.num_nodes);
+  const HierarchicalOptimum found = most_likely(likelihood, *start);
+  fit.status = found.status;
+  fit.reason = found.reason;
+  if (found.status != FitStatus::kOk) return fit;
+
+  fit.log_likelihood = found.log_likelihood;
+  fill_conditions(fit, all, structure, found, options);
+  fill_differences(fit, found, options.link);
+  fill_spread(fit, structure, found);
+  const std::vector<Eigen::VectorXd> modes = likelihood.modes(found.parameters);
+  for (std::size_t person = 0; person < all.people.size(); ++person) {
+    for (const HierarchicalCell& cell : all.people[person]) {
+      fit.participants.push_back({all.participants[person],
+                                  all.conditions[static_cast<std::size_t>(cell.condition)],
+                                  fraction_at(options.link, modes[person](cell.condition))});
+    }
+  }
+  return fit;
+}
+
+}  // namespace jnd::analysis

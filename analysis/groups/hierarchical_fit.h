@@ -1,0 +1,102 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/fits/psychometric_fit.h"
+#include "analysis/groups/hierarchical_model.h"
+
+namespace jnd::analysis {
+
+/// What one participant answered in one condition.
+struct ParticipantAnswers {
+  std::string participant;
+  std::string condition;   ///< "" where there is one.
+  double reference = 0.0;  ///< > 0, unit of the intensities; one and the same in a condition.
+  std::vector<AnswerCount> rows;
+};
+
+enum class HierarchicalPse {
+  kReference,  ///< At the reference for everybody, as the thesis fits.
+  kCommon,     ///< Free, the same for everybody.
+  kPersonal,   ///< Free, and people differ: ln pse is normal about the median person's.
+};
+
+enum class HierarchicalSlopes {
+  kShared,      ///< One deviation a person, the same in every condition.
+  kCorrelated,  ///< A deviation in each of two conditions, correlated. With one, as shared.
+};
+
+struct HierarchicalOptions {
+  HierarchicalLink link = HierarchicalLink::kLogSlope;
+  HierarchicalPse pse = HierarchicalPse::kPersonal;
+  HierarchicalSlopes slopes = HierarchicalSlopes::kCorrelated;
+  /// A dimension of how people differ; 0: 15 in one, 7 in two, 5 in three. 1 is Laplace.
+  int num_nodes = 0;
+};
+
+/// The median person in one condition.
+struct HierarchicalCondition {
+  std::string condition;
+  int num_participants = 0;
+  std::optional<double> weber_fraction;
+  Interval weber_fraction_ci95;
+  std::optional<double> pse;
+  std::optional<Interval> pse_ci95;  ///< Absent unless the pse was free.
+  double slope_number = 0.0;         ///< a of HierarchicalLink, of the median person.
+  std::optional<double> slope_standard_error;
+  double place_number = 0.0;
+  std::optional<double> place_standard_error;
+  /// Between people, of a: with kLogSlope the sd of ln ln(1 + w).
+  double slope_sd = 0.0;
+  double place_sd = 0.0;  ///< Between people, of p; 0 unless personal.
+};
+
+/// The second condition's slope number minus the first's, negated with kLogSlope: then it is
+/// the difference in ln ln(1 + w), second minus first.
+struct HierarchicalDifference {
+  std::string first, second;
+  double estimate = 0.0;
+  std::optional<double> standard_error;
+  Interval ci95;
+  std::optional<double> statistic, p_value;  ///< Student's t, two-sided.
+  double degrees_of_freedom = 0.0;
+};
+
+/// One participant's Weber fraction, drawn toward the group's by how little the answers say.
+struct HierarchicalPersonEstimate {
+  std::string participant, condition;
+  std::optional<double> weber_fraction;
+};
+
+struct HierarchicalFit {
+  FitStatus status = FitStatus::kNotRun;
+  std::string reason;  ///< Why there is no value; "" if there is one.
+  std::string method;  ///< Of model and integral, in words.
+  int num_participants = 0;
+  int num_nodes = 0;
+  std::vector<HierarchicalCondition> conditions;
+  std::optional<double> correlation;                ///< Of the deviations in two conditions.
+  std::vector<HierarchicalDifference> differences;  ///< Of each condition to the first.
+  std::vector<HierarchicalPersonEstimate> participants;
+  std::optional<double> log_likelihood;  ///< Without binomial coefficients.
+  std::string note;                      ///< What a reader has to know; "" if nothing.
+};
+
+/// Probit curves of everybody at once: people's slopes (and places, where personal) vary
+/// normally about the median person's, and the likelihood is integrated over that by adaptive
+/// Gauss-Hermite quadrature. The estimand is the median person's Weber fraction, which the
+/// pooled curve's is not: pooling people who differ flattens the curve. Perfectly separated or
+/// flat participants take part, for it needs no fit of their own.
+///
+/// Intervals are Wald's on the slope number with Student's t at participants - 1 and its error
+/// grown by sqrt(n / (n - 1)), because maximum likelihood has the spread of few people too
+/// small; data/reference/coverage has what they cover.
+///
+/// `degenerate` where a condition's pooled answers are, or with fewer than two participants.
+/// Throws `core::Error` for references or counts as `fit_psychometric`, references that differ
+/// within a condition, more than two conditions with correlated slopes, or more than eight.
+[[nodiscard]] HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
+                                               const HierarchicalOptions& options);
+
+}  // namespace jnd::analysis

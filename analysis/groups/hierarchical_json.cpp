@@ -1,0 +1,69 @@
+#include "analysis/groups/hierarchical_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace jnd::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json interval(const Interval& ends) {
+  return Json::array({number(ends.low), number(ends.high)});
+}
+
+Json sentence(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+}  // namespace
+
+Json to_json(const HierarchicalFit& fit) {
+  Json json = {{"status", to_string(fit.status)},
+               {"reason", sentence(fit.reason)},
+               {"method", sentence(fit.method)},
+               {"estimand", "median person"},
+               {"note", sentence(fit.note)},
+               {"num_participants", fit.num_participants},
+               {"num_nodes", fit.num_nodes},
+               {"log_likelihood", number(fit.log_likelihood)},
+               {"correlation", number(fit.correlation)},
+               {"conditions", Json::array()},
+               {"differences", Json::array()},
+               {"participants", Json::array()}};
+  for (const HierarchicalCondition& one : fit.conditions) {
+    json["conditions"].push_back(
+        {{"condition", one.condition},
+         {"num_participants", one.num_participants},
+         {"weber_fraction", number(one.weber_fraction)},
+         {"weber_fraction_ci95", interval(one.weber_fraction_ci95)},
+         {"pse", number(one.pse)},
+         {"pse_ci95", one.pse_ci95 ? interval(*one.pse_ci95) : Json(nullptr)},
+         {"slope", number(one.slope_number)},
+         {"slope_standard_error", number(one.slope_standard_error)},
+         {"slope_sd", number(one.slope_sd)},
+         {"place", number(one.place_number)},
+         {"place_standard_error", number(one.place_standard_error)},
+         {"place_sd", number(one.place_sd)}});
+  }
+  for (const HierarchicalDifference& one : fit.differences) {
+    json["differences"].push_back({{"first", one.first},
+                                   {"second", one.second},
+                                   {"estimate", number(one.estimate)},
+                                   {"standard_error", number(one.standard_error)},
+                                   {"ci95", interval(one.ci95)},
+                                   {"statistic", number(one.statistic)},
+                                   {"degrees_of_freedom", number(one.degrees_of_freedom)},
+                                   {"p_value", number(one.p_value)}});
+  }
+  for (const HierarchicalPersonEstimate& one : fit.participants) {
+    json["participants"].push_back({{"participant", one.participant},
+                                    {"condition", one.condition},
+                                    {"weber_fraction", number(one.weber_fraction)}});
+  }
+  return json;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "analysis/groups/hierarchical_quadrature.h"
+
+namespace jnd::analysis {
+
+/// How a person's curve follows from the person's own numbers: two per condition, a slope
+/// number a and a place number p, at u = ln(x / reference).
+enum class HierarchicalLink {
+  /// z = e^a (u - p): people differ by factors, a is -ln ln(1 + w), p is ln(pse / reference).
+  kLogSlope,
+  /// z = a u + p: linear, as mixed-model software has it; a may come out below 0.
+  kLinear,
+};
+
+/// A condition's answers of one person, one entry a level.
+struct HierarchicalCell {
+  int condition = 0;
+  std::vector<double> log_ratio, num_yes, num_no;
+};
+using HierarchicalPerson = std::vector<HierarchicalCell>;
+
+/// Which numbers there are and how they vary. The parameters, in this order: a of each
+/// condition, p of each condition if `has_places`, then the loadings' parameters. A person's
+/// numbers are those of the median person plus loadings times standard normal numbers.
+struct HierarchicalStructure {
+  HierarchicalLink link = HierarchicalLink::kLogSlope;
+  int num_conditions = 1;
+  bool has_places = false;  ///< Otherwise every p is 0.
+  struct Loading {
+    int number;         ///< Row: the person's number it moves.
+    int random_effect;  ///< Column.
+    int parameter;      ///< Which parameter it is; several loadings may share one.
+  };
+  std::vector<Loading> loadings;
+  int num_random_effects = 1;
+  int num_parameters = 2;
+
+  [[nodiscard]] int num_numbers() const noexcept {
+    return num_conditions * (has_places ? 2 : 1);
+  }
+};
+
+/// The likelihood of everybody's answers, integrated over how people differ, by Gauss and
+/// Hermite's rule centred and scaled at each person's own mode (Liu and Pierce 1994; Pinheiro
+/// and Bates 1995). The scale is that of the expected information, as in lme4, so that one node
+/// is its Laplace approximation.
+class HierarchicalLikelihood {
+ public:
+  HierarchicalLikelihood(const HierarchicalStructure& structure,
+                         const std::vector<HierarchicalPerson>& people, int num_nodes);
+
+  /// Log-likelihood without binomial coefficients. `gradient`, where wanted, is the mean of the
+  /// score over what the answers leave open of each person (Fisher's identity): that of the
+  /// exact integral, near the rule's own.
+  [[nodiscard]] double operator()(const Eigen::VectorXd& parameters,
+                                  Eigen::VectorXd* gradient = nullptr) const;
+
+  /// In all dimensions together.
+  [[nodiscard]] std::size_t num_nodes() const noexcept { return grid_.node.size(); }
+
+  /// Each person's most likely numbers, given the parameters and the person's answers.
+  [[nodiscard]] std::vector<Eigen::VectorXd> modes(const Eigen::VectorXd& parameters) const;
+
+ private:
+  static constexpr int kMostNumbers = 16;
+  using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNumbers, 1>;
+  using Loadings = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNumbers,
+                                 kMostRandomEffects>;
+  using Curvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRandomEffects,
+                                  kMostRandomEffects>;
+  struct Mode {
+    RandomEffects at;
+    Curvature information;  ///< Expected, prior included.
+  };
+  /// Of the log density of answers and random effects together, by the random effects; second
+  /// derivatives are negated.
+  struct JointDerivatives {
+    RandomEffects gradient;
+    Curvature expected, observed;
+  };
+
+  [[nodiscard]] Loadings loadings_of(const Eigen::VectorXd& parameters) const;
+  /// Log-likelihood of a person with these numbers; its derivatives are added to `score`.
+  [[nodiscard]] double log_likelihood(const HierarchicalPerson& person, const Numbers& numbers,
+                                      Numbers* score) const noexcept;
+  [[nodiscard]] JointDerivatives joint_derivatives(const HierarchicalPerson& person,
+                                                   const Numbers& median,
+                                                   const Loadings& loadings,
+                                                   const RandomEffects& at) const;
+  [[nodiscard]] Mode mode_of(const HierarchicalPerson& person, const Numbers& median,
+                             const Loadings& loadings, const RandomEffects& start) const;
+
+  HierarchicalStructure structure_;
+  std::vector<HierarchicalPerson> people_;
+  GaussHermiteGrid grid_;
+  mutable std::vector<RandomEffects>
+      last_;  ///< Modes found last: where the next search starts.
+};
+
+}  // namespace jnd::analysis

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace jnd::analysis {
+
+/// Dimensions of what differs between people: at most three.
+constexpr int kMostRandomEffects = 3;
+using RandomEffects = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRandomEffects, 1>;
+
+/// A rule for expectations over independent standard normal numbers, E f(x) = sum w_k f(x_k):
+/// Gauss and Hermite's in each dimension, exact for polynomials up to degree 2 n - 1
+/// (Golub and Welsch 1969). One node is the mean alone, which makes Laplace's approximation.
+struct GaussHermiteGrid {
+  std::vector<RandomEffects> node;
+  std::vector<double> weight;  ///< Of each node; they sum to 1.
+};
+
+/// `num_nodes` 1 to 61 a dimension, `num_dimensions` 1 to kMostRandomEffects. Throws
+/// `core::Error` otherwise.
+[[nodiscard]] GaussHermiteGrid gauss_hermite_grid(int num_nodes, int num_dimensions);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,143 @@
+#include "analysis/groups/hierarchical_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "analysis/fits/ceres_descent.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// Beyond this a number of the median person has run away: ln slope, say, to a step.
+constexpr double kRunAway = 25.0;
+
+/// Central differences of fourth order (Abramowitz and Stegun 25.3.6).
+Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
+                            const Eigen::VectorXd& at) {
+  constexpr double kStep = 1e-4;
+  Eigen::VectorXd gradient(at.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    Eigen::VectorXd moved = at;
+    const auto value = [&](double step) {
+      moved(i) = at(i) + step;
+      return likelihood(moved);
+    };
+    gradient(i) =
+        (8.0 * (value(kStep) - value(-kStep)) - value(2.0 * kStep) + value(-2.0 * kStep)) /
+        (12.0 * kStep);
+  }
+  return gradient;
+}
+
+/// Fisher's gradient is the exact integral's; one node is too far from that.
+Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
+                                    const Eigen::VectorXd& start) {
+  const SmoothCost cost = [&](std::span<const double> x, double& value,
+                              std::span<double> gradient) {
+    const Eigen::VectorXd at =
+        Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+    Eigen::VectorXd rise;
+    value = -likelihood(at, likelihood.num_nodes() > 1 ? &rise : nullptr);
+    if (likelihood.num_nodes() == 1) rise = gradient_of(likelihood, at);
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+      gradient[i] = -rise(static_cast<Eigen::Index>(i));
+    }
+    return std::isfinite(value) && rise.allFinite();
+  };
+  const std::vector<double> found =
+      ceres_minimum(cost, {start.data(), start.data() + start.size()});
+  return Eigen::Map<const Eigen::VectorXd>(found.data(),
+                                           static_cast<Eigen::Index>(found.size()));
+}
+
+/// Minus the second derivatives.
+Eigen::MatrixXd information_at(const HierarchicalLikelihood& likelihood,
+                               const Eigen::VectorXd& at, double here) {
+  constexpr double kStep = 1e-3;
+  Eigen::MatrixXd information(at.size(), at.size());
+  const auto value = [&](Eigen::Index i, double step_i, Eigen::Index j, double step_j) {
+    Eigen::VectorXd moved = at;
+    moved(i) += step_i;
+    moved(j) += step_j;
+    return likelihood(moved);
+  };
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    information(i, i) =
+        (2.0 * here - value(i, kStep, i, 0.0) - value(i, -kStep, i, 0.0)) / (kStep * kStep);
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double mixed = value(i, kStep, j, kStep) - value(i, kStep, j, -kStep) -
+                           value(i, -kStep, j, kStep) + value(i, -kStep, j, -kStep);
+      information(i, j) = information(j, i) = -mixed / (4.0 * kStep * kStep);
+    }
+  }
+  return information;
+}
+
+struct Inverse {
+  Eigen::MatrixXd matrix;
+  bool rising = false;  ///< Along some direction the likelihood curves upwards.
+};
+
+/// Inverse over the directions that the likelihood knows; those it does not, such as a
+/// correlation with something that does not vary, get nothing. Where it curves upwards, by the
+/// magnitude, so that a step by it rises.
+Inverse inverse_of(const Eigen::MatrixXd& information) {
+  constexpr double kFlat = 1e-7;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+  Inverse inverse;
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(information.rows());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const double value = eigen.eigenvalues()(i);
+    if (std::fabs(value) > kFlat * largest) values(i) = 1.0 / std::fabs(value);
+    inverse.rising = inverse.rising || value < -kFlat * largest;
+  }
+  inverse.matrix =
+      eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+  return inverse;
+}
+
+}  // namespace
+
+HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
+                                const Eigen::VectorXd& start) {
+  constexpr int kMaxSteps = 30;
+  constexpr double kSmallStep = 1e-8, kLargeStep = 1e-3, kLargestStep = 0.5;
+  HierarchicalOptimum found;
+  found.parameters = roughly_most_likely(likelihood, start);
+  found.status = FitStatus::kNotConverged;
+  found.reason = "the search for the optimum did not come to rest";
+  Inverse inverse;
+  for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
+    if (!(found.parameters.cwiseAbs().maxCoeff() < kRunAway)) {
+      found.status = FitStatus::kDegenerate;
+      found.reason = "the likelihood rises without bound: the answers are nearly separated";
+      return found;
+    }
+    found.log_likelihood = likelihood(found.parameters);
+    const auto inverse_here = [&] {
+      return inverse_of(information_at(likelihood, found.parameters, found.log_likelihood));
+    };
+    // The curvature anew only while the steps are large.
+    if (inverse.matrix.size() == 0) inverse = inverse_here();
+    Eigen::VectorXd step = inverse.matrix * gradient_of(likelihood, found.parameters);
+    const double size = step.cwiseAbs().maxCoeff();
+    if (!std::isfinite(size)) return found;
+    if (size <= kSmallStep) {
+      inverse = inverse_here();
+      if (inverse.rising) return found;
+      found.covariance = std::move(inverse.matrix);
+      found.status = FitStatus::kOk;
+      found.reason.clear();
+      return found;
+    }
+    if (size > kLargestStep) step *= kLargestStep / size;
+    found.parameters += step;
+    if (size > kLargeStep) inverse.matrix.resize(0, 0);
+  }
+  return found;
+}
+
+}  // namespace jnd::analysis

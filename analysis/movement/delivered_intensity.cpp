@@ -1,0 +1,165 @@
+#include "analysis/movement/delivered_intensity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace jnd::analysis {
+namespace {
+
+constexpr char kProduction[] = "magnitude_production";
+
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  [[nodiscard]] std::optional<double> value() const {
+    if (count == 0) return std::nullopt;
+    return sum / count;
+  }
+};
+
+/// What was delivered of one presentation.
+struct Delivery {
+  std::string interval;
+  double commanded = 0.0, delivered = 0.0;
+};
+
+using Deliveries = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Delivery>>;
+
+/// Presentations come in their order. Of a trial's test only those count that had the intensity
+/// of the last one: a production's others were on the way.
+DeliveredIntensities trials_of(const Deliveries& deliveries) {
+  DeliveredIntensities trials;
+  for (const auto& [key, presented] : deliveries) {
+    Mean reference, test;
+    double last_test = 0.0;
+    for (const Delivery& one : presented) {
+      if (one.interval == "reference") reference.add(one.delivered);
+      if (one.interval != "test") continue;
+      if (one.commanded != last_test) test = {};
+      last_test = one.commanded;
+      test.add(one.delivered);
+    }
+    trials[key] = {.test = test.value(), .reference = reference.value()};
+  }
+  return trials;
+}
+
+bool is_measured(double commanded, double delivered) {
+  return commanded > 0.0 && std::isfinite(delivered) && delivered > 0.0;
+}
+
+/// Replaces the intensities of one participant's trials in one block.
+class BlockReplacement {
+ public:
+  explicit BlockReplacement(const DeliveredIntensities& delivered) : delivered_(delivered) {}
+
+  void measure(const core::TrialRow& trial) {
+    const auto found = delivered_.find({trial.session, trial.trial});
+    if (found == delivered_.end() || !trial.intensity) return;
+    if (found->second.test) levels_[*trial.intensity].add(*found->second.test);
+    if (found->second.reference) reference_.add(*found->second.reference);
+  }
+
+  /// Whether the trial's stimulus is known.
+  bool replace(core::TrialRow& trial) const {
+    if (!trial.intensity) return false;
+    if (*trial.intensity == 0.0) return true;
+    if (trial.procedure == kProduction) return replace_production(trial);
+    const auto level = levels_.find(*trial.intensity);
+    if (level == levels_.end()) return false;
+    double intensity = *level->second.value();
+    if (trial.reference_intensity) {
+      const std::optional<double> reference = reference_.value();
+      if (!reference || !(*reference > 0.0)) return false;
+      intensity *= *trial.reference_intensity / *reference;
+    }
+    trial.intensity = intensity;
+    return true;
+  }
+
+ private:
+  bool replace_production(core::TrialRow& trial) const {
+    const auto found = delivered_.find({trial.session, trial.trial});
+    if (found == delivered_.end() || !found->second.test) return false;
+    trial.intensity = found->second.test;
+    trial.response = found->second.test;
+    return true;
+  }
+
+  const DeliveredIntensities& delivered_;
+  std::map<double, Mean> levels_;  ///< By commanded intensity.
+  Mean reference_;
+};
+
+}  // namespace
+
+DeliveredIntensities delivered_intensities(const StudyData& data) {
+  Deliveries deliveries;
+  for (const ParticipantData& participant : data.participants) {
+    for (const auto& [block, rows] : participant.presentations) {
+      for (const core::PresentationRow& row : rows) {
+        const double commanded = row.commanded_damping_n_s_per_m.value_or(0.0);
+        const double delivered = row.delivered_damping_n_s_per_m.value_or(0.0);
+        if (!is_measured(commanded, delivered)) continue;
+        deliveries[{row.session, row.trial}].push_back(
+            {row.interval, row.intensity, row.intensity * delivered / commanded});
+      }
+    }
+  }
+  return trials_of(deliveries);
+}
+
+DeliveredIntensities delivered_intensities(const MovementAnalysis& movement) {
+  Deliveries deliveries;
+  for (const ParticipantMovement& participant : movement.participants) {
+    for (const PresentationMovement& one : participant.presentations) {
+      const double ratio = one.force.delivered_ratio.value_or(0.0);
+      if (one.trial == 0 || !is_measured(1.0, ratio)) continue;
+      deliveries[{one.session, one.trial}].push_back(
+          {one.interval, one.intensity, one.intensity * ratio});
+    }
+  }
+  return trials_of(deliveries);
+}
+
+DeliveredStudy with_delivered(StudyData data, const DeliveredIntensities& delivered) {
+  DeliveredStudy study{.data = std::move(data)};
+  for (ParticipantData& participant : study.data.participants) {
+    std::map<std::string, BlockReplacement> blocks;
+    for (const core::TrialRow& trial : participant.trials) {
+      blocks.try_emplace(trial.block, delivered).first->second.measure(trial);
+    }
+    std::vector<core::TrialRow> kept;
+    for (core::TrialRow& trial : participant.trials) {
+      if (blocks.at(trial.block).replace(trial)) kept.push_back(std::move(trial));
+    }
+    study.num_left_out += static_cast<std::int64_t>(participant.trials.size() - kept.size());
+    study.num_replaced += static_cast<std::int64_t>(kept.size());
+    participant.trials = std::move(kept);
+  }
+  return study;
+}
+
+DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store) {
+  DeliveredIntensities delivered = delivered_intensities(data);
+  const bool enough = std::ranges::all_of(data.participants, [&](const ParticipantData& one) {
+    return std::ranges::all_of(one.trials, [&](const core::TrialRow& trial) {
+      return trial.intensity == 0.0 || delivered.contains({trial.session, trial.trial});
+    });
+  });
+  if (!enough) {
+    for (auto& [key, trial] :
+         delivered_intensities(analyse_movement(store, {.explored = false}))) {
+      delivered.try_emplace(key, trial);
+    }
+  }
+  return with_delivered(std::move(data), delivered);
+}
+
+}  // namespace jnd::analysis

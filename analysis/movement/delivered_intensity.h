@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "analysis/movement/movement_analysis.h"
+#include "analysis/study_data.h"
+#include "core/storage/study_store.h"
+
+namespace jnd::analysis {
+
+/// What a trial's stimuli came out as, in the unit of their intensities: commanded intensity
+/// times delivered over commanded force, for every law is linear in its intensity. Mean over
+/// presentations; of a production the last one, which is the value set. Absent where nothing
+/// was measured or no force was commanded.
+struct DeliveredTrial {
+  std::optional<double> test, reference;
+};
+
+/// By session and number of the trial.
+using DeliveredIntensities = std::map<std::pair<std::int64_t, std::int64_t>, DeliveredTrial>;
+
+/// From the database alone: of fluids that are plain damping.
+[[nodiscard]] DeliveredIntensities delivered_intensities(const StudyData& data);
+/// From the samples: of every fluid whose law is known, water among them.
+[[nodiscard]] DeliveredIntensities delivered_intensities(const MovementAnalysis& movement);
+
+/// A study whose intensities are those that were delivered.
+struct DeliveredStudy {
+  StudyData data;
+  std::int64_t num_replaced = 0;  ///< Trials.
+  std::int64_t num_left_out = 0;  ///< Trials whose stimulus nobody measured.
+};
+
+/// For fits on delivered intensity. A trial gets the mean of what its participant was delivered
+/// at its level, since one presentation alone is a noisy measure. Where there is a reference,
+/// that keeps its value and the test gets the delivered ratio to it: what a Weber fraction
+/// rests on. A production gets what was delivered of the value set. Zero intensity stays zero.
+[[nodiscard]] DeliveredStudy with_delivered(StudyData data,
+                                            const DeliveredIntensities& delivered);
+
+/// The same, with the recordings read only if the database does not say enough.
+[[nodiscard]] DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store);
+
+}  // namespace jnd::analysis

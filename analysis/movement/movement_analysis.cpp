@@ -1,0 +1,103 @@
+#include "analysis/movement/movement_analysis.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <thread>
+
+#include "analysis/movement/participant_movement.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+using SessionsOfPerson = std::vector<core::SessionRow>;
+
+void require_valid(const MovementOptions& options) {
+  const auto positive = [](double value, const char* field) {
+    core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
+  };
+  positive(options.hysteresis_m, "hysteresis_m");
+  positive(options.rest_speed_m_per_s, "rest_speed_m_per_s");
+  positive(options.shortest_pause_s, "shortest_pause_s");
+  if (options.forward) {
+    const double length = std::hypot((*options.forward)[0], (*options.forward)[1]);
+    core::require(length > 0.0 && std::isfinite(length), "forward",
+                  "a finite direction that is not zero", length);
+  }
+  if (options.surface_height_m) {
+    core::require(std::isfinite(*options.surface_height_m), "surface_height_m",
+                  "a finite number", *options.surface_height_m);
+  }
+  core::require(options.jobs >= 1, "jobs", "a number >= 1", options.jobs);
+}
+
+ParticipantMovement movement_of(const core::StudyStore& store, const MovementOptions& options,
+                                const std::string& participant,
+                                const SessionsOfPerson& sessions) {
+  // One damaged recording must not spoil what the others tell.
+  try {
+    ParticipantReading reading(store, options, participant);
+    for (const core::SessionRow& session : sessions) reading.read_session(session);
+    return reading.finish();
+  } catch (const core::Error& error) {
+    return {.participant = participant, .reason = error.what()};
+  }
+}
+
+}  // namespace
+
+const ConditionMovement* ParticipantMovement::find(const std::string& block,
+                                                   std::optional<double> intensity) const {
+  for (const ConditionMovement& condition : conditions) {
+    if (condition.block == block && condition.intensity == intensity) return &condition;
+  }
+  return nullptr;
+}
+
+bool MovementAnalysis::any() const noexcept {
+  return std::ranges::any_of(
+      participants, [](const ParticipantMovement& one) { return one.num_samples > 0; });
+}
+
+MovementAnalysis analyse_movement(const core::StudyStore& store,
+                                  const MovementOptions& options) {
+  require_valid(options);
+  MovementAnalysis analysis;
+  std::map<std::string, SessionsOfPerson> by_person;
+  for (core::SessionRow& session : store.sessions()) {
+    if (session.pilot && !options.pilot) continue;
+    analysis.simulated = analysis.simulated || session.simulated;
+    by_person[session.participant].push_back(std::move(session));
+  }
+  const std::vector<std::pair<std::string, SessionsOfPerson>> people(by_person.begin(),
+                                                                     by_person.end());
+  analysis.participants.resize(people.size());
+  std::vector<std::exception_ptr> failures(people.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < people.size(); i = next++) {
+      try {
+        const auto& [participant, sessions] = people[i];
+        analysis.participants[i] = movement_of(store, options, participant, sessions);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const auto most =
+        std::min<std::size_t>(static_cast<std::size_t>(options.jobs), people.size());
+    for (std::size_t i = 1; i < most; ++i) others.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  return analysis;
+}
+
+}  // namespace jnd::analysis

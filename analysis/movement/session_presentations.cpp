@@ -1,0 +1,132 @@
+#include "analysis/movement/session_presentations.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+/// Beyond that a block's intensities are adjusted rather than designed.
+constexpr std::size_t kMostLevels = 32;
+
+struct TrialPlan {
+  core::DesignRow design;
+  std::set<double> levels;  ///< Of its block.
+};
+
+std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
+                                           std::int64_t session) {
+  std::map<std::int64_t, TrialPlan> plans;
+  std::map<std::string, std::set<double>> levels;
+  for (core::DesignRow& row : store.design(session)) {
+    for (const std::optional<double>& level : {row.intensity, row.reference_intensity}) {
+      if (level) levels[row.block].insert(*level);
+    }
+    plans[row.trial].design = std::move(row);
+  }
+  for (auto& [trial, plan] : plans) plan.levels = levels[plan.design.block];
+  return plans;
+}
+
+PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& plan) {
+  const bool is_free = row.interval == "free_space";
+  const std::string medium = is_free ? "free_space" : plan.design.medium;
+  return {.movement = {.session = row.session,
+                       .trial = row.trial,
+                       .attempt = row.attempt,
+                       .presentation = row.presentation,
+                       .block = plan.design.block,
+                       .medium = medium,
+                       .interval = row.interval,
+                       .repetition = plan.design.repetition,
+                       .intensity = row.intensity,
+                       .first_tick = row.first_tick,
+                       .last_tick = row.last_tick},
+          .commanded = {medium, row.intensity, row.commanded_damping_n_s_per_m},
+          .is_level = !is_free && plan.levels.size() <= kMostLevels &&
+                      plan.levels.contains(row.intensity)};
+}
+
+std::string medium_of(const core::EventRow& event) {
+  const json data = json::parse(event.data, nullptr, /*allow_exceptions=*/false);
+  if (!data.is_object()) return "";
+  const auto found = data.find("medium");
+  return found != data.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+void add_explored(const core::StudyStore& store, std::int64_t session,
+                  std::vector<PlannedPresentation>& all) {
+  const std::vector<core::EventRow> events = store.events(session);
+  std::set<std::int64_t> superseded;
+  for (const core::EventRow& event : events) {
+    if (event.supersedes) superseded.insert(*event.supersedes);
+  }
+  for (const core::EventRow& event : events) {
+    if (event.kind != "medium_explored" || superseded.contains(event.sequence)) continue;
+    if (!event.first_tick || !event.last_tick) continue;
+    const std::string medium = medium_of(event);
+    const double intensity = event.intensity.value_or(0.0);
+    all.push_back({.movement = {.session = session,
+                                .medium = medium,
+                                .interval = "explored",
+                                .intensity = intensity,
+                                .first_tick = *event.first_tick,
+                                .last_tick = *event.last_tick},
+                   .commanded = {medium, intensity, std::nullopt},
+                   .is_level = true});
+  }
+}
+
+std::optional<double> number_at(const std::string& text, const char* pointer) {
+  const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const json::json_pointer place(pointer);
+  if (!document.is_object() || !document.contains(place)) return std::nullopt;
+  const json& value = document.at(place);
+  if (!value.is_number()) return std::nullopt;
+  return value.get<double>();
+}
+
+}  // namespace
+
+std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
+                                                  std::int64_t session, bool explored) {
+  const std::map<std::int64_t, TrialPlan> plans = plans_of(store, session);
+  std::vector<PlannedPresentation> all;
+  for (const core::PresentationRow& row : store.presentations(session)) {
+    const auto plan = plans.find(row.trial);
+    if (plan != plans.end()) all.push_back(planned(row, plan->second));
+  }
+  if (explored) add_explored(store, session, all);
+  std::ranges::stable_sort(
+      all, {}, [](const PlannedPresentation& one) { return one.movement.first_tick; });
+  return all;
+}
+
+double ramp_s_of(const core::StudyStore& store, const core::SessionRow& session) {
+  return number_at(store.protocol(session.protocol_sha256).text, "/device/ramp_s")
+      .value_or(0.050);
+}
+
+std::optional<double> surface_height_m_of(const core::SessionRow& session) {
+  return number_at(session.laboratory, "/movement/surface_height_m/value");
+}
+
+std::optional<double> body_height_m_of(const core::StudyStore& store, std::int64_t session) {
+  for (const core::AnswerRow& row : store.answers(session)) {
+    if (row.item != "body_height_m") continue;
+    double height_m = 0.0;
+    const char* end = row.answer.data() + row.answer.size();
+    const auto [stop, error] = std::from_chars(row.answer.data(), end, height_m);
+    if (error == std::errc() && stop == end && height_m >= 0.5 && height_m <= 2.5) {
+      return height_m;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace jnd::analysis

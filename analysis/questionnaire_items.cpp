@@ -1,0 +1,92 @@
+#include "analysis/questionnaire_items.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kDefaultSteps = 10;  ///< What the format says of a scale without `num_steps`.
+
+std::string string_at(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// A text of the study file: one string, or one a language.
+std::string text_at(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) return "";
+  if (found->is_string()) return found->get<std::string>();
+  if (!found->is_object() || found->empty()) return "";
+  const std::string english = string_at(*found, "en");
+  return english.empty() && found->begin()->is_string() ? found->begin()->get<std::string>()
+                                                        : english;
+}
+
+/// The objects in a list; none where there is no list.
+std::vector<json> objects_at(const json& object, const char* key) {
+  std::vector<json> objects;
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array()) return objects;
+  std::copy_if(found->begin(), found->end(), std::back_inserter(objects),
+               [](const json& one) { return one.is_object(); });
+  return objects;
+}
+
+QuestionnaireItem item_of(const json& object, const std::string& stage, const char* kind_key) {
+  QuestionnaireItem item{.stage = stage,
+                         .name = string_at(object, "name"),
+                         .kind = string_at(object, kind_key),
+                         .question = text_at(object, "question"),
+                         .unit = string_at(object, "unit")};
+  for (const json& option : objects_at(object, "options")) {
+    item.options.push_back(string_at(option, "value"));
+  }
+  if (item.kind != "scale") return item;
+  const auto steps = object.find("num_steps");
+  item.num_steps =
+      steps != object.end() && steps->is_number_integer() ? steps->get<int>() : kDefaultSteps;
+  const auto good = object.find("high_is_good");
+  item.high_is_good = good != object.end() && good->is_boolean() && good->get<bool>();
+  return item;
+}
+
+void add_items(const json& stages_or_arms, const char* key,
+               std::vector<QuestionnaireItem>& items) {
+  for (const json& stage : objects_at(stages_or_arms, key)) {
+    const std::string kind = string_at(stage, "kind");
+    if (kind == "questionnaire" || kind == "post_experiment") {
+      for (const json& object : objects_at(stage, "items")) {
+        items.push_back(item_of(object, string_at(stage, "name"),
+                                kind == "questionnaire" ? "kind" : "answer"));
+      }
+    }
+    for (const char* nested : {"arms", "stages", "between"}) add_items(stage, nested, items);
+  }
+}
+
+}  // namespace
+
+std::vector<QuestionnaireItem> questionnaire_items(const json& protocol) {
+  std::vector<QuestionnaireItem> items;
+  add_items(protocol, "stages", items);
+  return items;
+}
+
+void merge_items(std::vector<QuestionnaireItem>& items, std::vector<QuestionnaireItem> added) {
+  for (QuestionnaireItem& one : added) {
+    const auto known = std::ranges::find_if(items, [&](const QuestionnaireItem& other) {
+      return other.stage == one.stage && other.name == one.name;
+    });
+    if (known == items.end()) {
+      items.push_back(std::move(one));
+    } else {
+      *known = std::move(one);
+    }
+  }
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace jnd::analysis {
+
+/// A question of a study, as far as its answers have to be read: of a questionnaire or after
+/// the experiment.
+struct QuestionnaireItem {
+  std::string stage;
+  std::string name;  ///< "safety"
+  std::string
+      kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which", "scale", "words".
+  std::string question;              ///< In English, or in the first language there is.
+  std::string unit;                  ///< Of a number; "" without.
+  int num_steps = 0;                 ///< Of a scale, counted from 1.
+  bool high_is_good = false;         ///< Of a scale: the last step is the favourable end.
+  std::vector<std::string> options;  ///< Of a choice, as stored.
+};
+
+/// The questions of a study file in their order, those of every arm among them. What does not
+/// look like a question is passed over: the reader of study files has checked it.
+[[nodiscard]] std::vector<QuestionnaireItem> questionnaire_items(
+    const nlohmann::json& protocol);
+
+/// Adds the items that are new; one of the same stage and name is replaced, so that the last
+/// version of a study file is in force.
+void merge_items(std::vector<QuestionnaireItem>& items, std::vector<QuestionnaireItem> added);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/groups/summary.h"
+#include "analysis/groups/wilson_interval.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/plot_parts.h"
+#include "analysis/report/report_words.h"
+#include "core/psychometric_function.h"
+
+namespace jnd::analysis {
+namespace {
+
+struct LevelAnswers {
+  std::int64_t num_yes = 0, num_trials = 0;
+  [[nodiscard]] double ratio() const {
+    return static_cast<double>(num_yes) / static_cast<double>(num_trials);
+  }
+};
+
+/// Answers of one participant in one block.
+struct OwnAnswers {
+  std::string participant;
+  std::map<double, LevelAnswers> levels;
+  const ParticipantEstimate* fraction = nullptr;
+};
+
+struct BlockAnswers {
+  std::string block, title, quantity;
+  double reference = 0.0;
+  std::vector<OwnAnswers> participants;  ///< Those who answered.
+  std::vector<double> levels;            ///< Ascending.
+};
+
+BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
+  BlockAnswers all{.block = block.block,
+                   .title = source.words.title_of(block.block),
+                   .quantity = block.quantity};
+  std::map<double, int> levels;
+  for (const ParticipantData& participant : source.data.participants) {
+    OwnAnswers own{.participant = participant.participant};
+    for (const core::TrialRow& trial : participant.trials_in(block.block)) {
+      if (!trial.intensity || !trial.response || !trial.reference_intensity) continue;
+      all.reference = *trial.reference_intensity;
+      LevelAnswers& level = own.levels[*trial.intensity];
+      level.num_yes += *trial.response > 0.5 ? 1 : 0;
+      ++level.num_trials;
+      ++levels[*trial.intensity];
+    }
+    if (own.levels.empty()) continue;
+    own.fraction =
+        source.own(block.block, participant.participant, block.block + ".weber_fraction");
+    all.participants.push_back(std::move(own));
+  }
+  for (const auto& [level, count] : levels) all.levels.push_back(level);
+  return all;
+}
+
+AxisRange intensity_range(const BlockAnswers& answers) {
+  std::vector<double> values = answers.levels;
+  values.push_back(answers.reference);
+  AxisRange range = axis_range(values);
+  range.low = std::max(range.low, 0.0);
+  return range;
+}
+
+std::vector<std::pair<double, double>> curve(const BlockAnswers& answers, double fraction) {
+  const core::PsychometricFunction function{.pse = answers.reference,
+                                            .weber_fraction = fraction};
+  const AxisRange range = intensity_range(answers);
+  std::vector<std::pair<double, double>> points;
+  constexpr int kPoints = 120;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double intensity = range.low + (range.high - range.low) * i / kPoints;
+    points.emplace_back(intensity, function.probability(intensity));
+  }
+  return points;
+}
+
+/// Everybody's answers, and the curve through those of each who has one.
+FigureTable answers_table(const BlockAnswers& answers) {
+  FigureTable table{.name = file_word(answers.block) + "_answers",
+                    .columns = {"series", "participant", "intensity", "num_yes", "num_trials",
+                                "ratio", "ratio_low", "ratio_high"}};
+  int series = 0;
+  for (const OwnAnswers& own : answers.participants) {
+    ++series;
+    for (const auto& [intensity, level] : own.levels) {
+      const auto [low, high] = wilson_interval(level.num_yes, level.num_trials);
+      table.rows.push_back({series, own.participant, intensity,
+                            static_cast<double>(level.num_yes),
+                            static_cast<double>(level.num_trials), level.ratio(), low, high});
+    }
+  }
+  return table;
+}
+
+FigureTable curves_table(const BlockAnswers& answers) {
+  FigureTable table{.name = file_word(answers.block) + "_curves",
+                    .columns = {"series", "participant", "intensity", "ratio"}};
+  int series = 0;
+  for (const OwnAnswers& own : answers.participants) {
+    ++series;
+    if (own.fraction == nullptr || !own.fraction->value) continue;
+    for (const auto& [intensity, ratio] : curve(answers, *own.fraction->value)) {
+      table.rows.push_back({series, own.participant, intensity, ratio});
+    }
+  }
+  return table;
+}
+
+FigureTable means_table(const BlockAnswers& answers) {
+  FigureTable table{
+      .name = file_word(answers.block) + "_means",
+      .columns = {"intensity", "mean_ratio", "sd_ratio", "low", "high", "num_participants"}};
+  for (const double intensity : answers.levels) {
+    std::vector<double> ratios;
+    for (const OwnAnswers& own : answers.participants) {
+      const auto found = own.levels.find(intensity);
+      if (found != own.levels.end()) ratios.push_back(found->second.ratio());
+    }
+    const Summary summary = summary_of(ratios);
+    const double sd = summary.standard_deviation.value_or(0.0);
+    table.rows.push_back({intensity, summary.mean, summary.standard_deviation,
+                          *summary.mean - sd, *summary.mean + sd, summary.num_values});
+  }
+  return table;
+}
+
+std::string reference_line(const BlockAnswers& answers) {
+  const std::string x = plot_number(answers.reference);
+  return "  set arrow 1 from " + x + ",graph 0 to " + x + ",graph 1 nohead ls 12\n";
+}
+
+/// Fig. 5 and D.23: the group's answers, its curve, everybody's curve behind.
+Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
+  Figure figure{.name = file_word(answers.block) + "_psychometric",
+                .section = answers.block,
+                .title = "Psychometric function, " + answers.title,
+                .thesis = "Fig. 5, D.6 and D.23",
+                .width_in = 5.2,
+                .height_in = 3.3,
+                .tables = {means_table(answers), curves_table(answers)}};
+  const Estimate* const pooled = source.results.find(answers.block + ".weber_fraction");
+  const bool has_curve = pooled != nullptr && pooled->value;
+  FigureTable group{.name = file_word(answers.block) + "_group_curve",
+                    .columns = {"intensity", "ratio"}};
+  if (has_curve) {
+    for (const auto& [intensity, ratio] : curve(answers, *pooled->value)) {
+      group.rows.push_back({intensity, ratio});
+    }
+  }
+  const AxisRange range = intensity_range(answers);
+  figure.plot = "  set xrange " + range_words(range) + "\n  set yrange [-0.06:1.06]\n" +
+                "  set xlabel " + gnuplot_quoted(quantity_axis(answers.quantity)) +
+                "\n  set ylabel 'Proportion of answers “more”'\n" +
+                "  set key bottom right reverse Left samplen 2\n" + reference_line(answers);
+  std::string plot = "  plot ";
+  if (!figure.tables[1].rows.empty()) {
+    for (std::size_t i = 1; i <= answers.participants.size(); ++i) {
+      plot += from_table(figure.tables[1]) +
+              "'intensity':" + if_series(static_cast<int>(i), "ratio") + " with lines ls 10" +
+              (i == 1 ? " title 'participants, fitted'" : "") + ", ";
+    }
+  }
+  if (has_curve) {
+    const double at = answers.reference * (1.0 + *pooled->value);
+    if (at < range.high) {
+      const std::string x = plot_number(at);
+      figure.plot += "  set arrow 2 from first " + x + ",graph 0 to first " + x +
+                     ",first 0.8413 nohead ls 12\n  set arrow 3 from graph 0,first 0.8413 to "
+                     "first " +
+                     x + ",first 0.8413 nohead ls 12\n";
+    }
+    plot += from_table(group) + "'intensity':'ratio' with lines ls 11 title " +
+            gnuplot_quoted("fit to all, w = " + number_words(pooled->value, 3)) + ", ";
+  }
+  plot += from_table(figure.tables[0]) +
+          "'intensity':'mean_ratio':'low':'high' with yerrorbars ls 11 lc rgb '#0072B2' ps 0.8 "
+          "title 'mean ± sd'\n";
+  figure.plot += plot;
+  figure.caption =
+      "Mean proportion of answers “more than the reference” and standard deviation between " +
+      counted_words(std::ssize(answers.participants), "participant") +
+      " at each level; the pooled curve (least squares, point of subjective equality at the "
+      "reference) in black, " +
+      "each participant’s own (maximum likelihood) in grey. Dashed: the reference, " +
+      number_words(answers.reference) + " " + quantity_unit(answers.quantity) +
+      (has_curve
+           ? ", and where the pooled curve reaches 84.13 %, which is the Weber fraction w "
+             "above it."
+           : ". The pooled answers have no curve.");
+  figure.tables.push_back(std::move(group));
+  return figure;
+}
+
+/// D.5 and D.20, of everybody.
+std::vector<Figure> participant_figures(const BlockAnswers& answers) {
+  constexpr std::size_t kPanels = 20;
+  std::vector<Figure> figures;
+  const FigureTable points = answers_table(answers);
+  const FigureTable curves = curves_table(answers);
+  for (std::size_t first = 0; first < answers.participants.size(); first += kPanels) {
+    const std::size_t end = std::min(first + kPanels, answers.participants.size());
+    const std::string part = first == 0 ? "" : "_" + std::to_string(first / kPanels + 1);
+    Figure figure{.name = file_word(answers.block) + "_participants" + part,
+                  .section = answers.block,
+                  .title = "Answers of every participant, " + answers.title,
+                  .thesis = "Fig. D.5 and D.20"};
+    PanelGrid grid{.num_columns = 5,
+                   .x_title = quantity_axis(answers.quantity),
+                   .y_title = "Proportion of answers “more”",
+                   .gap_x_in = 0.3};
+    std::vector<Panel> panels;
+    for (std::size_t i = first; i < end; ++i) {
+      const OwnAnswers& own = answers.participants[i];
+      const bool fitted = own.fraction != nullptr && own.fraction->value;
+      const int series = static_cast<int>(i) + 1;
+      Panel panel{
+          .title = own.participant +
+                   (fitted ? "   w = " + number_words(own.fraction->value, 2) : "   no fit")};
+      if (i == first) {
+        panel.before = "  set xrange " + range_words(intensity_range(answers)) +
+                       "\n  set yrange [-0.06:1.06]\n  set ytics 0.5 font small\n" +
+                       small_tics("x", intensity_range(answers)) + reference_line(answers);
+      }
+      panel.plot = "plot ";
+      if (fitted) {
+        panel.plot += from_table(curves) + "'intensity':" + if_series(series, "ratio") +
+                      " with lines ls 11 lw 1.3, ";
+      }
+      panel.plot += from_table(points) + "'intensity':" + if_series(series, "ratio") +
+                    ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' lw 1 pt "
+                    "7 ps 0.4";
+      panels.push_back(std::move(panel));
+    }
+    figure.height_in = grid_height_in(grid, panels.size(), 1.15);
+    figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+    figure.caption =
+        "Proportion of answers “more than the reference” with Wilson’s 95 % interval, and the "
+        "curve of maximum likelihood with its Weber fraction w, where there is one. Dashed: "
+        "the reference.";
+    figure.tables = {points, curves};
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+}  // namespace
+
+std::vector<Figure> discrimination_figures(const FigureSource& source) {
+  std::vector<Figure> figures;
+  for (const BlockDesign& block : source.data.blocks) {
+    if (block.procedure != "constant_stimuli") continue;
+    const BlockAnswers answers = answers_of(source, block);
+    if (answers.participants.empty()) continue;
+    figures.push_back(group_figure(source, answers));
+    for (Figure& figure : participant_figures(answers)) figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+}  // namespace jnd::analysis

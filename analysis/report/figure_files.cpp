@@ -1,0 +1,177 @@
+#include "analysis/report/figure_files.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "analysis/export/csv_table_writer.h"
+#include "analysis/report/run_tool.h"
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_table(const FigureTable& table, const fs::path& folder, bool simulated) {
+  std::vector<CsvColumn> columns;
+  for (const std::string& name : table.columns) columns.push_back({name.c_str(), "", ""});
+  if (simulated) columns.push_back({"simulated", "", ""});
+  CsvTableWriter writer(folder / (table.name + ".csv"), columns);
+  for (const std::vector<FigureCell>& row : table.rows) {
+    for (const FigureCell& cell : row) {
+      if (cell.number) {
+        writer.cell(*cell.number);
+      } else {
+        writer.cell(cell.text);
+      }
+    }
+    if (simulated) writer.cell(std::int64_t{1});
+    writer.end_row();
+  }
+  writer.finish();
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// gnuplot says nothing of a disk that is full: a file without its end is none.
+bool is_whole(const std::string& text, const char* end) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  const std::string_view closing = end;
+  return last != std::string::npos && last + 1 >= closing.size() &&
+         text.compare(last + 1 - closing.size(), closing.size(), closing) == 0;
+}
+
+void require_whole(const fs::path& file, const std::string& text, const char* end) {
+  if (is_whole(text, end)) return;
+  throw core::Error(file.string() +
+                    ": expected gnuplot to write this file, found it without its end; is the "
+                    "disk full?");
+}
+
+/// Where Inter is not installed another face without serifs comes next to it.
+std::string with_other_fonts(std::string svg) {
+  const std::string alone = "font-family=\"Inter\"";
+  const std::string with_others = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
+  std::string text;
+  std::size_t from = 0;
+  for (std::size_t at = svg.find(alone); at != std::string::npos; at = svg.find(alone, from)) {
+    text.append(svg, from, at - from).append(with_others);
+    from = at + alone.size();
+  }
+  return text.append(svg, from);
+}
+
+DrawnFigure draw(const Figure& figure, const fs::path& folder, const FigureOptions& options) {
+  DrawnFigure drawn{.name = figure.name};
+  const ToolOutcome outcome = run_tool(options.gnuplot, {figure.name + ".gp"}, folder);
+  const fs::path svg = folder / (figure.name + ".svg");
+  const fs::path pdf = folder / (figure.name + ".pdf");
+  if (outcome.ok) {
+    drawn.svg = with_other_fonts(text_of(svg));
+    require_whole(svg, drawn.svg, "</svg>");
+    write_text_file(svg, drawn.svg);
+    require_whole(pdf, text_of(pdf), "%%EOF");
+    set_pdf_dates(pdf, options.date_time_ns);
+    return drawn;
+  }
+  drawn.problem = "gnuplot: " + outcome.problem;
+  // Nothing half drawn stays.
+  std::error_code ignored;
+  fs::remove(svg, ignored);
+  fs::remove(pdf, ignored);
+  return drawn;
+}
+
+/// "20261120190123", as a PDF tells dates.
+std::string pdf_digits(std::int64_t time_ns) {
+  using namespace std::chrono;
+  const auto moment = sys_time<nanoseconds>(nanoseconds(time_ns));
+  const auto day = floor<days>(moment);
+  const year_month_day date(day);
+  const hh_mm_ss<seconds> time(floor<seconds>(moment - day));
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%04d%02u%02u%02d%02d%02d",
+                static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()), static_cast<int>(time.hours().count()),
+                static_cast<int>(time.minutes().count()),
+                static_cast<int>(time.seconds().count()));
+  return text.data();
+}
+
+}  // namespace
+
+void write_text_file(const fs::path& file, const std::string& text) {
+  std::FILE* stream = std::fopen(file.c_str(), "wb");
+  bool written = stream != nullptr;
+  if (written) {
+    written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+    written = std::fclose(stream) == 0 && written;
+  }
+  if (written) return;
+  throw core::Error(file.string() +
+                    ": expected to write this file, found: " + std::strerror(errno));
+}
+
+void set_pdf_dates(const fs::path& file, std::int64_t time_ns) {
+  std::string text = text_of(file);
+  const std::string digits = pdf_digits(time_ns);
+  for (const char* key :
+       {"/CreationDate (D:", "/ModDate (D:", "/CreationDate(D:", "/ModDate(D:"}) {
+    const std::string mark = key;
+    for (std::size_t at = text.find(mark); at != std::string::npos;
+         at = text.find(mark, at + 1)) {
+      const std::size_t from = at + mark.size();
+      if (from + digits.size() <= text.size()) text.replace(from, digits.size(), digits);
+    }
+  }
+  write_text_file(file, text);
+}
+
+std::vector<DrawnFigure> write_figures(const std::vector<Figure>& figures,
+                                       const fs::path& folder, const FigureOptions& options) {
+  for (const Figure& figure : figures) {
+    for (const FigureTable& table : figure.tables) {
+      write_table(table, folder, options.simulated);
+    }
+    write_text_file(folder / (figure.name + ".gp"), gnuplot_script(figure, options.simulated));
+  }
+  std::vector<DrawnFigure> drawn(figures.size());
+  if (options.gnuplot.empty()) {
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      drawn[i] = {.name = figures[i].name, .problem = "gnuplot is not installed"};
+    }
+    return drawn;
+  }
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> errors(figures.size());
+  const auto work = [&] {
+    for (std::size_t i = next++; i < figures.size(); i = next++) {
+      try {
+        drawn[i] = draw(figures[i], folder, options);
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int job = 1; job < options.jobs; ++job) others.emplace_back(work);
+  work();
+  others.clear();
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+  return drawn;
+}
+
+}  // namespace jnd::analysis

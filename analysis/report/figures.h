@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/movement/movement_analysis.h"
+#include "analysis/report/figure.h"
+#include "analysis/report/study_words.h"
+#include "analysis/study_data.h"
+#include "analysis/study_results.h"
+
+namespace jnd::analysis {
+
+/// What figures are drawn from.
+struct FigureSource {
+  const StudyData& data;
+  const StudyResults& results;
+  const StudyWords& words;
+
+  /// Nullptr if there is none of this name.
+  [[nodiscard]] const ResultsSection* section(const std::string& name) const;
+  [[nodiscard]] const ParticipantEstimate* own(const std::string& section,
+                                               const std::string& participant,
+                                               const std::string& estimate) const;
+  [[nodiscard]] std::vector<std::string> participants() const;
+};
+
+// One function a kind of data; each gives the figures there are data for, in the order of the
+// report. Not real time.
+
+/// Psychometric curves (fig. 5, D.5, D.6, D.20, D.23 of the thesis).
+[[nodiscard]] std::vector<Figure> discrimination_figures(const FigureSource& source);
+/// Weber fractions (D.21) and absolute thresholds (D.22) of every block.
+[[nodiscard]] std::vector<Figure> weber_figures(const FigureSource& source);
+
+/// Curves of estimation and production (fig. 4a and b, D.3, D.9, D.12, D.14), repetitions
+/// (D.8), boxes (D.1, D.2, D.10, D.11), ratios of productions (D.13).
+[[nodiscard]] std::vector<Figure> magnitude_figures(const FigureSource& source);
+/// The power laws of both and between them (fig. 4c, D.4, D.15).
+[[nodiscard]] std::vector<Figure> combined_figures(const FigureSource& source);
+
+/// Ours over published, estimate by estimate.
+[[nodiscard]] std::vector<Figure> published_figures(const FigureSource& source);
+
+/// Stroke width and speed of every participant, from summaries of strokes (D.17, D.25).
+[[nodiscard]] std::vector<Figure> stroke_figures(const FigureSource& source);
+
+/// What takes recordings: trajectories (D.16, D.24), joint angles over a stroke (D.18, D.26),
+/// torque over velocity (D.19, D.27), distance of tips to the end effector (D.28), force over
+/// speed.
+[[nodiscard]] std::vector<Figure> recording_figures(const FigureSource& source,
+                                                    const MovementAnalysis& movement);
+
+}  // namespace jnd::analysis

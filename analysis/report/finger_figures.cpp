@@ -1,0 +1,353 @@
+#include <algorithm>
+#include <array>
+
+#include "analysis/report/plot_parts.h"
+#include "analysis/report/recording_conditions.h"
+#include "analysis/report/report_words.h"
+#include "core/hand.h"
+#include "core/joints.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr const char* kFingerTitles[] = {"palm, inner", "palm, outer", "thumb", "index",
+                                         "middle"};
+constexpr const char* kJointTitles[] = {"base abduction", "base extension", "proximal"};
+
+/// At most that many rows of panels on a page.
+constexpr std::size_t kRows = 4;
+
+std::string joint_column(int finger, int joint) {
+  return std::string(
+      core::kJointNames[static_cast<std::size_t>(core::finger_joint(finger, joint))]);
+}
+
+/// Mean curves of the joints of all fingers, one block of rows a condition.
+FigureTable joints_table(const std::string& name, const char* unit,
+                         const std::vector<ShownCondition>& conditions,
+                         const std::array<CurveBand, core::kNumJoints> StrokeCurves::*bands) {
+  FigureTable table{
+      .name = name,
+      .columns = {"series", "condition", "stroke_percent", "forward_velocity_m_per_s"}};
+  for (const char* statistic : {"", "_sd"}) {
+    for (int joint = core::kNumArmJoints; joint < core::kNumJoints; ++joint) {
+      table.columns.push_back(std::string(core::kJointNames[static_cast<std::size_t>(joint)]) +
+                              unit + statistic);
+    }
+  }
+  const auto at = [](const std::vector<double>& values, std::size_t i) -> FigureCell {
+    return i < values.size() ? FigureCell(values[i]) : FigureCell();
+  };
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    const StrokeCurves& curves = conditions[c].movement->curves;
+    for (std::size_t i = 0; i < curves.stroke_percent.size(); ++i) {
+      std::vector<FigureCell> row = {static_cast<int>(c) + 1, conditions[c].name,
+                                     curves.stroke_percent[i],
+                                     at(curves.forward_velocity_m_per_s.mean, i)};
+      for (const bool spread : {false, true}) {
+        for (std::size_t joint = core::kNumArmJoints; joint < core::kNumJoints; ++joint) {
+          const CurveBand& band = (curves.*bands)[joint];
+          row.push_back(at(spread ? band.standard_deviation : band.mean, i));
+        }
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+/// Conditions whose device had joints, as many as a page holds.
+std::vector<ShownCondition> with_joints(const FigureSource& source,
+                                        const ParticipantMovement& person) {
+  std::vector<ShownCondition> kept;
+  for (const ShownCondition& condition : whole_conditions(source, person)) {
+    if (condition.movement->curves.has_joints && kept.size() < kRows) kept.push_back(condition);
+  }
+  return kept;
+}
+
+std::string turn_lines(const StrokeCurves& curves) {
+  std::string lines;
+  int number = 10;
+  for (const std::optional<double>& turn :
+       {curves.turn_forward_percent, curves.turn_back_percent}) {
+    const std::string arrow = "  unset arrow " + std::to_string(number) + "\n";
+    lines += arrow;
+    if (turn) {
+      const std::string x = plot_number(*turn);
+      lines += "  set arrow " + std::to_string(number) + " from " + x + ",graph 0 to " + x +
+               ",graph 1 nohead ls 12\n";
+    }
+    ++number;
+  }
+  return lines;
+}
+
+/// The condition of a row, beside its first panel.
+std::string row_title(int finger, const std::string& title) {
+  if (finger > 0) return "  unset ylabel\n";
+  return "  set ylabel " + gnuplot_quoted(title) + " font small\n";
+}
+
+/// The vertical axis of one finger's panel: its joints with their spread, few tics.
+std::string own_scale(const std::array<CurveBand, core::kNumJoints>& bands, int finger,
+                      bool about_mean, double unit) {
+  std::vector<double> values;
+  for (int joint = 0; joint < core::kNumJointsPerFinger; ++joint) {
+    const CurveBand& band = bands[static_cast<std::size_t>(core::finger_joint(finger, joint))];
+    const double middle = about_mean ? mean_of(band.mean) : 0.0;
+    for (std::size_t i = 0; i < band.mean.size(); ++i) {
+      const bool with_spread = about_mean && i < band.standard_deviation.size();
+      const double spread = with_spread ? band.standard_deviation[i] : 0.0;
+      values.push_back(unit * (band.mean[i] - middle - spread));
+      values.push_back(unit * (band.mean[i] - middle + spread));
+    }
+  }
+  const AxisRange range = axis_range(values);
+  return "  set yrange " + range_words(range) + "\n" + small_tics("y", range);
+}
+
+constexpr char kKeyAbove[] =
+    "  set key at screen 0.5,0.995 center top vertical maxrows 1 reverse Left samplen 2 font "
+    "small\n";
+
+std::string who_words(const ParticipantMovement& person,
+                      const std::vector<ShownCondition>& conditions) {
+  std::string words = "Participant " + person.participant + "; rows:";
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    words += (i > 0 ? ", " : " ") + conditions[i].title + " (" +
+             counted_words(conditions[i].movement->curves.num_strokes, "stroke") + ")";
+  }
+  return words +
+         ". Columns: the five fingers of the exoskeleton, by where they hold the hand. ";
+}
+
+}  // namespace
+
+std::optional<Figure> joint_angles_figure(const FigureSource& source,
+                                          const ParticipantMovement& person) {
+  const std::vector<ShownCondition> conditions = with_joints(source, person);
+  if (conditions.empty()) return std::nullopt;
+  FigureTable table =
+      joints_table("joint_angles", "_rad", conditions, &StrokeCurves::joint_position_rad);
+  Figure figure{.name = "joint_angles",
+                .section = "movement",
+                .title = "Joint angles over a stroke",
+                .thesis = "Fig. D.18 and D.26"};
+  PanelGrid grid{.num_columns = core::kNumContactPoints,
+                 .x_title = "Stroke [%]",
+                 .y_title = "Change of the joint angle [°]",
+                 .left_in = 0.85,
+                 .top_in = 0.55};
+  std::vector<Panel> panels;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    for (int finger = 0; finger < core::kNumContactPoints; ++finger) {
+      Panel panel{.title = c == 0 ? kFingerTitles[finger] : ""};
+      if (panels.empty()) {
+        panel.before =
+            std::string(kKeyAbove) + "  set xrange [0:100]\n  set xtics 50 font small\n";
+      }
+      panel.before += row_title(finger, conditions[c].title) +
+                      own_scale(conditions[c].movement->curves.joint_position_rad, finger,
+                                /*about_mean=*/true, 57.29577951308232);
+      if (finger == 0) panel.before += turn_lines(conditions[c].movement->curves);
+      panel.plot = "plot ";
+      for (int joint = 0; joint < core::kNumJointsPerFinger; ++joint) {
+        const std::string column = joint_column(finger, joint) + "_rad";
+        const std::string here = "(column('series')==" + std::to_string(c + 1) + " ? ";
+        const std::string type = std::to_string(joint + 1);
+        // From its mean over the stroke: the range of the motion is what is compared.
+        const auto index = static_cast<std::size_t>(core::finger_joint(finger, joint));
+        const std::string mean =
+            plot_number(mean_of(conditions[c].movement->curves.joint_position_rad[index].mean));
+        const std::string degrees = "*57.29577951308232 : NaN)";
+        panel.plot += (joint > 0 ? ", " : "") + from_table(table) + "'stroke_percent':" + here +
+                      "(column('" + column + "')-" + mean + "-column('" + column + "_sd'))" +
+                      degrees + ":" + here + "(column('" + column + "')-" + mean + "+column('" +
+                      column + "_sd'))" + degrees + " with filledcurves lt " + type +
+                      " fs transparent solid 0.18 noborder, " + from_table(table) +
+                      "'stroke_percent':" + here + "(column('" + column + "')-" + mean + ")" +
+                      degrees + " with lines lt " + type + " lw 1.5";
+        if (panels.empty()) panel.plot += std::string(" title '") + kJointTitles[joint] + "'";
+      }
+      panels.push_back(std::move(panel));
+    }
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), 1.25);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  figure.caption =
+      who_words(person, conditions) +
+      "Mean and standard deviation over strokes, each joint about its mean over the stroke; "
+      "the distal joint follows the proximal one. 0 % is the middle of the motion back, dashed "
+      "lines are the turning points.";
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+std::optional<Figure> joint_torques_figure(const FigureSource& source,
+                                           const ParticipantMovement& person) {
+  const std::vector<ShownCondition> conditions = with_joints(source, person);
+  if (conditions.empty()) return std::nullopt;
+  FigureTable table =
+      joints_table("joint_torques", "_n_m", conditions, &StrokeCurves::joint_torque_n_m);
+  Figure figure{.name = "joint_torques",
+                .section = "movement",
+                .title = "Joint torques over the velocity of the hand",
+                .thesis = "Fig. D.19 and D.27"};
+  PanelGrid grid{.num_columns = core::kNumContactPoints,
+                 .x_title = "Velocity of the hand, forward positive [m/s]",
+                 .y_title = "Joint torque [N m]",
+                 .left_in = 0.85,
+                 .top_in = 0.55};
+  std::vector<Panel> panels;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    for (int finger = 0; finger < core::kNumContactPoints; ++finger) {
+      Panel panel{.title = c == 0 ? kFingerTitles[finger] : ""};
+      if (panels.empty()) {
+        panel.before = std::string(kKeyAbove) + "  set xtics 0.5 font small\n";
+      }
+      panel.before += row_title(finger, conditions[c].title) +
+                      own_scale(conditions[c].movement->curves.joint_torque_n_m, finger,
+                                /*about_mean=*/false, 1.0);
+      panel.plot = "plot ";
+      for (int joint = 0; joint < core::kNumJointsPerFinger; ++joint) {
+        const std::string column = joint_column(finger, joint) + "_n_m";
+        const std::string type = std::to_string(joint + 1);
+        panel.plot +=
+            (joint > 0 ? ", " : "") + from_table(table) +
+            "'forward_velocity_m_per_s':" + if_series(static_cast<int>(c) + 1, column) +
+            " with lines lt " + type + " lw 1.3";
+        if (panels.empty()) panel.plot += std::string(" title '") + kJointTitles[joint] + "'";
+        panel.plot += ", " + from_table(table) +
+                      "(column('stroke_percent')==0 ? column('forward_velocity_m_per_s') : "
+                      "NaN):" +
+                      if_series(static_cast<int>(c) + 1, column) +
+                      " with points pt 7 ps 0.4 lc rgb 'black'";
+      }
+      panels.push_back(std::move(panel));
+    }
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), 1.25);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  figure.caption = who_words(person, conditions) +
+                   "Means over strokes, as the torque sensors say; black dots: the middle of "
+                   "the motion back, where a stroke begins.";
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+std::optional<Figure> tip_distances_figure(const FigureSource& source,
+                                           const MovementAnalysis& movement) {
+  constexpr std::size_t kPeople = 5;
+  constexpr std::size_t kConditions = 9;
+  FigureTable table{
+      .name = "tip_distances",
+      .columns = {"person", "participant", "series", "condition", "stroke_percent"}};
+  for (const std::string_view point : core::kContactPointNames) {
+    table.columns.push_back(std::string(point) + "_m");
+  }
+  std::vector<const ParticipantMovement*> people;
+  std::vector<std::string> titles;  // Of conditions, in the order of their series.
+  std::vector<StrokeCurves> turns;
+  std::vector<std::array<std::vector<double>, core::kNumContactPoints>> distances_mm;
+  for (const ParticipantMovement& person : movement.participants) {
+    if (people.size() == kPeople) break;
+    bool any = false;
+    for (const ShownCondition& condition : each_intensity(source, person)) {
+      const StrokeCurves& curves = condition.movement->curves;
+      // Of a device without joints the tips are where the hand is.
+      if (!curves.has_joints ||
+          curves.tip_distance_m[0].mean.size() != curves.stroke_percent.size()) {
+        continue;
+      }
+      auto known = std::find(titles.begin(), titles.end(), condition.title);
+      if (known == titles.end()) {
+        if (titles.size() == kConditions) continue;
+        titles.push_back(condition.title);
+        known = std::prev(titles.end());
+      }
+      if (!any) {
+        people.push_back(&person);
+        turns.push_back(curves);
+        distances_mm.emplace_back();
+        any = true;
+      }
+      for (std::size_t finger = 0; finger < curves.tip_distance_m.size(); ++finger) {
+        for (const double distance_m : curves.tip_distance_m[finger].mean) {
+          distances_mm.back()[finger].push_back(1000.0 * distance_m);
+        }
+      }
+      for (std::size_t i = 0; i < curves.stroke_percent.size(); ++i) {
+        std::vector<FigureCell> row = {static_cast<int>(people.size()), person.participant,
+                                       static_cast<int>(known - titles.begin()) + 1,
+                                       condition.name, curves.stroke_percent[i]};
+        for (const CurveBand& band : curves.tip_distance_m) row.push_back(band.mean[i]);
+        table.rows.push_back(std::move(row));
+      }
+    }
+  }
+  if (people.empty()) return std::nullopt;
+  Figure figure{.name = "tip_distances",
+                .section = "movement",
+                .title = "Distance of the tips to the end effector over a stroke",
+                .thesis = "Fig. D.28"};
+  PanelGrid grid{
+      .num_columns = core::kNumContactPoints,
+      .x_title = "Stroke [%]",
+      .y_title = "Distance of the tip to the end effector [mm]",
+      .top_in = 0.45 + 0.14 * static_cast<double>(std::min<std::size_t>(3, titles.size()))};
+  std::vector<Panel> panels;
+  for (std::size_t p = 0; p < people.size(); ++p) {
+    for (int finger = 0; finger < core::kNumContactPoints; ++finger) {
+      Panel panel{.title = finger == 0 ? people[p]->participant + ", " + kFingerTitles[finger]
+                                       : kFingerTitles[finger]};
+      if (panels.empty()) {
+        panel.before =
+            "  set key at screen 0.5,0.985 center top vertical maxrows 3 reverse Left "
+            "samplen 3 font small\n  set xrange [0:100]\n  set xtics 50 font small\n";
+      }
+      const AxisRange range = axis_range(distances_mm[p][static_cast<std::size_t>(finger)]);
+      panel.before += "  set yrange " + range_words(range) + "\n" + small_tics("y", range);
+      if (finger == 0) panel.before += turn_lines(turns[p]);
+      const std::string column =
+          std::string(core::kContactPointNames[static_cast<std::size_t>(finger)]) + "_m";
+      panel.plot = "plot ";
+      for (std::size_t s = 0; s < titles.size(); ++s) {
+        // From light to dark and from dashes to a line, as the conditions come.
+        const double part =
+            titles.size() < 2 ? 1.0
+                              : static_cast<double>(s) / static_cast<double>(titles.size() - 1);
+        const auto shade = [part](double light, double dark) {
+          return std::to_string(static_cast<int>(light + part * (dark - light)));
+        };
+        const char* const kDashes[] = {"1", "(12,4)", "(5,3)", "(2,3)"};
+        panel.plot += (s > 0 ? ", " : "") + from_table(table) +
+                      "'stroke_percent':" + "(column('person')==" + std::to_string(p + 1) +
+                      " && column('series')==" + std::to_string(s + 1) + " ? 1000*column('" +
+                      column + "') : NaN) with lines lw 1.3 dt " + kDashes[s % 4] +
+                      " lc rgb (" + shade(150, 0) + "*65536+" + shade(190, 40) + "*256+" +
+                      shade(230, 100) + ")";
+        if (panels.empty()) panel.plot += " title " + gnuplot_quoted(titles[s]);
+      }
+      panels.push_back(std::move(panel));
+    }
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), 1.05);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  figure.caption = "Mean over strokes in each condition, one row a participant (" +
+                   std::string(movement.participants.size() > people.size()
+                                   ? "the first " + std::to_string(people.size())
+                                   : "all") +
+                   " with recordings). 0 % is the middle of the motion back; dashed lines: the "
+                   "turning points in the first condition.";
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,153 @@
+#include "analysis/report/html_text.h"
+
+namespace jnd::analysis {
+namespace {
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// What can stand within a document: no declaration before it, identifiers that no other figure
+/// of the document has, a name for who cannot see it.
+std::string inline_svg(std::string svg, const std::string& name, const std::string& title) {
+  const std::size_t start = svg.find("<svg");
+  if (start == std::string::npos) return "";
+  svg.erase(0, start);
+  for (const char* mark :
+       {" id='", " id=\"", "xlink:href='#", "xlink:href=\"#", "url(#", "url('#"}) {
+    replace_all(svg, mark, std::string(mark) + name + "-");
+  }
+  replace_all(svg, "<title>Gnuplot</title>", "<title>" + html_escaped(title) + "</title>");
+  const std::size_t described = svg.find("<desc>");
+  const std::size_t end = svg.find("</desc>");
+  if (described != std::string::npos && end != std::string::npos) {
+    svg.erase(described, end + 7 - described);
+  }
+  svg.insert(4, " role=\"img\"");
+  return svg;
+}
+
+/// A name that may go on in the next line after its parts.
+std::string breakable(const std::string& name) {
+  std::string parts = html_escaped(name);
+  replace_all(parts, "_", "_<wbr>");
+  replace_all(parts, ".", ".<wbr>");
+  return parts;
+}
+
+/// A name, and in a second line what it means.
+std::string name_cell(const std::string& text) {
+  const std::size_t end = text.find('\n');
+  std::string cell = "<code>" + breakable(text.substr(0, end)) + "</code>";
+  if (end == std::string::npos) return cell;
+  return cell + "<br><span class=\"meaning\">" + html_escaped(text.substr(end + 1)) + "</span>";
+}
+
+}  // namespace
+
+std::string html_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        // What is left of control characters shows nothing and is not allowed.
+        if (static_cast<unsigned char>(letter) >= 0x20 || letter == '\n' || letter == '\t') {
+          escaped += letter;
+        }
+    }
+  }
+  return escaped;
+}
+
+void HtmlText::heading(int level, const std::string& text) {
+  std::string number;
+  std::string id;
+  if (level == 2) {
+    subsection_ = 0;
+    number = std::to_string(++section_) + " ";
+    id = " id=\"section-" + std::to_string(section_) + "\"";
+    sections_.emplace_back("section-" + std::to_string(section_), number + text);
+  } else if (level == 3) {
+    number = std::to_string(section_) + "." + std::to_string(++subsection_) + " ";
+  }
+  const std::string tag = "h" + std::to_string(level);
+  text_ += "<" + tag + id + ">" + number + html_escaped(text) + "</" + tag + ">\n";
+}
+
+void HtmlText::paragraph(const std::string& text, const std::string& style) {
+  text_ += style.empty() ? "<p>" : "<p class=\"" + style + "\">";
+  text_ += html_escaped(text) + "</p>\n";
+}
+
+void HtmlText::paragraph_about(const std::string& topic, const std::string& text) {
+  const bool is_ended = topic.ends_with('?') || topic.ends_with('.');
+  text_ += "<p><b>" + html_escaped(topic) + (is_ended ? "</b> " : ".</b> ") +
+           html_escaped(text) + "</p>\n";
+}
+
+void HtmlText::list(const std::vector<std::string>& items) {
+  if (items.empty()) return;
+  text_ += "<ul>\n";
+  for (const std::string& item : items) text_ += "<li>" + html_escaped(item) + "</li>\n";
+  text_ += "</ul>\n";
+}
+
+void HtmlText::table(const HtmlTable& table) {
+  if (table.rows.empty()) return;
+  // One that fits on half a page is not torn apart.
+  constexpr std::size_t kShort = 16;
+  text_ += std::string("<div class=\"") +
+           (table.rows.size() <= kShort ? "short table" : "table") +
+           "\"><table>\n<caption><b>Table " + std::to_string(++num_tables_) + ".</b> " +
+           html_escaped(table.caption) + "</caption>\n<thead><tr>";
+  for (const HtmlTable::Column& column : table.columns) {
+    text_ += std::string(column.is_number ? "<th class=\"number\">" : "<th>") +
+             breakable(column.title) + "</th>";
+  }
+  text_ += "</tr></thead>\n<tbody>\n";
+  for (const std::vector<std::string>& row : table.rows) {
+    text_ += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const HtmlTable::Column column =
+          i < table.columns.size() ? table.columns[i] : HtmlTable::Column{};
+      text_ += column.is_number ? "<td class=\"number\">" : "<td>";
+      text_ += column.is_name ? name_cell(row[i]) : html_escaped(row[i]);
+      text_ += "</td>";
+    }
+    text_ += "</tr>\n";
+  }
+  text_ += "</tbody></table>\n";
+  for (const std::string& note : table.notes) {
+    text_ += "<p class=\"note\">" + html_escaped(note) + "</p>\n";
+  }
+  text_ += "</div>\n";
+}
+
+int HtmlText::figure(const std::string& name, const std::string& svg, const std::string& title,
+                     const std::string& caption) {
+  text_ += "<figure id=\"figure-" + html_escaped(name) + "\">\n" +
+           inline_svg(svg, name, title) + "\n<figcaption><b>Figure " +
+           std::to_string(++num_figures_) + ". " + html_escaped(title) + ".</b> " +
+           html_escaped(caption) + "</figcaption>\n</figure>\n";
+  return num_figures_;
+}
+
+}  // namespace jnd::analysis

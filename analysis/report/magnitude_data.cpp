@@ -1,0 +1,96 @@
+#include "analysis/report/magnitude_data.h"
+
+#include <cmath>
+
+#include "analysis/groups/summary.h"
+#include "core/power_function.h"
+
+namespace jnd::analysis {
+
+std::map<double, double> MagnitudeData::Own::means() const {
+  std::map<double, double> means;
+  for (const auto& [x, list] : values) {
+    double sum = 0.0;
+    for (const double value : list) sum += value;
+    means[x] = sum / static_cast<double>(list.size());
+  }
+  return means;
+}
+
+std::map<double, std::vector<std::pair<std::string, double>>> MagnitudeData::by_x() const {
+  std::map<double, std::vector<std::pair<std::string, double>>> all;
+  for (const Own& own : participants) {
+    for (const auto& [x, mean] : own.means()) all[x].emplace_back(own.participant, mean);
+  }
+  return all;
+}
+
+MagnitudeData magnitude_data(const FigureSource& source, const BlockDesign& block) {
+  MagnitudeData data{.block = block.block,
+                     .title = source.words.title_of(block.block),
+                     .quantity = block.quantity,
+                     .is_production = block.procedure == "magnitude_production"};
+  for (const ParticipantData& participant : source.data.participants) {
+    MagnitudeData::Own own{.participant = participant.participant};
+    for (const core::TrialRow& trial : participant.trials_in(block.block)) {
+      if (data.is_production) {
+        if (!trial.target_percent || !trial.response) continue;
+        own.values[*trial.target_percent / 100.0].push_back(*trial.response);
+      } else if (trial.intensity && trial.response) {
+        own.values[*trial.intensity].push_back(*trial.response / 100.0);
+        own.repetitions[trial.repetition][*trial.intensity] = *trial.response / 100.0;
+      }
+    }
+    if (!own.values.empty()) data.participants.push_back(std::move(own));
+  }
+  return data;
+}
+
+FigureTable own_means_table(const MagnitudeData& data) {
+  FigureTable table{.name = file_word(data.block) + "_participants",
+                    .columns = {"series", "participant", "intensity", "magnitude"}};
+  int series = 0;
+  for (const MagnitudeData::Own& own : data.participants) {
+    ++series;
+    for (const auto& [x, mean] : own.means()) {
+      table.rows.push_back({series, own.participant, data.is_production ? mean : x,
+                            data.is_production ? x : mean});
+    }
+  }
+  return table;
+}
+
+FigureTable group_means_table(const MagnitudeData& data) {
+  FigureTable table{
+      .name = file_word(data.block) + "_means",
+      .columns = {"intensity", "magnitude", "sd", "low", "high", "num_participants"}};
+  for (const auto& [x, people] : data.by_x()) {
+    std::vector<double> values;
+    for (const auto& [who, mean] : people) values.push_back(mean);
+    const Summary summary = summary_of(values);
+    const double sd = summary.standard_deviation.value_or(0.0);
+    table.rows.push_back({data.is_production ? *summary.mean : x,
+                          data.is_production ? x : *summary.mean, summary.standard_deviation,
+                          *summary.mean - sd, *summary.mean + sd, summary.num_values});
+  }
+  return table;
+}
+
+FigureTable power_curve_table(const std::string& name, const FigureSource& source,
+                              const std::string& estimate, const AxisRange& shown,
+                              const AxisRange& measured) {
+  FigureTable table{.name = name, .columns = {"intensity", "magnitude", "extrapolated"}};
+  const Estimate* const k = source.results.find(estimate + ".k");
+  const Estimate* const a = source.results.find(estimate + ".a");
+  if (k == nullptr || a == nullptr || !k->value || !a->value) return table;
+  const core::PowerFunction law{.k = *k->value, .a = *a->value};
+  constexpr int kPoints = 160;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double intensity = shown.low + (shown.high - shown.low) * i / kPoints;
+    const bool outside = intensity < measured.low || intensity > measured.high;
+    table.rows.push_back({intensity, law.magnitude(intensity), outside ? 1 : 0});
+  }
+  return table;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "analysis/report/figures.h"
+#include "analysis/report/plot_parts.h"
+
+namespace jnd::analysis {
+
+/// What a block of magnitudes left, as figures show it. Estimation: magnitudes (ratio to the
+/// modulus) at intensities. Production: intensities at magnitudes that were asked for.
+struct MagnitudeData {
+  struct Own {
+    std::string participant;
+    /// By repetition; estimation alone, where each repetition has every intensity once.
+    std::map<std::int64_t, std::map<double, double>> repetitions;
+    std::map<double, std::vector<double>> values;  ///< At each x every answer.
+    [[nodiscard]] std::map<double, double> means() const;
+  };
+  std::string block, title, quantity;
+  bool is_production = false;
+  std::vector<Own> participants;  ///< Those who answered.
+
+  /// At each x the means of those participants who have one there.
+  [[nodiscard]] std::map<double, std::vector<std::pair<std::string, double>>> by_x() const;
+};
+
+[[nodiscard]] MagnitudeData magnitude_data(const FigureSource& source,
+                                           const BlockDesign& block);
+
+/// Each participant's mean at each x: columns series, participant, intensity, magnitude.
+[[nodiscard]] FigureTable own_means_table(const MagnitudeData& data);
+/// Mean and standard deviation between participants: intensity, magnitude, low, high (of what
+/// was answered), num_participants.
+[[nodiscard]] FigureTable group_means_table(const MagnitudeData& data);
+
+/// S = k I^a of the results as a curve over `shown`; empty where they have none. `extrapolated`
+/// is 1 beyond `measured`.
+[[nodiscard]] FigureTable power_curve_table(const std::string& name, const FigureSource& source,
+                                            const std::string& estimate, const AxisRange& shown,
+                                            const AxisRange& measured);
+
+}  // namespace jnd::analysis

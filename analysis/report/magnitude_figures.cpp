@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/groups/comparison.h"
+#include "analysis/report/box_plot.h"
+#include "analysis/report/magnitude_data.h"
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr char kMagnitudeAxis[] = "Perceived magnitude (modulus = 1)";
+
+std::string law_words(const FigureSource& source, const std::string& estimate) {
+  const Estimate* const k = source.results.find(estimate + ".k");
+  const Estimate* const a = source.results.find(estimate + ".a");
+  if (k == nullptr || a == nullptr || !k->value || !a->value) return "";
+  return "k = " + number_words(k->value, 3) + ", a = " + number_words(a->value, 3);
+}
+
+/// Ends of the intensities shown: from nothing to the largest mean of anybody.
+AxisRange shown_intensities(const FigureTable& own, const FigureTable& group) {
+  double most = 0.0;
+  for (const FigureTable* table : {&own, &group}) {
+    const std::size_t column = table == &own ? 2 : 0;
+    for (const auto& row : table->rows) most = std::max(most, row[column].number.value_or(0.0));
+  }
+  return {0.0, most > 0.0 ? 1.04 * most : 1.0};
+}
+
+AxisRange measured_intensities(const FigureTable& group) {
+  AxisRange range{0.0, 0.0};
+  bool first = true;
+  for (const auto& row : group.rows) {
+    const double intensity = row[0].number.value_or(0.0);
+    range.low = first ? intensity : std::min(range.low, intensity);
+    range.high = first ? intensity : std::max(range.high, intensity);
+    first = false;
+  }
+  return range;
+}
+
+/// Fig. 4a and b, D.3, D.9, D.12, D.14: everybody's means, those of the group, its power law.
+Figure curves_figure(const FigureSource& source, const MagnitudeData& data) {
+  FigureTable own = own_means_table(data);
+  FigureTable group = group_means_table(data);
+  const AxisRange shown = shown_intensities(own, group);
+  FigureTable curve = power_curve_table(file_word(data.block) + "_curve", source, data.block,
+                                        shown, measured_intensities(group));
+  Figure figure{.name = file_word(data.block) + "_curves",
+                .section = data.block,
+                .title = data.title + ": means and power law",
+                .thesis = data.is_production ? "Fig. 4b, D.3, D.12 and D.14"
+                                             : "Fig. 4a, D.3, D.9 and D.14",
+                .width_in = 5.2,
+                .height_in = 3.3};
+  const std::string law = law_words(source, data.block);
+  figure.plot =
+      "  set xrange " + range_words({-0.02 * shown.high, shown.high}) +
+      "\n  set yrange [0:*]\n  set xlabel " +
+      gnuplot_quoted(quantity_axis(data.quantity) + (data.is_production ? ", as set" : "")) +
+      "\n  set ylabel " + gnuplot_quoted(kMagnitudeAxis) +
+      "\n  set key top left reverse Left samplen 2\n  plot ";
+  for (std::size_t i = 1; i <= data.participants.size(); ++i) {
+    figure.plot +=
+        from_table(own) + "'intensity':" + if_series(static_cast<int>(i), "magnitude") +
+        " with linespoints ls 10 ps 0.3" + (i == 1 ? " title 'participants'" : "") + ", ";
+  }
+  if (!law.empty()) {
+    figure.plot += from_table(curve) + "'intensity':'magnitude' with lines ls 11 title " +
+                   gnuplot_quoted("power law, " + law) + ", ";
+  }
+  figure.plot +=
+      from_table(group) +
+      (data.is_production ? "'intensity':'magnitude':'low':'high' with xyerrorbars "
+                          : "'intensity':'magnitude':'low':'high' with yerrorbars ") +
+      "ls 11 lc rgb '#0072B2' ps 0.9 title 'mean ± sd'\n";
+  if (data.is_production) {
+    const std::string wrong = "with xyerrorbars";
+    figure.plot.replace(figure.plot.find(wrong), wrong.size(), "with xerrorbars");
+  }
+  figure.caption =
+      std::string(data.is_production ? "Intensities that were set for each magnitude asked for"
+                                     : "Magnitudes that were told at each intensity") +
+      ": means of each of " + counted_words(std::ssize(data.participants), "participant") +
+      " (grey), mean and standard deviation between them (squares), and the power law through "
+      "these means" +
+      (law.empty() ? ", which does not exist here." : ", S = k Iᵃ with " + law + ".");
+  figure.tables = {std::move(own), std::move(group), std::move(curve)};
+  return figure;
+}
+
+/// The largest answer of a participant; 1 if none is above 0.
+double largest(const MagnitudeData::Own& own) {
+  double most = 0.0;
+  for (const auto& [x, values] : own.values) {
+    for (const double value : values) most = std::max(most, value);
+  }
+  return most > 0.0 ? most : 1.0;
+}
+
+/// D.8, of everybody.
+std::vector<Figure> repetition_figures(const MagnitudeData& data) {
+  constexpr std::size_t kPanels = 20;
+  FigureTable table{
+      .name = file_word(data.block) + "_repetitions",
+      .columns = {"series", "participant", "repetition", "intensity", "magnitude"}};
+  std::int64_t num_repetitions = 0;
+  int series = 0;
+  std::vector<double> intensities;
+  for (const MagnitudeData::Own& own : data.participants) {
+    ++series;
+    for (const auto& [repetition, answers] : own.repetitions) {
+      num_repetitions = std::max(num_repetitions, repetition);
+      for (const auto& [intensity, magnitude] : answers) {
+        intensities.push_back(intensity);
+        table.rows.push_back(
+            {series, own.participant, static_cast<double>(repetition), intensity, magnitude});
+      }
+    }
+  }
+  std::vector<Figure> figures;
+  if (num_repetitions < 2) return figures;
+  for (std::size_t first = 0; first < data.participants.size(); first += kPanels) {
+    const std::size_t end = std::min(first + kPanels, data.participants.size());
+    Figure figure{.name = file_word(data.block) + "_repetitions" +
+                          (first == 0 ? "" : "_" + std::to_string(first / kPanels + 1)),
+                  .section = data.block,
+                  .title = data.title + ": repetitions of every participant",
+                  .caption =
+                      "One line a repetition: first solid blue, second dashed orange, "
+                      "third dotted green. Each panel has its own vertical scale.",
+                  .thesis = "Fig. D.8"};
+    PanelGrid grid{.num_columns = 5,
+                   .x_title = quantity_axis(data.quantity),
+                   .y_title = kMagnitudeAxis,
+                   .gap_x_in = 0.36};
+    std::vector<Panel> panels;
+    for (std::size_t i = first; i < end; ++i) {
+      Panel panel{.title = data.participants[i].participant};
+      if (i == first) {
+        panel.before = "  set xrange " + range_words(axis_range(intensities)) + "\n" +
+                       small_tics("x", axis_range(intensities));
+      }
+      const AxisRange own{0.0, 1.08 * largest(data.participants[i])};
+      panel.before += "  set yrange " + range_words(own) + "\n" + small_tics("y", own);
+      panel.plot = "plot ";
+      for (std::int64_t repetition = 1; repetition <= num_repetitions; ++repetition) {
+        const std::string mine = "(column('series')==" + std::to_string(i + 1) +
+                                 " && column('repetition')==" + std::to_string(repetition) +
+                                 " ? column('magnitude') : NaN)";
+        panel.plot += (repetition > 1 ? ", " : "") + from_table(table) + "'intensity':" + mine +
+                      " with linespoints lt " + std::to_string((repetition - 1) % 7 + 1) +
+                      " lw 1.2 ps 0.35";
+      }
+      panels.push_back(std::move(panel));
+    }
+    figure.height_in = grid_height_in(grid, panels.size(), 1.15);
+    figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+    figure.tables = {table};
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+/// D.10.
+Figure estimation_boxes(const MagnitudeData& data) {
+  std::vector<BoxGroup> groups;
+  std::vector<std::string> names;
+  for (const auto& [intensity, people] : data.by_x()) {
+    names.push_back(shortest_words(intensity));
+    groups.push_back({.label = names.back(),
+                      .position = static_cast<double>(groups.size()) + 1.0,
+                      .values = people});
+  }
+  Figure figure{.name = file_word(data.block) + "_boxes",
+                .section = data.block,
+                .title = data.title + ": participants’ means",
+                .caption =
+                    "One circle a participant; boxes: quartiles and median, whiskers to "
+                    "the last value within 1.5 interquartile ranges.",
+                .thesis = "Fig. D.10",
+                .width_in = 5.2,
+                .height_in = 3.0};
+  FigureTable boxes = box_table(file_word(data.block) + "_boxes", groups);
+  FigureTable values = box_values_table(file_word(data.block) + "_box_values", groups);
+  figure.plot = "  set xrange [0.4:" + plot_number(static_cast<double>(groups.size()) + 0.6) +
+                "]\n" + named_tics("x", names, names.size() > 14) +
+                "  set yrange [0:*]\n  set xlabel " +
+                gnuplot_quoted(quantity_axis(data.quantity)) + "\n  set ylabel " +
+                gnuplot_quoted(kMagnitudeAxis) + "\n  plot " +
+                box_plot_commands(boxes, values, 0.5) + "\n";
+  figure.tables = {std::move(boxes), std::move(values)};
+  return figure;
+}
+
+/// D.1, D.2 and D.11: what each participant set for each target.
+Figure production_boxes(const MagnitudeData& data) {
+  Figure figure{.name = file_word(data.block) + "_boxes",
+                .section = data.block,
+                .title = data.title + ": values set by every participant",
+                .caption =
+                    "One panel a magnitude that was asked for; one circle a production; "
+                    "boxes: quartiles and median, whiskers to the last value within 1.5 "
+                    "interquartile ranges.",
+                .thesis = "Fig. D.1, D.2 and D.11"};
+  std::vector<std::string> names;
+  for (const MagnitudeData::Own& own : data.participants) names.push_back(own.participant);
+  PanelGrid grid{.num_columns = 1,
+                 .x_title = "Participant",
+                 .y_title = quantity_axis(data.quantity) + ", as set"};
+  std::vector<Panel> panels;
+  for (const auto& [target, people] : data.by_x()) {
+    std::vector<BoxGroup> groups;
+    for (std::size_t i = 0; i < data.participants.size(); ++i) {
+      const auto found = data.participants[i].values.find(target);
+      if (found == data.participants[i].values.end()) continue;
+      BoxGroup group{.label = names[i], .position = static_cast<double>(i) + 1.0};
+      for (const double value : found->second) group.values.emplace_back(names[i], value);
+      groups.push_back(std::move(group));
+    }
+    const std::string percent = std::to_string(std::lround(100.0 * target));
+    const std::string name = file_word(data.block) + "_" + percent;
+    FigureTable boxes = box_table(name + "_boxes", groups);
+    FigureTable values = box_values_table(name + "_values", groups);
+    Panel panel{.title = "set to feel like " + percent + " %"};
+    if (panels.empty()) {
+      panel.before =
+          "  set xrange [0.4:" + plot_number(static_cast<double>(names.size()) + 0.6) + "]\n" +
+          named_tics("x", names, names.size() > 16) + "  set yrange [0:*]\n";
+    }
+    panel.plot = "plot " + box_plot_commands(boxes, values, 0.5);
+    panels.push_back(std::move(panel));
+    figure.tables.push_back(std::move(boxes));
+    figure.tables.push_back(std::move(values));
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), 1.5);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  return figure;
+}
+
+/// D.13.
+std::optional<Figure> ratios_figure(const MagnitudeData& data) {
+  std::vector<BoxGroup> groups;
+  std::vector<std::string> names;
+  const auto by_target = data.by_x();
+  for (auto low = by_target.begin(); low != by_target.end(); ++low) {
+    const auto high = std::next(low);
+    if (high == by_target.end()) break;
+    names.push_back(std::to_string(std::lround(100.0 * high->first)) + " % / " +
+                    std::to_string(std::lround(100.0 * low->first)) + " %");
+    BoxGroup group{.label = names.back(), .position = static_cast<double>(names.size())};
+    for (const auto& below : low->second) {
+      const auto above =
+          std::find_if(high->second.begin(), high->second.end(),
+                       [&below](const auto& one) { return one.first == below.first; });
+      if (above != high->second.end() && below.second > 0.0) {
+        group.values.emplace_back(below.first, above->second / below.second);
+      }
+    }
+    groups.push_back(std::move(group));
+  }
+  FigureTable boxes = box_table(file_word(data.block) + "_ratio_boxes", groups);
+  FigureTable values = box_values_table(file_word(data.block) + "_ratios", groups);
+  if (boxes.rows.empty()) return std::nullopt;
+  Figure figure{.name = file_word(data.block) + "_ratios",
+                .section = data.block,
+                .title = data.title + ": ratios of set values",
+                .caption =
+                    "Mean value set for the larger over that for the smaller magnitude, "
+                    "one circle a participant; dashed: the ratio of the magnitudes that "
+                    "were asked for, where the two differ by a factor of 2.",
+                .thesis = "Fig. D.13",
+                .width_in = 3.6,
+                .height_in = 3.0};
+  figure.plot = "  set xrange [0.4:" + plot_number(static_cast<double>(names.size()) + 0.6) +
+                "]\n" + named_tics("x", names, false) +
+                "  set yrange [0:*]\n  set ylabel 'Ratio of set values'\n  plot 2.0 with lines "
+                "ls 12, " +
+                box_plot_commands(boxes, values, 0.4) + "\n";
+  figure.tables = {std::move(boxes), std::move(values)};
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> magnitude_figures(const FigureSource& source) {
+  std::vector<Figure> figures;
+  for (const BlockDesign& block : source.data.blocks) {
+    if (block.procedure != "magnitude_estimation" &&
+        block.procedure != "magnitude_production") {
+      continue;
+    }
+    const MagnitudeData data = magnitude_data(source, block);
+    if (data.participants.empty()) continue;
+    figures.push_back(curves_figure(source, data));
+    if (data.is_production) {
+      figures.push_back(production_boxes(data));
+      if (auto figure = ratios_figure(data)) figures.push_back(std::move(*figure));
+    } else {
+      figures.push_back(estimation_boxes(data));
+      for (Figure& figure : repetition_figures(data)) figures.push_back(std::move(figure));
+    }
+  }
+  return figures;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,112 @@
+#include "analysis/report/plot_parts.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace jnd::analysis {
+
+std::string plot_number(double value) {
+  if (!std::isfinite(value)) return "NaN";
+  char digits[32];
+  char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  std::string text(digits, end);
+  // gnuplot divides whole numbers without a rest.
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string from_table(const FigureTable& table) { return "'" + table.name + ".csv' using "; }
+
+std::string if_series(int series, const std::string& column) {
+  return "(column('series')==" + std::to_string(series) + " ? column('" + column + "') : NaN)";
+}
+
+double grid_height_in(const PanelGrid& grid, std::size_t num_panels, double panel_in) {
+  const auto columns = static_cast<std::size_t>(grid.num_columns);
+  const auto rows = static_cast<double>((num_panels + columns - 1) / columns);
+  return grid.top_in + grid.bottom_in + rows * panel_in + (rows - 1.0) * grid.gap_y_in;
+}
+
+std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, double width_in,
+                      double height_in) {
+  const int columns = std::max(1, std::min(grid.num_columns, static_cast<int>(panels.size())));
+  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+  // Panels of a row that is not full are as wide as the others.
+  const int places = grid.num_columns;
+  const double panel_width =
+      (width_in - grid.left_in - grid.right_in - (places - 1) * grid.gap_x_in) / places;
+  const double panel_height =
+      (height_in - grid.top_in - grid.bottom_in - (rows - 1) * grid.gap_y_in) / rows;
+  std::string script =
+      "  set multiplot\n"
+      "  set label 1 " +
+      gnuplot_quoted(grid.x_title) + " at screen " +
+      plot_number((grid.left_in + 0.5 * (width_in - grid.left_in - grid.right_in)) / width_in) +
+      "," + plot_number(0.14 / height_in) + " center\n  set label 2 " +
+      gnuplot_quoted(grid.y_title) + " at screen " + plot_number(0.12 / width_in) +
+      ",0.5 center rotate by 90\n";
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const auto column = static_cast<double>(i % static_cast<std::size_t>(places));
+    const auto row = static_cast<double>(i / static_cast<std::size_t>(places));
+    const double left = grid.left_in + column * (panel_width + grid.gap_x_in);
+    const double top = height_in - grid.top_in - row * (panel_height + grid.gap_y_in);
+    script += "  set lmargin at screen " + plot_number(left / width_in) +
+              "\n  set rmargin at screen " + plot_number((left + panel_width) / width_in) +
+              "\n  set tmargin at screen " + plot_number(top / height_in) +
+              "\n  set bmargin at screen " + plot_number((top - panel_height) / height_in) +
+              "\n  set title " + gnuplot_quoted(panels[i].title) +
+              " font small offset 0,-0.7\n";
+    script += panels[i].before;
+    script += "  " + panels[i].plot + "\n";
+    // What is written on the whole figure is written once.
+    if (i == 0) script += "  unset label 1\n  unset label 2\n  unset label 99\n";
+  }
+  return script + "  unset multiplot\n";
+}
+
+AxisRange axis_range(const std::vector<double>& values, bool logarithmic) {
+  std::vector<double> kept;
+  for (const double value : values) {
+    if (std::isfinite(value) && (!logarithmic || value > 0.0)) kept.push_back(value);
+  }
+  if (kept.empty()) return logarithmic ? AxisRange{0.1, 10.0} : AxisRange{};
+  const auto [least, most] = std::minmax_element(kept.begin(), kept.end());
+  if (logarithmic) return {*least / 1.25, *most * 1.25};
+  const double width = *most - *least;
+  const double air = width > 0.0 ? 0.05 * width : std::max(0.05 * std::abs(*most), 0.01);
+  return {*least - air, *most + air};
+}
+
+std::string range_words(const AxisRange& range) {
+  return "[" + plot_number(range.low) + ":" + plot_number(range.high) + "]";
+}
+
+std::string small_tics(const std::string& axis, const AxisRange& range) {
+  const double least = (range.high - range.low) / 4.0;
+  double step = least;
+  if (least > 0.0 && std::isfinite(least)) {
+    const double decade = std::pow(10.0, std::floor(std::log10(least)));
+    step = 10.0 * decade;
+    for (const double round : {5.0, 2.0, 1.0}) {
+      if (round * decade >= least) step = round * decade;
+    }
+  }
+  return "  set " + axis + "tics " + plot_number(step) + " font small\n";
+}
+
+std::string named_tics(const std::string& axis, const std::vector<std::string>& names,
+                       bool upright) {
+  std::string tics = "  set " + axis + "tics (";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    // A label of an axis is a format.
+    std::string label;
+    for (const char letter : names[i]) label += letter == '%' ? "%%" : std::string(1, letter);
+    tics += (i > 0 ? ", " : "") + gnuplot_quoted(label) + " " + std::to_string(i + 1);
+  }
+  tics += ")";
+  if (upright) tics += " rotate by 90 right";
+  return tics + "\n";
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/report/figure.h"
+
+namespace jnd::analysis {
+
+// Parts of gnuplot scripts that figures share. Columns are named as in the tables.
+
+/// A number as gnuplot reads it; NaN for what is not finite.
+[[nodiscard]] std::string plot_number(double value);
+
+/// "'TABLE.csv' using ".
+[[nodiscard]] std::string from_table(const FigureTable& table);
+
+/// "(column('series')==3 ? column('mean') : NaN)": one series of a table.
+[[nodiscard]] std::string if_series(int series, const std::string& column);
+
+/// Many panels alike: each is a title and its own plot command.
+struct Panel {
+  std::string title;
+  std::string before;  ///< Settings for it and for those after it.
+  std::string plot;    ///< "plot ...", one line.
+};
+
+/// Lays panels out in rows of `num_columns`, titles above, axis names outside.
+struct PanelGrid {
+  int num_columns = 4;
+  std::string x_title, y_title;
+  double left_in = 0.62, right_in = 0.12, top_in = 0.42, bottom_in = 0.55;
+  double gap_x_in = 0.35, gap_y_in = 0.5;
+};
+
+/// Height of a figure whose panels are `panel_in` high.
+[[nodiscard]] double grid_height_in(const PanelGrid& grid, std::size_t num_panels,
+                                    double panel_in);
+[[nodiscard]] std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels,
+                                    double width_in, double height_in);
+
+/// Ends of an axis that holds these values with a little air; `low` < `high`.
+struct AxisRange {
+  double low = 0.0, high = 1.0;
+};
+/// With `logarithmic` values <= 0 are left out; in decades' halves around the rest.
+[[nodiscard]] AxisRange axis_range(const std::vector<double>& values, bool logarithmic = false);
+/// "[low:high]".
+[[nodiscard]] std::string range_words(const AxisRange& range);
+
+/// "set xtics 0.5 font small": at most five tics, at round numbers, for a small panel.
+[[nodiscard]] std::string small_tics(const std::string& axis, const AxisRange& range);
+
+/// "set xtics ('P01' 1, 'P02' 2)", standing on end where there are many.
+[[nodiscard]] std::string named_tics(const std::string& axis,
+                                     const std::vector<std::string>& names, bool upright);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,85 @@
+#include "analysis/report/recording_conditions.h"
+
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+bool has_strokes(const ConditionMovement& condition) {
+  return condition.curves.num_strokes > 0 && !condition.curves.stroke_percent.empty();
+}
+
+std::string quantity_of(const FigureSource& source, const ConditionMovement& condition) {
+  for (const BlockDesign& block : source.data.blocks) {
+    if (block.block == condition.block) return block.quantity;
+  }
+  return condition.medium == "viscous" ? "viscosity_pa_s" : "";
+}
+
+/// "free space", "viscous, 5 Pa s", "Group D, 1.093 Pa s".
+ShownCondition shown(const FigureSource& source, const ConditionMovement& condition) {
+  std::string medium = condition.medium;
+  for (char& letter : medium) {
+    if (letter == '_') letter = ' ';
+  }
+  ShownCondition one{
+      .name = condition.block.empty() ? condition.medium : condition.block,
+      .title = condition.block.empty() ? medium : source.words.short_title_of(condition.block),
+      .movement = &condition};
+  if (!condition.intensity || condition.medium == "free_space") return one;
+  const std::string amount = shortest_words(*condition.intensity);
+  const std::string unit = quantity_unit(quantity_of(source, condition));
+  one.name = file_word(one.name + "_" + amount);
+  one.title += unit.empty() ? ", scale " + amount : ", " + amount + " " + unit;
+  return one;
+}
+
+}  // namespace
+
+std::vector<ShownCondition> whole_conditions(const FigureSource& source,
+                                             const ParticipantMovement& person) {
+  std::vector<ShownCondition> blocks;
+  std::vector<ShownCondition> explored;
+  for (const ConditionMovement& condition : person.conditions) {
+    if (!has_strokes(condition)) continue;
+    if (condition.block.empty()) {
+      explored.push_back(shown(source, condition));
+    } else if (!condition.intensity) {
+      blocks.push_back(shown(source, condition));
+    }
+  }
+  return blocks.empty() ? explored : blocks;
+}
+
+std::vector<ShownCondition> each_intensity(const FigureSource& source,
+                                           const ParticipantMovement& person) {
+  std::vector<ShownCondition> explored;
+  std::vector<ShownCondition> inside;
+  for (const ConditionMovement& condition : person.conditions) {
+    if (!has_strokes(condition)) continue;
+    if (condition.block.empty()) explored.push_back(shown(source, condition));
+    if (!condition.block.empty() && condition.intensity) {
+      inside.push_back(shown(source, condition));
+    }
+  }
+  return explored.size() >= 3 || inside.empty() ? explored : inside;
+}
+
+const ParticipantMovement* shown_participant(const FigureSource& source,
+                                             const MovementAnalysis& movement) {
+  const ParticipantMovement* best = nullptr;
+  std::size_t most = 0;
+  for (const ParticipantMovement& person : movement.participants) {
+    std::size_t points = 0;
+    for (const ShownCondition& condition : whole_conditions(source, person)) {
+      points += condition.movement->curves.has_joints ? 100 : 1;
+    }
+    if (points > most) {
+      most = points;
+      best = &person;
+    }
+  }
+  return best;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <map>
+
+#include "analysis/report/plot_parts.h"
+#include "analysis/report/recording_conditions.h"
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// The start of a repetition: at some 50 points a second about a quarter of a minute. The whole
+/// would be a cloud.
+constexpr std::size_t kPathPoints = 750;
+constexpr std::size_t kRepetitions = 6;
+
+const Path* longest(const std::vector<Path>& paths) {
+  const Path* best = nullptr;
+  for (const Path& path : paths) {
+    if (best == nullptr || path.x_m.size() > best->x_m.size()) best = &path;
+  }
+  return best;
+}
+
+/// D.16 and D.24, from above and from the front.
+std::optional<Figure> trajectories_figure(const FigureSource& source,
+                                          const ParticipantMovement& person) {
+  FigureTable table{.name = "trajectories",
+                    .columns = {"series", "block", "repetition", "x_m", "y_m", "z_m"}};
+  std::vector<std::string> blocks;
+  std::map<std::string, std::size_t> shown;
+  std::size_t most = 0;
+  for (const Trajectory& trajectory : person.trajectories) {
+    const Path* const path = longest(trajectory.hand);
+    if (path == nullptr || path->x_m.size() < 2) continue;
+    if (!shown.contains(trajectory.block)) blocks.push_back(trajectory.block);
+    std::size_t& number = shown[trajectory.block];
+    if (number == kRepetitions) continue;
+    ++number;
+    most = std::max(most, number);
+    const auto block = static_cast<std::size_t>(
+        std::find(blocks.begin(), blocks.end(), trajectory.block) - blocks.begin());
+    const int series = static_cast<int>(block * kRepetitions + number);
+    const std::size_t end = std::min(path->x_m.size(), kPathPoints);
+    for (std::size_t i = 0; i < end; ++i) {
+      table.rows.push_back({series, trajectory.block,
+                            static_cast<double>(trajectory.repetition), path->x_m[i],
+                            path->y_m[i], path->z_m[i]});
+    }
+  }
+  if (blocks.empty()) return std::nullopt;
+  Figure figure{.name = "trajectories",
+                .section = "movement",
+                .title = "Trajectories of the hand",
+                .thesis = "Fig. D.16 and D.24"};
+  PanelGrid grid{.num_columns = 2, .top_in = 0.5, .gap_x_in = 0.85, .gap_y_in = 0.75};
+  std::vector<Panel> panels;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::string title = blocks[b].empty() ? "" : source.words.short_title_of(blocks[b]);
+    for (const bool from_above : {true, false}) {
+      Panel panel{.title = title + (from_above ? ", from above" : ", from the front")};
+      panel.before = std::string("  set xlabel ") +
+                     (from_above ? "'x, to the right [m]'\n  set ylabel 'y, away [m]'\n"
+                                 : "'x, to the right [m]'\n  set ylabel 'z, up [m]'\n");
+      if (panels.empty()) {
+        panel.before +=
+            "  set key at screen 0.5,0.99 center top horizontal reverse Left samplen 2 font "
+            "small\n  set xtics font small\n  set ytics font small\n";
+      }
+      panel.plot = "plot ";
+      const std::string y = from_above ? "y_m" : "z_m";
+      for (std::size_t r = 1; r <= shown[blocks[b]]; ++r) {
+        const int series = static_cast<int>(b * kRepetitions + r);
+        panel.plot += (r > 1 ? ", " : "") + from_table(table) +
+                      "'x_m':" + if_series(series, y) + " with lines lt " + std::to_string(r) +
+                      " lw 0.8";
+        if (panels.empty() && most > 1) {
+          panel.plot += " title 'repetition " + std::to_string(r) + "'";
+        }
+      }
+      panels.push_back(std::move(panel));
+    }
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), 1.7);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  figure.caption =
+      "Participant " + person.participant +
+      ": mean of the points of the hand, the first quarter of a minute of the "
+      "longest stretch without a gap in each repetition. Workspace frame: x to the "
+      "participant’s right, y away, z up from the surface of the fluid.";
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+/// What was delivered against what the law commands.
+std::optional<Figure> force_figure(const FigureSource& source,
+                                   const ParticipantMovement& person) {
+  constexpr std::size_t kIntensities = 12;
+  FigureTable table{.name = "force_by_speed",
+                    .columns = {"series", "block", "intensity", "speed_m_per_s", "delivered_n",
+                                "commanded_n"}};
+  std::vector<std::string> blocks;
+  std::map<std::string, std::vector<double>> intensities;
+  for (const ConditionMovement& condition : person.conditions) {
+    if (condition.block.empty() || !condition.intensity) continue;
+    const ForceBySpeed& force = condition.force;
+    if (force.speed_m_per_s.empty()) continue;
+    std::vector<double>& known = intensities[condition.block];
+    if (known.empty()) blocks.push_back(condition.block);
+    if (known.size() == kIntensities) continue;
+    known.push_back(*condition.intensity);
+    const auto block = static_cast<std::size_t>(
+        std::find(blocks.begin(), blocks.end(), condition.block) - blocks.begin());
+    const int series = static_cast<int>(block * kIntensities + known.size());
+    for (std::size_t i = 0; i < force.speed_m_per_s.size(); ++i) {
+      table.rows.push_back(
+          {series, condition.block, *condition.intensity, force.speed_m_per_s[i],
+           force.delivered_n[i],
+           i < force.commanded_n.size() ? FigureCell(force.commanded_n[i]) : FigureCell()});
+    }
+  }
+  if (blocks.empty()) return std::nullopt;
+  Figure figure{.name = "force_by_speed",
+                .section = "movement",
+                .title = "Delivered and commanded force over speed"};
+  PanelGrid grid{.num_columns = static_cast<int>(std::min<std::size_t>(2, blocks.size())),
+                 .x_title = "Speed of the hand [m/s]",
+                 .y_title = "Force against the motion [N]",
+                 .gap_x_in = 0.5};
+  std::vector<Panel> panels;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    Panel panel{.title = source.words.short_title_of(blocks[b]),
+                .before = "  set xrange [0:*]\n  set yrange [0:*]\n"};
+    panel.plot = "plot ";
+    for (std::size_t i = 1; i <= intensities[blocks[b]].size(); ++i) {
+      const int series = static_cast<int>(b * kIntensities + i);
+      panel.plot += (i > 1 ? ", " : "") + from_table(table) +
+                    "'speed_m_per_s':" + if_series(series, "commanded_n") +
+                    " with lines ls 10, " + from_table(table) +
+                    "'speed_m_per_s':" + if_series(series, "delivered_n") +
+                    " with points lt 1 pt 6 ps 0.4";
+    }
+    panels.push_back(std::move(panel));
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), 2.0);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  figure.caption = "Participant " + person.participant +
+                   ": circles: mean force that was rendered against the motion, after every "
+                   "limit, in classes of speed; lines: what the law commands there. One line "
+                   "an intensity.";
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> recording_figures(const FigureSource& source,
+                                      const MovementAnalysis& movement) {
+  std::vector<Figure> figures;
+  const auto add = [&figures](std::optional<Figure> figure) {
+    if (figure) figures.push_back(std::move(*figure));
+  };
+  if (const ParticipantMovement* const person = shown_participant(source, movement)) {
+    add(trajectories_figure(source, *person));
+    add(joint_angles_figure(source, *person));
+    add(joint_torques_figure(source, *person));
+    add(force_figure(source, *person));
+  }
+  add(tip_distances_figure(source, movement));
+  return figures;
+}
+
+}  // namespace jnd::analysis

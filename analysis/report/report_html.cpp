@@ -1,0 +1,145 @@
+#include "analysis/report/html_text.h"
+#include "analysis/report/report.h"
+#include "analysis/report/report_methods.h"
+#include "analysis/report/report_results.h"
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+std::vector<core::SessionRow> analysed_sessions(const ReportSource& source) {
+  std::vector<core::SessionRow> sessions;
+  for (const core::SessionRow& session : source.store.sessions()) {
+    if (!session.pilot || source.pilot) sessions.push_back(session);
+  }
+  return sessions;
+}
+
+/// Puts figures where they belong, each once, and lists them at the end.
+class FigureChapters {
+ public:
+  FigureChapters(HtmlText& html, const std::vector<Figure>& figures,
+                 const std::vector<DrawnFigure>& drawn, bool simulated)
+      : html_(html),
+        figures_(figures),
+        drawn_(drawn),
+        simulated_(simulated),
+        numbers_(figures.size(), 0) {}
+
+  /// Of this section of the results; "" those of none.
+  void write_section(const std::string& section) {
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+      if (numbers_[i] == 0 && figures_[i].section == section) write(i);
+    }
+  }
+
+  void write_others() {
+    bool any = false;
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+      if (numbers_[i] != 0) continue;
+      if (!any) html_.heading(3, "Further figures");
+      any = true;
+      write(i);
+    }
+  }
+
+  void write_list() {
+    if (figures_.empty()) return;
+    html_.heading(2, "Files of the figures");
+    html_.paragraph(
+        "Beside this report, in the folder figures, each figure lies as NAME.svg and NAME.pdf "
+        "with the gnuplot script that draws it, NAME.gp, and the tables it is drawn from.");
+    HtmlTable table{
+        .caption = "Figures, the figures of the thesis that they answer, and files",
+        .columns = {{"Figure", true}, {"Title"}, {"Thesis"}, {"Name", false, true}}};
+    for (int number = 1; number <= static_cast<int>(figures_.size()); ++number) {
+      for (std::size_t i = 0; i < figures_.size(); ++i) {
+        if (numbers_[i] != number) continue;
+        const Figure& figure = figures_[i];
+        table.rows.push_back({std::to_string(number), figure.title,
+                              figure.thesis.empty() ? "–" : figure.thesis, figure.name});
+      }
+    }
+    html_.table(table);
+  }
+
+ private:
+  void write(std::size_t i) {
+    const Figure& figure = figures_[i];
+    std::string caption = figure.caption;
+    if (!figure.thesis.empty()) caption += " Thesis: " + figure.thesis + ".";
+    if (simulated_) caption += " SIMULATED data.";
+    if (drawn_[i].svg.empty()) caption += " Not drawn: " + drawn_[i].problem + ".";
+    numbers_[i] = html_.figure(figure.name, drawn_[i].svg, figure.title, caption);
+  }
+
+  HtmlText& html_;
+  const std::vector<Figure>& figures_;
+  const std::vector<DrawnFigure>& drawn_;
+  bool simulated_;
+  std::vector<int> numbers_;  ///< In the report; 0 of those that are not written yet.
+};
+
+std::string contents(const HtmlText& html) {
+  std::string text = "<nav><ul>\n";
+  for (const auto& [id, title] : html.sections()) {
+    text += "<li><a href=\"#" + id + "\">" + html_escaped(title) + "</a></li>\n";
+  }
+  return text + "</ul></nav>\n";
+}
+
+std::string front(const ReportSource& source, const StudyWords& words) {
+  std::string text = "<h1>" + html_escaped(words.title) + "</h1>\n<p class=\"authors\">";
+  std::string authors;
+  for (const std::string& author : words.authors) {
+    authors += (authors.empty() ? "Study by " : ", ") + author;
+  }
+  if (!authors.empty()) authors += ". ";
+  authors += "Report on “" + source.data.study + "”, " +
+             counted_words(std::ssize(source.data.participants), "participant") + ".";
+  text += html_escaped(authors) + "</p>\n";
+  if (source.results.simulated) {
+    text +=
+        "<p class=\"banner\">SIMULATED data: participants and apparatus are those of the "
+        "laboratory “" +
+        html_escaped(source.results.laboratory) +
+        "”. No person felt or judged anything here.</p>\n";
+  }
+  if (source.pilot) {
+    text += "<p class=\"banner\">PILOT sessions are among these data.</p>\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string report_html(const ReportSource& source, const std::vector<Figure>& figures,
+                        const std::vector<DrawnFigure>& drawn) {
+  const StudyWords words =
+      study_words_of(source.store.protocol(source.data.protocol_sha256).text);
+  const std::vector<core::SessionRow> sessions = analysed_sessions(source);
+  const std::vector<SessionQuality> quality = session_quality(source.store, sessions);
+  const ChapterSource chapters{source, words, sessions, quality};
+  const bool simulated = source.results.simulated;
+  HtmlText html;
+  FigureChapters figure_chapters(html, figures, drawn, simulated);
+  write_published(html, source.results);
+  figure_chapters.write_section("");
+  write_methods(html, chapters);
+  write_participants(html, chapters);
+  write_data_quality(html, chapters);
+  html.heading(2, "Results");
+  for (const ResultsSection& section : source.results.sections) {
+    html.heading(3, section_title(words, section.name));
+    write_section(html, source.data, source.results, section);
+    figure_chapters.write_section(section.name);
+  }
+  figure_chapters.write_others();
+  figure_chapters.write_list();
+  write_provenance(html, chapters);
+  return html_document(words.title,
+                       simulated ? "SIMULATED data" : (source.pilot ? "PILOT data" : ""),
+                       front(source, words) + contents(html) + html.text());
+}
+
+}  // namespace jnd::analysis

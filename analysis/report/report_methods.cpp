@@ -1,0 +1,181 @@
+#include "analysis/report/report_methods.h"
+
+#include <map>
+#include <set>
+
+#include "analysis/report/report_words.h"
+#include "core/storage/sha256.h"
+
+namespace jnd::analysis {
+namespace {
+
+std::string joined(const std::set<std::string>& words, const std::string& between = ", ") {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+  return all;
+}
+
+std::string joined(const std::set<double>& numbers, const std::string& unit) {
+  std::string all;
+  for (const double number : numbers) all += (all.empty() ? "" : ", ") + shortest_words(number);
+  return unit.empty() ? all : all + " " + unit;
+}
+
+/// What a block presented, from its answered trials.
+std::string block_words(const StudyData& data, const BlockDesign& block) {
+  std::set<double> intensities;
+  std::set<double> references;
+  std::set<double> starts;
+  std::set<double> targets;
+  std::set<std::string> media;
+  std::int64_t repetitions = 0;
+  for (const ParticipantData& participant : data.participants) {
+    for (const core::TrialRow& trial : participant.trials_in(block.block)) {
+      const bool produces = trial.target_percent.has_value();
+      if (trial.intensity && !produces) intensities.insert(*trial.intensity);
+      if (trial.reference_intensity) references.insert(*trial.reference_intensity);
+      if (trial.starting_intensity) starts.insert(*trial.starting_intensity);
+      if (trial.target_percent) targets.insert(*trial.target_percent);
+      if (!trial.medium.empty()) media.insert(trial.medium);
+      repetitions = std::max(repetitions, trial.repetition);
+    }
+  }
+  const std::string unit = quantity_unit(block.quantity);
+  std::string words = procedure_words(block.procedure) + "; " + quantity_words(block.quantity);
+  if (!media.empty()) words += " of the medium “" + joined(media) + "”";
+  if (!intensities.empty()) words += "; levels " + joined(intensities, unit);
+  if (!references.empty()) words += "; reference " + joined(references, unit);
+  if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");
+  if (!starts.empty()) words += "; starting from " + joined(starts, unit);
+  words += "; " + counted_words(repetitions, "repetition") + ", " +
+           counted_words(block.num_trials, "trial") + " a participant.";
+  return words;
+}
+
+std::string design_words(const ChapterSource& source) {
+  const StudyWords& words = source.words;
+  std::string text = words.description;
+  if (!text.empty() && !text.ends_with('.')) text += ".";
+  if (!words.blinding.empty()) {
+    text += " Blinding: " +
+            (words.blinding == "double"
+                 ? std::string("double; the levels were unblinded before this report")
+             : words.blinding == "participant"
+                 ? std::string("single, the participant did not know the levels")
+                 : words.blinding) +
+            ".";
+  }
+  std::map<std::string, int> cells;
+  for (const core::SessionRow& session : source.sessions) ++cells[session.cells];
+  if (cells.size() > 1) {
+    text += " Counterbalancing, with the number of participants in each cell: ";
+    bool first = true;
+    for (const auto& [cell, count] : cells) {
+      text += (first ? "" : " | ") + cell_words(cell) + " (" + std::to_string(count) + ")";
+      first = false;
+    }
+    text += ".";
+  }
+  return text;
+}
+
+std::string apparatus_words(const ChapterSource& source) {
+  std::set<std::string> devices;
+  std::set<double> rates;
+  std::set<std::string> realtime;
+  for (const core::SessionRow& session : source.sessions) {
+    devices.insert(session.device);
+    rates.insert(session.rate_hz);
+    if (!session.simulated && !session.realtime.empty()) realtime.insert(session.realtime);
+  }
+  std::string text = "Device: " + joined(devices) + "; haptic loop at " + joined(rates, "Hz");
+  if (!realtime.empty()) text += "; the loop was given: " + joined(realtime, "; ");
+  text += ".";
+  const StudyData& data = source.report.data;
+  if (data.simulated) {
+    text +=
+        " Participants and apparatus are SIMULATED by the laboratory “" + data.laboratory +
+        "”" +
+        (source.report.results.laboratory_changed ? ", changed from the shipped one," : "") +
+        " with SHA-256 " + core::sha256(data.laboratory_text) +
+        "; nothing here was felt by a person.";
+  }
+  return text;
+}
+
+std::string analysis_words(const ChapterSource& source) {
+  const ReportSource& report = source.report;
+  std::string text =
+      "Computed by jnd " + report.program_version +
+      ". Each table says what is estimated and how. Group intervals are 95 % percentiles "
+      "over " +
+      std::to_string(report.results_options.num_resamples) +
+      " resamples of participants (expanded percentiles, seed " +
+      std::to_string(report.results_options.seed) +
+      "), so they respect that people differ; means of participants have Student’s t. "
+      "Individual Weber fractions are of maximum likelihood with likelihood-ratio intervals. "
+      "Where a value does not exist for the data (perfectly separated, flat or inverted "
+      "answers), it is left out with the reason, never replaced by a number. Trials that were "
+      "undone or set aside and sessions of participants who withdrew are left out";
+  text += report.pilot ? "; PILOT sessions are included." : ", as are pilot sessions.";
+  if (!report.results.citation.empty()) {
+    text += " Published values, for comparison alone: " + report.results.citation;
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_methods(HtmlText& html, const ChapterSource& source) {
+  html.heading(2, "Methods");
+  html.paragraph_about("Study", design_words(source));
+  std::vector<std::string> blocks;
+  for (const BlockDesign& block : source.report.data.blocks) {
+    blocks.push_back(source.words.title_of(block.block) + ": " +
+                     block_words(source.report.data, block));
+  }
+  html.list(blocks);
+  html.paragraph_about("Apparatus", apparatus_words(source));
+  html.paragraph_about("Analysis", analysis_words(source));
+  if (!source.words.citation.empty()) {
+    html.paragraph_about("After", source.words.citation);
+  }
+}
+
+void write_provenance(HtmlText& html, const ChapterSource& source) {
+  html.heading(2, "Provenance");
+  const ReportSource& report = source.report;
+  std::set<std::string> versions;
+  std::set<std::string> protocols;
+  for (const core::SessionRow& session : source.sessions) {
+    versions.insert(session.program_version);
+    protocols.insert(session.protocol_sha256);
+  }
+  HtmlTable facts{.caption = "What this report rests on",
+                  .columns = {{"What"}, {"Which", false, true}}};
+  for (const std::string& hash : protocols) {
+    const core::ProtocolRow protocol = report.store.protocol(hash);
+    facts.rows.push_back({"SHA-256 of the study file " + protocol.file_name, hash});
+  }
+  facts.rows.push_back({"SHA-256 of the data (every event of the sessions below)",
+                        data_sha256(report.store, source.sessions)});
+  if (report.data.simulated) {
+    facts.rows.push_back({"SHA-256 of the laboratory " + report.data.laboratory,
+                          core::sha256(report.data.laboratory_text)});
+  }
+  facts.rows.push_back({"Recorded with jnd", joined(versions)});
+  facts.rows.push_back({"Analysed with jnd", report.program_version});
+  html.table(facts);
+  HtmlTable sessions{
+      .caption = "Sessions, with the seeds of everything that was drawn in them",
+      .columns = {{"Session", true}, {"Participant"}, {"Seed", true}, {"Began"}, {"Cell"}}};
+  for (const core::SessionRow& session : source.sessions) {
+    sessions.rows.push_back(
+        {std::to_string(session.session), session.participant, std::to_string(session.seed),
+         session.simulated ? "simulated" : date_words(session.started_time_ns),
+         cell_words(session.cells)});
+  }
+  html.table(sessions);
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "analysis/report/data_quality.h"
+#include "analysis/report/html_text.h"
+#include "analysis/report/report.h"
+#include "analysis/report/study_words.h"
+
+namespace jnd::analysis {
+
+/// Whatever the chapters of a report say something about.
+struct ChapterSource {
+  const ReportSource& report;
+  const StudyWords& words;
+  const std::vector<core::SessionRow>& sessions;  ///< Those that are analysed.
+  const std::vector<SessionQuality>& quality;     ///< Likewise.
+};
+
+/// What was run: design, apparatus, analysis, where everything comes from.
+void write_methods(HtmlText& html, const ChapterSource& source);
+/// Who took part.
+void write_participants(HtmlText& html, const ChapterSource& source);
+/// Missing, resumed, undone, set aside; recordings; timing.
+void write_data_quality(HtmlText& html, const ChapterSource& source);
+/// Sessions with their seeds, hashes, versions.
+void write_provenance(HtmlText& html, const ChapterSource& source);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include "analysis/report/report_results.h"
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+const Estimate* find(const ResultsSection& section, const std::string& name) {
+  for (const Estimate& estimate : section.estimates) {
+    if (estimate.name == name) return &estimate;
+  }
+  return nullptr;
+}
+
+std::string value_of(const ResultsSection& section, const std::string& name) {
+  const Estimate* const estimate = find(section, name);
+  return estimate == nullptr ? "–" : number_words(estimate->value, 2);
+}
+
+/// Item, question, count, mean and spread; then one column a further statistic.
+void add_row(HtmlTable& table, const ResultsSection& section, const QuestionnaireItem& item,
+             const std::vector<const char*>& statistics) {
+  const std::string name = "questionnaire." + item.name;
+  const Estimate* const mean = find(section, name);
+  if (mean == nullptr) return;
+  std::string interval = number_words(mean->value, 2);
+  if (mean->ci95.low && mean->ci95.high) {
+    interval += " (" + number_words(mean->ci95.low, 2) + "\u00a0to\u00a0" +
+                number_words(mean->ci95.high, 2) + ")";
+  }
+  std::vector<std::string> row = {item.name, item.question, std::to_string(mean->n), interval};
+  for (const char* const statistic : statistics) {
+    row.push_back(value_of(section, name + statistic));
+  }
+  table.rows.push_back(std::move(row));
+}
+
+std::vector<HtmlTable::Column> columns_with(const std::vector<const char*>& titles) {
+  std::vector<HtmlTable::Column> columns = {
+      {"Item", false, true}, {"Question"}, {"n", true}, {"Mean (95 % interval)", true}};
+  for (const char* const title : titles) columns.push_back({title, true});
+  return columns;
+}
+
+void write_counts(HtmlText& html, const StudyData& data, const ResultsSection& section) {
+  HtmlTable table{.caption = "Choices: how many gave each answer",
+                  .columns = {{"Item", false, true}, {"Question"}, {"n", true}, {"Answers"}}};
+  for (const QuestionnaireItem& item : data.items) {
+    if (item.kind == "scale" || item.kind == "number") continue;
+    const std::string start = "questionnaire." + item.name + ".";
+    std::string answers;
+    int num_answered = 0;
+    for (const Estimate& estimate : section.estimates) {
+      if (!estimate.name.starts_with(start)) continue;
+      std::string option = estimate.name.substr(start.size());
+      std::replace(option.begin(), option.end(), '_', ' ');
+      answers += (answers.empty() ? "" : ", ") + option + " " + number_words(estimate.value);
+      num_answered = estimate.n;
+    }
+    if (!answers.empty()) {
+      table.rows.push_back({item.name, item.question, std::to_string(num_answered), answers});
+    }
+  }
+  html.table(table);
+}
+
+}  // namespace
+
+void write_questionnaires(HtmlText& html, const StudyData& data,
+                          const ResultsSection& section) {
+  HtmlTable ratings{.caption =
+                        "Ratings from 1, the worst, to the last step, the best, as in "
+                        "tables D.3 and D.4 of the thesis",
+                    .columns = columns_with({"sd", "Median"})};
+  HtmlTable numbers{.caption = "Numbers",
+                    .columns = columns_with({"sd", "Smallest", "Largest"})};
+  for (const QuestionnaireItem& item : data.items) {
+    if (item.kind == "scale") add_row(ratings, section, item, {".sd", ".median"});
+    if (item.kind == "number") {
+      add_row(numbers, section, item, {".sd", ".minimum", ".maximum"});
+    }
+  }
+  html.table(ratings);
+  html.table(numbers);
+  write_counts(html, data, section);
+}
+
+}  // namespace jnd::analysis

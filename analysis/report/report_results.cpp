@@ -1,0 +1,280 @@
+#include "analysis/report/report_results.h"
+
+#include <algorithm>
+#include <map>
+
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+bool is_published(const Estimate& estimate) {
+  return estimate.published || estimate.published_positive;
+}
+
+std::string published_words(const Estimate& estimate) {
+  if (estimate.published_positive && !estimate.published) return "> 0";
+  if (!estimate.published) return "–";
+  std::string words = shortest_words(*estimate.published);
+  if (estimate.published_sd) words += " ± " + shortest_words(*estimate.published_sd);
+  return words;
+}
+
+std::string basis_words(const Estimate& estimate) {
+  if (!is_published(estimate)) return "–";
+  if (estimate.calibrated) return "calibrated";
+  return estimate.implied ? "implied" : "held out";
+}
+
+std::string unit_words(const std::string& unit) { return unit == "1" ? "" : unit; }
+
+/// "0.71 (0.38 to 1.04)"
+std::string with_interval(const std::optional<double>& value, const Interval& ci95) {
+  const std::string words = number_words(value);
+  if (!value || (!ci95.low && !ci95.high)) return words;
+  return words + " (" + interval_words(ci95, value) + ")";
+}
+
+std::string effect_words(const Comparison& c) {
+  if (c.cohen_dz) return "d_z " + with_interval(c.cohen_dz, c.cohen_dz_ci95);
+  if (c.hedges_g) return "g " + with_interval(c.hedges_g, c.hedges_g_ci95);
+  if (c.rank_biserial) return "r_rb " + with_interval(c.rank_biserial, c.rank_biserial_ci95);
+  return "–";
+}
+
+/// Where adjusted p-values stand, if there are any.
+constexpr std::size_t kHolmColumn = 5;
+
+std::vector<std::string> comparison_row(const NamedComparison& named) {
+  const Comparison& c = named.comparison;
+  std::string name = named.name;
+  if (!named.family.empty()) name += " [" + named.family + "]";
+  if (c.status != FitStatus::kOk) {
+    return {name, std::string(to_string(c.status)) + ": " + c.reason, "–", "–", "–", "–", "–",
+            "–"};
+  }
+  std::string count = std::to_string(c.num_a);
+  if (c.num_b != c.num_a && c.num_b > 0) count += ", " + std::to_string(c.num_b);
+  // What the test is about: of ranks the median of pairwise differences, else the mean.
+  return {name,
+          c.median_difference ? with_interval(c.median_difference, c.median_difference_ci95)
+                              : with_interval(c.estimate, c.ci95),
+          number_words(c.statistic, 2),
+          c.degrees_of_freedom ? number_words(c.degrees_of_freedom, 1) : "–",
+          p_words(c.p_value),
+          p_words(named.p_value_holm),
+          effect_words(c),
+          count};
+}
+
+void write_estimates(HtmlText& html, const StudyResults& results,
+                     const ResultsSection& section) {
+  const bool any_published =
+      std::any_of(section.estimates.begin(), section.estimates.end(), is_published);
+  HtmlTable table{.caption = "Estimates",
+                  .columns = {{"Estimate, and what it is", false, true},
+                              {"Value", true},
+                              {"95 % interval", true},
+                              {"Unit"},
+                              {"n", true}}};
+  if (any_published) table.columns.push_back({"Published", true});
+  if (any_published && results.simulated) table.columns.push_back({"Basis"});
+  for (const Estimate& estimate : section.estimates) {
+    std::vector<std::string> row = {estimate.name + "\n" + estimate.meaning,
+                                    number_words(estimate.value),
+                                    interval_words(estimate.ci95, estimate.value),
+                                    unit_words(estimate.unit), std::to_string(estimate.n)};
+    if (any_published) row.push_back(published_words(estimate));
+    if (any_published && results.simulated) row.push_back(basis_words(estimate));
+    table.rows.push_back(std::move(row));
+  }
+  html.table(table);
+}
+
+void write_comparisons(HtmlText& html, const ResultsSection& section) {
+  HtmlTable table{.caption = "Comparisons, with 95 % intervals; p two-sided",
+                  .columns = {{"Comparison"},
+                              {"Difference or correlation"},
+                              {"Statistic", true},
+                              {"df", true},
+                              {"p", true},
+                              {"p, Holm", true},
+                              {"Effect size"},
+                              {"n", true}}};
+  std::vector<std::string> methods;
+  bool any_adjusted = false;
+  for (const NamedComparison& named : section.comparisons) {
+    table.rows.push_back(comparison_row(named));
+    any_adjusted = any_adjusted || named.p_value_holm;
+    const std::string& method = named.comparison.method;
+    if (!method.empty() && std::find(methods.begin(), methods.end(), method) == methods.end()) {
+      methods.push_back(method);
+    }
+  }
+  if (!any_adjusted) {
+    table.columns.erase(table.columns.begin() + kHolmColumn);
+    for (auto& row : table.rows) row.erase(row.begin() + kHolmColumn);
+  }
+  if (!methods.empty()) {
+    std::string note;
+    for (const std::string& method : methods)
+      note += (note.empty() ? "Tests: " : "; ") + method;
+    table.notes.push_back(note + ".");
+  }
+  html.table(table);
+}
+
+/// What all names begin with, up to a dot: "magnitude_estimation.".
+std::string common_start(const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  const std::string start = names.front().substr(0, names.front().find('.') + 1);
+  for (const std::string& name : names) {
+    if (!name.starts_with(start)) return "";
+  }
+  return start;
+}
+
+/// Everybody's own numbers, a column each.
+class OwnValues {
+ public:
+  explicit OwnValues(const ResultsSection& section) {
+    for (const ParticipantEstimate& own : section.participants) {
+      if (std::find(names_.begin(), names_.end(), own.name) == names_.end()) {
+        names_.push_back(own.name);
+      }
+      if (std::find(people_.begin(), people_.end(), own.participant) == people_.end()) {
+        people_.push_back(own.participant);
+      }
+      has_intervals_ = has_intervals_ || own.ci95.low || own.ci95.high;
+      cells_[{own.participant, own.name}] = &own;
+    }
+  }
+
+  void write(HtmlText& html) const {
+    // As many as a page is wide.
+    const std::size_t num_columns = has_intervals_ ? 3 : 7;
+    for (std::size_t first = 0; first < names_.size(); first += num_columns) {
+      html.table(table_of(first, std::min(first + num_columns, names_.size())));
+    }
+  }
+
+ private:
+  [[nodiscard]] HtmlTable table_of(std::size_t first, std::size_t end) const {
+    const std::string start = common_start(names_);
+    HtmlTable table{.caption = std::string("Values of every participant") +
+                               (has_intervals_ ? ", with 95 % intervals" : ""),
+                    .columns = {{"Participant"}}};
+    for (std::size_t i = first; i < end; ++i) {
+      table.columns.push_back({names_[i].substr(start.size()), true});
+    }
+    for (const std::string& person : people_) {
+      std::vector<std::string> row = {person};
+      for (std::size_t i = first; i < end; ++i) {
+        const auto found = cells_.find({person, names_[i]});
+        if (found == cells_.end()) {
+          row.emplace_back("–");
+          continue;
+        }
+        const ParticipantEstimate& own = *found->second;
+        const bool is_told = !own.value && !own.reason.empty();
+        row.push_back(is_told ? "– *" : with_interval(own.value, own.ci95));
+        if (is_told)
+          table.notes.push_back("* " + person + ", " + names_[i] + ": " + own.reason);
+      }
+      table.rows.push_back(std::move(row));
+    }
+    return table;
+  }
+
+  std::vector<std::string> names_, people_;
+  std::map<std::pair<std::string, std::string>, const ParticipantEstimate*> cells_;
+  bool has_intervals_ = false;
+};
+
+void write_excluded(HtmlText& html, const ResultsSection& section) {
+  HtmlTable table{.caption = "Left out, and why", .columns = {{"Who"}, {"Reason"}}};
+  for (const ExcludedParticipant& one : section.excluded) {
+    table.rows.push_back({one.participant, one.reason});
+  }
+  html.table(table);
+}
+
+/// A question, and below it what was said to it.
+void write_free_answers(HtmlText& html, const ResultsSection& section) {
+  std::vector<std::string> items;
+  for (const FreeAnswer& one : section.free_answers) {
+    if (std::find(items.begin(), items.end(), one.item) == items.end()) {
+      items.push_back(one.item);
+    }
+  }
+  if (!items.empty()) html.heading(4, "In participants’ own words");
+  for (const std::string& item : items) {
+    std::string question = item;
+    std::string answers;
+    for (const FreeAnswer& one : section.free_answers) {
+      if (one.item != item) continue;
+      if (!one.question.empty()) question = one.question;
+      answers += (answers.empty() ? "" : " · ") + one.participant + ": " + one.answer;
+    }
+    html.paragraph_about(question, answers);
+  }
+}
+
+}  // namespace
+
+std::string section_title(const StudyWords& words, const std::string& name) {
+  const std::string between = "_against_";
+  const std::size_t at = name.find(between);
+  if (at != std::string::npos) {
+    return words.short_title_of(name.substr(0, at)) + " against " +
+           words.short_title_of(name.substr(at + between.size()));
+  }
+  std::string title = words.title_of(name);
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') {
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  }
+  return title;
+}
+
+void write_published(HtmlText& html, const StudyResults& results) {
+  HtmlTable table{.caption = "Ours beside the published values",
+                  .columns = {{"Estimate", false, true},
+                              {"Value", true},
+                              {"95 % interval", true},
+                              {"Unit"},
+                              {"Published", true}}};
+  if (results.simulated) table.columns.push_back({"Basis"});
+  for (const ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (!is_published(estimate)) continue;
+      std::vector<std::string> row = {estimate.name, number_words(estimate.value),
+                                      interval_words(estimate.ci95, estimate.value),
+                                      unit_words(estimate.unit), published_words(estimate)};
+      if (results.simulated) row.push_back(basis_words(estimate));
+      table.rows.push_back(std::move(row));
+    }
+  }
+  if (table.rows.empty()) return;
+  if (results.simulated) {
+    table.notes.emplace_back(
+        "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "
+        "follows from values that were. Held out: the laboratory knows nothing of it.");
+  }
+  html.heading(2, "At a glance");
+  html.table(table);
+}
+
+void write_section(HtmlText& html, const StudyData& data, const StudyResults& results,
+                   const ResultsSection& section) {
+  if (section.name == "questionnaires") {
+    write_questionnaires(html, data, section);
+  } else {
+    write_estimates(html, results, section);
+  }
+  write_comparisons(html, section);
+  write_excluded(html, section);
+  OwnValues(section).write(html);
+  write_free_answers(html, section);
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "analysis/report/html_text.h"
+#include "analysis/report/report.h"
+#include "analysis/report/study_words.h"
+
+namespace jnd::analysis {
+
+/// Everything that has a published value, before all else; nothing without any.
+void write_published(HtmlText& html, const StudyResults& results);
+
+/// One section of the results: estimates, comparisons, who was left out and why, everybody's
+/// own values, answers in their own words. Whatever is in the section is shown.
+void write_section(HtmlText& html, const StudyData& data, const StudyResults& results,
+                   const ResultsSection& section);
+
+/// The estimates of a section "questionnaires", a row an item.
+void write_questionnaires(HtmlText& html, const StudyData& data, const ResultsSection& section);
+
+/// "Group D against Group E": a section's name to readers.
+[[nodiscard]] std::string section_title(const StudyWords& words, const std::string& name);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,106 @@
+#include "analysis/report/study_words.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+/// Of an object of languages the English text, or the first one; a plain text as it is.
+std::string text_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) return "";
+  if (found->is_string()) return found->get<std::string>();
+  if (!found->is_object() || found->empty()) return "";
+  const auto english = found->find("en");
+  const json& text = english == found->end() ? *found->begin() : *english;
+  return text.is_string() ? text.get<std::string>() : "";
+}
+
+void collect(const json& list, StudyWords& words);
+
+void collect_stage(const json& stage, StudyWords& words) {
+  if (!stage.is_object()) return;
+  const std::string name = text_in(stage, "name");
+  const std::string title = text_in(stage, "title");
+  if (!name.empty() && !title.empty()) words.titles.emplace(name, title);
+  const std::string question = text_in(stage, "question");
+  if (!name.empty() && !question.empty()) words.questions.emplace(name, question);
+  for (const char* key : {"stages", "items", "arms", "between"}) {
+    if (stage.contains(key)) collect(stage[key], words);
+  }
+}
+
+void collect(const json& list, StudyWords& words) {
+  if (!list.is_array()) return;
+  for (const json& stage : list) collect_stage(stage, words);
+}
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::string StudyWords::title_of(const std::string& block) const {
+  const auto found = titles.find(block);
+  return found == titles.end() ? in_words(block) : found->second;
+}
+
+std::string StudyWords::short_title_of(const std::string& block) const {
+  const std::string whole = title_of(block);
+  return whole.substr(0, whole.find(": "));
+}
+
+StudyWords study_words_of(const std::string& protocol_text) {
+  StudyWords words;
+  const json study = json::parse(protocol_text, nullptr, /*allow_exceptions=*/false);
+  if (!study.is_object()) return words;
+  words.title = text_in(study, "title");
+  if (words.title.empty()) words.title = in_words(text_in(study, "name"));
+  words.description = text_in(study, "description");
+  words.citation = text_in(study, "citation");
+  words.blinding = text_in(study, "blinding");
+  if (const auto authors = study.find("authors");
+      authors != study.end() && authors->is_array()) {
+    for (const json& author : *authors) {
+      if (author.is_string()) words.authors.push_back(author.get<std::string>());
+    }
+  }
+  if (const auto stages = study.find("stages"); stages != study.end()) collect(*stages, words);
+  return words;
+}
+
+std::string quantity_words(const std::string& quantity) {
+  if (quantity == "scale") return "scaling factor";
+  if (quantity == "viscosity_pa_s") return "viscosity";
+  return in_words(quantity);
+}
+
+std::string quantity_unit(const std::string& quantity) {
+  if (quantity == "viscosity_pa_s") return "Pa s";
+  if (quantity.ends_with("_n_per_m")) return "N/m";
+  if (quantity.ends_with("_n_s_per_m")) return "N s/m";
+  return "";
+}
+
+std::string quantity_axis(const std::string& quantity) {
+  std::string words = quantity_words(quantity);
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') {
+    words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  }
+  const std::string unit = quantity_unit(quantity);
+  return unit.empty() ? words : words + " [" + unit + "]";
+}
+
+std::string procedure_words(const std::string& procedure) {
+  if (procedure == "constant_stimuli") {
+    return "method of constant stimuli as a reminder task (reference first, yes or no)";
+  }
+  return in_words(procedure);
+}
+
+}  // namespace jnd::analysis

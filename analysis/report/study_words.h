@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace jnd::analysis {
+
+/// What a study file says of itself to readers, in English where it has it.
+struct StudyWords {
+  std::string title;  ///< Its name where it has no title.
+  std::string description, citation, blinding;
+  std::vector<std::string> authors;
+  std::map<std::string, std::string> titles;     ///< Of stages, by name.
+  std::map<std::string, std::string> questions;  ///< Of blocks and items, by name.
+
+  /// The title of a block; its name where it has none.
+  [[nodiscard]] std::string title_of(const std::string& block) const;
+  /// Up to its colon: "Group D" of "Group D: low viscosities".
+  [[nodiscard]] std::string short_title_of(const std::string& block) const;
+};
+
+/// Of a study file's text; empty words for a text that is no study.
+[[nodiscard]] StudyWords study_words_of(const std::string& protocol_text);
+
+/// "viscosity", "scaling factor": what varies, from the quantity's name.
+[[nodiscard]] std::string quantity_words(const std::string& quantity);
+/// "Pa s"; "" where it is a ratio.
+[[nodiscard]] std::string quantity_unit(const std::string& quantity);
+/// "Viscosity [Pa s]", for an axis.
+[[nodiscard]] std::string quantity_axis(const std::string& quantity);
+/// "constant stimuli": a procedure in words.
+[[nodiscard]] std::string procedure_words(const std::string& procedure);
+
+}  // namespace jnd::analysis

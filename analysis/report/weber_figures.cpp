@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/report/box_plot.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/plot_parts.h"
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+std::vector<BlockDesign> discriminations(const FigureSource& source) {
+  std::vector<BlockDesign> found;
+  for (const BlockDesign& block : source.data.blocks) {
+    if (block.procedure == "constant_stimuli" && source.section(block.block) != nullptr) {
+      found.push_back(block);
+    }
+  }
+  return found;
+}
+
+std::optional<double> reference_of(const StudyData& data, const std::string& block) {
+  for (const ParticipantData& participant : data.participants) {
+    for (const core::TrialRow& trial : participant.trials_in(block)) {
+      if (trial.reference_intensity) return trial.reference_intensity;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Everybody's fraction in every block, with what there is to see of its interval.
+FigureTable fractions_table(const FigureSource& source,
+                            const std::vector<BlockDesign>& blocks) {
+  FigureTable table{.name = "weber_fractions",
+                    .columns = {"series", "block", "position", "participant", "weber_fraction",
+                                "ci95_low", "ci95_high", "reason"}};
+  const std::vector<std::string> people = source.participants();
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      const ParticipantEstimate* const own =
+          source.own(blocks[b].block, people[i], blocks[b].block + ".weber_fraction");
+      if (own == nullptr) continue;
+      const double aside =
+          0.28 * (static_cast<double>(b) - 0.5 * static_cast<double>(blocks.size() - 1));
+      table.rows.push_back({static_cast<int>(b) + 1, blocks[b].block,
+                            static_cast<double>(i) + 1.0 + aside, people[i], own->value,
+                            own->ci95.low, own->ci95.high, own->reason});
+    }
+  }
+  return table;
+}
+
+/// D.21.
+std::optional<Figure> fractions_figure(const FigureSource& source,
+                                       const std::vector<BlockDesign>& blocks) {
+  FigureTable table = fractions_table(source, blocks);
+  std::vector<double> values;
+  int num_without = 0;
+  for (const std::vector<FigureCell>& row : table.rows) {
+    if (row[4].number) values.push_back(*row[4].number);
+    num_without += row[4].number ? 0 : 1;
+  }
+  if (values.empty()) return std::nullopt;
+  AxisRange range = axis_range(values, /*logarithmic=*/true);
+  range.low = std::max(range.low / 1.6, 1e-3);
+  range.high = std::min(range.high * 1.6, 1e3);
+  const std::vector<std::string> people = source.participants();
+  Figure figure{.name = "weber_fractions",
+                .section = blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block
+                                             : blocks[0].block,
+                .title = "Weber fraction of every participant",
+                .thesis = "Fig. D.21",
+                .height_in = 3.1};
+  figure.plot = "  set logscale y\n  set yrange " + range_words(range) +
+                "\n  set xrange [0.3:" + plot_number(static_cast<double>(people.size()) + 0.7) +
+                "]\n" + named_tics("x", people, people.size() > 16) +
+                "  set ytics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)\n"
+                "  set ylabel 'Weber fraction'\n"
+                "  set key outside top center horizontal reverse Left samplen 1.5\n";
+  std::string plot = "  plot ";
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const int series = static_cast<int>(b) + 1;
+    const std::string type = std::to_string(b % 7 + 1);
+    // Open ends go to the edge of the figure.
+    const std::string low = "(valid(6) ? column('ci95_low') : " + plot_number(range.low) + ")";
+    const std::string high =
+        "(valid(7) ? column('ci95_high') : " + plot_number(range.high) + ")";
+    plot += (b > 0 ? ", " : "") + from_table(table) +
+            "'position':" + if_series(series, "weber_fraction") + ":" + low + ":" + high +
+            " with yerrorbars lt " + type + " dt 1 ps 0.6 title " +
+            gnuplot_quoted(source.words.short_title_of(blocks[b].block));
+    const Estimate* const median =
+        source.results.find(blocks[b].block + ".individual_weber_fraction_median");
+    if (median != nullptr && median->value) {
+      plot += ", " + plot_number(*median->value) + " with lines lt " + type + " lw 1";
+    }
+  }
+  figure.plot += plot + "\n";
+  figure.caption =
+      "Maximum likelihood with 95 % likelihood-ratio intervals, which go to the edge where "
+      "the data do not bound them; horizontal lines: medians.";
+  if (num_without > 0) {
+    figure.caption += " " + counted_words(num_without, "fraction") +
+                      " of their own that do not exist are left out; the tables say why.";
+  }
+  figure.tables.push_back(std::move(table));
+  return figure;
+}
+
+/// D.22.
+std::optional<Figure> thresholds_figure(const FigureSource& source,
+                                        const std::vector<BlockDesign>& blocks) {
+  std::vector<BoxGroup> groups;
+  std::vector<double> values;
+  std::vector<std::string> titles;
+  for (const BlockDesign& block : blocks) {
+    const std::optional<double> reference = reference_of(source.data, block.block);
+    BoxGroup group{.label = block.block, .position = static_cast<double>(groups.size()) + 1.0};
+    for (const std::string& person : source.participants()) {
+      const ParticipantEstimate* const own =
+          source.own(block.block, person, block.block + ".weber_fraction");
+      if (own == nullptr || !own->value || !reference) continue;
+      group.values.emplace_back(person, *own->value * *reference);
+      values.push_back(*own->value * *reference);
+    }
+    titles.push_back(source.words.short_title_of(block.block));
+    groups.push_back(std::move(group));
+  }
+  if (values.empty()) return std::nullopt;
+  const std::string& quantity = blocks.front().quantity;
+  const std::string unit = quantity_unit(quantity);
+  Figure figure{.name = "absolute_thresholds",
+                .section = blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block
+                                             : blocks[0].block,
+                .title = "Absolute thresholds",
+                .caption =
+                    "Weber fraction times reference, one circle a participant; boxes: "
+                    "quartiles and median, whiskers to the last value within 1.5 "
+                    "interquartile ranges. Logarithmic axis.",
+                .thesis = "Fig. D.22",
+                .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
+                .height_in = 3.0};
+  FigureTable boxes = box_table("absolute_thresholds_boxes", groups);
+  FigureTable points = box_values_table("absolute_thresholds_values", groups);
+  figure.plot = "  set logscale y\n  set yrange " +
+                range_words(axis_range(values, /*logarithmic=*/true)) +
+                "\n  set xrange [0.4:" + plot_number(static_cast<double>(blocks.size()) + 0.6) +
+                "]\n" + named_tics("x", titles, false) +
+                "  set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n"
+                "  set ylabel " +
+                gnuplot_quoted("Threshold" + (unit.empty() ? "" : " [" + unit + "]")) +
+                "\n  plot " + box_plot_commands(boxes, points, 0.45) + "\n";
+  figure.tables = {std::move(boxes), std::move(points)};
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> weber_figures(const FigureSource& source) {
+  const std::vector<BlockDesign> blocks = discriminations(source);
+  std::vector<Figure> figures;
+  if (blocks.empty()) return figures;
+  if (auto figure = fractions_figure(source, blocks)) figures.push_back(std::move(*figure));
+  if (auto figure = thresholds_figure(source, blocks)) figures.push_back(std::move(*figure));
+  return figures;
+}
+
+}  // namespace jnd::analysis

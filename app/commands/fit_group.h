@@ -1,0 +1,10 @@
+#pragma once
+
+#include "app/command.h"
+
+namespace jnd::app {
+
+/// `jnd fit hierarchical` and `jnd fit effects`, below `fit`.
+void add_fit_group(CLI::App& fit, Invocation& invocation);
+
+}  // namespace jnd::app

@@ -1,0 +1,107 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/report.h"
+#include "app/commands/commands.h"
+#include "app/json_text.h"
+#include "app/option_checks.h"
+#include "app/results_output.h"
+#include "app/session_setup.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string out;
+  bool pilot = false;
+  bool json = false;
+  int jobs = 2;
+  analysis::ResultsOptions results;
+};
+
+nlohmann::json to_json(const analysis::StudyResults& results, const Options& options,
+                       const analysis::ReportOutcome& outcome) {
+  nlohmann::json figures = nlohmann::json::array();
+  for (std::size_t i = 0; i < outcome.figures.size(); ++i) {
+    const analysis::Figure& figure = outcome.figures[i];
+    figures.push_back({{"name", figure.name},
+                       {"title", figure.title},
+                       {"section", figure.section},
+                       {"thesis", figure.thesis},
+                       {"drawn", !outcome.drawn[i].svg.empty()},
+                       {"problem", outcome.drawn[i].problem}});
+  }
+  return {{"study", results.study},
+          {"simulated", results.simulated},
+          {"out", options.out},
+          {"html", outcome.html.string()},
+          {"pdf", outcome.pdf.empty() ? nlohmann::json(nullptr)
+                                      : nlohmann::json(outcome.pdf.string())},
+          {"figures", std::move(figures)},
+          {"problems", outcome.problems}};
+}
+
+int run(const Options& options) {
+  const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
+  analysis::require_free_folder(options.out);
+  const analysis::StudyData data = analysis::load_study(store, options.pilot);
+  const analysis::StudyResults results = results_of_data(data, options.results);
+  const analysis::MovementAnalysis movement =
+      analysis::analyse_movement(store, {.pilot = options.pilot, .jobs = options.jobs});
+  analysis::ReportOptions tools = analysis::installed_report_tools();
+  tools.jobs = options.jobs;
+  const analysis::ReportOutcome outcome =
+      analysis::write_report({.store = store,
+                              .data = data,
+                              .results = results,
+                              .results_options = options.results,
+                              .movement = movement,
+                              .program_version = JND_VERSION,
+                              .pilot = options.pilot},
+                             options.out, tools);
+  for (const std::string& problem : outcome.problems) {
+    std::fprintf(stderr, "jnd: %s\n", problem.c_str());
+  }
+  if (options.json) {
+    std::puts(json_text(to_json(results, options, outcome)).c_str());
+    return kDone;
+  }
+  std::printf("%s: report of %d participants%s with %zu figures written to %s%s\n",
+              options.folder.c_str(), results.num_participants,
+              results.simulated ? ", SIMULATED," : "", outcome.figures.size(),
+              outcome.html.c_str(), outcome.pdf.empty() ? "" : " and report.pdf");
+  return kDone;
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "report", "Everything a study shows, as HTML and PDF with figures, for a paper");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Study folder, NAME.study")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--out", options->out, "Folder to write to: new or empty")->required();
+  command->add_flag("--pilot", options->pilot, "Pilot sessions as well");
+  command
+      ->add_option("--resamples", options->results.num_resamples,
+                   "Resampled participants for group intervals")
+      ->check(whole_number(100, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", options->results.seed, "Of the resampling")
+      ->check(seed_number())
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Figures and recordings at once")
+      ->check(whole_number(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <tuple>
+
+#include "app/results_basis.h"
+#include "app/results_output.h"
+
+namespace jnd::app {
+namespace {
+
+using analysis::Estimate;
+using analysis::Interval;
+
+std::string text(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? fmt::format("{:.4f}", *value) : "-";
+}
+
+std::string text(const Interval& ci95) {
+  if (!ci95.low && !ci95.high) return "-";
+  return fmt::format("{} .. {}", ci95.low ? text(ci95.low) : "open",
+                     ci95.high ? text(ci95.high) : "open");
+}
+
+std::string p_text(const std::optional<double>& p_value) {
+  if (!p_value) return "p undefined";
+  return *p_value < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.4f}", *p_value);
+}
+
+std::string published_text(const Estimate& estimate) {
+  if (estimate.published_positive) return "> 0";
+  if (!estimate.published) return "-";
+  return estimate.published_sd
+             ? fmt::format("{:.4f} (sd {:.4f})", *estimate.published, *estimate.published_sd)
+             : fmt::format("{:.4f}", *estimate.published);
+}
+
+std::string heading(const analysis::StudyResults& results) {
+  std::string line =
+      fmt::format("{}: {} participants", results.study, results.num_participants);
+  if (results.simulated) {
+    line += fmt::format(", SIMULATED (laboratory \"{}\"{})", results.laboratory,
+                        results.laboratory_changed ? ", CHANGED from the shipped one" : "");
+  }
+  return line + "\n";
+}
+
+constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}  {}\n";
+
+std::string header() {
+  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published", "inside") + "  " +
+         std::string(119, '-') + "\n";
+}
+
+std::string row(const Estimate& estimate) {
+  const std::optional<bool> inside = holds_published(estimate);
+  return fmt::format(kRow, estimate.name, text(estimate.value), text(estimate.ci95),
+                     estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
+                     inside ? (*inside ? "yes" : "no") : "");
+}
+
+/// A row of `jnd results`: what the number is, and what was published if anything was.
+std::string explained_row(const Estimate& estimate) {
+  std::string line =
+      fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name,
+                  text(estimate.value), text(estimate.ci95),
+                  estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
+  if (is_published(estimate)) line += "; published " + published_text(estimate);
+  return line + "\n";
+}
+
+/// "d 0.50 (0.10 .. 0.90)", with the name of the effect size; "" without one.
+std::string effect_text(const analysis::Comparison& c) {
+  const std::tuple<const char*, std::optional<double>, Interval> kEffects[] = {
+      {"dz", c.cohen_dz, c.cohen_dz_ci95},
+      {"g", c.cohen_dz ? std::nullopt : c.hedges_g, c.hedges_g_ci95},
+      {"rank-biserial r", c.rank_biserial, c.rank_biserial_ci95}};
+  for (const auto& [name, value, ci95] : kEffects) {
+    if (value) return fmt::format(", {} {} ({})", name, text(value), text(ci95));
+  }
+  return "";
+}
+
+std::string comparison_row(const analysis::NamedComparison& named) {
+  using Kind = analysis::Comparison::Kind;
+  const analysis::Comparison& c = named.comparison;
+  if (c.status != analysis::FitStatus::kOk) {
+    return fmt::format("  {}: {}\n", named.name, c.reason);
+  }
+  std::string line = fmt::format("  {}: ", named.name);
+  if (c.median_difference) {
+    line += fmt::format(
+        "{} {} ({}), {} = {:.1f}, ", c.kind == Kind::kRankSum ? "median difference" : "median",
+        text(c.median_difference), text(c.median_difference_ci95),
+        c.kind == Kind::kRankSum ? "U" : "smaller sum of ranks", c.statistic.value_or(0.0));
+  } else {
+    const bool correlation = c.kind == Kind::kPearson || c.kind == Kind::kSpearman;
+    const char* what = correlation ? "r" : c.kind == Kind::kOneSample ? "mean" : "difference";
+    line +=
+        fmt::format("{} {} ({}), t({:.1f}) = {:.2f}, ", what, text(c.estimate), text(c.ci95),
+                    c.degrees_of_freedom.value_or(0.0), c.statistic.value_or(0.0));
+  }
+  line += p_text(c.p_value) + effect_text(c);
+  if (named.p_value_holm) line += fmt::format(", Holm {}", p_text(named.p_value_holm));
+  return line + "\n";
+}
+
+/// Names of numbers that nobody has an interval or a reason for: they fit into columns.
+std::vector<std::string> plain_names(const analysis::ResultsSection& section) {
+  std::vector<std::string> names;
+  for (const analysis::ParticipantEstimate& own : section.participants) {
+    if (std::ranges::find(names, own.name) == names.end()) names.push_back(own.name);
+  }
+  std::erase_if(names, [&](const std::string& name) {
+    return std::ranges::any_of(section.participants, [&](const auto& own) {
+      return own.name == name && (own.ci95.low || own.ci95.high || !own.reason.empty());
+    });
+  });
+  return names;
+}
+
+/// What stands above a column: a question without its prefix, any other name as it is.
+std::string title_of(const std::string& name) {
+  constexpr std::string_view kPrefix = "questionnaire.";
+  return name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name;
+}
+
+std::size_t width_of(const std::string& name) {
+  return 2 + std::max<std::size_t>(8, title_of(name).size());
+}
+
+/// A row a participant, some names in columns.
+std::string columns_of(const analysis::ResultsSection& section,
+                       std::span<const std::string> names) {
+  std::vector<std::string> participants;
+  std::map<std::pair<std::string, std::string>, std::optional<double>> values;
+  for (const analysis::ParticipantEstimate& own : section.participants) {
+    if (std::ranges::find(names, own.name) == names.end()) continue;
+    if (std::ranges::find(participants, own.participant) == participants.end()) {
+      participants.push_back(own.participant);
+    }
+    values[{own.participant, own.name}] = own.value;
+  }
+  std::string table = fmt::format("  {:<12}", "");
+  for (const std::string& name : names) {
+    table += fmt::format("{:>{}}", title_of(name), width_of(name));
+  }
+  for (const std::string& participant : participants) {
+    table += fmt::format("\n  {:<12}", participant);
+    for (const std::string& name : names) {
+      table += fmt::format("{:>{}}", text(values[{participant, name}]), width_of(name));
+    }
+  }
+  return table + "\n";
+}
+
+std::string participants_rows(const analysis::ResultsSection& section) {
+  constexpr std::size_t kWidth = 100;
+  const std::vector<std::string> plain = plain_names(section);
+  std::string table;
+  for (const analysis::ParticipantEstimate& own : section.participants) {
+    if (std::ranges::find(plain, own.name) != plain.end()) continue;
+    table += fmt::format("  {:<46} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
+                         text(own.value), text(own.ci95), own.reason);
+  }
+  for (std::size_t first = 0; first < plain.size();) {
+    std::size_t end = first + 1;
+    std::size_t width = width_of(plain[first]);
+    while (end < plain.size() && width + width_of(plain[end]) <= kWidth) {
+      width += width_of(plain[end++]);
+    }
+    table += columns_of(section, std::span(plain).subspan(first, end - first));
+    first = end;
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string to_table(const analysis::StudyResults& results) {
+  std::string table = heading(results);
+  for (const analysis::ResultsSection& section : results.sections) {
+    table += fmt::format("\n{}\n", section.name);
+    for (const Estimate& estimate : section.estimates) table += explained_row(estimate);
+    table += participants_rows(section);
+    for (const analysis::NamedComparison& named : section.comparisons) {
+      table += comparison_row(named);
+    }
+    for (const analysis::FreeAnswer& one : section.free_answers) {
+      table += fmt::format("  {} {}: {}\n", one.participant, one.item, one.answer);
+    }
+    for (const analysis::ExcludedParticipant& one : section.excluded) {
+      table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
+    }
+  }
+  return table;
+}
+
+std::string to_comparison_table(const analysis::StudyResults& results) {
+  std::string table = heading(results) + header();
+  const std::pair<const char*, const char*> kBases[] = {
+      {"calibrated", "calibrated: the laboratory was fitted to the published value"},
+      {"implied", "held out, but implied: follows nearly from what was calibrated"},
+      {"held out", "held out: the laboratory knows nothing of the published value"}};
+  for (const auto& [basis, title] : kBases) {
+    bool first = true;
+    for (const analysis::ResultsSection& section : results.sections) {
+      for (const Estimate& estimate : section.estimates) {
+        if (!is_published(estimate) || basis_of(estimate) != basis) continue;
+        // Of a stiff hand, say, whose fingers cannot trail.
+        if (!estimate.value && estimate.published_positive) continue;
+        if (first && results.simulated) {
+          table += std::string("  ") + title +
+                   (results.laboratory_changed ? ", before it was changed\n" : "\n");
+        }
+        first = false;
+        table += row(estimate);
+      }
+    }
+  }
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const analysis::ExcludedParticipant& one : section.excluded) {
+      table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
+    }
+  }
+  return table;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,163 @@
+#include "analysis/exploratory_results.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jnd::analysis {
+namespace {
+
+const BlockDesign kEstimation = {"estimation", "magnitude_estimation", "scale", 9};
+const BlockDesign kProduction = {"production", "magnitude_production", "scale", 9};
+
+double own(const ResultsSection& section, const std::string& participant,
+           const std::string& name) {
+  for (const ParticipantEstimate& one : section.participants) {
+    if (one.participant == participant && one.name == name) return one.value.value_or(NAN);
+  }
+  return NAN;
+}
+
+const NamedComparison& comparison(const ResultsSection& section, const std::string& name) {
+  for (const NamedComparison& named : section.comparisons) {
+    if (named.name == name) return named;
+  }
+  throw core::Error("no comparison " + name);
+}
+
+/// Sets twice the target, drawn towards each start by `weight`.
+ParticipantData anchored(const std::string& name, double weight) {
+  ParticipantData person{.participant = name};
+  std::int64_t trial = 0;
+  for (const double target : {50.0, 100.0, 200.0}) {
+    for (const double start : {4.0, 0.0, 2.0}) {
+      // High targets from high starts alone: what differs between targets is no anchor.
+      if (target == 200.0 && start == 0.0) continue;
+      const double matched = 0.02 * target;
+      const double set = matched + weight * (start - matched);
+      person.trials.push_back({.trial = ++trial,
+                               .block = "production",
+                               .intensity = set,
+                               .starting_intensity = start,
+                               .target_percent = target,
+                               .response = set});
+    }
+  }
+  return person;
+}
+
+TEST(ExploratoryResults, TheStartingValueSlopeIsTheWeightOfTheAnchor) {
+  StudyData data{.participants = {anchored("P01", 0.25), anchored("P02", 0.0)},
+                 .blocks = {kProduction}};
+  const ResultsSection section = exploratory_results(data, {});
+  EXPECT_NEAR(own(section, "P01", "production.starting_value_slope"), 0.25, 1e-12);
+  EXPECT_NEAR(own(section, "P02", "production.starting_value_slope"), 0.0, 1e-12);
+  const auto mean =
+      std::ranges::find(section.estimates, "production.starting_value_slope", &Estimate::name);
+  ASSERT_NE(mean, section.estimates.end());
+  EXPECT_NEAR(mean->value.value(), 0.125, 1e-12);
+  EXPECT_EQ(mean->meaning.find("exploratory: "), 0U);
+}
+
+TEST(ExploratoryResults, ADriftIsSeenWhateverTheOrderOfTheStimuli) {
+  // Answers that rise by 10 % of the first one with each trial.
+  ParticipantData person{.participant = "P01"};
+  std::int64_t trial = 0;
+  for (const double intensity : {1.0, 3.0, 2.0, 3.0, 2.0, 1.0, 0.0, 0.0}) {
+    const double drift = 1.0 + 0.1 * static_cast<double>(trial);
+    person.trials.push_back({.trial = ++trial,
+                             .block = "estimation",
+                             .intensity = intensity,
+                             .response = 100.0 * intensity * drift});
+  }
+  const StudyData data{.participants = {person}, .blocks = {kEstimation}};
+  const ResultsSection section = exploratory_results(data, {});
+  // Stimulus 1 at trials 1 and 6, 2 at 3 and 5, 3 at 2 and 4, with means of 1.25, 1.3 and 1.2:
+  // slopes of 0.1 over these, weighted by the squared distances within, 12.5, 2 and 2.
+  const double by_hand = (12.5 * (0.1 / 1.25) + 2.0 * (0.1 / 1.3) + 2.0 * (0.1 / 1.2)) / 16.5;
+  EXPECT_NEAR(own(section, "P01", "estimation.drift_per_ten_trials"), 10.0 * by_hand, 1e-12);
+}
+
+TEST(ExploratoryResults, AnAnswerLeansOnTheStimulusBeforeItWithinABlockOnly) {
+  ParticipantData person{.participant = "P01"};
+  const std::vector<double> stimuli = {2.0, 1.0, 2.0, 4.0, 2.0, 1.0, 4.0, 1.0};
+  for (std::size_t i = 0; i < stimuli.size(); ++i) {
+    // Trials 1 to 4 and, after another block, 15 to 18.
+    const auto trial = static_cast<std::int64_t>(i < 4 ? i + 1 : i + 11);
+    const double before = i % 4 == 0 ? 77.0 : stimuli[i - 1];
+    person.trials.push_back({.trial = trial,
+                             .block = "estimation",
+                             .intensity = stimuli[i],
+                             .response = stimuli[i] * (100.0 + 5.0 * before)});
+  }
+  const StudyData data{.participants = {person}, .blocks = {kEstimation}};
+  const double found =
+      own(exploratory_results(data, {}), "P01", "estimation.previous_stimulus_slope");
+  // 1 after 2, 2, 4; 2 after 1; 4 after 2, 1. Relative to the means over all answers to each:
+  // of 1 over 110, 110, 120 and of 4 over 110, 105.
+  const double mean_of_1 = (110.0 + 110.0 + 120.0) / 3.0, mean_of_4 = (110.0 + 105.0) / 2.0;
+  const double squares_1 = 8.0 / 3.0, squares_4 = 0.5;
+  const double by_hand =
+      (squares_1 * 5.0 / mean_of_1 + squares_4 * 5.0 / mean_of_4) / (squares_1 + squares_4);
+  EXPECT_NEAR(found, by_hand, 1e-12);
+}
+
+TEST(ExploratoryResults, ArmsOfACounterbalanceAreComparedByTheParticipantsOwnParameters) {
+  StudyData data{.blocks = {kEstimation}};
+  ResultsSection fits{.name = "estimation"};
+  const std::vector<std::pair<std::string, double>> people = {
+      {"priming=primed;method_order=a,b", 0.5},
+      {"priming=unprimed;method_order=a,b", 0.9},
+      {"priming=primed;method_order=b,a", 0.6},
+      {"priming=unprimed;method_order=b,a", 0.7}};
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const std::string name = "P0" + std::to_string(i + 1);
+    data.participants.push_back({.participant = name, .cells = people[i].first});
+    fits.participants.push_back({name, "estimation.a", people[i].second, {}, ""});
+    fits.participants.push_back({name, "estimation.k", std::exp(people[i].second), {}, ""});
+  }
+  const ResultsSection section = exploratory_results(data, {fits});
+  const NamedComparison& primed =
+      comparison(section, "priming: primed - unprimed: a of estimation, t");
+  EXPECT_NEAR(primed.comparison.estimate.value(), 0.55 - 0.8, 1e-12);
+  EXPECT_EQ(primed.comparison.kind, Comparison::Kind::kWelch);
+  EXPECT_NEAR(comparison(section, "method_order: a,b - b,a: ln k of estimation, t")
+                  .comparison.estimate.value(),
+              0.7 - 0.65, 1e-12);
+  // Four t tests and four rank tests, each family for itself.
+  EXPECT_EQ(section.comparisons.size(), 8U);
+  EXPECT_GE(primed.p_value_holm.value(), primed.comparison.p_value.value());
+  EXPECT_LE(primed.p_value_holm.value(), 4.0 * primed.comparison.p_value.value() + 1e-12);
+}
+
+TEST(ExploratoryResults, ATestThatCannotBeMadeSpoilsNoOther) {
+  StudyData data{
+      .participants = {anchored("P01", 0.2), anchored("P02", 0.3), anchored("P03", 0.25)},
+      .blocks = {kProduction}};
+  data.participants[0].cells = "priming=primed";
+  data.participants[1].cells = data.participants[2].cells = "priming=unprimed";
+  ResultsSection fits{.name = "production"};
+  for (const char* name : {"P01", "P02", "P03"}) {
+    fits.participants.push_back({name, "production.a", 1.0 + (name[2] - '0') * 0.1, {}, ""});
+  }
+  const ResultsSection section = exploratory_results(data, {fits});
+  const NamedComparison& alone =
+      comparison(section, "priming: primed - unprimed: a of production, t");
+  EXPECT_EQ(alone.comparison.status, FitStatus::kDegenerate);
+  EXPECT_FALSE(alone.p_value_holm.has_value());
+  const NamedComparison& start =
+      comparison(section, "production.starting_value_slope against 0, t");
+  EXPECT_TRUE(start.p_value_holm.has_value());
+}
+
+TEST(ExploratoryResults, AStudyWithNothingOfThisHasNone) {
+  StudyData data{.participants = {{.participant = "P01"}},
+                 .blocks = {{"group_d", "constant_stimuli", "viscosity_pa_s", 40}}};
+  const ResultsSection section = exploratory_results(data, {});
+  EXPECT_TRUE(section.estimates.empty());
+  EXPECT_TRUE(section.comparisons.empty());
+}
+
+}  // namespace
+}  // namespace jnd::analysis

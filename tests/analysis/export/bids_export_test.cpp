@@ -1,0 +1,235 @@
+#include "analysis/export/bids_export.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "analysis/hand_made_study.h"
+#include "core/error.h"
+#include "core/sample_table.h"
+#include "core/storage/recording.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BidsExportTest : public ::testing::Test {
+ protected:
+  BidsExportTest() {
+    study_.add("P_01", /*pilot=*/false, R"({"name": "made"})");
+    (void)study_.answer({.block = "group_d",
+                         .procedure = "constant_stimuli",
+                         .medium = "viscous",
+                         .quantity = "viscosity_pa_s",
+                         .intensity = 4.0,
+                         .reference_intensity = 8.0,
+                         .response = 0.0,
+                         .response_time_s = 1.5,
+                         .first_tick = 100,
+                         .last_tick = 109});
+    study_.move({.presentation = 1,
+                 .interval = "test",
+                 .intensity = 4.0,
+                 .first_tick = 100,
+                 .last_tick = 104});
+    study_.add("PILOT", /*pilot=*/true);
+    study_.estimate(1.0, 100.0);
+  }
+
+  /// Ticks 90 to 119 but for 103 and 106 to 107.
+  void record() {
+    core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                                 core::Durability::kAtClose);
+    for (std::int64_t tick = 90; tick < 120; ++tick) {
+      if (tick == 103 || tick == 106 || tick == 107) continue;
+      core::Sample sample{.tick = tick};
+      sample.tip_position_m[0][0] = 1e-7 * static_cast<double>(tick);
+      writer.append(sample);
+    }
+  }
+  void write(const ExportOptions& options, const char* name = "out") {
+    export_bids(study_.store(), temporary_.path() / name, options, R"({"study": "x"})");
+  }
+  [[nodiscard]] fs::path out(const std::string& name) const {
+    return temporary_.path() / "out" / name;
+  }
+  [[nodiscard]] static std::string bytes(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    EXPECT_TRUE(stream) << file;
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  [[nodiscard]] static std::vector<std::vector<std::string>> cells(const fs::path& file) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(bytes(file));
+    for (std::string line; std::getline(lines, line);) {
+      rows.emplace_back();
+      std::istringstream row(line);
+      for (std::string cell; std::getline(row, cell, '\t');) rows.back().push_back(cell);
+    }
+    return rows;
+  }
+  [[nodiscard]] static nlohmann::json json(const fs::path& file) {
+    return nlohmann::json::parse(bytes(file));
+  }
+
+  static constexpr const char* kBeh = "sub-P01/ses-01/beh/sub-P01_ses-01_task-groupd";
+  static constexpr const char* kMotion =
+      "sub-P01/ses-01/motion/sub-P01_ses-01_task-groupd_tracksys-haptic";
+  HandMadeStudy study_{R"({"name": "by_hand", "title": {"en": "By hand"}, "authors": ["A", "B"],
+      "stages": [{"kind": "questionnaire", "name": "about_you", "items": [
+        {"name": "age_years", "kind": "number", "unit": "years", "question": {"en": "Age?"}}]}]})"};
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(BidsExportTest, SaysWhatItIsAndThatItIsSimulated) {
+  write({});
+  const nlohmann::json description = json(out("dataset_description.json"));
+  EXPECT_EQ(description["Name"], "SIMULATED: By hand");
+  EXPECT_EQ(description["BIDSVersion"], "1.9.0");
+  EXPECT_EQ(description["Authors"], (nlohmann::json{"A", "B"}));
+  EXPECT_EQ(description["Simulated"], true);
+  EXPECT_NE(bytes(out("README.md")).find("SIMULATED"), std::string::npos);
+  EXPECT_EQ(
+      bytes(out("participants.tsv")),
+      "participant_id\tpseudonym\tdata_origin\tnum_sessions\nsub-P01\tP_01\tSIMULATED\t1\n");
+  EXPECT_EQ(bytes(out("phenotype/aboutyou.tsv")), "participant_id\tage_years\nsub-P01\tn/a\n");
+  EXPECT_EQ(bytes(out("derivatives/jnd/results.json")), "{\"study\": \"x\"}\n");
+  EXPECT_EQ(json(out("derivatives/jnd/dataset_description.json"))["DatasetType"], "derivative");
+}
+
+TEST_F(BidsExportTest, BehHasARowATrialAndASidecarOfEveryColumn) {
+  write({});
+  const auto rows = cells(out(std::string(kBeh) + "_beh.tsv"));
+  ASSERT_EQ(rows.size(), 2U);
+  const nlohmann::json sidecar = json(out(std::string(kBeh) + "_beh.json"));
+  EXPECT_EQ(sidecar["TaskName"], "group_d");
+  for (const std::string& column : rows[0]) {
+    EXPECT_TRUE(sidecar[column].contains("Description")) << column;
+  }
+  EXPECT_EQ(rows[0][8], "intensity");
+  EXPECT_EQ(rows[1][8], "4");
+  EXPECT_EQ(rows[1][10], "n/a") << "no starting value";
+  EXPECT_EQ(
+      cells(out(std::string(kBeh) + "_events.tsv"))[1],
+      (std::vector<std::string>{"0", "0.005", "test", "1", "1", "1", "4", "0", "1.5", "0"}));
+}
+
+TEST_F(BidsExportTest, MotionHasARowATickAndAChannelAColumn) {
+  record();
+  write({.recordings = true});
+  const auto rows = cells(out(std::string(kMotion) + "_motion.tsv"));
+  const auto channels = cells(out(std::string(kMotion) + "_channels.tsv"));
+  const nlohmann::json sidecar = json(out(std::string(kMotion) + "_motion.json"));
+  ASSERT_EQ(rows.size(), 10U) << "from the block's first tick to its last";
+  EXPECT_EQ(channels[0],
+            (std::vector<std::string>{"name", "component", "type", "tracked_point", "units",
+                                      "sampling_frequency", "reference_frame", "description"}));
+  EXPECT_EQ(rows[0].size(), channels.size() - 1);
+  EXPECT_EQ(rows[0].size(), core::sample_column_names(false).size()) << "latency for tick";
+  EXPECT_EQ(channels[1][2], "LATENCY");
+  EXPECT_EQ(channels[2][0], "palm_inner_position_x_m");
+  EXPECT_EQ(channels[2][1], "x");
+  EXPECT_EQ(channels[2][2], "POS");
+  EXPECT_EQ(channels[2][3], "palm_inner");
+  EXPECT_EQ(channels[2][4], "m");
+  EXPECT_EQ(channels[8][0], "palm_inner_force_x_n");
+  EXPECT_EQ(channels[8][2], "MISC") << "BIDS knows no force";
+  EXPECT_EQ(channels[8][4], "N");
+  EXPECT_EQ(rows[2][0], "0.002");
+  EXPECT_EQ(rows[2][1], "0.0000102");
+  EXPECT_EQ(sidecar["TaskName"], "group_d");
+  EXPECT_EQ(sidecar["SamplingFrequency"], 1000.0);
+  EXPECT_EQ(sidecar["MotionChannelCount"], rows[0].size());
+  EXPECT_EQ(sidecar["POSChannelCount"], 18);
+  EXPECT_EQ(sidecar["VELChannelCount"], 15);
+  EXPECT_EQ(sidecar["TrackedPointsCount"], 6);
+  EXPECT_FALSE(fs::exists(out(std::string(kBeh) + "_events.tsv"))) << "told once";
+}
+
+TEST_F(BidsExportTest, LostSamplesAreRowsOfNothingAndEvents) {
+  record();
+  write({.recordings = true});
+  const auto rows = cells(out(std::string(kMotion) + "_motion.tsv"));
+  for (const std::size_t lost : {3U, 6U, 7U}) {
+    EXPECT_NE(rows[lost][0], "n/a") << "its time is known";
+    EXPECT_TRUE(std::all_of(rows[lost].begin() + 1, rows[lost].end(),
+                            [](const std::string& cell) { return cell == "n/a"; }));
+  }
+  EXPECT_NE(rows[4][1], "n/a");
+  const auto events = cells(out(std::string(kMotion) + "_events.tsv"));
+  ASSERT_EQ(events.size(), 4U);
+  EXPECT_EQ(events[2][0], "0.003");
+  EXPECT_EQ(events[2][1], "0.001");
+  EXPECT_EQ(events[2][2], "missing_samples");
+  EXPECT_EQ(events[3][0], "0.006");
+  EXPECT_EQ(events[3][1], "0.002");
+}
+
+TEST_F(BidsExportTest, ScansNameFilesThatAreThere) {
+  record();
+  write({.recordings = true});
+  const auto rows = cells(out("sub-P01/ses-01/sub-P01_ses-01_scans.tsv"));
+  ASSERT_EQ(rows.size(), 3U);
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    EXPECT_TRUE(fs::exists(out("sub-P01/ses-01/" + rows[row][0]))) << rows[row][0];
+    EXPECT_EQ(rows[row][1], "n/a") << "a simulated session has no date";
+  }
+}
+
+TEST_F(BidsExportTest, PilotsStayOutOfEverythingUnlessAskedFor) {
+  write({});
+  for (const auto& entry : fs::recursive_directory_iterator(out(""))) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_EQ(bytes(entry.path()).find("PILOT"), std::string::npos) << entry.path();
+  }
+  write({.pilot = true}, "with");
+  EXPECT_TRUE(fs::exists(temporary_.path() / "with" / "sub-PILOT"));
+  const core::StudyStore source(temporary_.path() / "with" / "sourcedata" / "jnd.study",
+                                core::StudyStore::Mode::kReadOnly);
+  EXPECT_EQ(source.sessions().size(), 2U);
+}
+
+TEST_F(BidsExportTest, TheSourceIsAStudyThatOpensAndIsStillAppendOnly) {
+  record();
+  write({.recordings = true});
+  const fs::path study = out("sourcedata/jnd.study");
+  for (const char* ending : {"-wal", "-shm", "-journal"}) {
+    EXPECT_FALSE(fs::exists(study / (std::string("study.sqlite") + ending)));
+  }
+  const core::StudyStore source(study, core::StudyStore::Mode::kReadOnly);
+  ASSERT_EQ(source.sessions().size(), 1U);
+  EXPECT_EQ(source.trials(1).size(), 1U);
+  EXPECT_EQ(core::RecordingReader(source.recording_file(1)).missing_ticks(), 3);
+  EXPECT_NE(bytes(study / "study.sqlite").find("trials are never deleted"), std::string::npos);
+  EXPECT_EQ(bytes(out("sourcedata/study_files/by_hand.json")), source.protocols().front().text);
+}
+
+TEST_F(BidsExportTest, TheSameStudyGivesTheSameBytes) {
+  record();
+  write({.recordings = true});
+  write({.recordings = true}, "again");
+  int num_files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out(""))) {
+    if (!entry.is_regular_file()) continue;
+    ++num_files;
+    const fs::path other =
+        temporary_.path() / "again" / fs::relative(entry.path(), temporary_.path() / "out");
+    EXPECT_EQ(bytes(entry.path()), bytes(other)) << other;
+  }
+  EXPECT_GT(num_files, 15);
+}
+
+TEST_F(BidsExportTest, RefusesAStudyOfPilotsAloneAndLeavesNothing) {
+  HandMadeStudy pilots;
+  pilots.add("P01", /*pilot=*/true);
+  EXPECT_THROW(export_bids(pilots.store(), out(""), {}, ""), core::Error);
+  EXPECT_TRUE(fs::is_empty(temporary_.path()));
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,127 @@
+#include "analysis/export/hdf5_export.h"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "analysis/hand_made_study.h"
+#include "core/error.h"
+#include "core/sample_table.h"
+#include "core/storage/recording.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Hdf5ExportTest : public ::testing::Test {
+ protected:
+  Hdf5ExportTest() {
+    study_.add("P01", /*pilot=*/false, R"({"name": "made"})");
+    (void)study_.answer({.block = "estimation", .intensity = 0.1 + 0.2, .first_tick = 2});
+    study_.add("PILOT", /*pilot=*/true);
+    core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                                 core::Durability::kAtClose);
+    for (std::int64_t tick = 0; tick < kNumTicks; ++tick) {
+      if (tick == 7 || tick == 8) continue;
+      core::Sample sample{.tick = tick, .attached_bits = 31};
+      sample.tip_position_m[0][0] = 1e-7 * static_cast<double>(tick);
+      sample.tip_force_n[4][2] = -1e-3 * static_cast<double>(tick);
+      writer.append(sample);
+    }
+  }
+
+  [[nodiscard]] fs::path file(const char* name = "out") const {
+    return temporary_.path() / name / "study.h5";
+  }
+  [[nodiscard]] std::vector<double> numbers(const std::string& name) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
+    EXPECT_GE(dataset, 0) << name;
+    const hid_t space = H5Dget_space(dataset);
+    std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Sclose(space);
+    H5Dclose(dataset);
+    H5Fclose(opened);
+    return values;
+  }
+  [[nodiscard]] std::string text(const std::string& object, const char* attribute) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t found =
+        H5Aopen_by_name(opened, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(found, 0) << object << ' ' << attribute;
+    const hid_t type = H5Aget_type(found);
+    std::string value(H5Tget_size(type), '\0');
+    H5Aread(found, type, value.data());
+    H5Tclose(type);
+    H5Aclose(found);
+    H5Fclose(opened);
+    return value;
+  }
+
+  static constexpr std::int64_t kNumTicks = 40000;  // More than two chunks.
+  HandMadeStudy study_;
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(Hdf5ExportTest, HoldsEverySampleAsTheCsvDoes) {
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  const std::vector<double> ticks = numbers("/session_0001/tick");
+  ASSERT_EQ(ticks.size(), kNumTicks - 2);
+  EXPECT_EQ(ticks[6], 6.0);
+  EXPECT_EQ(ticks[7], 9.0) << "nothing is filled in";
+  EXPECT_EQ(ticks.back(), kNumTicks - 1);
+  const std::vector<double> x = numbers("/session_0001/palm_inner_position_x_m");
+  const std::vector<double> z = numbers("/session_0001/middle_force_z_n");
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    EXPECT_EQ(x[i], ticks[i] / 1e7) << i;
+    EXPECT_EQ(z[i], -ticks[i] / 1e3) << i;
+  }
+  for (const std::string& name : core::sample_column_names(false)) {
+    EXPECT_EQ(numbers("/session_0001/" + name).size(), ticks.size()) << name;
+  }
+}
+
+TEST_F(Hdf5ExportTest, UnitsAreAttributesAndSimulatedIsSaid) {
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  EXPECT_EQ(text("/session_0001/palm_inner_position_x_m", "unit"), "m");
+  EXPECT_EQ(text("/session_0001/palm_inner_velocity_y_m_per_s", "unit"), "m/s");
+  EXPECT_EQ(text("/session_0001/middle_force_z_n", "unit"), "N");
+  EXPECT_EQ(text("/session_0001", "participant"), "P01");
+  EXPECT_NE(text("/", "content").find("SIMULATED"), std::string::npos);
+}
+
+TEST_F(Hdf5ExportTest, TellsGapsTrialsAndWhatThereIsNot) {
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  EXPECT_EQ(numbers("/session_0001/gaps/first_tick"), std::vector<double>{7.0});
+  EXPECT_EQ(numbers("/session_0001/gaps/last_tick"), std::vector<double>{8.0});
+  EXPECT_EQ(numbers("/session_0001/trials/intensity"), std::vector<double>{0.1 + 0.2});
+  EXPECT_EQ(numbers("/session_0001/trials/first_tick"), std::vector<double>{2.0});
+  EXPECT_TRUE(std::isnan(numbers("/session_0001/trials/starting_intensity").at(0)));
+}
+
+TEST_F(Hdf5ExportTest, PilotsAreThereOnlyWhenAskedForAndTheSameStudyGivesTheSameBytes) {
+  const auto bytes = [this](const char* name) {
+    std::ifstream stream(file(name), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  export_hdf5(study_.store(), temporary_.path() / "a", {});
+  export_hdf5(study_.store(), temporary_.path() / "b", {});
+  export_hdf5(study_.store(), temporary_.path() / "with", {.pilot = true});
+  EXPECT_EQ(bytes("a"), bytes("b"));
+  EXPECT_EQ(bytes("a").find("PILOT"), std::string::npos);
+  EXPECT_NE(bytes("with").find("PILOT"), std::string::npos);
+}
+
+TEST_F(Hdf5ExportTest, WhatFailsHalfWayLeavesNothing) {
+  std::ofstream(study_.store().recording_file(1)) << "no recording any more";
+  EXPECT_THROW(export_hdf5(study_.store(), temporary_.path() / "out", {}), core::Error);
+  EXPECT_TRUE(fs::is_empty(temporary_.path()));
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,66 @@
+#include "analysis/fits/psychometric_goodness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jnd::analysis {
+namespace {
+
+const std::vector<AnswerCount> kGood = {{0.6, 1, 12}, {0.8, 3, 12}, {0.9, 5, 12},
+                                        {1.1, 8, 12}, {1.3, 9, 12}, {1.6, 12, 12}};
+/// Up, down, up: no curve that rises is near.
+const std::vector<AnswerCount> kBad = {{0.6, 8, 12},  {0.8, 1, 12}, {0.9, 5, 12},
+                                       {1.1, 12, 12}, {1.3, 4, 12}, {1.6, 12, 12}};
+
+PsychometricFit fit(const std::vector<AnswerCount>& data, int num_goodness = 0,
+                    std::uint64_t seed = 1) {
+  return fit_psychometric(
+      data,
+      {.reference = 1.0, .diagnostics = true, .num_goodness = num_goodness, .seed = seed});
+}
+
+TEST(PsychometricGoodness, SquaredResidualsAddUpToTheDeviance) {
+  for (const auto& data : {kGood, kBad}) {
+    const PsychometricFit found = fit(data);
+    double sum = 0.0;
+    for (const PsychometricGoodness::Residual& one : found.goodness.residuals) {
+      sum += one.deviance_residual * one.deviance_residual;
+    }
+    EXPECT_NEAR(sum, *found.deviance, 1e-10);
+    EXPECT_EQ(found.goodness.degrees_of_freedom, 5);
+  }
+}
+
+TEST(PsychometricGoodness, AnswersOfTheCurveAreNotRejectedAndOthersAre) {
+  const PsychometricFit good = fit(kGood, 400), bad = fit(kBad, 400);
+  EXPECT_GT(*good.goodness.p_value, 0.2);
+  EXPECT_TRUE(good.warnings.empty());
+  EXPECT_LT(*bad.goodness.p_value, 0.01);
+  EXPECT_GT(*bad.goodness.overdispersion, 3.0);
+  ASSERT_EQ(bad.warnings.size(), 1U);
+  EXPECT_NE(bad.warnings[0].find("too narrow"), std::string::npos);
+}
+
+TEST(PsychometricGoodness, TheSameSeedGivesTheSamePValue) {
+  EXPECT_EQ(*fit(kGood, 200, 3).goodness.p_value, *fit(kGood, 200, 3).goodness.p_value);
+}
+
+TEST(PsychometricGoodness, ItIsLeftOutUnlessAskedFor) {
+  EXPECT_TRUE(fit_psychometric(kGood, {.reference = 1.0}).goodness.residuals.empty());
+  EXPECT_FALSE(fit(kGood).goodness.p_value);
+}
+
+TEST(PsychometricGoodness, RedrawnDataWithoutAnOptimumCountWithTheirLimit) {
+  // Few answers, steep: many redrawn sets are separated.
+  const PsychometricFit found =
+      fit({{0.8, 0, 3}, {0.95, 1, 3}, {1.05, 2, 3}, {1.3, 3, 3}}, 300);
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  EXPECT_EQ(found.goodness.n, 300);
+  EXPECT_GT(*found.goodness.p_value, 0.3);
+  EXPECT_LE(*found.goodness.p_value, 1.0);
+}
+
+}  // namespace
+}  // namespace jnd::analysis

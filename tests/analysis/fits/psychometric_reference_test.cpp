@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "analysis/fits/psychometric_effects.h"
+#include "analysis/fits/psychometric_json.h"
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+/// Computed by R: see the script beside it.
+const json& reference() {
+  static const json kDocument = [] {
+    std::ifstream in(std::string(JND_SOURCE_DIR) +
+                     "/data/reference/psychometric_families/psychometric_reference.json");
+    return json::parse(in);
+  }();
+  return kDocument;
+}
+
+std::vector<AnswerCount> rows_of(const json& data) {
+  std::vector<AnswerCount> rows;
+  for (const json& row : data) rows.push_back({row[0], row[1], row[2]});
+  return rows;
+}
+
+void expect_near(double found, double expected, double tolerance, const std::string& where) {
+  EXPECT_NEAR(found, expected, tolerance * std::max(std::fabs(expected), 1e-2)) << where;
+}
+
+PsychometricFit family_fit(const json& one, Solver solver) {
+  return fit_psychometric(
+      rows_of(one.at("data")),
+      {.reference = one.at("reference"),
+       .family = psychometric_family_named(one.at("family").get<std::string>()).value(),
+       .diagnostics = true,
+       .solver = solver});
+}
+
+TEST(PsychometricReference, OtherFamiliesAgreeWithGlm) {
+  for (const json& one : reference().at("families")) {
+    const std::string name = one.at("name");
+    const PsychometricFit fit = family_fit(one, Solver::kCeres);
+    ASSERT_EQ(fit.status, FitStatus::kOk) << name << ": " << fit.reason;
+    const json& expected = one.at("expected");
+    expect_near(*fit.weber_fraction, expected.at("weber_fraction"), 1e-6, name);
+    expect_near(*fit.pse, expected.at("pse"), 1e-6, name);
+    expect_near(*fit.weber_fraction_ci95.low, expected.at("weber_fraction_ci95")[0], 1e-6,
+                name);
+    expect_near(*fit.weber_fraction_ci95.high, expected.at("weber_fraction_ci95")[1], 1e-6,
+                name);
+    expect_near(*fit.pse_ci95->low, expected.at("pse_ci95")[0], 1e-6, name);
+    expect_near(*fit.pse_ci95->high, expected.at("pse_ci95")[1], 1e-6, name);
+    expect_near(*fit.standard_error, expected.at("standard_error"), 1e-6, name);
+    expect_near(*fit.log_likelihood, expected.at("log_likelihood"), 1e-6, name);
+    expect_near(*fit.deviance, expected.at("deviance"), 1e-6, name);
+    expect_near(*fit.goodness.overdispersion, expected.at("overdispersion"), 1e-6, name);
+    for (const PsychometricFit::Parameter& parameter : fit.parameters) {
+      expect_near(parameter.value, one.at("parameters").at(std::string(parameter.name)), 1e-6,
+                  name);
+    }
+    ASSERT_EQ(fit.goodness.residuals.size(), one.at("residuals").size());
+    for (std::size_t level = 0; level < fit.goodness.residuals.size(); ++level) {
+      expect_near(fit.goodness.residuals[level].deviance_residual, one.at("residuals")[level],
+                  1e-6, name);
+    }
+  }
+}
+
+TEST(PsychometricReference, BothSolversFindTheSameCurveInEveryFamily) {
+  for (const json& one : reference().at("families")) {
+    expect_near(*family_fit(one, Solver::kNewton).weber_fraction,
+                *family_fit(one, Solver::kCeres).weber_fraction, 1e-9, one.at("name"));
+  }
+}
+
+TEST(PsychometricReference, EffectsAgreeWithGlm) {
+  std::vector<OrderedAnswers> answers;
+  for (const json& row : reference().at("effects").at("rows")) {
+    answers.push_back({.intensity = row[1],
+                       .num_yes = row[3],
+                       .trial = row[0].get<double>(),
+                       .test_first = row[2] == 1});
+  }
+  const std::vector<PsychometricEffect> found = psychometric_effects(answers, 1.0);
+  const json& expected = reference().at("effects").at("expected");
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t place = 0; place < found.size(); ++place) {
+    const PsychometricEffect& one = found[place];
+    EXPECT_EQ(one.name, reference().at("effects").at("names")[place]);
+    ASSERT_EQ(one.status, FitStatus::kOk) << one.reason;
+    expect_near(*one.estimate, expected[place].at("estimate"), 1e-6, one.name);
+    expect_near(*one.ci95.low, expected[place].at("low"), 1e-6, one.name);
+    expect_near(*one.ci95.high, expected[place].at("high"), 1e-6, one.name);
+    expect_near(*one.statistic, expected[place].at("statistic"), 1e-6, one.name);
+    expect_near(*one.p_value, expected[place].at("p_value"), 1e-6, one.name);
+  }
+}
+
+TEST(PsychometricReference, TheAccelerationIsThatOfLeavingOutEachAnswer) {
+  const PsychometricFit fit = fit_psychometric(
+      rows_of(reference().at("weber_data")), {.reference = 1.0,
+                                              .num_bootstrap = 200,
+                                              .bootstrap_kind = BootstrapKind::kNonparametric});
+  expect_near(fit.bootstrap.acceleration.value(), reference().at("acceleration"), 1e-6, "");
+}
+
+TEST(PsychometricReference, ThePosteriorAgreesWithIntegration) {
+  const json& expected = reference().at("posterior");
+  const auto posterior = [&](bool free_pse) {
+    return fit_psychometric(rows_of(reference().at("weber_data")),
+                            {.reference = 1.0, .free_pse = free_pse, .posterior = true})
+        .posterior;
+  };
+  const PsychometricPosterior fixed = posterior(false), free = posterior(true);
+  ASSERT_EQ(fixed.status, FitStatus::kOk);
+  const auto expect_quantiles = [](const Interval& ci95, double median, const json& wanted) {
+    expect_near(*ci95.low, wanted[0], 2e-6, "low");
+    expect_near(median, wanted[1], 2e-6, "median");
+    expect_near(*ci95.high, wanted[2], 2e-6, "high");
+  };
+  expect_quantiles(fixed.weber_fraction_ci95, *fixed.weber_fraction,
+                   expected.at("fixed_weber_fraction"));
+  expect_quantiles(free.weber_fraction_ci95, *free.weber_fraction,
+                   expected.at("free_weber_fraction"));
+  expect_quantiles(*free.pse_ci95, *free.pse, expected.at("free_pse"));
+}
+
+}  // namespace
+}  // namespace jnd::analysis

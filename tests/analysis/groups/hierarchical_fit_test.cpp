@@ -1,0 +1,180 @@
+#include "analysis/groups/hierarchical_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/psychometric_function.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr HierarchicalOptions kAtReference = {.pse = HierarchicalPse::kReference};
+
+/// Answers as near as whole numbers come to a curve's probabilities.
+ParticipantAnswers exact_answers(const std::string& participant, double w, double pse,
+                                 std::int64_t num_trials, const std::string& condition = "") {
+  ParticipantAnswers one{participant, condition, 1.0, {}};
+  for (const double x : {0.5, 0.7, 0.9, 1.1, 1.4, 2.0}) {
+    const double p = core::standard_normal_cdf(std::log(x / pse) / std::log1p(w));
+    one.rows.push_back({x, std::llround(p * static_cast<double>(num_trials)), num_trials});
+  }
+  return one;
+}
+
+std::vector<ParticipantAnswers> differing_people(std::int64_t num_trials) {
+  std::vector<ParticipantAnswers> all;
+  int number = 0;
+  for (const double factor : {0.5, 0.7, 0.85, 1.0, 1.2, 1.45, 2.0}) {
+    all.push_back(exact_answers("P" + std::to_string(++number),
+                                std::expm1(factor * std::log(1.5)), 1.0, num_trials));
+  }
+  return all;
+}
+
+TEST(HierarchicalFit, PeopleWhoDoNotDifferGiveTheirCommonCurveAndASpreadOfNothing) {
+  std::vector<ParticipantAnswers> all;
+  for (const char* name : {"P1", "P2", "P3", "P4", "P5"}) {
+    all.push_back(exact_answers(name, 0.5, 1.1, 2000));
+  }
+  const HierarchicalFit fit = fit_hierarchical(all, {.pse = HierarchicalPse::kCommon});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.5, 1e-3);
+  EXPECT_NEAR(*fit.conditions[0].pse, 1.1, 1e-3);
+  EXPECT_NEAR(fit.conditions[0].slope_sd, 0.0, 1e-4);
+  EXPECT_NE(fit.note, "");
+}
+
+TEST(HierarchicalFit, TheMedianPersonIsTheMiddleOfPeopleWhoDifferByFactors) {
+  // ln of the factors is symmetric about ln 1 but for 0.85 and 1.2, which nearly are.
+  const HierarchicalFit fit = fit_hierarchical(differing_people(4000), kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.5, 0.01);
+  // With this many answers the spread is that of the seven values, over n as likelihood has it.
+  EXPECT_NEAR(fit.conditions[0].slope_sd, 0.4285, 0.002);
+}
+
+TEST(HierarchicalFit, ThePooledCurveIsFlatterThanTheMedianPerson) {
+  const std::vector<ParticipantAnswers> all = differing_people(4000);
+  std::vector<AnswerCount> pooled;
+  for (const ParticipantAnswers& one : all) {
+    pooled.insert(pooled.end(), one.rows.begin(), one.rows.end());
+  }
+  const PsychometricFit curve = fit_psychometric(pooled, {.reference = 1.0});
+  const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
+  EXPECT_GT(*curve.weber_fraction, 1.02 * *fit.conditions[0].weber_fraction);
+  // An interval that knows that people differ is wider than that of pooled answers.
+  const Interval& group = fit.conditions[0].weber_fraction_ci95;
+  EXPECT_GT(*group.high - *group.low,
+            3.0 * (*curve.weber_fraction_ci95.high - *curve.weber_fraction_ci95.low));
+}
+
+TEST(HierarchicalFit, AnIntervalHoldsItsEstimate) {
+  for (const HierarchicalPse pse : {HierarchicalPse::kReference, HierarchicalPse::kPersonal}) {
+    const HierarchicalFit fit = fit_hierarchical(differing_people(10), {.pse = pse});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    const HierarchicalCondition& one = fit.conditions[0];
+    EXPECT_LT(*one.weber_fraction_ci95.low, *one.weber_fraction);
+    EXPECT_GT(*one.weber_fraction_ci95.high, *one.weber_fraction);
+  }
+}
+
+TEST(HierarchicalFit, AParticipantWithoutAFitOfTheirOwnTakesPart) {
+  std::vector<ParticipantAnswers> all = differing_people(10);
+  ParticipantAnswers perfect = exact_answers("P8", 0.5, 1.0, 10);
+  for (AnswerCount& row : perfect.rows) row.num_yes = row.intensity > 1.0 ? 10 : 0;
+  ASSERT_EQ(fit_psychometric(perfect.rows, {.reference = 1.0}).status, FitStatus::kDegenerate);
+  const HierarchicalFit without = fit_hierarchical(all, kAtReference);
+  all.push_back(perfect);
+  const HierarchicalFit with = fit_hierarchical(all, kAtReference);
+  ASSERT_EQ(with.status, FitStatus::kOk) << with.reason;
+  EXPECT_LT(*with.conditions[0].weber_fraction, *without.conditions[0].weber_fraction);
+  ASSERT_EQ(with.participants.size(), 8U);
+  EXPECT_GT(*with.participants[7].weber_fraction, 0.0);
+}
+
+TEST(HierarchicalFit, TheOrderOfParticipantsDoesNotMatter) {
+  std::vector<ParticipantAnswers> all = differing_people(10);
+  const HierarchicalFit one = fit_hierarchical(all, {});
+  std::reverse(all.begin(), all.end());
+  const HierarchicalFit other = fit_hierarchical(all, {});
+  EXPECT_NEAR(*one.conditions[0].weber_fraction, *other.conditions[0].weber_fraction, 1e-7);
+}
+
+TEST(HierarchicalFit, AUnitOfTheIntensitiesDoesNotMatter) {
+  std::vector<ParticipantAnswers> all = differing_people(10);
+  const HierarchicalFit one = fit_hierarchical(all, {});
+  for (ParticipantAnswers& answers : all) {
+    answers.reference *= 1000.0;
+    for (AnswerCount& row : answers.rows) row.intensity *= 1000.0;
+  }
+  const HierarchicalFit other = fit_hierarchical(all, {});
+  EXPECT_NEAR(*one.conditions[0].weber_fraction, *other.conditions[0].weber_fraction, 1e-7);
+  EXPECT_NEAR(*other.conditions[0].pse, 1000.0 * *one.conditions[0].pse, 1e-4);
+}
+
+TEST(HierarchicalFit, TwoConditionsDifferByWhatTheirCurvesDo) {
+  std::vector<ParticipantAnswers> all;
+  int number = 0;
+  for (const double factor : {0.6, 0.8, 1.0, 1.25, 1.6}) {
+    const std::string name = "P" + std::to_string(++number);
+    all.push_back(exact_answers(name, std::expm1(factor * 0.5), 1.0, 500, "d"));
+    all.push_back(exact_answers(name, std::expm1(factor * 0.25), 1.0, 500, "e"));
+  }
+  const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  ASSERT_EQ(fit.differences.size(), 1U);
+  EXPECT_EQ(fit.differences[0].second, "e");
+  EXPECT_NEAR(fit.differences[0].estimate, std::log(0.5), 0.03);
+  EXPECT_EQ(fit.differences[0].degrees_of_freedom, 4.0);
+  EXPECT_LT(*fit.differences[0].p_value, 0.001);
+  EXPECT_GT(*fit.correlation, 0.95);
+}
+
+TEST(HierarchicalFit, WhatHasNoValueSaysWhy) {
+  const auto reason = [](const std::vector<ParticipantAnswers>& all) {
+    const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
+    EXPECT_EQ(fit.status, FitStatus::kDegenerate);
+    EXPECT_TRUE(fit.conditions.empty());
+    return fit.reason;
+  };
+  EXPECT_NE(reason({}).find("fewer than two"), std::string::npos);
+  EXPECT_NE(reason({exact_answers("P1", 0.5, 1.0, 10)}).find("fewer than two"),
+            std::string::npos);
+  std::vector<ParticipantAnswers> flat = {exact_answers("P1", 0.5, 1.0, 10),
+                                          exact_answers("P2", 0.5, 1.0, 10)};
+  for (ParticipantAnswers& one : flat) {
+    for (AnswerCount& row : one.rows) row.num_yes = 5;
+  }
+  EXPECT_NE(reason(flat).find("flat"), std::string::npos);
+  std::vector<ParticipantAnswers> separated = flat;
+  for (ParticipantAnswers& one : separated) {
+    for (AnswerCount& row : one.rows) row.num_yes = row.intensity > 1.0 ? 10 : 0;
+  }
+  EXPECT_NE(reason(separated).find("separated"), std::string::npos);
+  std::vector<ParticipantAnswers> zero = flat;
+  zero[0].rows.push_back({0.0, 1, 5});
+  EXPECT_NE(reason(zero).find("intensity 0"), std::string::npos);
+}
+
+TEST(HierarchicalFit, ReferencesThatDifferAndTooManyConditionsAreRefused) {
+  std::vector<ParticipantAnswers> all = differing_people(10);
+  all[1].reference = 2.0;
+  EXPECT_THROW((void)fit_hierarchical(all, {}), core::Error);
+  std::vector<ParticipantAnswers> three;
+  for (const char* condition : {"a", "b", "c"}) {
+    three.push_back(exact_answers("P1", 0.5, 1.0, 10, condition));
+    three.push_back(exact_answers("P2", 0.4, 1.0, 10, condition));
+  }
+  EXPECT_THROW((void)fit_hierarchical(three, {}), core::Error);
+  const HierarchicalFit shared = fit_hierarchical(
+      three, {.pse = HierarchicalPse::kReference, .slopes = HierarchicalSlopes::kShared});
+  EXPECT_EQ(shared.status, FitStatus::kOk) << shared.reason;
+  EXPECT_EQ(shared.conditions.size(), 3U);
+  EXPECT_EQ(shared.differences.size(), 2U);
+}
+
+}  // namespace
+}  // namespace jnd::analysis

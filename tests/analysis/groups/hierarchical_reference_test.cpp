@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "analysis/groups/hierarchical_fit.h"
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+/// Computed by lme4's glmer, and by integration on a grid in R: see the script beside it.
+const json& reference() {
+  static const json kDocument = [] {
+    std::ifstream in(std::string(JND_SOURCE_DIR) +
+                     "/data/reference/hierarchical/hierarchical_reference.json");
+    return json::parse(in);
+  }();
+  return kDocument;
+}
+
+std::vector<ParticipantAnswers> answers_of(const json& one) {
+  std::vector<ParticipantAnswers> all;
+  for (const json& row : one.at("rows")) {
+    const std::string participant = row[0], condition = row[1];
+    if (all.empty() || all.back().participant != participant ||
+        all.back().condition != condition) {
+      all.push_back({participant, condition, reference().at("reference").at(condition), {}});
+    }
+    all.back().rows.push_back({row[2], row[3], row[4]});
+  }
+  return all;
+}
+
+HierarchicalOptions options_of(const json& one, int num_nodes) {
+  const std::string pse = one.at("options").at("pse"), slopes = one.at("options").at("slopes");
+  return {.link = one.at("link") == "linear" ? HierarchicalLink::kLinear
+                                             : HierarchicalLink::kLogSlope,
+          .pse = pse == "reference" ? HierarchicalPse::kReference
+                 : pse == "common"  ? HierarchicalPse::kCommon
+                                    : HierarchicalPse::kPersonal,
+          .slopes = slopes == "shared" ? HierarchicalSlopes::kShared
+                                       : HierarchicalSlopes::kCorrelated,
+          .num_nodes = num_nodes};
+}
+
+double at(const json& value, std::size_t condition) {
+  return value.is_array() ? value.at(condition).get<double>() : value.get<double>();
+}
+
+void expect_fit(const json& one, int num_nodes, double tolerance) {
+  SCOPED_TRACE(one.at("name").get<std::string>());
+  const HierarchicalFit fit = fit_hierarchical(answers_of(one), options_of(one, num_nodes));
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  const json& expected = one.at("expected");
+  // glmer's Laplace deviance is rounded by its inner iterations, which second differences show.
+  const double error_tolerance = fit.num_nodes == 1 ? 1e-4 : tolerance;
+  const auto near = [&](double found, const char* key, std::size_t condition, double relative) {
+    if (!expected.contains(key)) return;
+    const double wanted = at(expected.at(key), condition);
+    EXPECT_NEAR(found, wanted, relative * std::max(std::fabs(wanted), 0.1)) << key;
+  };
+  for (std::size_t i = 0; i < fit.conditions.size(); ++i) {
+    const HierarchicalCondition& condition = fit.conditions[i];
+    near(condition.slope_number, "slope", i, tolerance);
+    near(*condition.slope_standard_error, "slope_standard_error", i, error_tolerance);
+    near(condition.slope_sd, "slope_sd", i, tolerance);
+    near(condition.place_number, "place", i, tolerance);
+    near(condition.place_standard_error.value_or(0.0), "place_standard_error", i,
+         error_tolerance);
+    near(condition.place_sd, "place_sd", i, tolerance);
+  }
+  near(fit.correlation.value_or(0.0), "correlation", 0, tolerance);
+  near(*fit.log_likelihood, "log_likelihood", 0, tolerance);
+}
+
+TEST(HierarchicalReference, LinearFitsAgreeWithGlmerNodeByNode) {
+  int num_fits = 0;
+  for (const json& one : reference().at("cases")) {
+    if (one.at("link") != "linear") continue;
+    ++num_fits;
+    expect_fit(one, one.at("nodes"), 2e-6);
+  }
+  EXPECT_EQ(num_fits, 8);
+}
+
+TEST(HierarchicalReference, LogSlopeFitsAgreeWithTheIntegralOnAFineGrid) {
+  for (const json& one : reference().at("cases")) {
+    if (one.at("link") == "linear") continue;
+    const bool one_dimension =
+        one.at("options").at("slopes") == "shared" && one.at("options").at("pse") != "personal";
+    expect_fit(one, one_dimension ? 31 : 35, 2e-6);
+  }
+}
+
+TEST(HierarchicalReference, TheUsualNumberOfNodesIsNearTheIntegral) {
+  for (const json& one : reference().at("cases")) {
+    if (one.at("link") != "linear") expect_fit(one, 0, 3e-3);
+  }
+}
+
+}  // namespace
+}  // namespace jnd::analysis

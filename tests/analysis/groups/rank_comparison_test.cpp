@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/groups/comparison.h"
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(RankSum, IsExactAndWorkedByHand) {
+  // Ranks of a: 3, 5, 6 of 1 to 6, sum 14, U = 14 - 6 = 8 of 9. Of 20 arrangements U = 9 comes
+  // once and U = 8 once: p = 2 * 2 / 20.
+  const Comparison result = rank_sum_test({3, 5, 6}, {1, 2, 4});
+  EXPECT_EQ(result.status, FitStatus::kOk);
+  EXPECT_EQ(*result.statistic, 8.0);
+  EXPECT_DOUBLE_EQ(*result.p_value, 0.2);
+  EXPECT_NEAR(*result.rank_biserial, 2.0 * 8.0 / 9.0 - 1.0, 1e-15);
+  // Differences -1, 1, 1, 2, 2, 3, 4, 4, 5.
+  EXPECT_EQ(*result.median_difference, 2.0);
+  EXPECT_FALSE(result.median_difference_ci95.low) << "three and three can reject nothing";
+  EXPECT_THAT(result.method, HasSubstr("exact"));
+}
+
+TEST(RankSum, SwappingTheGroupsOnlyTurnsTheSign) {
+  const std::vector<double> a = {1.5, 0.2, 3.1, 2.2, 4.0, 5.5}, b = {0.1, 0.9, 1.4, 2.0, 0.3};
+  const Comparison one = rank_sum_test(a, b), other = rank_sum_test(b, a);
+  EXPECT_DOUBLE_EQ(*one.p_value, *other.p_value);
+  EXPECT_DOUBLE_EQ(*one.rank_biserial, -*other.rank_biserial);
+  EXPECT_DOUBLE_EQ(*one.median_difference, -*other.median_difference);
+  EXPECT_DOUBLE_EQ(*one.median_difference_ci95.low, -*other.median_difference_ci95.high);
+}
+
+TEST(RankSum, OnlyTheOrderOfTheValuesCounts) {
+  const std::vector<double> a = {0.3, 1.2, 2.5, 3.0}, b = {0.1, 0.7, 1.9};
+  std::vector<double> exp_a, exp_b;
+  for (const double value : a) exp_a.push_back(std::exp(value));
+  for (const double value : b) exp_b.push_back(std::exp(value));
+  EXPECT_EQ(rank_sum_test(a, b).p_value, rank_sum_test(exp_a, exp_b).p_value);
+}
+
+TEST(RankSum, SaysWhyThereIsNone) {
+  const Comparison alike = rank_sum_test({2, 2, 2}, {2, 2});
+  EXPECT_EQ(alike.status, FitStatus::kDegenerate);
+  EXPECT_THAT(alike.reason, HasSubstr("alike"));
+  EXPECT_FALSE(alike.p_value.has_value());
+  EXPECT_THAT(rank_sum_test({}, {1.0}).reason, HasSubstr("too few"));
+  EXPECT_THROW((void)rank_sum_test({std::nan("")}, {1.0}), core::Error);
+  const Comparison huge = rank_sum_test({1.7e308, 1.6e308}, {-1.7e308});
+  EXPECT_FALSE(huge.estimate.has_value()) << "past the range of numbers, not infinite";
+  EXPECT_FALSE(huge.median_difference.has_value());
+}
+
+TEST(Spearman, IsPearsonsCorrelationOfTheRanks) {
+  // Ranks 1, 2.5, 2.5, 4 against 2, 1, 3, 4.
+  const Comparison ranks = spearman_correlation({10, 20, 20, 70}, {5, 1, 6, 9});
+  const Comparison by_hand = pearson_correlation({1, 2.5, 2.5, 4}, {2, 1, 3, 4});
+  EXPECT_DOUBLE_EQ(*ranks.estimate, *by_hand.estimate);
+  EXPECT_DOUBLE_EQ(*ranks.p_value, *by_hand.p_value);
+  EXPECT_LT(*ranks.ci95.low, *by_hand.ci95.low) << "Bonett and Wright's is wider";
+}
+
+TEST(Spearman, WithoutSpreadOrWithFullAgreementIsDegenerate) {
+  const Comparison constant = spearman_correlation({1, 1, 1}, {1, 2, 3});
+  EXPECT_EQ(constant.status, FitStatus::kDegenerate);
+  EXPECT_FALSE(constant.estimate.has_value());
+  const Comparison full = spearman_correlation({1, 2, 3, 4}, {1, 8, 27, 64});
+  EXPECT_EQ(full.status, FitStatus::kDegenerate);
+  EXPECT_DOUBLE_EQ(*full.estimate, 1.0);
+  EXPECT_THAT(full.reason, HasSubstr("agree wholly"));
+}
+
+TEST(OneSample, IsThePairedTestAgainstZeros) {
+  const std::vector<double> values = {0.4, 1.1, -0.3, 2.0};
+  const Comparison one = one_sample_t_test(values);
+  const Comparison paired = paired_t_test(values, std::vector<double>(values.size(), 0.0));
+  EXPECT_DOUBLE_EQ(*one.p_value, *paired.p_value);
+  EXPECT_DOUBLE_EQ(*one.cohen_dz, *paired.cohen_dz);
+  EXPECT_THAT(one_sample_t_test({1.0}).reason, HasSubstr("too few"));
+  EXPECT_THAT(one_sample_t_test({2.0, 2.0}).reason, HasSubstr("alike"));
+}
+
+}  // namespace
+}  // namespace jnd::analysis

@@ -1,0 +1,283 @@
+#include "analysis/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "analysis/hand_made_study.h"
+#include "analysis/report/data_quality.h"
+#include "analysis/report/html_text.h"
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kProtocol[] = R"json({"name": "by_hand", "title": {"de": "Von Hand",
+  "en": "By <hand>"}, "authors": ["A. & B."], "blinding": "participant", "stages": [
+  {"kind": "block", "name": "estimation", "title": {"en": "How strong"}},
+  {"kind": "counterbalance", "name": "order", "arms": [{"name": "one", "stages": [
+    {"kind": "block", "name": "group_d", "title": {"en": "Group D: thin"}}]}]}]})json";
+
+const std::string kLaboratory = R"({"name": "test"})";
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string without_breaks(std::string html) {
+  const std::string mark = "<wbr>";
+  for (std::size_t at = html.find(mark); at != std::string::npos; at = html.find(mark, at)) {
+    html.erase(at, mark.size());
+  }
+  return html;
+}
+
+/// Estimation, production and one comparison, of three people; the last one tells nothing
+/// apart.
+class ReportTest : public ::testing::Test {
+ protected:
+  ReportTest() {
+    for (const char* name : {"P01", "P02", "P03"}) {
+      (void)study_.add(name, false, kLaboratory);
+      for (std::int64_t repetition = 1; repetition <= 2; ++repetition) {
+        for (const double scale : {0.0, 1.0, 2.0, 4.0}) {
+          study_.estimate(scale, 60.0 * scale + static_cast<double>(repetition), repetition);
+        }
+      }
+      for (const double target : {50.0, 100.0, 200.0}) study_.produce(target, target / 80.0);
+      study_.compare_ten("group_d", name == std::string("P03") ? 5 : 8);
+      study_.compare_ten("group_e", name == std::string("P03") ? 10 : 7);
+    }
+  }
+
+  ReportOutcome report(const fs::path& folder, const ReportOptions& options = {},
+                       bool pilot = false) {
+    const StudyData data = load_study(study_.store(), pilot);
+    const ResultsOptions results_options{.num_resamples = 100};
+    const Published published{
+        .citation = "Somebody (2018).",
+        .values = {{"group_d.weber_fraction", {.value = 0.697, .place = "somewhere"}}}};
+    const StudyResults results = results_of(data, published, results_options);
+    const MovementAnalysis movement = analyse_movement(study_.store(), {.pilot = pilot});
+    return write_report({.store = study_.store(),
+                         .data = data,
+                         .results = results,
+                         .results_options = results_options,
+                         .movement = movement,
+                         .program_version = "1.2.3",
+                         .pilot = pilot},
+                        folder, options);
+  }
+  [[nodiscard]] fs::path out(const std::string& name = "out") const {
+    return temporary_.path() / name;
+  }
+  /// Stands for a browser or gnuplot.
+  fs::path tool(const std::string& name, const std::string& text) {
+    const fs::path file = temporary_.path() / name;
+    std::ofstream(file) << "#!/bin/sh\n" << text;
+    fs::permissions(file, fs::perms::owner_all);
+    return file;
+  }
+
+  HandMadeStudy study_{kProtocol};
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
+  const std::string html = without_breaks(read(report(out()).html));
+  const StudyData data = load_study(study_.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 100});
+  for (const ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (section.name == "questionnaires") continue;  // A row an item, not an estimate.
+      EXPECT_TRUE(has(html, "<code>" + estimate.name + "</code>")) << estimate.name;
+    }
+    for (const NamedComparison& named : section.comparisons) {
+      EXPECT_TRUE(has(html, html_escaped(named.name))) << named.name;
+    }
+  }
+  EXPECT_TRUE(has(html, "0.697")) << "the published value";
+  EXPECT_TRUE(has(html, "Somebody (2018)."));
+}
+
+TEST_F(ReportTest, SaysWhatWasRunWithWhichSeedsAndHashes) {
+  const std::string html = without_breaks(read(report(out()).html));
+  const core::ProtocolRow protocol =
+      study_.store().protocol(load_study(study_.store()).protocol_sha256);
+  EXPECT_TRUE(has(html, protocol.sha256));
+  EXPECT_TRUE(has(html, "By &lt;hand&gt;"));
+  EXPECT_TRUE(has(html, "A. &amp; B."));
+  EXPECT_TRUE(has(html, "jnd 1.2.3"));
+  EXPECT_TRUE(has(html, "levels 0, 1, 2, 4"));
+  EXPECT_TRUE(has(html, "set to feel like 50, 100, 200 %"));
+  EXPECT_TRUE(has(html, "Group D: thin")) << "a title inside of an arm";
+  EXPECT_TRUE(has(html, data_sha256(study_.store(), study_.store().sessions())));
+}
+
+TEST_F(ReportTest, SimulatedDataSaySoAtTheTopOnEveryPageAndInEveryFigure) {
+  const ReportOutcome outcome = report(out());
+  const std::string html = read(outcome.html);
+  EXPECT_TRUE(has(html, "<p class=\"banner\">SIMULATED"));
+  EXPECT_TRUE(has(html, "@top-right { content: \"SIMULATED data\""));
+  ASSERT_FALSE(outcome.figures.empty());
+  for (const Figure& figure : outcome.figures) {
+    EXPECT_TRUE(has(read(out() / "figures" / (figure.name + ".gp")), "SIMULATED"))
+        << figure.name;
+  }
+}
+
+TEST_F(ReportTest, HasTheFiguresThatThereAreDataForAndTheirTables) {
+  const ReportOutcome outcome = report(out());
+  std::set<std::string> names;
+  for (const Figure& figure : outcome.figures) {
+    EXPECT_TRUE(names.insert(figure.name).second) << figure.name << " twice";
+    EXPECT_FALSE(figure.caption.empty()) << figure.name;
+    EXPECT_FALSE(figure.tables.empty()) << figure.name;
+    for (const FigureTable& table : figure.tables) {
+      EXPECT_TRUE(fs::exists(out() / "figures" / (table.name + ".csv"))) << table.name;
+      for (const auto& row : table.rows) {
+        ASSERT_EQ(row.size(), table.columns.size()) << table.name;
+      }
+    }
+  }
+  for (const char* name :
+       {"published", "estimation_curves", "estimation_boxes", "estimation_repetitions",
+        "production_curves", "production_boxes", "production_ratios", "power_laws",
+        "group_d_psychometric", "group_d_participants", "group_e_psychometric",
+        "weber_fractions", "absolute_thresholds"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  EXPECT_FALSE(names.contains("joint_angles")) << "nothing was recorded";
+}
+
+TEST_F(ReportTest, DegenerateDataAreSaidToBeSoAndNoNumberIsMadeUp) {
+  const std::string html = read(report(out()).html);
+  EXPECT_TRUE(has(html, "P03"));
+  EXPECT_TRUE(has(html, "separated"));
+  for (const char* no_number : {">nan<", ">inf<", "nan to", " inf ", "-nan"}) {
+    EXPECT_FALSE(has(html, no_number)) << no_number;
+  }
+}
+
+TEST_F(ReportTest, OfTheSameStudyEveryByteIsTheSame) {
+  (void)report(out("a"));
+  (void)report(out("b"), {.jobs = 4});
+  std::size_t num_files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out("a"))) {
+    if (!entry.is_regular_file()) continue;
+    ++num_files;
+    EXPECT_EQ(read(entry.path()), read(out("b") / fs::relative(entry.path(), out("a"))))
+        << entry.path();
+  }
+  EXPECT_GT(num_files, 20U);
+}
+
+TEST_F(ReportTest, WithoutGnuplotAndBrowserTablesRemainAndTheLackIsSaid) {
+  const ReportOutcome outcome = report(out());
+  ASSERT_EQ(outcome.problems.size(), 2U);
+  EXPECT_TRUE(has(outcome.problems[0], "gnuplot is not installed"));
+  EXPECT_TRUE(has(outcome.problems[1], "neither chromium nor wkhtmltopdf"));
+  EXPECT_TRUE(outcome.pdf.empty());
+  const std::string html = without_breaks(read(outcome.html));
+  EXPECT_FALSE(has(html, "<svg"));
+  EXPECT_TRUE(has(html, "Not drawn: gnuplot is not installed"));
+  EXPECT_TRUE(has(html, "group_d.weber_fraction"));
+}
+
+TEST_F(ReportTest, ABrowserMakesThePdfWhoseDatesAreThoseOfTheData) {
+  const fs::path browser = tool("chromium",
+                                "for word in \"$@\"; do case \"$word\" in\n"
+                                "--print-to-pdf=*) target=\"${word#--print-to-pdf=}\";;\n"
+                                "file://*) page=\"${word#file://}\";; esac; done\n"
+                                "test -f \"$page\" || exit 1\n"
+                                "printf '%%PDF\\n/CreationDate (D:20300101000000Z)\\n' "
+                                "> \"$target\"\n");
+  const ReportOutcome outcome = report(out(), {.browser = browser});
+  EXPECT_EQ(outcome.pdf, out() / "report.pdf");
+  EXPECT_EQ(read(outcome.pdf), "%PDF\n/CreationDate (D:19700101000000Z)\n");
+}
+
+TEST_F(ReportTest, ABrowserThatFailsIsSaidAndTheRestIsWhole) {
+  const ReportOutcome outcome =
+      report(out(), {.browser = tool("chromium", "echo no display >&2\nexit 1\n")});
+  EXPECT_TRUE(outcome.pdf.empty());
+  EXPECT_FALSE(fs::exists(out() / "report.pdf"));
+  EXPECT_TRUE(has(outcome.problems.back(), "there is no report.pdf: chromium: no display"));
+  EXPECT_TRUE(fs::exists(outcome.html));
+}
+
+TEST_F(ReportTest, AFolderWithSomethingInItIsRefusedAndLeftAlone) {
+  fs::create_directories(out());
+  std::ofstream(out() / "mine.txt") << "mine";
+  EXPECT_THROW((void)report(out()), core::Error);
+  EXPECT_EQ(read(out() / "mine.txt"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(out()), fs::directory_iterator()), 1);
+  std::ofstream(out("file")) << "a file";
+  EXPECT_THROW((void)report(out("file")), core::Error);
+}
+
+TEST_F(ReportTest, NothingOfAReportStaysThatCouldNotBeFinished) {
+  // A gnuplot that leaves files without their end, as on a full disk.
+  const fs::path gnuplot =
+      tool("gnuplot", "name=\"${1%.gp}\"\necho '<svg>' > $name.svg\necho %PDF > $name.pdf\n");
+  try {
+    (void)report(out(), {.gnuplot = gnuplot});
+    FAIL() << "expected an error";
+  } catch (const core::Error& error) {
+    EXPECT_TRUE(has(error.what(), "is the disk full?")) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(out()));
+  fs::create_directories(out("empty"));
+  EXPECT_THROW((void)report(out("empty"), {.gnuplot = gnuplot}), core::Error);
+  EXPECT_TRUE(fs::is_empty(out("empty")));
+}
+
+TEST_F(ReportTest, PilotsAreLeftOutUnlessAskedFor) {
+  (void)study_.add("PILOT", true, kLaboratory);
+  study_.compare_ten("group_d", 9);
+  const std::string without = read(report(out("a")).html);
+  EXPECT_FALSE(has(without, "PILOT"));
+  EXPECT_TRUE(has(without, "1 pilot session left out"));
+  const std::string with = read(report(out("b"), {}, /*pilot=*/true).html);
+  EXPECT_TRUE(has(with, "PILOT sessions are among these data"));
+  EXPECT_TRUE(has(with, "4 participants"));
+}
+
+TEST_F(ReportTest, CountsWhatWasUndoneSetAsideAndNeverAnswered) {
+  const std::int64_t session = study_.add("P04", false, kLaboratory);
+  study_.compare_ten("group_d", 8);
+  study_.exclude(3);
+  study_.compare("group_d", 12.0, 8.0, true);
+  study_.undo_last_answer();
+  const std::vector<SessionQuality> quality =
+      session_quality(study_.store(), {study_.store().session(session)});
+  ASSERT_EQ(quality.size(), 1U);
+  EXPECT_EQ(quality[0].num_drawn, 21);
+  EXPECT_EQ(quality[0].num_answered, 19);
+  EXPECT_EQ(quality[0].num_excluded, 1);
+  EXPECT_EQ(quality[0].num_missing(), 1);
+  EXPECT_EQ(quality[0].num_undone, 1);
+  EXPECT_FALSE(quality[0].completed);
+  EXPECT_FALSE(quality[0].timing);
+  EXPECT_TRUE(has(read(report(out()).html), "P04: trial 3 set aside"));
+}
+
+TEST_F(ReportTest, AParticipantWithAMissingBlockDoesNotSpoilTheOthers) {
+  (void)study_.add("P05", false, kLaboratory);
+  study_.estimate(1.0, 100.0);
+  const std::string html = without_breaks(read(report(out()).html));
+  EXPECT_TRUE(has(html, "no answers in group_d"));
+  EXPECT_TRUE(has(html, "<code>combined.k</code>"));
+}
+
+}  // namespace
+}  // namespace jnd::analysis
