@@ -79,7 +79,7 @@ std::string_view words(Fault fault) noexcept {
     case Fault::kSimulationInvalid:
       return "The simulated apparatus came to a state that no real one can have and was "
              "stopped: "
-             "leave the session and resume it (a device simulator has to be started anew); "
+             "leave the session and resume it, which starts the simulation anew; "
              "this "
              "trial does not count.";
   }

@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
 
+#include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
+#include "support/small_disk.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -49,6 +54,134 @@ TEST(ExportCommand, CarriesOneRowAnAnsweredTrial) {
       0);
   const std::string trials = read_file(temporary.path() / "o/trials.csv");
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'), 1 + 3 * kTinyTrials);
+}
+
+/// Two simulated participants of the tiny study, recorded.
+class RecordedStudy {
+ public:
+  RecordedStudy() {
+    write_file(path("tiny.json"), kTinyStudy);
+    const ProgramOutcome made =
+        jnd({"simulate", "tiny.json", "--participants", "2", "--study", "a.study"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+  }
+  [[nodiscard]] ProgramOutcome jnd(const std::vector<std::string>& arguments) const {
+    return test_support::run_program(arguments,
+                                     {.folder = temporary_.path(), .environment = {}});
+  }
+  [[nodiscard]] fs::path path(const std::string& name) const {
+    return temporary_.path() / name;
+  }
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> all;
+    for (const auto& entry : fs::directory_iterator(temporary_.path())) {
+      all.insert(entry.path().filename());
+    }
+    return all;
+  }
+
+ private:
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST(ExportCommand, TheFitsOfABidsDataSetAreThoseOfResults) {
+  const RecordedStudy study;
+  const ProgramOutcome outcome = study.jnd({"export", "bids", "a.study", "--out", "bids"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("--recordings adds it"), std::string::npos) << outcome.out;
+  const ProgramOutcome results = study.jnd({"results", "a.study", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(read_file(study.path("bids/derivatives/jnd/results.json"))),
+            nlohmann::json::parse(results.out));
+  EXPECT_FALSE(fs::exists(study.path("bids/sub-P01/ses-01/motion")));
+}
+
+TEST(ExportCommand, TheSourceOfABidsDataSetIsAWholeStudy) {
+  const RecordedStudy study;
+  ASSERT_EQ(
+      study.jnd({"export", "bids", "a.study", "--out", "bids", "--recordings"}).exit_code, 0);
+  const ProgramOutcome verified = study.jnd({"verify", "bids/sourcedata/jnd.study"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
+TEST(ExportCommand, NamesThePilotsOfAStudyThatHasNothingElse) {
+  const RecordedStudy study;
+  ASSERT_EQ(study
+                .jnd({"run", "tiny.json", "--study", "p.study", "--participant", "P01",
+                      "--headless", "--pilot"})
+                .exit_code,
+            0);
+  const ProgramOutcome refused = study.jnd({"export", "bids", "p.study", "--out", "bids"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(sentence_flaw(refused.err, {"p.study", "--pilot"}), "");
+  const ProgramOutcome done =
+      study.jnd({"export", "bids", "p.study", "--out", "bids", "--pilot"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_FALSE(fs::exists(study.path("bids/derivatives"))) << "no fits of pilots";
+}
+
+TEST(ExportCommand, AFullDiskIsOneSentenceAndLeavesNothing) {
+  const RecordedStudy study;
+  fs::create_directory(study.path("disk"));
+  for (const char* format : {"csv", "bids", "hdf5"}) {
+    for (const int size_kib : {4, 64, 400, 900}) {
+      const test_support::SmallDisk disk(study.path("disk"), size_kib);
+      if (!disk.mounted()) GTEST_SKIP() << "mounting a disk is not allowed here";
+      const ProgramOutcome outcome =
+          study.jnd({"export", format, "a.study", "--out", "disk/out", "--recordings"});
+      EXPECT_EQ(outcome.exit_code, 1) << format << size_kib << outcome.err;
+      EXPECT_EQ(sentence_flaw(outcome.err, {"disk/out", "expected"}), "") << format << size_kib;
+      EXPECT_TRUE(fs::is_empty(study.path("disk"))) << format << size_kib;
+    }
+  }
+}
+
+TEST(ExportCommand, AFolderThatCannotBeWrittenIsOneSentence) {
+  const RecordedStudy study;
+  fs::create_directory(study.path("disk"));
+  const test_support::SmallDisk disk(study.path("disk"), 1000);
+  if (!disk.mounted() || !disk.make_read_only()) {
+    GTEST_SKIP() << "mounting a disk is not allowed here";
+  }
+  for (const char* format : {"csv", "bids", "hdf5"}) {
+    const ProgramOutcome outcome =
+        study.jnd({"export", format, "a.study", "--out", "disk/out"});
+    EXPECT_EQ(outcome.exit_code, 1) << format;
+    EXPECT_EQ(sentence_flaw(outcome.err, {"disk/out", "expected"}), "") << format;
+  }
+}
+
+/// Where `./dev test` installs it, or npm keeps what is installed for all; "" if nowhere.
+std::string bids_validator() {
+  const std::string in_module = "/bids-validator/bin/bids-validator";
+  const std::string local =
+      std::string(JND_SOURCE_DIR) + "/build/bids-validator/node_modules" + in_module;
+  for (const std::string& file :
+       {local, "/usr/local/lib/node_modules" + in_module, "/usr/lib/node_modules" + in_module}) {
+    if (fs::exists(file)) return file;
+  }
+  return "";
+}
+
+TEST(ExportCommand, TheOfficialValidatorFindsNoErrorInABidsDataSet) {
+  const std::string validator = bids_validator();
+  if (validator.empty() || std::system("node --version >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "bids-validator 1.15.0 is not there; `./dev test` installs it by npm";
+  }
+  const RecordedStudy study;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--recordings"}}) {
+    const std::string out = more.empty() ? "plain" : "recorded";
+    std::vector<std::string> words = {"export", "bids", "a.study", "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    ASSERT_EQ(study.jnd(words).exit_code, 0);
+    const fs::path said = study.path(out + ".json");
+    (void)std::system(("node '" + validator + "' --json '" + study.path(out).string() +
+                       "' >'" + said.string() + "' 2>/dev/null")
+                          .c_str());
+    const nlohmann::json verdict = nlohmann::json::parse(read_file(said));
+    EXPECT_TRUE(verdict["issues"]["errors"].empty()) << verdict["issues"]["errors"].dump(2);
+    EXPECT_EQ(verdict["summary"]["subjects"].size(), 2U);
+    EXPECT_EQ(verdict["summary"]["tasks"].size(), 3U);
+  }
 }
 
 }  // namespace
