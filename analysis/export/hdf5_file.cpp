@@ -32,6 +32,10 @@ Hdf5Handle handle(hid_t identifier, herr_t (*closing)(hid_t), const std::string&
 }
 
 hid_t create_file(const std::string& file) {
+  // A file that a full disk cut short cannot be closed, and the library would stumble over it
+  // at the end of the program. All that can be closed is closed here, so it has nothing to do
+  // then.
+  (void)H5dont_atexit();
   // The library would print its own stack of errors.
   (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   errno = 0;
