@@ -35,6 +35,8 @@ std::unique_ptr<Database> opened(const fs::path& file, StudyStore::Mode mode,
                                  Durability durability) {
   if (mode == StudyStore::Mode::kReadOnly) {
     auto database = std::make_unique<Database>(file, Database::Mode::kReadOnly, durability);
+    // From the first read on: answers that come meanwhile fit no row that was read before.
+    database->execute("BEGIN");
     const std::int64_t format = study_format_of(*database);
     if (format == 0) refuse_empty(file);
     if (format == current_study_format()) return database;

@@ -151,7 +151,8 @@ class StudyStore {
   enum class Mode { kReadOnly, kReadWrite, kCreate };
 
   /// Throws `Error`: folder missing or foreign, layout newer than this program, another writer.
-  /// An older layout is brought up to date; read-only, in a copy in memory.
+  /// An older layout is brought up to date; read-only, in a copy in memory. Who only reads sees
+  /// the study as it was when it was opened, whoever writes meanwhile.
   StudyStore(std::filesystem::path folder, Mode mode,
              Durability durability = Durability::kEveryCommit);
   ~StudyStore();

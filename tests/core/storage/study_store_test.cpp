@@ -147,6 +147,17 @@ TEST_F(StudyStoreTest, RefusesASecondWriterAndNamesTheReason) {
   EXPECT_EQ(reader.sessions().size(), 1U);
 }
 
+TEST_F(StudyStoreTest, WhoOnlyReadsSeesOneMomentWhileAnotherWrites) {
+  const auto writer = with_session();
+  writer->append(answered(1, 1, 0.0));
+  const StudyStore reader(folder(), StudyStore::Mode::kReadOnly);
+  writer->append(answered(2, 2, 1.0));
+  EXPECT_EQ(reader.events(1).size(), 1U) << "of the moment at which it was opened";
+  EXPECT_EQ(reader.trials(1).size(), 1U);
+  EXPECT_EQ(StudyStore(folder(), StudyStore::Mode::kReadOnly).trials(1).size(), 2U);
+  EXPECT_EQ(writer->trials(1).size(), 2U);
+}
+
 TEST_F(StudyStoreTest, RefusesAFormatNewerThanItself) {
   with_session();
   sqlite3* database = nullptr;
