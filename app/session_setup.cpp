@@ -1,19 +1,16 @@
 #include "app/session_setup.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <mutex>
 #include <set>
-#include <thread>
 
 #include "app/command.h"
 #include "app/laboratory_run.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/random_stream.h"
 #include "core/storage/sha256.h"
 #include "device/device_registry.h"
@@ -200,49 +197,30 @@ void require_unblinded(const core::StudyStore& store) {
 
 std::int64_t run_batch(const Batch& batch) {
   std::vector<std::atomic<double>> progress(batch.sessions.size());
-  std::atomic<std::size_t> next{0};
   std::atomic<std::int64_t> num_ticks{0};
-  std::atomic<bool> failed{false};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
   const auto report = [&] {
     if (!batch.on_progress) return;
     double sum = 0.0;
     for (const std::atomic<double>& one : progress) sum += one.load(std::memory_order_relaxed);
     batch.on_progress(sum / static_cast<double>(progress.size()));
   };
-  const auto work = [&] {
-    for (std::size_t i = next++; i < batch.sessions.size() && !failed; i = next++) {
-      if (batch.is_cancelled && batch.is_cancelled()) return;
-      try {
-        const LaboratoryRunResult result =
-            run_laboratory({.study = batch.study,
-                            .laboratory = batch.laboratory,
-                            .store = batch.store,
-                            .session = batch.sessions[i],
-                            .durability = core::Durability::kAtClose,
-                            .on_progress =
-                                [&, i](double done) {
-                                  progress[i].store(done, std::memory_order_relaxed);
-                                  report();
-                                },
-                            .is_cancelled = batch.is_cancelled});
-        progress[i].store(1.0);
-        num_ticks += result.num_ticks;
-      } catch (...) {
-        const std::lock_guard guard(failure_mutex);
-        failed = true;
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  };
-  const auto jobs =
-      std::clamp<std::size_t>(static_cast<std::size_t>(batch.jobs), 1, batch.sessions.size());
-  std::vector<std::thread> workers;
-  for (std::size_t job = 1; job < jobs; ++job) workers.emplace_back(work);
-  work();
-  for (std::thread& worker : workers) worker.join();
-  if (failure) std::rethrow_exception(failure);
+  core::for_each_index(batch.sessions.size(), batch.jobs, [&](std::size_t i) {
+    if (batch.is_cancelled && batch.is_cancelled()) return;
+    const LaboratoryRunResult result =
+        run_laboratory({.study = batch.study,
+                        .laboratory = batch.laboratory,
+                        .store = batch.store,
+                        .session = batch.sessions[i],
+                        .durability = core::Durability::kAtClose,
+                        .on_progress =
+                            [&, i](double done) {
+                              progress[i].store(done, std::memory_order_relaxed);
+                              report();
+                            },
+                        .is_cancelled = batch.is_cancelled});
+    progress[i].store(1.0);
+    num_ticks += result.num_ticks;
+  });
   return num_ticks;
 }
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <map>
-#include <thread>
 
 #include "analysis/movement/participant_movement.h"
+#include "core/parallel.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -75,28 +74,13 @@ MovementAnalysis analyse_movement(const core::StudyStore& store,
   const std::vector<std::pair<std::string, SessionsOfPerson>> people(by_person.begin(),
                                                                      by_person.end());
   analysis.participants.resize(people.size());
-  std::vector<std::exception_ptr> failures(people.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < people.size(); i = next++) {
-      try {
-        const auto& [participant, sessions] = people[i];
-        analysis.participants[i] = movement_of(store, options, participant, sessions);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    const auto most =
-        std::min<std::size_t>(static_cast<std::size_t>(options.jobs), people.size());
-    for (std::size_t i = 1; i < most; ++i) others.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  std::atomic<std::size_t> num_done = 0;
+  core::for_each_index(people.size(), options.jobs, [&](std::size_t i) {
+    const auto& [participant, sessions] = people[i];
+    analysis.participants[i] = movement_of(store, options, participant, sessions);
+    if (!options.on_progress) return;
+    options.on_progress(static_cast<double>(++num_done) / static_cast<double>(people.size()));
+  });
   return analysis;
 }
 

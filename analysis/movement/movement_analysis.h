@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,6 +82,8 @@ struct MovementOptions {
   bool pilot = false;    ///< Pilot sessions as well.
   bool explored = true;  ///< Media explored outside of trials as well.
   int jobs = 1;          ///< Recordings at once, >= 1; the result is the same for any.
+  /// Told how much is done, 0 to 1, from any of the jobs; what it throws ends the analysis.
+  std::function<void(double)> on_progress;
 };
 
 /// Reads every recording of the folder once, from end to end; in memory is at most half a

@@ -6,14 +6,13 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "analysis/export/csv_table_writer.h"
 #include "analysis/report/run_tool.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace jnd::analysis {
 namespace {
@@ -153,24 +152,12 @@ std::vector<DrawnFigure> write_figures(const std::vector<Figure>& figures,
     }
     return drawn;
   }
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::exception_ptr> errors(figures.size());
-  const auto work = [&] {
-    for (std::size_t i = next++; i < figures.size(); i = next++) {
-      try {
-        drawn[i] = draw(figures[i], folder, options);
-      } catch (...) {
-        errors[i] = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::jthread> others;
-  for (int job = 1; job < options.jobs; ++job) others.emplace_back(work);
-  work();
-  others.clear();
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
+  std::atomic<std::size_t> num_done = 0;
+  core::for_each_index(figures.size(), options.jobs, [&](std::size_t i) {
+    drawn[i] = draw(figures[i], folder, options);
+    if (!options.on_progress) return;
+    options.on_progress(static_cast<double>(++num_done) / static_cast<double>(figures.size()));
+  });
   return drawn;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct FigureOptions {
   std::int64_t date_time_ns = 0;  ///< What PDF files give as their date.
   int jobs = 2;                   ///< Figures at once, >= 1; the files are the same for any.
   std::filesystem::path gnuplot;  ///< Empty: scripts and tables alone.
+  /// Told how much is done, 0 to 1, from any of the jobs; what it throws ends the drawing.
+  std::function<void(double)> on_progress;
 };
 
 /// Writes NAME.gp and its tables for each figure, and draws NAME.svg and NAME.pdf. The same

@@ -10,8 +10,6 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr const char* kFingerTitles[] = {"palm, inner", "palm, outer", "thumb", "index",
-                                         "middle"};
 constexpr const char* kJointTitles[] = {"base abduction", "base extension", "proximal"};
 
 /// At most that many rows of panels on a page.
@@ -72,23 +70,6 @@ std::vector<ShownCondition> with_joints(const FigureSource& source,
   return kept;
 }
 
-std::string turn_lines(const StrokeCurves& curves) {
-  std::string lines;
-  int number = 10;
-  for (const std::optional<double>& turn :
-       {curves.turn_forward_percent, curves.turn_back_percent}) {
-    const std::string arrow = "  unset arrow " + std::to_string(number) + "\n";
-    lines += arrow;
-    if (turn) {
-      const std::string x = plot_number(*turn);
-      lines += "  set arrow " + std::to_string(number) + " from " + x + ",graph 0 to " + x +
-               ",graph 1 nohead ls 12\n";
-    }
-    ++number;
-  }
-  return lines;
-}
-
 /// The condition of a row, beside its first panel.
 std::string row_title(int finger, const std::string& title) {
   if (finger > 0) return "  unset ylabel\n";
@@ -143,7 +124,7 @@ std::optional<Figure> joint_angles_figure(const FigureSource& source,
   PanelGrid grid{.num_columns = core::kNumContactPoints,
                  .x_title = "Stroke [%]",
                  .y_title = "Change of the joint angle [°]",
-                 .left_in = 0.85,
+                 .left_in = 0.95,
                  .top_in = 0.55};
   std::vector<Panel> panels;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
@@ -203,7 +184,7 @@ std::optional<Figure> joint_torques_figure(const FigureSource& source,
   PanelGrid grid{.num_columns = core::kNumContactPoints,
                  .x_title = "Velocity of the hand, forward positive [m/s]",
                  .y_title = "Joint torque [N m]",
-                 .left_in = 0.85,
+                 .left_in = 1.05,
                  .top_in = 0.55};
   std::vector<Panel> panels;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
@@ -238,114 +219,6 @@ std::optional<Figure> joint_torques_figure(const FigureSource& source,
   figure.caption = who_words(person, conditions) +
                    "Means over strokes, as the torque sensors say; black dots: the middle of "
                    "the motion back, where a stroke begins.";
-  figure.tables = {std::move(table)};
-  return figure;
-}
-
-std::optional<Figure> tip_distances_figure(const FigureSource& source,
-                                           const MovementAnalysis& movement) {
-  constexpr std::size_t kPeople = 5;
-  constexpr std::size_t kConditions = 9;
-  FigureTable table{
-      .name = "tip_distances",
-      .columns = {"person", "participant", "series", "condition", "stroke_percent"}};
-  for (const std::string_view point : core::kContactPointNames) {
-    table.columns.push_back(std::string(point) + "_m");
-  }
-  std::vector<const ParticipantMovement*> people;
-  std::vector<std::string> titles;  // Of conditions, in the order of their series.
-  std::vector<StrokeCurves> turns;
-  std::vector<std::array<std::vector<double>, core::kNumContactPoints>> distances_mm;
-  for (const ParticipantMovement& person : movement.participants) {
-    if (people.size() == kPeople) break;
-    bool any = false;
-    for (const ShownCondition& condition : each_intensity(source, person)) {
-      const StrokeCurves& curves = condition.movement->curves;
-      // Of a device without joints the tips are where the hand is.
-      if (!curves.has_joints ||
-          curves.tip_distance_m[0].mean.size() != curves.stroke_percent.size()) {
-        continue;
-      }
-      auto known = std::find(titles.begin(), titles.end(), condition.title);
-      if (known == titles.end()) {
-        if (titles.size() == kConditions) continue;
-        titles.push_back(condition.title);
-        known = std::prev(titles.end());
-      }
-      if (!any) {
-        people.push_back(&person);
-        turns.push_back(curves);
-        distances_mm.emplace_back();
-        any = true;
-      }
-      for (std::size_t finger = 0; finger < curves.tip_distance_m.size(); ++finger) {
-        for (const double distance_m : curves.tip_distance_m[finger].mean) {
-          distances_mm.back()[finger].push_back(1000.0 * distance_m);
-        }
-      }
-      for (std::size_t i = 0; i < curves.stroke_percent.size(); ++i) {
-        std::vector<FigureCell> row = {static_cast<int>(people.size()), person.participant,
-                                       static_cast<int>(known - titles.begin()) + 1,
-                                       condition.name, curves.stroke_percent[i]};
-        for (const CurveBand& band : curves.tip_distance_m) row.push_back(band.mean[i]);
-        table.rows.push_back(std::move(row));
-      }
-    }
-  }
-  if (people.empty()) return std::nullopt;
-  Figure figure{.name = "tip_distances",
-                .section = "movement",
-                .title = "Distance of the tips to the end effector over a stroke",
-                .thesis = "Fig. D.28"};
-  PanelGrid grid{
-      .num_columns = core::kNumContactPoints,
-      .x_title = "Stroke [%]",
-      .y_title = "Distance of the tip to the end effector [mm]",
-      .top_in = 0.45 + 0.14 * static_cast<double>(std::min<std::size_t>(3, titles.size()))};
-  std::vector<Panel> panels;
-  for (std::size_t p = 0; p < people.size(); ++p) {
-    for (int finger = 0; finger < core::kNumContactPoints; ++finger) {
-      Panel panel{.title = finger == 0 ? people[p]->participant + ", " + kFingerTitles[finger]
-                                       : kFingerTitles[finger]};
-      if (panels.empty()) {
-        panel.before =
-            "  set key at screen 0.5,0.985 center top vertical maxrows 3 reverse Left "
-            "samplen 3 font small\n  set xrange [0:100]\n  set xtics 50 font small\n";
-      }
-      const AxisRange range = axis_range(distances_mm[p][static_cast<std::size_t>(finger)]);
-      panel.before += "  set yrange " + range_words(range) + "\n" + small_tics("y", range);
-      if (finger == 0) panel.before += turn_lines(turns[p]);
-      const std::string column =
-          std::string(core::kContactPointNames[static_cast<std::size_t>(finger)]) + "_m";
-      panel.plot = "plot ";
-      for (std::size_t s = 0; s < titles.size(); ++s) {
-        // From light to dark and from dashes to a line, as the conditions come.
-        const double part =
-            titles.size() < 2 ? 1.0
-                              : static_cast<double>(s) / static_cast<double>(titles.size() - 1);
-        const auto shade = [part](double light, double dark) {
-          return std::to_string(static_cast<int>(light + part * (dark - light)));
-        };
-        const char* const kDashes[] = {"1", "(12,4)", "(5,3)", "(2,3)"};
-        panel.plot += (s > 0 ? ", " : "") + from_table(table) +
-                      "'stroke_percent':" + "(column('person')==" + std::to_string(p + 1) +
-                      " && column('series')==" + std::to_string(s + 1) + " ? 1000*column('" +
-                      column + "') : NaN) with lines lw 1.3 dt " + kDashes[s % 4] +
-                      " lc rgb (" + shade(150, 0) + "*65536+" + shade(190, 40) + "*256+" +
-                      shade(230, 100) + ")";
-        if (panels.empty()) panel.plot += " title " + gnuplot_quoted(titles[s]);
-      }
-      panels.push_back(std::move(panel));
-    }
-  }
-  figure.height_in = grid_height_in(grid, panels.size(), 1.05);
-  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption = "Mean over strokes in each condition, one row a participant (" +
-                   std::string(movement.participants.size() > people.size()
-                                   ? "the first " + std::to_string(people.size())
-                                   : "all") +
-                   " with recordings). 0 % is the middle of the motion back; dashed lines: the "
-                   "turning points in the first condition.";
   figure.tables = {std::move(table)};
   return figure;
 }

@@ -90,9 +90,8 @@ std::string gnuplot_script(const Figure& figure, bool simulated) {
       "  set datafile columnheaders\n";
   script += kStyle;
   if (simulated) {
-    script +=
-        "  set label 99 'SIMULATED' at screen 0.995,0.985 right font small tc rgb "
-        "'#777777'\n";
+    script += "  set label 99 'SIMULATED' at screen 0.995," + inches(0.12 / figure.height_in) +
+              " right font small tc rgb '#777777'\n";
   }
   script += figure.plot;
   script += "}\nunset output\n";

@@ -33,16 +33,19 @@ td { vertical-align: top; }
 tbody tr + tr td { border-top: 1px solid #e4e4e4; }
 .meaning { color: #444; }
 .number { text-align: right; font-variant-numeric: tabular-nums; }
+td.number { white-space: nowrap; }
 code { font: .92em "JetBrains Mono", "DejaVu Sans Mono", monospace; }
 figure { margin: 1.4rem 0; }
 figure svg [font-family] { font-family: Inter, "Helvetica Neue", Arial, sans-serif; }
 figure svg { display: block; max-width: 100%; height: auto; }
 figcaption { font-size: .82rem; line-height: 1.4; margin-top: .3rem; }
 @media print {
+  html { font-size: 10pt; }
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
   h2, h3, h4, caption { break-after: avoid; }
   figure, tr, .short, .banner { break-inside: avoid; }
   thead { display: table-header-group; }
+  tbody tr:nth-child(-n+2) { break-before: avoid; }
   .table { overflow: visible; }
   a { text-decoration: none; }
 }

@@ -46,6 +46,20 @@ std::string name_cell(const std::string& text) {
   return cell + "<br><span class=\"meaning\">" + html_escaped(text.substr(end + 1)) + "</span>";
 }
 
+/// One that fits on a third of a page is not torn apart; words of names take lines of their
+/// own.
+bool is_short(const HtmlTable& table) {
+  constexpr std::size_t kShortLines = 16;
+  constexpr std::size_t kLettersALine = 45;
+  std::size_t num_lines = 0;
+  for (const std::vector<std::string>& row : table.rows) {
+    std::size_t longest = 1;
+    for (const std::string& cell : row) longest = std::max(longest, cell.size());
+    num_lines += 1 + (longest - 1) / kLettersALine;
+  }
+  return num_lines <= kShortLines;
+}
+
 }  // namespace
 
 std::string html_escaped(const std::string& text) {
@@ -112,10 +126,7 @@ void HtmlText::list(const std::vector<std::string>& items) {
 
 void HtmlText::table(const HtmlTable& table) {
   if (table.rows.empty()) return;
-  // One that fits on half a page is not torn apart.
-  constexpr std::size_t kShort = 16;
-  text_ += std::string("<div class=\"") +
-           (table.rows.size() <= kShort ? "short table" : "table") +
+  text_ += std::string("<div class=\"") + (is_short(table) ? "short table" : "table") +
            "\"><table>\n<caption><b>Table " + std::to_string(++num_tables_) + ".</b> " +
            html_escaped(table.caption) + "</caption>\n<thead><tr>";
   for (const HtmlTable::Column& column : table.columns) {

@@ -275,6 +275,7 @@ std::optional<Figure> ratios_figure(const MagnitudeData& data) {
                 .height_in = 3.0};
   figure.plot = "  set xrange [0.4:" + plot_number(static_cast<double>(names.size()) + 0.6) +
                 "]\n" + named_tics("x", names, false) +
+                "  set xlabel 'Magnitudes asked for'\n" +
                 "  set yrange [0:*]\n  set ylabel 'Ratio of set values'\n  plot 2.0 with lines "
                 "ls 12, " +
                 box_plot_commands(boxes, values, 0.4) + "\n";

@@ -1,5 +1,6 @@
 #include "analysis/report/recording_conditions.h"
 
+#include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"
 
 namespace jnd::analysis {
@@ -80,6 +81,23 @@ const ParticipantMovement* shown_participant(const FigureSource& source,
     }
   }
   return best;
+}
+
+std::string turn_lines(const StrokeCurves& curves) {
+  std::string lines;
+  int number = 10;
+  for (const std::optional<double>& turn :
+       {curves.turn_forward_percent, curves.turn_back_percent}) {
+    const std::string arrow = "  unset arrow " + std::to_string(number) + "\n";
+    lines += arrow;
+    if (turn) {
+      const std::string x = plot_number(*turn);
+      lines += "  set arrow " + std::to_string(number) + " from " + x + ",graph 0 to " + x +
+               ",graph 1 nohead ls 12\n";
+    }
+    ++number;
+  }
+  return lines;
 }
 
 }  // namespace jnd::analysis

@@ -27,6 +27,13 @@ struct ShownCondition {
 [[nodiscard]] const ParticipantMovement* shown_participant(const FigureSource& source,
                                                            const MovementAnalysis& movement);
 
+/// Of the five fingers, in the order of the contact points.
+inline constexpr const char* kFingerTitles[] = {"palm, inner", "palm, outer", "thumb", "index",
+                                                "middle"};
+
+/// gnuplot: vertical lines where the hand turns, over a stroke in percent; none where unknown.
+[[nodiscard]] std::string turn_lines(const StrokeCurves& curves);
+
 // finger_figures.cpp
 
 /// Joint angles over a stroke (D.18, D.26).
@@ -35,6 +42,9 @@ struct ShownCondition {
 /// Joint torques over the hand's velocity (D.19, D.27).
 [[nodiscard]] std::optional<Figure> joint_torques_figure(const FigureSource& source,
                                                          const ParticipantMovement& person);
+
+// tip_distance_figure.cpp
+
 /// Tips' distance to the end effector over a stroke (D.28), of up to five participants.
 [[nodiscard]] std::optional<Figure> tip_distances_figure(const FigureSource& source,
                                                          const MovementAnalysis& movement);

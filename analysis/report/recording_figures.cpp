@@ -21,6 +21,22 @@ const Path* longest(const std::vector<Path>& paths) {
   return best;
 }
 
+/// Movement is not blown up beyond this.
+constexpr double kLeastWidthM = 0.1;
+
+AxisRange column_range(const FigureTable& table, std::size_t column) {
+  std::vector<double> values;
+  for (const std::vector<FigureCell>& row : table.rows) {
+    if (row[column].number) values.push_back(*row[column].number);
+  }
+  return axis_range(values);
+}
+
+AxisRange at_least(const AxisRange& range, double width) {
+  const double more = std::max(0.0, 0.5 * (width - (range.high - range.low)));
+  return {range.low - more, range.high + more};
+}
+
 /// D.16 and D.24, from above and from the front.
 std::optional<Figure> trajectories_figure(const FigureSource& source,
                                           const ParticipantMovement& person) {
@@ -52,19 +68,25 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
                 .section = "movement",
                 .title = "Trajectories of the hand",
                 .thesis = "Fig. D.16 and D.24"};
-  PanelGrid grid{.num_columns = 2, .top_in = 0.5, .gap_x_in = 0.85, .gap_y_in = 0.75};
+  PanelGrid grid{.num_columns = 2,
+                 .x_title = "x, to the right [m]",
+                 .left_in = 0.8,
+                 .top_in = most > 1 ? 0.62 : 0.42,
+                 .gap_x_in = 0.85};
+  const AxisRange x_range = column_range(table, 3);
   std::vector<Panel> panels;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::string title = blocks[b].empty() ? "" : source.words.short_title_of(blocks[b]);
     for (const bool from_above : {true, false}) {
       Panel panel{.title = title + (from_above ? ", from above" : ", from the front")};
-      panel.before = std::string("  set xlabel ") +
-                     (from_above ? "'x, to the right [m]'\n  set ylabel 'y, away [m]'\n"
-                                 : "'x, to the right [m]'\n  set ylabel 'z, up [m]'\n");
+      const AxisRange range = at_least(column_range(table, from_above ? 4 : 5), kLeastWidthM);
+      panel.before = small_tics("x", x_range) + small_tics("y", range) + "  set xrange " +
+                     range_words(x_range) + "\n  set yrange " + range_words(range) +
+                     "\n  set ylabel " + (from_above ? "'y, away [m]'\n" : "'z, up [m]'\n");
       if (panels.empty()) {
         panel.before +=
-            "  set key at screen 0.5,0.99 center top horizontal reverse Left samplen 2 font "
-            "small\n  set xtics font small\n  set ytics font small\n";
+            "  set key at screen 0.5,0.99 center top vertical maxrows 1 reverse Left samplen 2 "
+            "width 2 font small\n";
       }
       panel.plot = "plot ";
       const std::string y = from_above ? "y_m" : "z_m";
@@ -126,10 +148,12 @@ std::optional<Figure> force_figure(const FigureSource& source,
                  .x_title = "Speed of the hand [m/s]",
                  .y_title = "Force against the motion [N]",
                  .gap_x_in = 0.5};
+  const AxisRange speeds{0.0, column_range(table, 3).high};
   std::vector<Panel> panels;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     Panel panel{.title = source.words.short_title_of(blocks[b]),
-                .before = "  set xrange [0:*]\n  set yrange [0:*]\n"};
+                .before = small_tics("x", speeds) + "  set xrange " + range_words(speeds) +
+                          "\n  set yrange [0:*]\n"};
     panel.plot = "plot ";
     for (std::size_t i = 1; i <= intensities[blocks[b]].size(); ++i) {
       const int series = static_cast<int>(b * kIntensities + i);

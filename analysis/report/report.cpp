@@ -111,11 +111,15 @@ ReportOutcome write_report(const ReportSource& source, const fs::path& folder,
   OutputFolder output(folder);
   ReportOutcome outcome{.html = folder / "report.html", .figures = figures_of(source)};
   const std::int64_t time_ns = date_of(source);
+  const auto progress = [&](double done) {
+    if (options.on_progress) options.on_progress(done);
+  };
   outcome.drawn = write_figures(outcome.figures, folder / "figures",
                                 {.simulated = source.results.simulated,
                                  .date_time_ns = time_ns,
                                  .jobs = options.jobs,
-                                 .gnuplot = options.gnuplot});
+                                 .gnuplot = options.gnuplot,
+                                 .on_progress = [&](double done) { progress(0.7 * done); }});
   if (options.gnuplot.empty()) {
     outcome.problems.emplace_back(
         "gnuplot is not installed, so the figures are not drawn: tables, scripts and data are "
@@ -128,6 +132,7 @@ ReportOutcome write_report(const ReportSource& source, const fs::path& folder,
   }
   // Last, so that a folder with a report in it is a whole one.
   write_text_file(outcome.html, report_html(source, outcome.figures, outcome.drawn));
+  progress(0.75);
   if (options.browser.empty()) {
     outcome.problems.emplace_back(
         "neither chromium nor wkhtmltopdf is installed, so there is no report.pdf; report.html "
@@ -141,6 +146,7 @@ ReportOutcome write_report(const ReportSource& source, const fs::path& folder,
       outcome.problems.push_back("there is no report.pdf: " + problem);
     }
   }
+  progress(1.0);
   output.keep();
   return outcome;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ReportOptions {
   int jobs = 2;                   ///< Figures at once; the report is the same for any.
   std::filesystem::path gnuplot;  ///< Empty: no figures.
   std::filesystem::path browser;  ///< Makes the PDF; empty: none.
+  /// Told how much is done, 0 to 1; what it throws ends the work, and nothing of it stays.
+  std::function<void(double)> on_progress;
 };
 
 struct ReportOutcome {

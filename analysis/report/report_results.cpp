@@ -26,7 +26,14 @@ std::string basis_words(const Estimate& estimate) {
   return estimate.implied ? "implied" : "held out";
 }
 
-std::string unit_words(const std::string& unit) { return unit == "1" ? "" : unit; }
+/// Not torn apart at the end of a line.
+std::string unit_words(const std::string& unit) {
+  std::string words;
+  for (const char letter : unit == "1" ? "" : unit) {
+    words += letter == ' ' ? "\u00a0" : std::string(1, letter);
+  }
+  return words;
+}
 
 /// "0.71 (0.38 to 1.04)"
 std::string with_interval(const std::optional<double>& value, const Interval& ci95) {

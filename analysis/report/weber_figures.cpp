@@ -75,6 +75,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   figure.plot = "  set logscale y\n  set yrange " + range_words(range) +
                 "\n  set xrange [0.3:" + plot_number(static_cast<double>(people.size()) + 0.7) +
                 "]\n" + named_tics("x", people, people.size() > 16) +
+                "  set xlabel 'Participant'\n" +
                 "  set ytics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)\n"
                 "  set ylabel 'Weber fraction'\n"
                 "  set key outside top center horizontal reverse Left samplen 1.5\n";

@@ -3,12 +3,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/report.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
-#include "app/results_output.h"
-#include "app/session_setup.h"
+#include "app/progress_bar.h"
+#include "app/study_report.h"
 
 namespace jnd::app {
 namespace {
@@ -44,25 +43,20 @@ nlohmann::json to_json(const analysis::StudyResults& results, const Options& opt
           {"problems", outcome.problems}};
 }
 
+StudyReport written(const Options& options) {
+  ProgressBar bar("report");
+  return write_study_report({.folder = options.folder,
+                             .out = options.out,
+                             .pilot = options.pilot,
+                             .jobs = options.jobs,
+                             .results = options.results,
+                             .on_progress = [&bar](double done) { bar.show(done); }});
+}
+
 int run(const Options& options) {
-  const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
-  analysis::require_free_folder(options.out);
-  const analysis::StudyData data = analysis::load_study(store, options.pilot);
-  const analysis::StudyResults results = results_of_data(data, options.results);
-  const analysis::MovementAnalysis movement =
-      analysis::analyse_movement(store, {.pilot = options.pilot, .jobs = options.jobs});
-  analysis::ReportOptions tools = analysis::installed_report_tools();
-  tools.jobs = options.jobs;
-  const analysis::ReportOutcome outcome =
-      analysis::write_report({.store = store,
-                              .data = data,
-                              .results = results,
-                              .results_options = options.results,
-                              .movement = movement,
-                              .program_version = JND_VERSION,
-                              .pilot = options.pilot},
-                             options.out, tools);
+  const StudyReport report = written(options);
+  const analysis::StudyResults& results = report.results;
+  const analysis::ReportOutcome& outcome = report.outcome;
   for (const std::string& problem : outcome.problems) {
     std::fprintf(stderr, "jnd: %s\n", problem.c_str());
   }

@@ -3,12 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -19,6 +16,7 @@
 #include "app/stability_limits.h"
 #include "app/stop_signals.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace jnd::app {
 namespace {
@@ -32,50 +30,18 @@ struct Options {
   bool json = false;
 };
 
-/// Thrown out of the middle of a measurement.
-struct Stopped {};
-
-/// The rows of the map, measured by several threads; a row is the same whoever measures it.
-class Measurement {
- public:
-  explicit Measurement(std::vector<StabilityRow>& rows) : rows_(rows) {}
-
-  void run(int jobs) {
-    std::vector<std::thread> threads;
-    for (int job = 0; job < jobs; ++job) threads.emplace_back([this] { work(); });
-    for (std::thread& thread : threads) thread.join();
-    if (error_) std::rethrow_exception(error_);
-    if (stop_requested()) {
+/// Fills the rows in; a row is the same whoever measures it.
+void measure(std::vector<StabilityRow>& rows, int jobs) {
+  ProgressBar bar("stability");
+  std::atomic<std::size_t> num_done{0};
+  core::for_each_index(rows.size(), jobs, [&](std::size_t i) {
+    rows[i].limits = device::measure_stability(rows[i].measured_case, [] {
+      if (!stop_requested()) return;
       throw core::Error("stability: stopped before the map was complete; nothing was kept");
-    }
-  }
-
- private:
-  void work() {
-    try {
-      while (true) {
-        const std::size_t mine = next_++;
-        if (mine >= rows_.size()) return;
-        rows_[mine].limits = device::measure_stability(rows_[mine].measured_case, [this] {
-          if (stop_requested() || has_failed_) throw Stopped{};
-        });
-        bar_.show(static_cast<double>(++num_done_) / static_cast<double>(rows_.size()));
-      }
-    } catch (const Stopped&) {
-    } catch (...) {
-      const std::lock_guard guard(mutex_);
-      if (!error_) error_ = std::current_exception();
-      has_failed_ = true;
-    }
-  }
-
-  std::vector<StabilityRow>& rows_;
-  ProgressBar bar_{"stability"};
-  std::atomic<std::size_t> next_{0}, num_done_{0};
-  std::atomic<bool> has_failed_{false};
-  std::mutex mutex_;
-  std::exception_ptr error_;
-};
+    });
+    bar.show(static_cast<double>(++num_done) / static_cast<double>(rows.size()));
+  });
+}
 
 void print(const StabilityMap& map) {
   fmt::print(
@@ -122,7 +88,7 @@ int run(const Options& options) {
     }
   }
   stop_on_signals();
-  Measurement(map.rows).run(options.jobs);
+  measure(map.rows, options.jobs);
   const std::string document = json_text(to_json(map));
   if (!options.out.empty()) write(options.out, document);
   if (options.json) {

@@ -3,20 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
 #include "analysis/export/csv_export.h"
-#include "app/operator/figure_tables.h"
-#include "app/operator/results_model.h"
 #include "app/reopened_session.h"
 #include "app/replay_check.h"
 #include "app/session_setup.h"
+#include "app/study_report.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
-#include "core/storage/files.h"
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
@@ -53,28 +48,6 @@ ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& wh
                                counted(std::ssize(outcome.problems), "problem"),
                                outcome.problems.empty() ? "" : outcome.problems.front());
   return outcome;
-}
-
-/// Throws `Error` unless nothing can be overwritten in it.
-void require_free(const fs::path& target) {
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(target, error);
-  if (!fs::exists(status)) return;
-  if (fs::is_directory(target, error) && fs::is_empty(target, error) && !error) return;
-  throw core::Error(target.string() +
-                    ": expected a new or empty folder, found something in it; choose another");
-}
-
-void write_file(const fs::path& file, const std::string& text) {
-  std::FILE* stream = std::fopen(file.c_str(), "wx");
-  bool written = stream != nullptr;
-  if (written) {
-    written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-    written = std::fclose(stream) == 0 && written;
-  }
-  if (written) return;
-  throw core::Error(file.string() + ": expected to be written, found that it cannot be: " +
-                    std::strerror(errno));
 }
 
 }  // namespace
@@ -125,15 +98,17 @@ ActionOutcome back_up_study(const fs::path& folder, const fs::path& target,
 
 ActionOutcome write_report(const fs::path& folder, const fs::path& target,
                            WorkControl& control) {
-  require_free(target);
-  const ResultsModel model = results_model(folder, control);
-  control.stop_if_cancelled();
-  const fs::path figures = target / "figures";
-  core::make_private_folders(figures);
-  write_file(target / "results.txt", model.table);
-  const int num_files = 1 + write_figure_tables(model, figures);
-  return {.sentence = fmt::format("{} with every number and the data of every figure are in {}",
-                                  counted(num_files, "file"), target.string())};
+  const StudyReport report = write_study_report(
+      {.folder = folder, .out = target, .on_progress = [&control](double done) {
+         control.stop_if_cancelled();
+         control.progress(done);
+       }});
+  const analysis::ReportOutcome& outcome = report.outcome;
+  return {.sentence = fmt::format("report.html{} with {} {} in {}",
+                                  outcome.pdf.empty() ? "" : " and report.pdf",
+                                  counted(std::ssize(outcome.figures), "figure"),
+                                  outcome.pdf.empty() ? "is" : "are", target.string()),
+          .problems = outcome.problems};
 }
 
 ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {

@@ -33,8 +33,8 @@ struct ActionOutcome {
                                           const std::filesystem::path& target,
                                           WorkControl& control);
 
-/// results.txt with every number, and figures/NAME.csv with what each figure draws. `target`
-/// must not exist or be empty. Refused like `export_tables`.
+/// The report of `jnd report`: HTML, PDF where a browser is installed, figures with their data.
+/// `target` must not exist or be empty. Refused like `export_tables`.
 [[nodiscard]] ActionOutcome write_report(const std::filesystem::path& folder,
                                          const std::filesystem::path& target,
                                          WorkControl& control);

@@ -292,8 +292,7 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
                      .num_participants = results.num_participants,
                      .discriminations = discriminations_of(source),
                      .magnitudes = magnitudes_of(source),
-                     .boxes = boxes_of(source),
-                     .table = to_table(results)};
+                     .boxes = boxes_of(source)};
   add_table(source, model);
   add_numbers(source, model);
   control.progress(0.9);

@@ -171,7 +171,6 @@ struct ResultsModel {
   std::vector<results::ComparisonLine> comparisons;
   std::vector<results::NumberLine> numbers;
   std::vector<results::QualityChip> quality;
-  std::string table;  ///< Of `jnd results`, word for word.
 };
 
 /// Reads the folder and computes everything; seconds for a large study, so for a

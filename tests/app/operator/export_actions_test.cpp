@@ -6,7 +6,7 @@
 
 #include "analysis/hand_made_study.h"
 #include "app/operator/simulated_study.h"
-#include "app/results_output.h"
+#include "app/study_report.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
 
@@ -80,21 +80,32 @@ TEST_F(ExportActionsTest, ABackupIsReadBackAndKnown) {
   EXPECT_THROW((void)back_up_study(study_.folder(), study_.folder(), control_), core::Error);
 }
 
-TEST_F(ExportActionsTest, AReportHoldsTheTableAndTheDataOfEveryFigure) {
+TEST_F(ExportActionsTest, AReportIsTheOneOfTheCommand) {
   study_.simulate(3);
   const ActionOutcome outcome = write_report(study_.folder(), target(), control_);
   EXPECT_TRUE(outcome.ok);
-  EXPECT_EQ(read_file(target() / "results.txt"), to_table(results_of_folder(study_.folder())));
-  // So few answers have no curve, which leaves the header alone.
-  EXPECT_TRUE(fs::exists(target() / "figures" / "comparison_curves.csv"));
-  for (const char* name :
-       {"comparison_answers", "estimation_means", "estimation_power_laws", "boxes"}) {
-    const fs::path file = target() / "figures" / (std::string(name) + ".csv");
-    ASSERT_TRUE(fs::exists(file)) << name;
-    const std::string text = read_file(file);
-    EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 1) << name;
-  }
-  EXPECT_EQ(outcome.sentence.find("6 files "), 0U) << outcome.sentence;
+  EXPECT_EQ(outcome.sentence.find("report.html"), 0U) << outcome.sentence;
+  EXPECT_EQ(control_.ratio(), 1.0);
+  const fs::path other = study_.temporary() / "by_the_command";
+  (void)write_study_report({.folder = study_.folder(), .out = other});
+  EXPECT_EQ(read_file(target() / "report.html"), read_file(other / "report.html"));
+  EXPECT_TRUE(fs::exists(target() / "figures"));
+}
+
+TEST_F(ExportActionsTest, AReportThatIsCancelledHalfWayLeavesNothingBehind) {
+  study_.simulate(1);
+  std::vector<double> steps;
+  const auto cancelled = [&](double done) {
+    steps.push_back(done);
+    if (done > 0.6) throw WorkCancelled{};
+  };
+  EXPECT_THROW(
+      (void)write_study_report(
+          {.folder = study_.folder(), .out = target(), .jobs = 1, .on_progress = cancelled}),
+      WorkCancelled);
+  EXPECT_TRUE(std::ranges::is_sorted(steps));
+  EXPECT_GT(steps.size(), 3U);
+  EXPECT_FALSE(fs::exists(target()));
 }
 
 TEST_F(ExportActionsTest, ADoubleBlindStudyGivesNothingAway) {

@@ -31,6 +31,7 @@ class OperatedSessionTest : public ::testing::Test {
                                    {.study = *study_,
                                     .laboratory = &laboratory_,
                                     .study_file = "study.json",
+                                    .device = device_,
                                     .seed = 7},
                                    {"P01"})
                           .front();
@@ -155,7 +156,8 @@ class OperatedSessionTest : public ::testing::Test {
   std::unique_ptr<experiments::Study> study_;
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;
-  bool realtime_ = false;  ///< Of sessions opened from now on, as `on_sample_`.
+  std::string device_ = "lumped";  ///< Of sessions opened from now on, as what follows.
+  bool realtime_ = false;
   std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;
 };

@@ -1,22 +1,17 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
-#include <functional>
 #include <optional>
 #include <thread>
 
-#include "app/operator/operated_session_fixture.h"
+#include "app/operator/realtime_session_fixture.h"
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
 namespace {
 
-using namespace std::chrono_literals;
-
-/// A session in real time, beside a window that lives, on a disk that is slow or fails when it
-/// is told to.
-class SlowDiskTest : public OperatedSessionTest {
+/// On a disk that is slow or fails when it is told to.
+class SlowDiskTest : public RealtimeSessionTest {
  protected:
   SlowDiskTest() {
     on_sample_ = [this](const core::Sample& sample) {
@@ -31,11 +26,7 @@ class SlowDiskTest : public OperatedSessionTest {
       }
     };
   }
-  ~SlowDiskTest() override {
-    session_.reset();
-    window_is_open_ = false;
-    if (window_.joinable()) window_.join();
-  }
+  ~SlowDiskTest() override { session_.reset(); }
 
   /// To the block's trial after the first as fast as it goes, then on in real time.
   SessionView go_on_in_real_time(const std::vector<device::ScheduledFault>& faults = {}) {
@@ -43,37 +34,10 @@ class SlowDiskTest : public OperatedSessionTest {
     answer_trial(run_to_block("comparison"), 1.0);
     session_.reset();
     samples_.clear();
-    realtime_ = true;
-    window_ = std::thread([this] {
-      while (window_is_open_) {
-        doors_.heartbeat.beat();
-        std::this_thread::sleep_for(5ms);
-      }
-    });
+    open_window();
     reopen(faults);
     session_->request(operate::Begin{"repeat"});
     return until([](const SessionView& now) { return now.step == Step::kReady; });
-  }
-
-  SessionView until(const std::function<bool(const SessionView&)>& is_so) {
-    const auto patience = std::chrono::steady_clock::now() + 60s;
-    while (std::chrono::steady_clock::now() < patience) {
-      session_->advance(0.0);
-      const SessionView now = view();
-      if (is_so(now)) return now;
-      std::this_thread::sleep_for(1ms);
-    }
-    ADD_FAILURE() << "that never came; step " << static_cast<int>(view().step);
-    return view();
-  }
-
-  /// The hand strokes through what is presented, and feels it.
-  SessionView present(std::int64_t trial, const std::string& interval) {
-    session_->request(operate::Present{trial, interval});
-    return until([&](const SessionView& now) {
-      return now.trial && now.trial->interval == interval && now.trial->felt_s > 0.3 &&
-             force_n(now.telemetry.total_force_n) > 0.5;
-    });
   }
 
   void hold_disk(std::int64_t duration_ms) {
@@ -87,9 +51,7 @@ class SlowDiskTest : public OperatedSessionTest {
     while (!has_failed_) std::this_thread::yield();
   }
 
-  static double force_n(const core::PlainVector& force) {
-    return std::hypot(force[0], force[1], force[2]);
-  }
+  using RealtimeSessionTest::force_n;
   static double force_n(const core::Sample& sample) {
     double sum_n = 0.0;
     for (const core::PlainVector& force : sample.tip_force_n) sum_n += force_n(force);
@@ -122,8 +84,6 @@ class SlowDiskTest : public OperatedSessionTest {
   std::atomic<bool> is_holding_{false};
   std::atomic<bool> fails_{false};
   std::atomic<bool> has_failed_{false};
-  std::atomic<bool> window_is_open_{true};
-  std::thread window_;
 };
 
 TEST_F(SlowDiskTest, APauseTakesTheMediumAwayBeforeTheDiskIsFree) {

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "app/operator/realtime_session_fixture.h"
+#include "core/storage/integrity.h"
+#include "device/device_registry.h"
+#include "device/network/device_server.h"
+#include "device/network/udp_port.h"
+
+namespace jnd::app {
+namespace {
+
+/// A simulated hand behind the network, at a clock of its own; gone without a word when it is
+/// destroyed, as a process that was killed.
+class ServedHand {
+ public:
+  /// Port 0: any that is free.
+  explicit ServedHand(std::uint64_t first_stream_id, std::uint16_t port = 0)
+      : port_(device::resolved({.host = "127.0.0.1", .port = port})),
+        server_(*device_, port_,
+                {.watchdog_s = 0.100,
+                 .max_answer_age_s = 0.120,
+                 .first_stream_id = first_stream_id}) {
+    device_->open();
+    thread_ = std::thread([this] {
+      while (!killed_) {
+        server_.step(port_.now_ns());
+        server_.renew_device();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+  }
+  ~ServedHand() {
+    killed_ = true;
+    thread_.join();
+  }
+  ServedHand(const ServedHand&) = delete;
+  ServedHand& operator=(const ServedHand&) = delete;
+
+  [[nodiscard]] std::string place() const { return device::text_of(port_.local()); }
+
+ private:
+  std::unique_ptr<device::HapticDevice> device_ = device::make_device("lumped", 1000.0);
+  device::UdpPort port_;
+  device::DeviceServer server_;
+  std::atomic<bool> killed_{false};
+  std::thread thread_;
+};
+
+/// An operator whose device is at the other end of a network.
+class NetworkSessionTest : public RealtimeSessionTest {
+ protected:
+  ~NetworkSessionTest() override { session_.reset(); }
+
+  /// Up to the first trial, in real time.
+  SessionView begin() {
+    hand_.emplace(1);
+    device_ = "network:" + hand_->place();
+    open_window();
+    open(kTwoTrials);
+    session_->request(operate::Begin{});
+    return until([](const SessionView& now) { return now.step == Step::kReady; });
+  }
+
+  /// The device dies; a fault is raised.
+  void kill_device() {
+    hand_.reset();
+    until([](const SessionView& now) { return now.step == Step::kFault; });
+  }
+  /// As often as it takes: a connection has to be good for a while first.
+  SessionView rearm() {
+    return until([this](const SessionView& now) {
+      if (now.step == Step::kFault) session_->request(operate::Rearm{now.num_stop_presses});
+      return now.step != Step::kFault;
+    });
+  }
+  void restart_device() {
+    const std::string port = device_.substr(device_.rfind(':') + 1);
+    hand_.emplace(2, static_cast<std::uint16_t>(std::stoi(port)));
+  }
+
+  /// Felt and answered; returns what comes next.
+  SessionView answer(std::int64_t trial) {
+    present(trial, "test");
+    session_->request(operate::Answer{trial, 12.0});
+    return until([&](const SessionView& now) {
+      return now.step == Step::kStageDone || (now.trial && now.trial->trial > trial);
+    });
+  }
+
+  void expect_both_trials_stored_once() {
+    session_->request(operate::FinishStage{view().stage, ""});
+    until([](const SessionView& now) { return now.step == Step::kFinished; });
+    session_.reset();
+    const std::vector<core::TrialRow> trials = store_->trials(session_number_);
+    ASSERT_EQ(trials.size(), 2U);
+    for (const core::TrialRow& trial : trials) EXPECT_EQ(trial.response, 12.0);
+    EXPECT_TRUE(store_->completed(session_number_));
+    EXPECT_TRUE(core::verify(*store_).problems.empty());
+  }
+
+  static constexpr const char* kTwoTrials = R"json({
+    "format": 1, "name": "two", "languages": ["en"], "title": {"en": "Two"},
+    "authors": ["A. Author"],
+    "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+    "stages": [
+      {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation",
+       "medium": "water", "scale": [1, 2], "repetitions": 1, "free_space_between_s": 0,
+       "instruction": {"en": "Say."}, "question": {"en": "How strong?"},
+       "expected_trial_s": 5}]})json";
+  std::optional<ServedHand> hand_;
+};
+
+TEST_F(NetworkSessionTest, GoesOnWhenTheDeviceIsBackAfterItDiedInATrial) {
+  const std::int64_t trial = begin().trial->trial;
+  present(trial, "test");
+  kill_device();
+  EXPECT_NE(view().fault.find("connection to the device"), std::string::npos) << view().fault;
+  EXPECT_EQ(store_->trials(session_number_).size(), 0U);
+
+  restart_device();
+  const SessionView armed = rearm();
+  ASSERT_EQ(armed.step, Step::kReady) << "the trial is felt again from its start";
+  EXPECT_EQ(armed.trial->trial, trial);
+  EXPECT_FALSE(armed.trial->can_answer) << "what was felt before the fault does not count";
+  answer(answer(trial).trial->trial);
+  expect_both_trials_stored_once();
+}
+
+TEST_F(NetworkSessionTest, NobodyToArmIsToldAsOftenAsItIsTried) {
+  const std::int64_t trial = begin().trial->trial;
+  present(trial, "test");
+  kill_device();
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    session_->request(operate::Rearm{view().num_stop_presses});
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+    while (std::chrono::steady_clock::now() < patience) session_->advance(0.0);
+    EXPECT_EQ(view().step, Step::kFault);
+    EXPECT_EQ(force_n(view().telemetry.total_force_n), 0.0);
+  }
+  session_->request(operate::Leave{});
+  until([this](const SessionView&) { return session_->over(); });
+  session_.reset();
+  EXPECT_FALSE(store_->finished(session_number_));
+  EXPECT_TRUE(core::verify(*store_).problems.empty());
+}
+
+TEST_F(NetworkSessionTest, ResumesInANewProgramAfterTheDeviceDiedInAPause) {
+  const SessionView second = answer(begin().trial->trial);
+  session_->request(operate::Pause{"a look at the machine"});
+  until([](const SessionView& now) { return now.step == Step::kPaused; });
+  kill_device();
+  session_->request(operate::Leave{});
+  until([this](const SessionView&) { return session_->over(); });
+  session_.reset();
+
+  restart_device();
+  reopen();
+  session_->request(operate::Begin{"repeat"});
+  const SessionView again = until([](const SessionView& now) {
+    return now.step == Step::kReady || now.step == Step::kPaused;
+  });
+  ASSERT_EQ(again.step, Step::kReady);
+  EXPECT_EQ(again.trial->trial, second.trial->trial);
+  answer(again.trial->trial);
+  expect_both_trials_stored_once();
+}
+
+}  // namespace
+}  // namespace jnd::app
