@@ -202,6 +202,7 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   both.insert(both.end(), others.begin(), others.end());
   const HierarchicalFit fit = fit_hierarchical(both, {.pse = pse});
   Comparison comparison{.status = fit.status, .reason = fit.reason, .method = fit.method};
+  if (!fit.note.empty()) comparison.method += " (" + fit.note + ")";
   comparison.num_a = static_cast<int>(first_answers.size());
   comparison.num_b = static_cast<int>(second_answers.size());
   if (fit.status != FitStatus::kOk || fit.differences.empty()) {

@@ -76,12 +76,19 @@ HierarchicalStructure structure_of(int num_conditions, const HierarchicalOptions
     }
     parameter += 1;
   }
-  if (options.pse == HierarchicalPse::kPersonal) {
-    for (int condition = 0; condition < num_conditions; ++condition) {
-      structure.loadings.push_back(
-          {num_conditions + condition, structure.num_random_effects, parameter});
-    }
-    parameter += 1;
+  const auto add_place = [&](int condition) {
+    structure.loadings.push_back(
+        {num_conditions + condition, structure.num_random_effects, parameter});
+  };
+  for (int condition = 0; condition < num_conditions; ++condition) {
+    if (options.pse == HierarchicalPse::kShared) add_place(condition);
+    if (options.pse != HierarchicalPse::kPersonal) continue;
+    add_place(condition);
+    ++parameter;
+    ++structure.num_random_effects;
+  }
+  if (options.pse == HierarchicalPse::kShared) {
+    ++parameter;
     ++structure.num_random_effects;
   }
   structure.num_parameters = parameter;
@@ -89,7 +96,8 @@ HierarchicalStructure structure_of(int num_conditions, const HierarchicalOptions
 }
 
 int usual_num_nodes(int num_random_effects) {
-  return num_random_effects == 1 ? 15 : num_random_effects == 2 ? 7 : 5;
+  constexpr int kNodes[] = {15, 9, 5, 3, 3};
+  return kNodes[num_random_effects - 1];
 }
 
 /// Where the search starts: the pooled curves, and people who differ by a fifth. Absent, with a
@@ -219,9 +227,9 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
     if (n >= 2 && variance > 0.0) {
       const double reach = reach_of(variance, n);
       one.degrees_of_freedom = n - 1.0;
-      one.standard_error = std::sqrt(variance);
+      one.standard_error = std::sqrt(variance * n / (n - 1.0));
       one.ci95 = {one.estimate - reach, one.estimate + reach};
-      one.statistic = one.estimate / std::sqrt(variance * n / (n - 1.0));
+      one.statistic = one.estimate / *one.standard_error;
       one.p_value = 2.0 * boost::math::cdf(boost::math::complement(
                               boost::math::students_t(n - 1.0), std::fabs(*one.statistic)));
     }
@@ -240,6 +248,12 @@ void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
     const double shared = found.parameters(structure.loadings[1].parameter);
     fit.correlation = std::copysign(1.0, own) * shared / fit.conditions[1].slope_sd;
   }
+  constexpr double kOne = 0.999;
+  if (fit.correlation && std::fabs(*fit.correlation) > kOne) {
+    fit.note =
+        "the correlation of the slopes is at its bound (a singular fit): the answers tell no "
+        "difference of people's own in the one condition from that in the other";
+  }
   const bool none =
       std::any_of(fit.conditions.begin(), fit.conditions.end(),
                   [](const HierarchicalCondition& one) { return one.slope_sd <= kNone; });
@@ -256,7 +270,8 @@ std::string method_of(const HierarchicalOptions& options, int num_nodes) {
                           : "probit, slope normal between people";
   words += options.pse == HierarchicalPse::kReference ? ", pse = reference"
            : options.pse == HierarchicalPse::kCommon  ? ", pse free, common"
-                                                      : ", pse free, personal";
+           : options.pse == HierarchicalPse::kShared  ? ", pse free, one shift a person"
+                                                     : ", pse free, personal in each condition";
   return words + (num_nodes == 1 ? ", Laplace"
                                  : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
                                        " nodes a dimension");
@@ -270,11 +285,13 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   HierarchicalFit fit;
   fit.num_participants = static_cast<int>(all.people.size());
   const auto num_conditions = static_cast<int>(all.conditions.size());
-  const bool too_many =
-      num_conditions > (options.slopes == HierarchicalSlopes::kCorrelated ? 2 : 8);
-  if (too_many) {
+  const int most_conditions = options.slopes == HierarchicalSlopes::kCorrelated ? 2
+                              : options.pse == HierarchicalPse::kPersonal       ? 4
+                                                                                : 8;
+  if (num_conditions > most_conditions) {
     throw core::Error(
-        "conditions: expected one or two, or up to eight with shared slopes, found " +
+        "conditions: expected one or two, up to four with shared slopes, or up to eight where "
+        "nobody has a pse in each, found " +
         std::to_string(num_conditions));
   }
   fit.status = FitStatus::kDegenerate;

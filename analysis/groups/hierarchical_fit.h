@@ -19,7 +19,8 @@ struct ParticipantAnswers {
 enum class HierarchicalPse {
   kReference,  ///< At the reference for everybody, as the thesis fits.
   kCommon,     ///< Free, the same for everybody.
-  kPersonal,   ///< Free, and people differ: ln pse is normal about the median person's.
+  kShared,     ///< Free, and people differ: one shift of ln pse a person, in every condition.
+  kPersonal,   ///< Free, and people differ by a shift in each condition, independent of others.
 };
 
 enum class HierarchicalSlopes {
@@ -31,7 +32,8 @@ struct HierarchicalOptions {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   HierarchicalPse pse = HierarchicalPse::kPersonal;
   HierarchicalSlopes slopes = HierarchicalSlopes::kCorrelated;
-  /// A dimension of how people differ; 0: 15 in one, 7 in two, 5 in three. 1 is Laplace.
+  /// A dimension of how people differ; 0: 15 in one, 9 in two, 5 in three, 3 in more. 1
+  /// is Laplace.
   int num_nodes = 0;
 };
 
@@ -57,7 +59,7 @@ struct HierarchicalCondition {
 struct HierarchicalDifference {
   std::string first, second;
   double estimate = 0.0;
-  std::optional<double> standard_error;
+  std::optional<double> standard_error;  ///< Grown as the intervals are.
   Interval ci95;
   std::optional<double> statistic, p_value;  ///< Student's t, two-sided.
   double degrees_of_freedom = 0.0;
@@ -95,7 +97,8 @@ struct HierarchicalFit {
 ///
 /// `degenerate` where a condition's pooled answers are, or with fewer than two participants.
 /// Throws `core::Error` for references or counts as `fit_psychometric`, references that differ
-/// within a condition, more than two conditions with correlated slopes, or more than eight.
+/// within a condition, and for more conditions than the model takes: two with correlated
+/// slopes, else eight, or four with personal pses.
 [[nodiscard]] HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
                                                const HierarchicalOptions& options);
 

@@ -5,8 +5,8 @@
 
 namespace jnd::analysis {
 
-/// Dimensions of what differs between people: at most three.
-constexpr int kMostRandomEffects = 3;
+/// Dimensions of what differs between people: at most five.
+constexpr int kMostRandomEffects = 5;
 using RandomEffects = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRandomEffects, 1>;
 
 /// A rule for expectations over independent standard normal numbers, E f(x) = sum w_k f(x_k):

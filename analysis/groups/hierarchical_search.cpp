@@ -13,9 +13,15 @@ namespace {
 /// Beyond this a number of the median person has run away: ln slope, say, to a step.
 constexpr double kRunAway = 25.0;
 
-/// Central differences of fourth order (Abramowitz and Stegun 25.3.6).
+/// Fisher's where there are several nodes; it is the exact integral's, and one node is too far
+/// from that: then by central differences of fourth order (Abramowitz and Stegun 25.3.6).
 Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
                             const Eigen::VectorXd& at) {
+  if (likelihood.num_nodes() > 1) {
+    Eigen::VectorXd gradient;
+    (void)likelihood(at, &gradient);
+    return gradient;
+  }
   constexpr double kStep = 1e-4;
   Eigen::VectorXd gradient(at.size());
   for (Eigen::Index i = 0; i < at.size(); ++i) {
@@ -31,7 +37,6 @@ Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
   return gradient;
 }
 
-/// Fisher's gradient is the exact integral's; one node is too far from that.
 Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
                                     const Eigen::VectorXd& start) {
   const SmoothCost cost = [&](std::span<const double> x, double& value,
@@ -57,6 +62,15 @@ Eigen::MatrixXd information_at(const HierarchicalLikelihood& likelihood,
                                const Eigen::VectorXd& at, double here) {
   constexpr double kStep = 1e-3;
   Eigen::MatrixXd information(at.size(), at.size());
+  if (likelihood.num_nodes() > 1) {
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(at.size(), i);
+      information.col(i) =
+          (gradient_of(likelihood, at - step) - gradient_of(likelihood, at + step)) /
+          (2.0 * kStep);
+    }
+    return 0.5 * (information + information.transpose());
+  }
   const auto value = [&](Eigen::Index i, double step_i, Eigen::Index j, double step_j) {
     Eigen::VectorXd moved = at;
     moved(i) += step_i;

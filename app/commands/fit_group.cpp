@@ -54,6 +54,10 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
                one.pse_ci95 ? "95 % " + range(*one.pse_ci95) : "fixed at the reference");
     fmt::print("  between people  {:<8}  standard deviation of the slope number\n",
                number(one.slope_sd));
+    if (one.place_sd > 0.0) {
+      fmt::print("  between people  {:<8}  standard deviation of the place number\n",
+                 number(one.place_sd));
+    }
   }
   if (fit.correlation) fmt::print("  correlation of the slopes  {}\n", number(fit.correlation));
   for (const analysis::HierarchicalDifference& one : fit.differences) {
@@ -73,6 +77,7 @@ int fit_hierarchical(const Options& options) {
                                         : analysis::HierarchicalLink::kLogSlope,
        .pse = options.pse == "reference" ? analysis::HierarchicalPse::kReference
               : options.pse == "common"  ? analysis::HierarchicalPse::kCommon
+              : options.pse == "shared"  ? analysis::HierarchicalPse::kShared
                                          : analysis::HierarchicalPse::kPersonal,
        .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
                                             : analysis::HierarchicalSlopes::kCorrelated,
@@ -158,8 +163,11 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
   group.add_option("--slopes-by", options->link, "people differ by factors, or linearly")
       ->check(CLI::IsMember({"log-slope", "linear"}))
       ->capture_default_str();
-  group.add_option("--pse", options->pse, "at the reference, free and common, or personal")
-      ->check(CLI::IsMember({"reference", "common", "personal"}))
+  group
+      .add_option("--pse", options->pse,
+                  "at the reference; free and common; one shift a person; personal in each "
+                  "condition")
+      ->check(CLI::IsMember({"reference", "common", "shared", "personal"}))
       ->capture_default_str();
   group.add_option("--slopes", options->slopes, "of one person in two conditions")
       ->check(CLI::IsMember({"shared", "correlated"}))

@@ -302,23 +302,29 @@ void cover_difference(int num_sets, std::uint64_t seed) {
       "\n## Two conditions of the same 13 people: difference of ln ln(1 + w)\n\n"
       "%d studies a row, w = 0.7 and 0.3, people differ by 0.3 in ln, pse by 0.15.\n\n",
       num_sets);
-  print_row({"own change between conditions", "hierarchical, pse free", "bias"});
-  std::printf("| --- | --- | --- |\n");
+  print_row({"slopes change between conditions by", "pse", "hierarchical, pse free", "bias"});
+  std::printf("| --- | --- | --- | --- |\n");
   const double truth = std::log(std::log1p(0.3)) - std::log(std::log1p(0.7));
-  for (const double own : {0.0, 0.2}) {
+  struct Change {
+    double slope_ln;
+    bool places;
+  };
+  for (const Change own : {Change{0.0, false}, Change{0.2, false}, Change{0.2, true}}) {
     RandomStream random(seed, "coverage of a difference",
-                        {static_cast<std::int64_t>(1000.0 * own)});
+                        {static_cast<std::int64_t>(1000.0 * own.slope_ln), own.places});
     Coverage coverage;
     std::vector<double> errors;
     for (int set = 0; set < num_sets; ++set) {
       Group group;
       for (int person = 0; person < 13; ++person) {
-        const double slope_z = random.normal(), place_z = random.normal();
+        const double slope_z = random.normal();
+        double place_z = random.normal();
         for (const double w : {0.7, 0.3}) {
+          if (own.places) place_z = random.normal();
           Person drawn =
               Population{.weber_fraction = w, .spread_ln = 0.3, .place_sd_ln = 0.15}.person(
                   slope_z, place_z);
-          drawn.slope *= std::exp(own * random.normal());
+          drawn.slope *= std::exp(own.slope_ln * random.normal());
           group.push_back({"P" + std::to_string(person), w == 0.7 ? "d" : "e", kReference,
                            answers_of(drawn, 5, random)});
         }
@@ -329,9 +335,10 @@ void cover_difference(int num_sets, std::uint64_t seed) {
       if (exists) errors.push_back(fit.differences[0].estimate - truth);
     }
     char words[32], bias[32];
-    std::snprintf(words, sizeof words, "%.1f in ln", own);
+    std::snprintf(words, sizeof words, "%.1f in ln", own.slope_ln);
     std::snprintf(bias, sizeof bias, "%+.3f", summary_of(errors).mean.value_or(0.0));
-    print_row({words, coverage.words(), bias});
+    print_row({words, own.places ? "of its own in each" : "the same in both", coverage.words(),
+               bias});
     std::fflush(stdout);
   }
 }

@@ -134,6 +134,29 @@ add(glmer_case("one condition, personal pse, Laplace", many,
                  list(slope = beta[2], slope_standard_error = se[2], slope_sd = abs(theta[1]),
                       place = beta[1], place_standard_error = se[1], place_sd = abs(theta[2]))))
 
+# Here the places differ in each condition on their own.
+apart <- simulated(c("d", "e"), 13, 20, w, 0.35, 0, 0.1)
+set.seed(20181)
+shift <- data.frame(participant = rep(sprintf("P%02d", 1:13), 2),
+                    condition = rep(c("d", "e"), each = 13), shift = rnorm(26, 0, 0.5),
+                    slope = rep(2.5 * exp(rnorm(13, 0, 0.4)), 2) * exp(rnorm(26, 0, 0.3)))
+apart <- merge(apart, shift, sort = FALSE)
+apart <- apart[order(apart$participant, apart$condition, apart$u), ]
+apart$num_yes <- rbinom(nrow(apart), 20, pnorm(apart$slope * apart$u + apart$shift))
+apart$shift <- NULL
+apart$in_d <- as.numeric(apart$condition == "d"); apart$in_e <- 1 - apart$in_d
+apart$d <- apart$u * apart$in_d; apart$e <- apart$u * apart$in_e
+add(glmer_case("two conditions, correlated slopes, personal pse in each, Laplace", apart,
+               cbind(num_yes, num_trials - num_yes) ~ 0 + in_d + in_e + d + e +
+                 (0 + d + e | participant) + (0 + in_d | participant) + (0 + in_e | participant),
+               1, list(pse = "personal", slopes = "correlated"),
+               function(theta, beta, se)
+                 list(slope = beta[3:4], slope_standard_error = se[3:4],
+                      slope_sd = c(abs(theta[1]), sqrt(theta[2]^2 + theta[3]^2)),
+                      correlation = sign(theta[1]) * theta[2] / sqrt(theta[2]^2 + theta[3]^2),
+                      place = beta[1:2], place_standard_error = se[1:2],
+                      place_sd = abs(theta[4:5]))))
+
 add(log_slope_case("ln slope, one condition, pse at the reference", one,
                    list(pse = "reference", slopes = "shared"), c(0.6, 0.3),
                    function(p, at)

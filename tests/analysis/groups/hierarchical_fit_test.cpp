@@ -133,6 +133,71 @@ TEST(HierarchicalFit, TwoConditionsDifferByWhatTheirCurvesDo) {
   EXPECT_GT(*fit.correlation, 0.95);
 }
 
+/// In the one condition people's pses differ by much, in the other not at all.
+std::vector<ParticipantAnswers> people_with_a_bias_in_one_condition(std::int64_t num_trials) {
+  std::vector<ParticipantAnswers> all;
+  int number = 0;
+  for (const double pse : {0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.43}) {
+    const std::string name = "P" + std::to_string(++number);
+    const double w = std::expm1(std::log(1.5) * (number % 2 == 0 ? 1.1 : 0.9));
+    all.push_back(exact_answers(name, w, pse, num_trials, "biased"));
+    all.push_back(exact_answers(name, w, 1.0, num_trials, "fair"));
+  }
+  return all;
+}
+
+TEST(HierarchicalFit, APersonMayBeBiasedInOneConditionAndNotInTheOther) {
+  const auto answers = people_with_a_bias_in_one_condition(2000);
+  const HierarchicalFit own = fit_hierarchical(answers, {});
+  ASSERT_EQ(own.status, FitStatus::kOk) << own.reason;
+  EXPECT_NEAR(own.conditions[0].place_sd, 0.2329, 0.002) << "of the seven, over n";
+  EXPECT_NEAR(own.conditions[1].place_sd, 0.0, 1e-3);
+  EXPECT_NEAR(*own.conditions[0].weber_fraction, *own.conditions[1].weber_fraction, 0.02);
+  const HierarchicalFit shared = fit_hierarchical(answers, {.pse = HierarchicalPse::kShared});
+  ASSERT_EQ(shared.status, FitStatus::kOk) << shared.reason;
+  EXPECT_EQ(shared.conditions[0].place_sd, shared.conditions[1].place_sd);
+  EXPECT_GT(*own.log_likelihood, *shared.log_likelihood + 100.0);
+}
+
+TEST(HierarchicalFit, TheUsualNumberOfNodesIsEnough) {
+  std::vector<ParticipantAnswers> answers = people_with_a_bias_in_one_condition(5);
+  const HierarchicalFit usual = fit_hierarchical(answers, {});
+  const HierarchicalFit many = fit_hierarchical(answers, {.num_nodes = 9});
+  ASSERT_EQ(many.status, FitStatus::kOk) << many.reason;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(
+        std::log(*usual.conditions[i].weber_fraction / *many.conditions[i].weber_fraction), 0.0,
+        0.1 * *many.conditions[i].slope_standard_error);
+  }
+  EXPECT_NEAR(usual.differences[0].estimate, many.differences[0].estimate,
+              0.1 * *many.differences[0].standard_error);
+}
+
+TEST(HierarchicalFit, ADifferenceCanBeReckonedAgainFromWhatIsTold) {
+  const HierarchicalFit fit = fit_hierarchical(people_with_a_bias_in_one_condition(20), {});
+  ASSERT_EQ(fit.differences.size(), 1U);
+  const HierarchicalDifference& one = fit.differences[0];
+  EXPECT_NEAR(*one.statistic, one.estimate / *one.standard_error, 1e-12);
+  EXPECT_NEAR(*one.ci95.high - one.estimate, 2.4469118511449692 * *one.standard_error, 1e-9)
+      << "Student's t with 6 degrees of freedom";
+}
+
+TEST(HierarchicalFit, ACorrelationAtItsBoundIsSaid) {
+  std::vector<ParticipantAnswers> answers;
+  int number = 0;
+  for (const double factor : {0.5, 0.7, 1.0, 1.45, 2.0}) {
+    const std::string name = "P" + std::to_string(++number);
+    for (const char* condition : {"d", "e"}) {
+      answers.push_back(
+          exact_answers(name, std::expm1(factor * std::log(1.5)), 1.0, 20, condition));
+    }
+  }
+  const HierarchicalFit fit = fit_hierarchical(answers, kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.correlation, 1.0, 1e-3);
+  EXPECT_NE(fit.note.find("correlation"), std::string::npos) << fit.note;
+}
+
 TEST(HierarchicalFit, WhatHasNoValueSaysWhy) {
   const auto reason = [](const std::vector<ParticipantAnswers>& all) {
     const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
