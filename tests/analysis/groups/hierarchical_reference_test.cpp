@@ -85,7 +85,7 @@ TEST(HierarchicalReference, LinearFitsAgreeWithGlmerNodeByNode) {
     ++num_fits;
     expect_fit(one, one.at("nodes"), 2e-6);
   }
-  EXPECT_EQ(num_fits, 8);
+  EXPECT_EQ(num_fits, 9);
 }
 
 TEST(HierarchicalReference, LogSlopeFitsAgreeWithTheIntegralOnAFineGrid) {
