@@ -5,6 +5,16 @@
 
 namespace jnd::experiments {
 
+std::string ConstantStimuli::meaning() const {
+  return "The reference, then a test stimulus, then a question answered yes or no.";
+}
+
+std::vector<BlockKey> ConstantStimuli::keys() const {
+  std::vector<BlockKey> keys = {stimuli_key(), reference_key(), repetitions_key()};
+  for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));
+  return keys;
+}
+
 TrialForm ConstantStimuli::form() const noexcept {
   return {.answer = AnswerKind::kYesNo, .has_reference = true};
 }

@@ -10,6 +10,8 @@ namespace jnd::experiments {
 class ConstantStimuli final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form() const noexcept override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,

@@ -4,6 +4,14 @@
 
 namespace jnd::experiments {
 
+std::string MagnitudeEstimation::meaning() const {
+  return "The participant says how strong each stimulus feels, in percent.";
+}
+
+std::vector<BlockKey> MagnitudeEstimation::keys() const {
+  return {stimuli_key(), repetitions_key()};
+}
+
 TrialForm MagnitudeEstimation::form() const noexcept {
   return {.answer = AnswerKind::kPercent};
 }

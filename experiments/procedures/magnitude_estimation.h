@@ -12,6 +12,8 @@ class MagnitudeEstimation final : public Procedure {
   [[nodiscard]] std::string_view name() const noexcept override {
     return "magnitude_estimation";
   }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form() const noexcept override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,

@@ -4,6 +4,23 @@
 
 namespace jnd::experiments {
 
+std::string MagnitudeProduction::meaning() const {
+  return "The participant adjusts a stimulus until it feels like a target in percent.";
+}
+
+std::vector<BlockKey> MagnitudeProduction::keys() const {
+  std::vector<BlockKey> keys = {stimuli_key()};
+  for (BlockKey& step : step_keys()) keys.push_back(std::move(step));
+  keys.push_back({.parameter = {.key = "target_percent",
+                                .kind = ValueKind::kNumbers,
+                                .meaning = "What the stimulus should feel like, one "
+                                           "repetition for each.",
+                                .unit = "%",
+                                .range = {0.0, 10000.0, true},
+                                .max_items = 100}});
+  return keys;
+}
+
 TrialForm MagnitudeProduction::form() const noexcept {
   return {.answer = AnswerKind::kMatch, .adjustable = true};
 }

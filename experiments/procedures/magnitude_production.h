@@ -13,6 +13,8 @@ class MagnitudeProduction final : public Procedure {
   [[nodiscard]] std::string_view name() const noexcept override {
     return "magnitude_production";
   }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form() const noexcept override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/random_stream.h"
+#include "experiments/procedures/block_key.h"
 #include "experiments/study/study.h"
 
 namespace jnd::experiments {
@@ -45,6 +46,10 @@ class Procedure {
  public:
   virtual ~Procedure() = default;
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+  /// In a sentence, for who chooses one.
+  [[nodiscard]] virtual std::string meaning() const = 0;
+  /// What a block with it has besides the keys of every block, in the order of the reference.
+  [[nodiscard]] virtual std::vector<BlockKey> keys() const = 0;
   [[nodiscard]] virtual TrialForm form() const noexcept = 0;
   /// The trials to be run next, once all of `answered` are; none when the block is finished.
   /// Throws `Error` if the block lacks what the procedure needs.

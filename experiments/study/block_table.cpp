@@ -1,110 +1,107 @@
+#include <algorithm>
+
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/stage_tables.h"
 
 namespace jnd::experiments {
 namespace {
 
-constexpr const char* kEstimation = "magnitude_estimation";
-constexpr const char* kProduction = "magnitude_production";
-constexpr const char* kConstantStimuli = "constant_stimuli";
+/// Fluids, which a block can vary.
+std::vector<MediumQuantity> block_media() {
+  std::vector<MediumQuantity> found;
+  for (const MediumQuantity& one : media()) {
+    if (one.medium != "free_space" && one.medium != "solid") found.push_back(one);
+  }
+  return found;
+}
 
-/// The keys that carry the block's quantity in their name, for one quantity.
-void add_quantity(std::vector<Parameter>& parameters, const std::string& quantity,
-                  const std::string& unit, const Range& range,
-                  const std::vector<std::string>& media_of_it) {
-  const Condition medium = {"medium", media_of_it};
-  const auto number = [&](const std::string& key, const std::string& meaning, Range its_range,
-                          const char* procedure, bool required) {
-    parameters.push_back({.key = key,
-                          .kind = ValueKind::kNumber,
-                          .meaning = meaning,
-                          .required = required,
-                          .unit = unit,
-                          .range = its_range,
-                          .only_where = {{"procedure", {procedure}}, medium}});
-  };
-  const Range positive = {0.0, range.high, true};
-  parameters.push_back({.key = quantity,
-                        .kind = ValueKind::kNumbers,
-                        .meaning =
-                            "The test stimuli, or in `magnitude_production` the values "
-                            "that an adjustment starts from. Each repetition shows every "
-                            "one of them once, in random order. No value may stand twice.",
-                        .unit = unit,
-                        .range = range,
-                        .max_items = 200,
-                        .only_where = {medium}});
-  number("reference_" + quantity,
-         "The stimulus that every test stimulus is compared with; between the smallest and "
-         "the largest of them.",
-         positive, kConstantStimuli, true);
-  number("coarse_step_" + quantity, "How much one large step of the adjustment changes.",
-         positive, kProduction, true);
-  number("fine_step_" + quantity, "How much one small step changes; less than the large one.",
-         positive, kProduction, true);
-  number("max_" + quantity,
-         "No step goes beyond this; at least the largest starting value. Absent: no end.",
-         positive, kProduction, false);
+Parameter procedure_parameter() {
+  Parameter parameter{.key = "procedure",
+                      .kind = ValueKind::kString,
+                      .meaning = "How the stimuli are asked about."};
+  for (const Procedure* procedure : procedures()) {
+    parameter.allowed.emplace_back(procedure->name());
+    parameter.meaning += " `" + parameter.allowed.back() + "`: " + procedure->meaning();
+  }
+  return parameter;
+}
+
+Parameter medium_parameter() {
+  Parameter parameter{
+      .key = "medium",
+      .kind = ValueKind::kString,
+      .meaning =
+          "What is felt. `water`: drag that grows with the square of speed, varied by `scale`. "
+          "`viscous`: drag that grows with speed, varied by `viscosity_pa_s`. "
+          "`viscous_stokes`: the same with the constant of a sphere. `water_map`: water with "
+          "the drag and lift of the study's `force_map`. `viscous_schiller_naumann`: viscous "
+          "with the fluid's inertia, up to a Reynolds number (100 speed / viscosity, SI units) "
+          "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand."};
+  for (const MediumQuantity& one : block_media()) parameter.allowed.push_back(one.medium);
+  return parameter;
+}
+
+/// The condition's words, where `parameters` has this key already; else nullptr.
+std::vector<std::string>* words_of(std::vector<Parameter>& parameters, const std::string& key,
+                                   std::size_t condition) {
+  const auto known = std::ranges::find(parameters, key, &Parameter::key);
+  return known == parameters.end() ? nullptr : &known->only_where[condition].values;
+}
+
+void add_word(std::vector<std::string>& words, const std::string& word) {
+  if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+}
+
+/// The key as blocks of this medium have it; where another procedure or a medium of the same
+/// quantity has it already, it is theirs, too.
+void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
+             const std::string& procedure, const MediumQuantity& medium) {
+  const std::string name = key.name_for(medium.quantity);
+  if (std::vector<std::string>* known = words_of(parameters, name, 0)) {
+    add_word(*known, procedure);
+    if (key.of_quantity) add_word(*words_of(parameters, name, 1), medium.medium);
+    return;
+  }
+  Parameter parameter = key.parameter;
+  parameter.key = name;
+  parameter.only_where = {{"procedure", {procedure}}};
+  if (key.of_quantity) {
+    parameter.unit = medium.unit;
+    parameter.range = medium.range;
+    if (key.is_positive) parameter.range.low_is_open = true;
+    parameter.only_where.push_back({"medium", {medium.medium}});
+  }
+  parameters.push_back(std::move(parameter));
+}
+
+/// Keys that name a quantity first, quantity by quantity.
+std::vector<Parameter> procedure_parameters() {
+  std::vector<Parameter> of_quantities, others;
+  for (const MediumQuantity& medium : block_media()) {
+    for (const Procedure* procedure : procedures()) {
+      for (const BlockKey& key : procedure->keys()) {
+        add_key(key.of_quantity ? of_quantities : others, key, std::string(procedure->name()),
+                medium);
+      }
+    }
+  }
+  of_quantities.push_back(buoyancy_parameter());
+  of_quantities.insert(of_quantities.end(), others.begin(), others.end());
+  return of_quantities;
 }
 
 }  // namespace
 
 const ParameterTable& block_table() {
   static const ParameterTable kTable = [] {
-    std::vector<Parameter> own = {
-        {.key = "procedure",
-         .kind = ValueKind::kString,
-         .meaning = "How the stimuli are asked about. `magnitude_estimation`: the participant "
-                    "says how "
-                    "strong each one feels, in percent. `magnitude_production`: the "
-                    "participant adjusts "
-                    "it until it feels like a target in percent. `constant_stimuli`: the "
-                    "reference, then "
-                    "a test stimulus, then a question answered yes or no.",
-         .allowed = {kEstimation, kProduction, kConstantStimuli}},
-        {.key = "medium",
-         .kind = ValueKind::kString,
-         .meaning =
-             "What is felt. `water`: drag that grows with the square of speed, varied by "
-             "`scale`. `viscous`: drag that grows with speed, varied by "
-             "`viscosity_pa_s`. `viscous_stokes`: the same with the constant of a sphere. "
-             "`water_map`: water with the drag and lift of the study's `force_map`. "
-             "`viscous_schiller_naumann`: viscous with the fluid's inertia, up to a Reynolds "
-             "number (100 speed / viscosity, SI units) of 800. `viscous_ellipsoid`: viscous "
-             "about an ellipsoid that turns with the hand.",
-         .allowed = {"water", "viscous", "viscous_stokes", "water_map",
-                     "viscous_schiller_naumann", "viscous_ellipsoid"}}};
-    add_quantity(own, "scale", "", {0.0, 99.0, false}, {"water", "water_map"});
-    add_quantity(
-        own, "viscosity_pa_s", "Pa s", {0.0, 1000.0, true},
-        {"viscous", "viscous_stokes", "viscous_schiller_naumann", "viscous_ellipsoid"});
-    own.push_back(buoyancy_parameter());
-    own.push_back({.key = "target_percent",
-                   .kind = ValueKind::kNumbers,
-                   .meaning = "What the stimulus should feel like, one repetition for each.",
-                   .unit = "%",
-                   .range = {0.0, 10000.0, true},
-                   .max_items = 100,
-                   .only_where = {{"procedure", {kProduction}}}});
-    own.push_back({.key = "repetitions",
-                   .kind = ValueKind::kInteger,
-                   .meaning = "How often every test stimulus is shown.",
-                   .range = {1, 1000},
-                   .only_where = {{"procedure", {kEstimation, kConstantStimuli}}}});
+    std::vector<Parameter> own = {procedure_parameter(), medium_parameter()};
+    for (Parameter& parameter : procedure_parameters()) own.push_back(std::move(parameter));
     own.push_back({.key = "instruction",
                    .kind = ValueKind::kText,
                    .meaning = "What the participant is told before the block."});
     own.push_back({.key = "question",
                    .kind = ValueKind::kText,
                    .meaning = "What the participant is asked in every trial."});
-    const auto answer_label = [&](const char* key, const char* meaning) {
-      own.push_back({.key = key,
-                     .kind = ValueKind::kText,
-                     .meaning = meaning,
-                     .required = false,
-                     .only_where = {{"procedure", {kConstantStimuli}}}});
-    };
-    answer_label("yes_label", "What the answer that is stored as 1 is called: \"Thicker\".");
-    answer_label("no_label", "What the answer that is stored as 0 is called: \"Not thicker\".");
     own.push_back({.key = "free_space_between_s",
                    .kind = ValueKind::kNumber,
                    .meaning = "Free space before each trial.",

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+
+/// A key that blocks of some procedure have. Several procedures may have the same one; then it
+/// is declared here, once, and means the same to all of them.
+struct BlockKey {
+  /// Of a key `of_quantity`, name, unit and upper end follow from the block's quantity.
+  Parameter parameter{};
+  /// "reference" stands in the file as "reference_viscosity_pa_s", and "" as "viscosity_pa_s".
+  bool of_quantity = false;
+  bool is_positive = false;  ///< > 0, though the quantity itself may be 0.
+
+  /// As it stands in a block of this quantity: "reference_viscosity_pa_s".
+  [[nodiscard]] std::string name_for(const std::string& quantity) const;
+};
+
+/// The stimuli: tests of a comparison, or what an adjustment starts from.
+[[nodiscard]] BlockKey stimuli_key();
+/// What every test stimulus is compared with.
+[[nodiscard]] BlockKey reference_key();
+/// How often every test stimulus is shown.
+[[nodiscard]] BlockKey repetitions_key();
+/// What the two answers are called.
+[[nodiscard]] std::vector<BlockKey> answer_label_keys();
+/// Steps of an adjustment and its end.
+[[nodiscard]] std::vector<BlockKey> step_keys();
+
+}  // namespace jnd::experiments
