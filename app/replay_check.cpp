@@ -40,18 +40,24 @@ class ReplayCheck {
   }
 
   void check_design() {
-    const std::vector<core::DesignRow> design = store_.design(session_);
+    std::set<std::int64_t> in_force;
+    for (const core::DesignRow& row : store_.design(session_)) in_force.insert(row.trial);
+    const std::vector<core::DesignRow> design =
+        store_.design(session_, /*include_voided=*/true);
     if (design.size() != state_.trials.size()) problem(0, "drawn trials");
     for (const core::DesignRow& row : design) {
       const TrialState* trial = of(row.trial, "design");
       if (trial == nullptr) continue;
       const experiments::PlannedTrial& planned = trial->planned;
-      const bool same = row.stage == trial->stage && row.repetition == planned.repetition &&
-                        row.position == planned.position &&
-                        row.intensity == planned.intensity &&
-                        row.reference_intensity == planned.reference_intensity &&
-                        row.starting_intensity == planned.starting_intensity &&
-                        row.target_percent == planned.target_percent;
+      const bool same =
+          row.stage == trial->stage && row.repetition == planned.repetition &&
+          row.position == planned.position && row.intensity == planned.intensity &&
+          row.reference_intensity == planned.reference_intensity &&
+          row.starting_intensity == planned.starting_intensity &&
+          row.target_percent == planned.target_percent && row.series == planned.series &&
+          row.test_interval == planned.test_interval && row.is_catch == planned.is_catch &&
+          row.sequence.value_or(trial->drawn_sequence) == trial->drawn_sequence &&
+          in_force.contains(row.trial) != trial->is_void;
       if (!same) problem(row.trial, "design");
     }
   }

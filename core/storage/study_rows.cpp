@@ -44,6 +44,10 @@ void bind(const DesignRow& row, Statement& statement) {
       .bind(row.reference_intensity)
       .bind(row.starting_intensity)
       .bind(row.target_percent)
+      .bind(row.sequence)
+      .bind(row.series)
+      .bind(row.test_interval)
+      .bind(std::int64_t{row.is_catch})
       .run();
 }
 
@@ -89,6 +93,9 @@ void bind(const TrialRow& row, Statement& statement) {
       .bind(row.num_steps)
       .bind(row.first_tick)
       .bind(row.last_tick)
+      .bind(row.series)
+      .bind(row.test_interval)
+      .bind(std::int64_t{row.is_catch})
       .run();
 }
 
@@ -148,7 +155,11 @@ DesignRow design_row(const Statement& rows) {
           .intensity = rows.optional_number(9),
           .reference_intensity = rows.optional_number(10),
           .starting_intensity = rows.optional_number(11),
-          .target_percent = rows.optional_number(12)};
+          .target_percent = rows.optional_number(12),
+          .sequence = rows.optional_integer(13),
+          .series = rows.optional_integer(14),
+          .test_interval = rows.optional_integer(15),
+          .is_catch = rows.optional_integer(16).value_or(0) != 0};
 }
 
 PresentationRow presentation_row(const Statement& rows) {
@@ -191,7 +202,10 @@ TrialRow trial_row(const Statement& rows) {
           .num_presentations = rows.integer(16),
           .num_steps = rows.integer(17),
           .first_tick = rows.integer(18),
-          .last_tick = rows.integer(19)};
+          .last_tick = rows.integer(19),
+          .series = rows.optional_integer(20),
+          .test_interval = rows.optional_integer(21),
+          .is_catch = rows.optional_integer(22).value_or(0) != 0};
 }
 
 AnswerRow answer_row(const Statement& rows) {

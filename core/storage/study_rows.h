@@ -16,7 +16,8 @@ inline constexpr char kEventColumns[] =
 inline constexpr char kDesignColumns[] =
     "session, trial, stage, block, procedure, medium, quantity, repetition, position, "
     "intensity, "
-    "reference_intensity, starting_intensity, target_percent";
+    "reference_intensity, starting_intensity, target_percent, sequence, series, "
+    "test_interval, is_catch";
 inline constexpr char kPresentationColumns[] =
     "session, trial, attempt, presentation, sequence, interval, intensity, first_tick, "
     "last_tick, "
@@ -27,7 +28,9 @@ inline constexpr char kTrialColumns[] =
     "session, trial, attempt, sequence, block, procedure, medium, quantity, repetition, "
     "position, "
     "intensity, reference_intensity, starting_intensity, target_percent, response, "
-    "response_time_s, num_presentations, num_steps, first_tick, last_tick";
+    "response_time_s, num_presentations, num_steps, first_tick, last_tick, series, "
+    "test_interval, "
+    "is_catch";
 inline constexpr char kAnswerColumns[] = "session, sequence, stage, item, answer";
 inline constexpr char kSessionColumns[] =
     "session, participant, protocol_sha256, seed, cells, pilot, simulated, device, laboratory, "

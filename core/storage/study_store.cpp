@@ -213,7 +213,7 @@ std::vector<SessionOverview> StudyStore::overview() const {
   Statement rows(
       implementation_->database,
       "SELECT session,"
-      " (SELECT COUNT(*) FROM design AS d WHERE d.session = s.session),"
+      " (SELECT COUNT(*) FROM design_in_force AS d WHERE d.session = s.session),"
       " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = s.session),"
       " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
       "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT 1),"
@@ -247,11 +247,12 @@ std::vector<EventRow> StudyStore::events(std::int64_t session) const {
   return all;
 }
 
-std::vector<DesignRow> StudyStore::design(std::int64_t session) const {
+std::vector<DesignRow> StudyStore::design(std::int64_t session, bool include_voided) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 std::string("SELECT ") + kDesignColumns +
-                     " FROM design WHERE session = ? ORDER BY trial");
+                 std::string("SELECT ") + kDesignColumns + " FROM " +
+                     (include_voided ? "design" : "design_in_force") +
+                     " WHERE session = ? ORDER BY trial");
   rows.bind(session);
   std::vector<DesignRow> all;
   while (rows.step()) {

@@ -39,6 +39,10 @@ struct DesignRow {
   std::int64_t repetition = 0;  ///< From 1.
   std::int64_t position = 0;    ///< Within the repetition, from 1.
   std::optional<double> intensity, reference_intensity, starting_intensity, target_percent;
+  std::optional<std::int64_t> sequence;       ///< Of the event that drew it.
+  std::optional<std::int64_t> series;         ///< Staircase or series of the block, from 1.
+  std::optional<std::int64_t> test_interval;  ///< 1 or 2, where the order is drawn.
+  bool is_catch = false;                      ///< Nothing is there to be found.
 };
 
 /// One presentation of a stimulus, with how the hand moved and what the device delivered.
@@ -74,6 +78,8 @@ struct TrialRow {
   std::optional<double> response_time_s;
   std::int64_t num_presentations = 0, num_steps = 0;
   std::int64_t first_tick = 0, last_tick = 0;
+  std::optional<std::int64_t> series, test_interval;  ///< As in `DesignRow`.
+  bool is_catch = false;
 };
 
 /// One answer outside of a trial.
@@ -183,7 +189,9 @@ class StudyStore {
   /// One a session, by its number. Quick: no event is read.
   [[nodiscard]] std::vector<SessionOverview> overview() const;
   [[nodiscard]] std::vector<EventRow> events(std::int64_t session) const;
-  [[nodiscard]] std::vector<DesignRow> design(std::int64_t session) const;
+  /// With `include_voided` also those that were drawn for an answer which was taken back.
+  [[nodiscard]] std::vector<DesignRow> design(std::int64_t session,
+                                              bool include_voided = false) const;
   /// Answered trials that count: not superseded. With `include_excluded`, also those set aside.
   [[nodiscard]] std::vector<TrialRow> trials(std::int64_t session,
                                              bool include_excluded = false) const;

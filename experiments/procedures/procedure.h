@@ -19,6 +19,9 @@ struct PlannedTrial {
   std::optional<double> reference_intensity;  ///< Unit of the quantity.
   std::optional<double> starting_intensity;   ///< Production.
   std::optional<double> target_percent;       ///< Production.
+  std::optional<int> series;                  ///< Staircase or series it is of, from 1.
+  std::optional<int> test_interval;           ///< 1 or 2, where the order is drawn.
+  bool is_catch = false;                      ///< Nothing is there to be found.
 };
 
 /// A trial with its answer, as an adaptive procedure needs it.

@@ -70,12 +70,22 @@ const json& list_at(const json& data, const char* key) {
 }
 
 json planned_to_json(const PlannedTrial& trial) {
-  return {{"repetition", trial.repetition},
-          {"position", trial.position},
-          {"intensity", optional_number(trial.intensity)},
-          {"reference_intensity", optional_number(trial.reference_intensity)},
-          {"starting_intensity", optional_number(trial.starting_intensity)},
-          {"target_percent", optional_number(trial.target_percent)}};
+  json data = {{"repetition", trial.repetition},
+               {"position", trial.position},
+               {"intensity", optional_number(trial.intensity)},
+               {"reference_intensity", optional_number(trial.reference_intensity)},
+               {"starting_intensity", optional_number(trial.starting_intensity)},
+               {"target_percent", optional_number(trial.target_percent)}};
+  if (trial.series) data["series"] = *trial.series;
+  if (trial.test_interval) data["test_interval"] = *trial.test_interval;
+  if (trial.is_catch) data["is_catch"] = true;
+  return data;
+}
+
+std::optional<int> optional_whole(const json& data, const char* key) {
+  const auto found = data.find(key);
+  if (found == data.end()) return std::nullopt;
+  return whole_number<int>(*found, key);
 }
 
 PlannedTrial planned_from_json(const json& data) {
@@ -84,7 +94,10 @@ PlannedTrial planned_from_json(const json& data) {
           .intensity = optional_number(data, "intensity"),
           .reference_intensity = optional_number(data, "reference_intensity"),
           .starting_intensity = optional_number(data, "starting_intensity"),
-          .target_percent = optional_number(data, "target_percent")};
+          .target_percent = optional_number(data, "target_percent"),
+          .series = optional_whole(data, "series"),
+          .test_interval = optional_whole(data, "test_interval"),
+          .is_catch = data.value("is_catch", false)};
 }
 
 json buckets_to_json(const std::vector<DurationBucket>& buckets) {

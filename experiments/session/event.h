@@ -92,7 +92,8 @@ struct TrialAnswered {
   std::int64_t last_tick = 0;
 };
 
-/// An answer taken back; the trial is run again as a new attempt.
+/// An answer taken back; the trial is run again as a new attempt. Trials drawn since and not
+/// answered are void: another answer draws others.
 struct AnswerUndone {
   std::int64_t trial = 0, attempt = 1;
   std::int64_t answer_sequence = 0;

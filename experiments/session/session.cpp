@@ -90,7 +90,11 @@ void Session::draw_trials() {
                            .intensity = trial.intensity,
                            .reference_intensity = trial.reference_intensity,
                            .starting_intensity = trial.starting_intensity,
-                           .target_percent = trial.target_percent});
+                           .target_percent = trial.target_percent,
+                           .sequence = state_.last_sequence + 1,
+                           .series = trial.series,
+                           .test_interval = trial.test_interval,
+                           .is_catch = trial.is_catch});
   }
   commit(std::move(drawn), std::move(rows));
 }
@@ -247,7 +251,10 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
           .num_presentations = static_cast<std::int64_t>(trial.presentations.size()),
           .num_steps = trial.num_steps,
           .first_tick = trial.first_tick,
-          .last_tick = trial.last_tick};
+          .last_tick = trial.last_tick,
+          .series = trial.planned.series,
+          .test_interval = trial.planned.test_interval,
+          .is_catch = trial.planned.is_catch};
 }
 
 /// What is stored for a value that was answered.

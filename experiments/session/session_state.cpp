@@ -34,7 +34,8 @@ struct Fold {
       damaged("trials drawn in sequence");
     }
     for (const PlannedTrial& planned : e.trials) {
-      state.trials.push_back({.stage = e.stage, .planned = planned});
+      state.trials.push_back(
+          {.stage = e.stage, .planned = planned, .drawn_sequence = event.sequence});
     }
   }
   void operator()(const TrialStarted& e) const {
@@ -78,9 +79,12 @@ struct Fold {
     saw_tick(e.last_tick);
   }
   void operator()(const AnswerUndone& e) const {
-    TrialState& trial = of(e.trial);
-    trial.response.reset();
-    trial.under_way = false;
+    TrialState& undone = of(e.trial);
+    undone.response.reset();
+    undone.under_way = false;
+    for (TrialState& trial : state.trials) {
+      if (trial.drawn_sequence > undone.drawn_sequence && !trial.response) trial.is_void = true;
+    }
   }
   void operator()(const AnswerCorrected& e) const {
     TrialState& trial = of(e.trial);
@@ -128,7 +132,7 @@ struct Fold {
 
 std::optional<std::int64_t> SessionState::current_trial() const {
   for (std::size_t index = 0; index < trials.size(); ++index) {
-    if (trials[index].stage == stage && !trials[index].response) {
+    if (trials[index].stage == stage && !trials[index].response && !trials[index].is_void) {
       return static_cast<std::int64_t>(index) + 1;
     }
   }

@@ -22,8 +22,10 @@ struct PresentationState {
 struct TrialState {
   std::int64_t stage = 0;
   PlannedTrial planned;
-  std::int64_t attempt = 0;  ///< 0 before the first start.
-  bool under_way = false;    ///< Started and neither answered nor discarded.
+  std::int64_t drawn_sequence = 0;  ///< Of the event that drew it.
+  bool is_void = false;             ///< Drawn for an answer that was taken back; never run.
+  std::int64_t attempt = 0;         ///< 0 before the first start.
+  bool under_way = false;           ///< Started and neither answered nor discarded.
   std::int64_t first_tick = 0, last_tick = 0;
   std::vector<PresentationState> presentations;  ///< Of this attempt.
   double set_intensity = 0.0;                    ///< Production: where the steps have come to.
@@ -55,7 +57,8 @@ struct SessionState {
   [[nodiscard]] const TrialState& trial(std::int64_t number) const {
     return trials.at(number - 1);
   }
-  /// The trial to be run in this stage: the first without an answer. None when all have one.
+  /// The trial to be run in this stage: the first without an answer that is not void. None when
+  /// all have one.
   [[nodiscard]] std::optional<std::int64_t> current_trial() const;
   /// The last answered trial, in any stage.
   [[nodiscard]] std::optional<std::int64_t> last_answered_trial() const;

@@ -244,6 +244,63 @@ TEST_F(StudyStoreTest, AnOverviewCountsTheAnswersThatStand) {
   EXPECT_FALSE(store->overview()[1].completed);
 }
 
+/// Trials that are drawn one after the other, each when the one before is answered.
+class AdaptiveTrialsTest : public StudyStoreTest {
+ protected:
+  AdaptiveTrialsTest() : store_(with_session()) {}
+
+  void draw(std::int64_t trial) {
+    Commit commit = event(++sequence_, "trials_drawn");
+    commit.design = {{.session = 1, .trial = trial, .sequence = sequence_, .series = 1}};
+    store_->append(commit);
+  }
+  void answer(std::int64_t trial) { store_->append(answered(++sequence_, trial, 1.0)); }
+  void undo(std::int64_t trial) {
+    Commit commit = event(++sequence_, "answer_undone");
+    commit.event.trial = trial;
+    commit.event.supersedes = store_->trials(1).back().sequence;
+    store_->append(commit);
+  }
+  [[nodiscard]] std::vector<std::int64_t> in_force() const {
+    std::vector<std::int64_t> trials;
+    for (const DesignRow& row : store_->design(1)) trials.push_back(row.trial);
+    return trials;
+  }
+  using Trials = std::vector<std::int64_t>;
+
+  std::unique_ptr<StudyStore> store_;
+  std::int64_t sequence_ = 0;
+};
+
+TEST_F(AdaptiveTrialsTest, WhatWasDrawnForAnAnswerTakenBackIsVoid) {
+  draw(1);
+  answer(1);
+  draw(2);
+  answer(2);
+  draw(3);
+  undo(2);
+  EXPECT_EQ(in_force(), (Trials{1, 2}));
+  EXPECT_EQ(store_->design(1, /*include_voided=*/true).size(), 3U);
+  EXPECT_EQ(store_->overview().front().num_trials, 2);
+  answer(2);
+  draw(4);
+  EXPECT_EQ(in_force(), (Trials{1, 2, 4}));
+  undo(2);
+  undo(1);
+  EXPECT_EQ(in_force(), (Trials{1})) << "the block begins anew";
+}
+
+TEST_F(AdaptiveTrialsTest, WhatWasDrawnWithTheTrialStays) {
+  Commit commit = event(++sequence_, "trials_drawn");
+  for (const std::int64_t trial : {1, 2, 3}) {
+    commit.design.push_back({.session = 1, .trial = trial, .sequence = sequence_});
+  }
+  store_->append(commit);
+  answer(1);
+  undo(1);
+  EXPECT_EQ(in_force(), (Trials{1, 2, 3}));
+}
+
 TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {
   const auto store = with_session();
   EXPECT_EQ(fs::status(folder() / "study.sqlite").permissions() & fs::perms::all,
