@@ -184,7 +184,7 @@ void TrialPlayer::run_trial(const Block& block) {
 }
 
 void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
-  const TrialForm form = procedure_named(block.procedure).form();
+  const TrialForm form = procedure_named(block.procedure).form(block);
   if (form.adjustable) return produce(block, trial);
   if (form.answer == AnswerKind::kYesNo) return compare(block);
   estimate(block, trial);

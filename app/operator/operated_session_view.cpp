@@ -271,7 +271,7 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
     ++in_block[its_stage];
     if (!trial.response) continue;
     const Block& its_block = std::get<Block>(session_.stages().at(its_stage)->content);
-    const AnswerKind kind = procedure_named(its_block.procedure).form().answer;
+    const AnswerKind kind = procedure_named(its_block.procedure).form(its_block).answer;
     AnswerLine line{.trial = static_cast<std::int64_t>(i) + 1,
                     .in_block = in_block[its_stage],
                     .block = title_of(its_stage),

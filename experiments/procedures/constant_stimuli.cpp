@@ -15,7 +15,7 @@ std::vector<BlockKey> ConstantStimuli::keys() const {
   return keys;
 }
 
-TrialForm ConstantStimuli::form() const noexcept {
+TrialForm ConstantStimuli::form(const Block&) const {
   return {.answer = AnswerKind::kYesNo, .has_reference = true};
 }
 

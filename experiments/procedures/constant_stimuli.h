@@ -12,7 +12,7 @@ class ConstantStimuli final : public Procedure {
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
-  [[nodiscard]] TrialForm form() const noexcept override;
+  [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;

@@ -12,7 +12,7 @@ std::vector<BlockKey> MagnitudeEstimation::keys() const {
   return {stimuli_key(), repetitions_key()};
 }
 
-TrialForm MagnitudeEstimation::form() const noexcept {
+TrialForm MagnitudeEstimation::form(const Block&) const {
   return {.answer = AnswerKind::kPercent};
 }
 

@@ -14,7 +14,7 @@ class MagnitudeEstimation final : public Procedure {
   }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
-  [[nodiscard]] TrialForm form() const noexcept override;
+  [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;

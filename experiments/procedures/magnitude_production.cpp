@@ -21,7 +21,7 @@ std::vector<BlockKey> MagnitudeProduction::keys() const {
   return keys;
 }
 
-TrialForm MagnitudeProduction::form() const noexcept {
+TrialForm MagnitudeProduction::form(const Block&) const {
   return {.answer = AnswerKind::kMatch, .adjustable = true};
 }
 

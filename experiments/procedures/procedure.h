@@ -53,7 +53,7 @@ class Procedure {
   [[nodiscard]] virtual std::string meaning() const = 0;
   /// What a block with it has besides the keys of every block, in the order of the reference.
   [[nodiscard]] virtual std::vector<BlockKey> keys() const = 0;
-  [[nodiscard]] virtual TrialForm form() const noexcept = 0;
+  [[nodiscard]] virtual TrialForm form(const Block& block) const = 0;
   /// The trials to be run next, once all of `answered` are; none when the block is finished.
   /// Throws `Error` if the block lacks what the procedure needs.
   [[nodiscard]] virtual std::vector<PlannedTrial> draw_next(

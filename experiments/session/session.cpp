@@ -48,7 +48,7 @@ const Block& Session::current_block() const {
 }
 
 TrialForm Session::current_form() const {
-  return procedure_named(current_block().procedure).form();
+  return procedure_named(current_block().procedure).form(current_block());
 }
 
 void Session::start(const std::string& language) {
@@ -231,7 +231,7 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
   const TrialState& trial = state_.trial(number);
   const Stage& stage = *parameters_.stages.at(static_cast<std::size_t>(trial.stage));
   const Block& block = std::get<Block>(stage.content);
-  const bool is_match = procedure_named(block.procedure).form().answer == AnswerKind::kMatch;
+  const bool is_match = procedure_named(block.procedure).form(block).answer == AnswerKind::kMatch;
   return {.session = parameters_.session,
           .trial = number,
           .attempt = trial.attempt,
@@ -317,7 +317,7 @@ void Session::correct(std::int64_t number, double response, const std::string& r
   const Stage& stage =
       *parameters_.stages.at(static_cast<std::size_t>(state_.trial(number).stage));
   const Block& block = std::get<Block>(stage.content);
-  if (!is_answer(procedure_named(block.procedure).form().answer, response)) {
+  if (!is_answer(procedure_named(block.procedure).form(block).answer, response)) {
     cannot("correct an answer", kWhatAnAnswerIs);
   }
   const TrialState& trial = state_.trial(number);

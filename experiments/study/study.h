@@ -8,6 +8,7 @@
 
 #include "core/media/force_map.h"
 #include "core/media/immersion.h"
+#include "experiments/study/settings.h"
 
 namespace jnd::experiments {
 
@@ -75,6 +76,7 @@ struct Block {
   std::optional<double> max_intensity;  ///< Production: no step goes beyond; none by default.
   double free_space_between_s = 0.0;    ///< Free space before each trial, >= 0.
   double expected_trial_s = 0.0;        ///< For planning the length of a session, > 0.
+  Settings settings;                    ///< The procedure's own keys, all of them.
 };
 
 struct Break {

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
@@ -36,6 +37,26 @@ class ObjectReader {
     return to_text(value(key));
   }
   [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
+  /// Nothing where it is absent and has no default, and for texts.
+  [[nodiscard]] std::optional<Settings::Value> setting(const std::string& key) const {
+    const json found = value(key);
+    if (found.is_null()) return std::nullopt;
+    switch (parameter(key).kind) {
+      case ValueKind::kNumber:
+      case ValueKind::kInteger:
+        return found.get<double>();
+      case ValueKind::kBoolean:
+        return found.get<bool>();
+      case ValueKind::kString:
+        return found.get<std::string>();
+      case ValueKind::kNumbers:
+        return found.get<std::vector<double>>();
+      case ValueKind::kStrings:
+        return found.get<std::vector<std::string>>();
+      default:
+        return std::nullopt;
+    }
+  }
 
   /// Calls `read(object reader, index)` for every object of a list; none where it is absent.
   template <typename Read>
@@ -131,7 +152,12 @@ Block block(const ObjectReader& in) {
     block.yes_label = in.text("yes_label");
     block.no_label = in.text("no_label");
   }
-  block.intensities = in.numbers(block.quantity);
+  for (const BlockKey& key : procedure_named(block.procedure).keys()) {
+    if (auto value = in.setting(key.name_for(block.quantity))) {
+      block.settings.set(key.parameter.key, std::move(*value));
+    }
+  }
+  block.intensities = block.settings.numbers("");
   block.free_space_between_s = in.number("free_space_between_s");
   block.expected_trial_s = in.number("expected_trial_s");
   if (in.has("repetitions")) block.repetitions = in.integer("repetitions");
@@ -141,7 +167,7 @@ Block block(const ObjectReader& in) {
     block.fine_step = in.number("fine_step_" + block.quantity);
     block.max_intensity = in.optional_number("max_" + block.quantity);
   }
-  block.reference_intensity = in.optional_number("reference_" + block.quantity);
+  block.reference_intensity = block.settings.optional_number("reference");
   return block;
 }
 

@@ -23,6 +23,10 @@ Block block_for(std::string_view procedure) {
   return block;
 }
 
+TrialForm form_of(std::string_view procedure) {
+  return procedure_named(procedure).form(block_for(procedure));
+}
+
 std::vector<PlannedTrial> drawn(const Block& block, std::uint64_t seed) {
   core::RandomStream stream(seed, "order");
   return procedure_named(block.procedure).draw_next(block, {}, stream);
@@ -106,12 +110,12 @@ TEST(ConstantStimuli, ComparesWithTheReferenceAndCannotDoWithoutOne) {
 }
 
 TEST(TrialForms, SayWhatTheExperimenterCanDo) {
-  EXPECT_EQ(procedure_named("magnitude_estimation").form().answer, AnswerKind::kPercent);
-  EXPECT_EQ(procedure_named("magnitude_production").form().answer, AnswerKind::kMatch);
-  EXPECT_TRUE(procedure_named("magnitude_production").form().adjustable);
-  EXPECT_FALSE(procedure_named("magnitude_estimation").form().adjustable);
-  EXPECT_EQ(procedure_named("constant_stimuli").form().answer, AnswerKind::kYesNo);
-  EXPECT_TRUE(procedure_named("constant_stimuli").form().has_reference);
+  EXPECT_EQ(form_of("magnitude_estimation").answer, AnswerKind::kPercent);
+  EXPECT_EQ(form_of("magnitude_production").answer, AnswerKind::kMatch);
+  EXPECT_TRUE(form_of("magnitude_production").adjustable);
+  EXPECT_FALSE(form_of("magnitude_estimation").adjustable);
+  EXPECT_EQ(form_of("constant_stimuli").answer, AnswerKind::kYesNo);
+  EXPECT_TRUE(form_of("constant_stimuli").has_reference);
 }
 
 TEST(ProcedureRegistry, KnowsEveryProcedureByItsNameAndTellsThemToWhoAsksForAnother) {
