@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Deletes the guards of guards.txt one by one, in a copy of the tree, and expects a test to fail each
-# time. Usage: delete_each_guard.sh BUILD_FOLDER [PART OF A GUARD'S NAME]
+# time. Usage: delete_each_guard.sh BUILD_FOLDER [PART OF "FILE: NAME" OF A GUARD]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -13,12 +13,12 @@ tree=$work/tree
 rm -rf "$tree"
 mkdir -p "$tree"
 (cd "$root" && git ls-files -z | xargs -0 cp --parents -t "$tree")
-cmake -S "$tree" -B "$work/build" -G Ninja -DJND_WINDOW=OFF -DJND_WARNINGS_AS_ERRORS=OFF >"$work/log"
+cmake -S "$tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DJND_WINDOW=OFF -DJND_WARNINGS_AS_ERRORS=OFF >"$work/log"
 build() { cmake --build "$work/build" --target core_test device_test >"$work/log" 2>&1; }
 # A guard that is gone may let a test wait for ever.
 tests_pass() {
-  timeout 120 "$work/build/tests/core_test" --gtest_brief=1 >"$work/log" 2>&1 &&
-    timeout 240 "$work/build/tests/device_test" --gtest_brief=1 --gtest_fail_fast >"$work/log" 2>&1
+  timeout 240 "$work/build/tests/core_test" --gtest_brief=1 >"$work/log" 2>&1 &&
+    timeout 480 "$work/build/tests/device_test" --gtest_brief=1 --gtest_fail_fast >"$work/log" 2>&1
 }
 
 build || { cat "$work/log"; exit 1; }
@@ -28,7 +28,7 @@ num_guards=0 num_missed=0
 # try FILE NAME FROM TO
 try() {
   local file=$1 name=$2
-  [[ $name == *"$wanted"* ]] || return 0
+  [[ "$file: $name" == *"$wanted"* ]] || return 0
   num_guards=$((num_guards + 1))
   if ! FROM=$3 TO=$4 perl -0777 -pi -e \
       '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/; END { exit !$n }' "$tree/$file"; then
