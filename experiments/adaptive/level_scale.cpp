@@ -1,0 +1,32 @@
+#include "experiments/adaptive/level_scale.h"
+
+#include "core/require.h"
+
+namespace jnd::experiments {
+
+double midpoint(LevelScale scale, double a, double b) noexcept {
+  return from_scale(scale, 0.5 * (to_scale(scale, a) + to_scale(scale, b)));
+}
+
+double mean_level(LevelScale scale, const std::vector<double>& levels) noexcept {
+  double sum = 0.0;
+  for (const double level : levels) sum += to_scale(scale, level);
+  return from_scale(scale, sum / static_cast<double>(levels.size()));
+}
+
+void require_level(LevelScale scale, std::string_view place, double level) {
+  core::require(std::isfinite(level), place, "a finite level", level);
+  core::require(scale == LevelScale::kLinear || level > 0.0, place,
+                "a level > 0 in a logarithmic scale", level);
+}
+
+void require_ascending(LevelScale scale, std::string_view place,
+                       const std::vector<double>& levels) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    require_level(scale, place, levels[i]);
+    core::require(i == 0 || levels[i] > levels[i - 1], place, "levels in ascending order",
+                  levels[i]);
+  }
+}
+
+}  // namespace jnd::experiments
