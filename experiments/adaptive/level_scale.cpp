@@ -14,6 +14,19 @@ double mean_level(LevelScale scale, const std::vector<double>& levels) noexcept 
   return from_scale(scale, sum / static_cast<double>(levels.size()));
 }
 
+std::vector<double> equally_spaced(LevelScale scale, double lowest, double highest, int count) {
+  core::require(count >= 2, "count", "two levels or more", count);
+  require_ascending(scale, "highest", {lowest, highest});
+  const double first = to_scale(scale, lowest);
+  const double range = to_scale(scale, highest) - first;
+  std::vector<double> levels = {lowest};
+  for (int i = 1; i < count - 1; ++i) {
+    levels.push_back(from_scale(scale, first + range * i / (count - 1)));
+  }
+  levels.push_back(highest);
+  return levels;
+}
+
 void require_level(LevelScale scale, std::string_view place, double level) {
   core::require(std::isfinite(level), place, "a finite level", level);
   core::require(scale == LevelScale::kLinear || level > 0.0, place,

@@ -26,6 +26,11 @@ enum class LevelScale {
 /// Mean in the scale, given back as a level; `levels` is not empty.
 [[nodiscard]] double mean_level(LevelScale scale, const std::vector<double>& levels) noexcept;
 
+/// `count` >= 2 levels from `lowest` to `highest`, both included, at equal steps in the scale.
+/// Throws `Error` unless both are levels of the scale and `highest` is above `lowest`.
+[[nodiscard]] std::vector<double> equally_spaced(LevelScale scale, double lowest,
+                                                 double highest, int count);
+
 /// Throws `Error`, naming `place`, unless a level is finite and, in a logarithmic scale, > 0.
 void require_level(LevelScale scale, std::string_view place, double level);
 

@@ -1,0 +1,47 @@
+#include "experiments/adaptive/quest_plus_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jnd::experiments {
+namespace {
+
+double in_its_scale(const QuestPlusParameter& parameter, double value) noexcept {
+  return parameter.is_ratio ? std::log(value) : value;
+}
+
+/// The first value up to which there is at least this probability.
+double quantile(const std::vector<double>& values, const std::vector<double>& weights,
+                double probability) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    sum += weights[i];
+    if (sum >= probability) return values[i];
+  }
+  return values.back();
+}
+
+}  // namespace
+
+QuestPlusEstimate estimate_of(const QuestPlusParameter& parameter,
+                              const std::vector<double>& weights, double confidence) {
+  const std::vector<double>& values = parameter.grid.values;
+  double mean = 0.0, variance = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    mean += weights[i] * in_its_scale(parameter, values[i]);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double deviation = in_its_scale(parameter, values[i]) - mean;
+    variance += weights[i] * deviation * deviation;
+  }
+  const double tail = 0.5 * (1.0 - confidence);
+  const double estimate =
+      std::clamp(parameter.is_ratio ? std::exp(mean) : mean, values.front(), values.back());
+  return {.name = parameter.name,
+          .mean = estimate,
+          .sd = std::sqrt(variance),
+          .low = std::min(estimate, quantile(values, weights, tail)),
+          .high = std::max(estimate, quantile(values, weights, 1.0 - tail))};
+}
+
+}  // namespace jnd::experiments

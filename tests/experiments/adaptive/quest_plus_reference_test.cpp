@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "experiments/adaptive/quest_plus.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kTolerance = 1e-10;
+
+/// Computed with NumPy and SciPy: see the script beside it.
+const json& reference() {
+  static const json kDocument = [] {
+    std::ifstream in(std::string(JND_SOURCE_DIR) +
+                     "/data/reference/quest_plus/quest_plus.json");
+    return json::parse(in);
+  }();
+  return kDocument;
+}
+
+ParameterGrid grid_of(const json& parameter) {
+  ParameterGrid grid{parameter.at("values"), std::nullopt};
+  if (parameter.contains("prior")) {
+    const json& prior = parameter.at("prior");
+    grid.prior = {.median = prior.at("median"), .sd_ln = prior.at("sd_ln")};
+  }
+  return grid;
+}
+
+QuestPlusModel model_of(const json& c) {
+  const json& parameters = c.at("parameters");
+  const auto grid = [&](const char* name) { return grid_of(parameters.at(name)); };
+  if (c.at("name") == "weber") {
+    return weber_model({grid("pse"), grid("weber_fraction"), grid("lapse_rate")});
+  }
+  const ThresholdGrids grids = {grid("threshold"), grid("slope"), grid("guess_rate"),
+                                grid("lapse_rate")};
+  return c.at("name") == "gauss" ? gauss_model(grids) : weibull_model(grids);
+}
+
+void expect_trial(const QuestPlus& quest, const QuestPlusPosterior& posterior,
+                  const json& trial) {
+  EXPECT_NEAR(quest.entropy_bits(posterior), trial.at("entropy_bits"), kTolerance);
+  const Eigen::VectorXd information = quest.expected_information_bits(posterior);
+  const json& expected = trial.at("expected_entropy_bits");
+  for (Eigen::Index i = 0; i < information.size(); ++i) {
+    EXPECT_NEAR(quest.entropy_bits(posterior) - information[i],
+                expected.at(static_cast<std::size_t>(i)), kTolerance);
+  }
+  const auto estimates = quest.estimates(posterior);
+  EXPECT_EQ(estimates.size(), trial.at("marginals").size());
+  for (const QuestPlusEstimate& estimate : estimates) {
+    const json& marginal = trial.at("marginals").at(estimate.name);
+    EXPECT_NEAR(estimate.mean, marginal.at("mean"), kTolerance) << estimate.name;
+    EXPECT_NEAR(estimate.sd, marginal.at("sd"), kTolerance) << estimate.name;
+    EXPECT_LE(estimate.low, estimate.mean);
+    EXPECT_GE(estimate.high, estimate.mean);
+  }
+}
+
+TEST(QuestPlusReference, AgreesWithNumPyOverThirtyTrialsOfEachModel) {
+  EXPECT_EQ(reference().at("cases").size(), 3u);
+  for (const json& c : reference().at("cases")) {
+    SCOPED_TRACE(c.at("name").get<std::string>());
+    const QuestPlus quest(
+        {.model = model_of(c), .intensities = c.at("intensities"), .max_trials = 30});
+    core::RandomStream not_drawn_from(1, "quest_plus_reference_test");
+    QuestPlusPosterior posterior = quest.prior();
+    std::vector<LevelAnswer> answers;
+    EXPECT_EQ(c.at("trials").size(), 30u);
+    for (const json& trial : c.at("trials")) {
+      SCOPED_TRACE("trial " + std::to_string(answers.size()));
+      expect_trial(quest, posterior, trial);
+      EXPECT_EQ(quest.next_intensity(posterior, not_drawn_from), trial.at("intensity"));
+      answers.push_back({trial.at("intensity"), trial.at("yes")});
+      quest.bring_up_to_date(posterior, answers);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace jnd::experiments
