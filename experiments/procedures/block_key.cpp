@@ -35,11 +35,25 @@ BlockKey stimuli_key() {
       .of_quantity = true};
 }
 
+BlockKey task_key() {
+  return {.parameter = {.key = "task",
+                        .kind = ValueKind::kString,
+                        .meaning =
+                            "`reminder`: the reference first, then the test, and a question "
+                            "that compares them. `yes_no`: the test alone, and whether it is "
+                            "felt, for absolute thresholds.",
+                        .required = false,
+                        .default_json = R"("reminder")",
+                        .allowed = {"reminder", "yes_no"}}};
+}
+
 BlockKey reference_key() {
-  return amount("reference",
-                "The stimulus that every test stimulus is compared with; between the smallest "
-                "and the largest of them.",
-                true);
+  BlockKey key = amount("reference",
+                        "The stimulus that every test stimulus is compared with; between the "
+                        "smallest and the largest of them.",
+                        true);
+  key.parameter.only_where = {{"task", {"reminder"}}};
+  return key;
 }
 
 BlockKey repetitions_key() {

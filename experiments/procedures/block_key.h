@@ -22,7 +22,9 @@ struct BlockKey {
 
 /// The stimuli: tests of a comparison, or what an adjustment starts from.
 [[nodiscard]] BlockKey stimuli_key();
-/// What every test stimulus is compared with.
+/// How a test stimulus is asked about: "reminder" or "yes_no".
+[[nodiscard]] BlockKey task_key();
+/// What every test stimulus is compared with in a reminder task.
 [[nodiscard]] BlockKey reference_key();
 /// How often every test stimulus is shown.
 [[nodiscard]] BlockKey repetitions_key();

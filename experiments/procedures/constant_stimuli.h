@@ -5,8 +5,9 @@
 namespace jnd::experiments {
 
 /// Method of constant stimuli with a reminder: the reference first, then the test, with free
-/// switching back, and a yes/no question about the test. Each repetition shows every test once
-/// in random order. (With the reference always first this is a reminder task, not 2AFC.)
+/// switching back, and a yes/no question about the test. (With the reference always first this
+/// is a reminder task, not 2AFC.) In a yes-no task the test stands alone. Each repetition shows
+/// every test once in random order.
 class ConstantStimuli final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }

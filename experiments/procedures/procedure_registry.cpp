@@ -4,8 +4,11 @@
 
 #include "core/error.h"
 #include "experiments/procedures/constant_stimuli.h"
+#include "experiments/procedures/limits_procedure.h"
 #include "experiments/procedures/magnitude_estimation.h"
 #include "experiments/procedures/magnitude_production.h"
+#include "experiments/procedures/quest_plus_procedure.h"
+#include "experiments/procedures/staircase_procedure.h"
 
 namespace jnd::experiments {
 
@@ -13,8 +16,13 @@ const std::vector<const Procedure*>& procedures() {
   static const MagnitudeEstimation kMagnitudeEstimation;
   static const MagnitudeProduction kMagnitudeProduction;
   static const ConstantStimuli kConstantStimuli;
-  static const std::vector<const Procedure*> kAll = {&kMagnitudeEstimation,
-                                                     &kMagnitudeProduction, &kConstantStimuli};
+  static const LimitsProcedure kLimits;
+  static const StaircaseProcedure kStaircase;
+  static const QuestPlusProcedure kQuestPlus;
+  static const std::vector<const Procedure*> kAll = {
+      &kMagnitudeEstimation, &kMagnitudeProduction,
+      &kConstantStimuli,     &kLimits,
+      &kStaircase,           &kQuestPlus};
   return kAll;
 }
 

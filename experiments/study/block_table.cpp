@@ -71,6 +71,8 @@ void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
     if (key.is_positive) parameter.range.low_is_open = true;
     parameter.only_where.push_back({"medium", {medium.medium}});
   }
+  const std::vector<Condition>& more = key.parameter.only_where;
+  parameter.only_where.insert(parameter.only_where.end(), more.begin(), more.end());
   parameters.push_back(std::move(parameter));
 }
 

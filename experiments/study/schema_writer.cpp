@@ -1,5 +1,7 @@
 #include "experiments/study/schema_writer.h"
 
+#include <algorithm>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -104,6 +106,15 @@ Json property_schema(const Parameter& parameter) {
   return described;
 }
 
+/// What an absent key stands for is one of the values.
+bool holds_by_default(const ParameterTable& table, const Condition& condition) {
+  const Parameter* decider = table.find(condition.key);
+  if (decider == nullptr || decider->default_json.empty()) return false;
+  const Json word = Json::parse(decider->default_json);
+  return std::find(condition.values.begin(), condition.values.end(), word) !=
+         condition.values.end();
+}
+
 /// One if/then/else for each set of conditions: its keys are required where it holds and
 /// forbidden where it does not.
 Json conditional_schemas(const ParameterTable& table) {
@@ -119,7 +130,7 @@ Json conditional_schemas(const ParameterTable& table) {
       Json condition = {{"properties", Json::object()}, {"required", Json::array()}};
       for (const Condition& one : parameter.only_where) {
         condition["properties"][one.key] = {{"enum", one.values}};
-        condition["required"].push_back(one.key);
+        if (!holds_by_default(table, one)) condition["required"].push_back(one.key);
       }
       rules.emplace_back(words, Json{{"if", condition},
                                      {"then", {{"required", Json::array()}}},

@@ -1,6 +1,7 @@
 #include "experiments/study/structure_check.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "experiments/study/shown_text.h"
@@ -12,20 +13,31 @@ using nlohmann::json;
 
 enum class Holds { kYes, kNo, kUnknown };
 
+/// The word at this key, or the one that an absent key stands for.
+std::optional<std::string> decided(const json& object, const std::string& key,
+                                   const Parameter* parameter) {
+  const auto found = object.find(key);
+  if (found != object.end()) {
+    return found->is_string() ? std::optional(found->get<std::string>()) : std::nullopt;
+  }
+  if (parameter == nullptr || parameter->default_json.empty()) return std::nullopt;
+  return json::parse(parameter->default_json).get<std::string>();
+}
+
 /// Whether a key belongs in this object. Unknown while the key it depends on is itself wrong:
 /// one mistake is told once.
 Holds belongs(const Parameter& parameter, const json& object, const ParameterTable& table) {
   Holds all = Holds::kYes;
   for (const Condition& condition : parameter.only_where) {
-    const auto found = object.find(condition.key);
     const Parameter* decider = table.find(condition.key);
-    const bool is_sound = found != object.end() && found->is_string() && decider != nullptr &&
-                          std::find(decider->allowed.begin(), decider->allowed.end(),
-                                    found->get<std::string>()) != decider->allowed.end();
+    const std::optional<std::string> found = decided(object, condition.key, decider);
+    const bool is_sound = found && decider != nullptr &&
+                          std::find(decider->allowed.begin(), decider->allowed.end(), *found) !=
+                              decider->allowed.end();
     if (!is_sound) {
       if (all == Holds::kYes) all = Holds::kUnknown;
-    } else if (std::find(condition.values.begin(), condition.values.end(),
-                         found->get<std::string>()) == condition.values.end()) {
+    } else if (std::find(condition.values.begin(), condition.values.end(), *found) ==
+               condition.values.end()) {
       all = Holds::kNo;
     }
   }

@@ -102,11 +102,13 @@ TEST(MagnitudeProduction, TakesTheTargetsInTheOrderOfTheStudy) {
                                           100, 100, 100}));
 }
 
-TEST(ConstantStimuli, ComparesWithTheReferenceAndCannotDoWithoutOne) {
+TEST(ConstantStimuli, ComparesWithTheReferenceOrAsksAboutTheTestAlone) {
   Block block = block_for("constant_stimuli");
   for (const PlannedTrial& trial : drawn(block, 7)) EXPECT_EQ(trial.reference_intensity, 1.0);
+  EXPECT_TRUE(procedure_named("constant_stimuli").form(block).has_reference);
   block.reference_intensity.reset();
-  EXPECT_THROW((void)drawn(block, 7), core::Error);
+  EXPECT_FALSE(procedure_named("constant_stimuli").form(block).has_reference);
+  for (const PlannedTrial& trial : drawn(block, 7)) EXPECT_FALSE(trial.reference_intensity);
 }
 
 TEST(TrialForms, SayWhatTheExperimenterCanDo) {

@@ -1,0 +1,128 @@
+#include "experiments/procedures/limits_procedure.h"
+
+#include <algorithm>
+
+#include "experiments/procedures/adaptive_trial.h"
+
+namespace jnd::experiments {
+namespace {
+
+SeriesDirection other(SeriesDirection direction) {
+  return direction == SeriesDirection::kAscending ? SeriesDirection::kDescending
+                                                  : SeriesDirection::kAscending;
+}
+
+/// The first one as the block has it, or drawn.
+SeriesDirection first_direction(const Block& block, core::RandomStream& stream) {
+  const std::string& first = block.settings.word("first_series");
+  const bool ascending = first == "drawn" ? stream.with_probability(0.5) : first == "ascending";
+  return ascending ? SeriesDirection::kAscending : SeriesDirection::kDescending;
+}
+
+/// Where a series begins, counted from its own end of the levels.
+std::size_t start_of(const LimitsRule& rule, SeriesDirection direction, std::size_t offset) {
+  return direction == SeriesDirection::kAscending ? offset : rule.levels.size() - 1 - offset;
+}
+
+std::size_t index_of(const LimitsRule& rule, double level) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(rule.levels, level) -
+                                  rule.levels.begin());
+}
+
+/// The series begun, from the levels that they began at, and the next one, which is drawn. A
+/// series begins in its own half of the levels, so that the first trial tells its direction.
+std::vector<PlannedSeries> planned_series(const Block& block, const LimitsRule& rule,
+                                          const std::vector<AnsweredTrial>& answered,
+                                          core::RandomStream& stream) {
+  std::vector<PlannedSeries> series;
+  SeriesDirection direction = first_direction(block, stream);
+  for (int number = 1; number <= rule.num_series; ++number) {
+    const std::vector<LevelAnswer> own = level_answers(answered, number);
+    const auto offset = static_cast<std::size_t>(
+        stream.below(static_cast<std::uint64_t>(rule.max_start_offset) + 1));
+    if (!own.empty()) {
+      const std::size_t start = index_of(rule, own.front().level);
+      if (number == 1) {
+        direction = start < rule.levels.size() / 2 ? SeriesDirection::kAscending
+                                                   : SeriesDirection::kDescending;
+      }
+      series.push_back({direction, start});
+    } else {
+      series.push_back({direction, start_of(rule, direction, offset)});
+    }
+    direction = other(direction);
+  }
+  return series;
+}
+
+BlockKey whole(const char* key, const char* meaning, Range range,
+               const std::string& default_json) {
+  return {.parameter = {.key = key,
+                        .kind = ValueKind::kInteger,
+                        .meaning = meaning,
+                        .required = false,
+                        .default_json = default_json,
+                        .range = range}};
+}
+
+}  // namespace
+
+std::string LimitsProcedure::meaning() const {
+  return "The level rises, or falls, step by step until the answer changes (Fechner 1860).";
+}
+
+std::vector<BlockKey> LimitsProcedure::keys() const {
+  std::vector<BlockKey> keys = {
+      stimuli_key(),
+      whole("num_series", "How many series, rising and falling in turn.", {1, 200}, "8"),
+      {.parameter = {.key = "first_series",
+                     .kind = ValueKind::kString,
+                     .meaning = "Which direction comes first.",
+                     .required = false,
+                     .default_json = R"("drawn")",
+                     .allowed = {"drawn", "ascending", "descending"}}},
+      whole("max_start_offset",
+            "A series starts at its end of the levels or up to so many further in, drawn, so "
+            "that answers cannot be counted out; less than half of the levels.",
+            {0, 99}, "2"),
+      whole("num_changed_in_a_row", "Changed answers that end a series.", {1, 10}, "1"),
+      scale_key()};
+  for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
+TrialForm LimitsProcedure::form(const Block& block) const { return adaptive_form(block); }
+
+LimitsRule limits_rule_of(const Block& block) {
+  const Settings& given = block.settings;
+  std::vector<double> levels = block.intensities;
+  std::ranges::sort(levels);
+  const int most = std::max(0, static_cast<int>(levels.size()) / 2 - 1);
+  return {.levels = std::move(levels),
+          .scale = given.word("level_scale") == "linear" ? LevelScale::kLinear
+                                                         : LevelScale::kLogarithmic,
+          .num_series = given.integer("num_series"),
+          .max_start_offset = std::min(given.integer("max_start_offset"), most),
+          .num_changed_in_a_row = given.integer("num_changed_in_a_row")};
+}
+
+std::vector<PlannedTrial> LimitsProcedure::draw_next(const Block& block,
+                                                     const std::vector<AnsweredTrial>& answered,
+                                                     core::RandomStream& stream) const {
+  const Limits limits(limits_rule_of(block));
+  const std::vector<PlannedSeries> series =
+      planned_series(block, limits.rule(), answered, stream);
+  const LimitsState state = limits.after(series, level_answers(answered));
+  if (!state.next_level) return {};
+  const bool goes_on = !state.series.empty() && state.series.back().end == SeriesEnd::kRunning;
+  const auto number = static_cast<int>(state.series.size()) + (goes_on ? 0 : 1);
+  return {adaptive_trial(block, answered.size(), *state.next_level, number)};
+}
+
+int LimitsProcedure::expected_trials(const Block& block) const noexcept {
+  // The answer changes about half way.
+  return block.settings.integer("num_series") *
+         std::max<int>(1, static_cast<int>(block.intensities.size()) / 2);
+}
+
+}  // namespace jnd::experiments

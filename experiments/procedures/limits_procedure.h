@@ -1,0 +1,25 @@
+#pragma once
+
+#include "experiments/adaptive/limits.h"
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// Method of limits (Fechner 1860): the level rises, or falls, until the answer changes; series
+/// of both directions follow each other.
+class LimitsProcedure final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "limits"; }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+/// Throws `Error` naming what does not fit together.
+[[nodiscard]] LimitsRule limits_rule_of(const Block& block);
+
+}  // namespace jnd::experiments

@@ -1,0 +1,138 @@
+#include "experiments/procedures/quest_plus_procedure.h"
+
+#include <algorithm>
+
+#include "experiments/adaptive/level_scale.h"
+#include "experiments/procedures/adaptive_trial.h"
+
+namespace jnd::experiments {
+namespace {
+
+constexpr char kReminder[] = "reminder";
+constexpr char kYesNo[] = "yes_no";
+
+/// The values that a parameter of the curve may have: the ends of a grid, evenly in ln.
+BlockKey grid(const char* key, const char* meaning, const char* task, bool of_quantity,
+              const std::string& default_json) {
+  BlockKey made{.parameter = {.key = key,
+                              .kind = ValueKind::kNumbers,
+                              .meaning = meaning,
+                              .required = default_json.empty(),
+                              .default_json = default_json,
+                              .range = {0.0, 1000.0, true},
+                              .min_items = 2,
+                              .max_items = 2,
+                              .only_where = {{"task", {task}}}},
+                .of_quantity = of_quantity,
+                .is_positive = true};
+  return made;
+}
+
+BlockKey whole(const char* key, const char* meaning, Range range,
+               const std::string& default_json) {
+  return {.parameter = {.key = key,
+                        .kind = ValueKind::kInteger,
+                        .meaning = meaning,
+                        .required = false,
+                        .default_json = default_json,
+                        .range = range}};
+}
+
+BlockKey stop(const char* key, const char* meaning, const char* unit) {
+  return {.parameter = {.key = key,
+                        .kind = ValueKind::kNumber,
+                        .meaning = meaning,
+                        .required = false,
+                        .unit = unit,
+                        .range = {0.0, 100.0, true}}};
+}
+
+ParameterGrid grid_of(const Block& block, const char* key) {
+  const std::vector<double> ends = block.settings.numbers(key);
+  const int count = block.settings.integer("grid_values");
+  return {.values = ends[0] == ends[1]
+                        ? std::vector<double>{ends[0]}
+                        : equally_spaced(LevelScale::kLogarithmic, ends[0], ends[1], count)};
+}
+
+}  // namespace
+
+std::string QuestPlusProcedure::meaning() const {
+  return "Each trial shows the stimulus whose answer is expected to tell the most (Watson "
+         "2017).";
+}
+
+std::vector<BlockKey> QuestPlusProcedure::keys() const {
+  std::vector<BlockKey> keys = {
+      stimuli_key(),
+      grid("pse", "Least and largest point of subjective equality that is thought possible.",
+           kReminder, true, ""),
+      grid("weber_fraction", "Least and largest Weber fraction that is thought possible.",
+           kReminder, false, "[0.05, 2.0]"),
+      grid("threshold", "Least and largest threshold that is thought possible.", kYesNo, true,
+           ""),
+      grid("slope", "Least and largest slope at the threshold, per ln, thought possible.",
+           kYesNo, false, "[0.5, 10.0]"),
+      whole("grid_values", "Values of each of them, evenly in ln.", {2, 200}, "30"),
+      {.parameter = {.key = "lapse_rate",
+                     .kind = ValueKind::kNumber,
+                     .meaning = "Answers thought to be given at random, at either end.",
+                     .required = false,
+                     .default_json = "0.02",
+                     .range = {0.0, 0.4}}},
+      whole("max_trials", "The block ends after so many trials.", {1, 1000}, "40"),
+      whole("min_trials", "Before, nothing else ends it.", {0, 1000}, "0"),
+      stop("stop_entropy_bits", "It also ends at this entropy of what is thought.", "bit"),
+      stop("stop_sd_ln",
+           "It also ends when the Weber fraction, or the threshold, is known to this standard "
+           "deviation of its ln.",
+           ""),
+      whole("num_best",
+            "The stimulus is drawn among so many of the best: a little less is learned, and "
+            "less can be guessed.",
+            {1, 50}, "1")};
+  for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
+TrialForm QuestPlusProcedure::form(const Block& block) const { return adaptive_form(block); }
+
+QuestPlusRule quest_plus_rule_of(const Block& block) {
+  const Settings& given = block.settings;
+  const ParameterGrid lapse{{given.number("lapse_rate")}};
+  const bool compares = given.word("task") == kReminder;
+  QuestPlusRule rule{
+      .model = compares ? weber_model({.pse = grid_of(block, "pse"),
+                                       .weber_fraction = grid_of(block, "weber_fraction"),
+                                       .lapse_rate = lapse})
+                        : gauss_model({.threshold = grid_of(block, "threshold"),
+                                       .slope = grid_of(block, "slope"),
+                                       .guess_rate = lapse,
+                                       .lapse_rate = lapse}),
+      .intensities = block.intensities,
+      .num_best =
+          std::min(given.integer("num_best"), static_cast<int>(block.intensities.size())),
+      .max_trials = given.integer("max_trials"),
+      .min_trials = given.integer("min_trials"),
+      .entropy_bits = given.optional_number("stop_entropy_bits")};
+  std::ranges::sort(rule.intensities);
+  if (const std::optional<double> sd = given.optional_number("stop_sd_ln")) {
+    rule.marginal = MarginalStop{compares ? "weber_fraction" : "threshold", *sd};
+  }
+  return rule;
+}
+
+std::vector<PlannedTrial> QuestPlusProcedure::draw_next(
+    const Block& block, const std::vector<AnsweredTrial>& answered,
+    core::RandomStream& stream) const {
+  const QuestPlus quest(quest_plus_rule_of(block));
+  const QuestPlusPosterior posterior = quest.posterior(level_answers(answered));
+  if (quest.end(posterior) != QuestPlusEnd::kNotFinished) return {};
+  return {adaptive_trial(block, answered.size(), quest.next_intensity(posterior, stream))};
+}
+
+int QuestPlusProcedure::expected_trials(const Block& block) const noexcept {
+  return block.settings.integer("max_trials");
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "experiments/adaptive/quest_plus.h"
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// QUEST+ (Watson 2017): each trial shows the stimulus whose answer is expected to tell most of
+/// point of subjective equality and Weber fraction, or, in a yes-no task, of threshold and
+/// slope.
+class QuestPlusProcedure final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "quest_plus"; }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+/// Throws `Error` naming what does not fit together.
+[[nodiscard]] QuestPlusRule quest_plus_rule_of(const Block& block);
+
+}  // namespace jnd::experiments

@@ -1,0 +1,137 @@
+#include "experiments/procedures/staircase_procedure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/adaptive/interleave.h"
+#include "experiments/procedures/adaptive_trial.h"
+
+namespace jnd::experiments {
+namespace {
+
+BlockKey amount(const char* key, const char* meaning) {
+  return {.parameter = {.key = key, .kind = ValueKind::kNumber, .meaning = meaning},
+          .of_quantity = true,
+          .is_positive = true};
+}
+
+BlockKey whole(const char* key, const char* meaning, Range range,
+               const std::string& default_json) {
+  return {.parameter = {.key = key,
+                        .kind = ValueKind::kInteger,
+                        .meaning = meaning,
+                        .required = false,
+                        .default_json = default_json,
+                        .range = range}};
+}
+
+std::vector<BlockKey> step_size_keys() {
+  BlockKey linear{.parameter = {.key = "step",
+                                .kind = ValueKind::kNumbers,
+                                .meaning = "Steps upwards: the first until the first reversal, "
+                                           "the next until the second, and so on.",
+                                .max_items = 20,
+                                .only_where = {{"level_scale", {"linear"}}}},
+                  .of_quantity = true,
+                  .is_positive = true};
+  BlockKey ratio{.parameter = {.key = "step_ratio",
+                               .kind = ValueKind::kNumbers,
+                               .meaning = "The same as factors: 1.2 is a step of 20 percent.",
+                               .range = {1.0, 100.0, true},
+                               .max_items = 20,
+                               .only_where = {{"level_scale", {"logarithmic"}}}}};
+  return {linear, ratio};
+}
+
+int num_series(const Block& block) {
+  return static_cast<int>(block.settings.numbers("start").size());
+}
+
+}  // namespace
+
+std::string StaircaseProcedure::meaning() const {
+  return "The level falls after \"yes\" and rises after \"no\", about the level at which both "
+         "balance (Levitt 1971).";
+}
+
+std::vector<BlockKey> StaircaseProcedure::keys() const {
+  std::vector<BlockKey> keys = {
+      {.parameter = {.key = "start",
+                     .kind = ValueKind::kNumbers,
+                     .meaning = "Where staircases start: one for each value, interleaved.",
+                     .max_items = 8},
+       .of_quantity = true,
+       .is_positive = true},
+      amount("lowest", "No level is below this."),
+      amount("highest", "No level is above this."),
+      scale_key()};
+  for (BlockKey& key : step_size_keys()) keys.push_back(std::move(key));
+  keys.push_back(whole("num_up", "\"No\" in a row that raise the level.", {1, 10}, "1"));
+  keys.push_back(whole("num_down", "\"Yes\" in a row that lower the level.", {1, 10}, "2"));
+  keys.push_back({.parameter = {.key = "down_per_up_ratio",
+                                .kind = ValueKind::kNumber,
+                                .meaning = "Step downwards over step upwards, for weighted "
+                                           "staircases (Kaernbach 1991).",
+                                .required = false,
+                                .default_json = "1.0",
+                                .range = {0.0, 100.0, true}}});
+  keys.push_back(
+      whole("max_reversals", "A staircase ends after so many reversals.", {2, 100}, "10"));
+  keys.push_back(
+      whole("max_trials", "Or after so many trials, whichever comes first.", {1, 1000}, "60"));
+  keys.push_back(whole("num_reversals_averaged",
+                       "The threshold is the mean of so many last reversals, an even number.",
+                       {2, 100}, "6"));
+  for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
+TrialForm StaircaseProcedure::form(const Block& block) const { return adaptive_form(block); }
+
+StaircaseRule staircase_rule_of(const Block& block, int series) {
+  const Settings& given = block.settings;
+  const bool is_logarithmic = given.word("level_scale") == "logarithmic";
+  std::vector<double> steps = given.numbers(is_logarithmic ? "step_ratio" : "step");
+  if (is_logarithmic) {
+    for (double& step : steps) step = std::log(step);
+  }
+  return {.num_up = given.integer("num_up"),
+          .num_down = given.integer("num_down"),
+          .scale = is_logarithmic ? LevelScale::kLogarithmic : LevelScale::kLinear,
+          .step_sizes = std::move(steps),
+          .down_per_up_ratio = given.number("down_per_up_ratio"),
+          .start = given.numbers("start").at(static_cast<std::size_t>(series) - 1),
+          .lowest = given.number("lowest"),
+          .highest = given.number("highest"),
+          .max_trials = given.integer("max_trials"),
+          .max_reversals = given.integer("max_reversals"),
+          .num_reversals_averaged = given.integer("num_reversals_averaged")};
+}
+
+std::vector<PlannedTrial> StaircaseProcedure::draw_next(
+    const Block& block, const std::vector<AnsweredTrial>& answered,
+    core::RandomStream& stream) const {
+  constexpr int kMaxLeadTrials = 2;
+  std::vector<StaircaseState> states;
+  std::vector<InterleavedTrack> tracks;
+  for (int series = 1; series <= num_series(block); ++series) {
+    const std::vector<LevelAnswer> answers = level_answers(answered, series);
+    states.push_back(Staircase(staircase_rule_of(block, series)).after(answers));
+    tracks.push_back({.num_trials = static_cast<int>(answers.size()),
+                      .is_finished = states.back().is_finished()});
+  }
+  const std::optional<std::size_t> next = next_track(tracks, kMaxLeadTrials, stream);
+  if (!next) return {};
+  return {adaptive_trial(block, answered.size(), states[*next].next_level,
+                         static_cast<int>(*next) + 1)};
+}
+
+int StaircaseProcedure::expected_trials(const Block& block) const noexcept {
+  // Some four trials for a reversal of a 1-up 2-down staircase.
+  constexpr int kTrialsPerReversal = 4;
+  const int each = std::min(block.settings.integer("max_trials"),
+                            kTrialsPerReversal * block.settings.integer("max_reversals"));
+  return num_series(block) * each;
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "experiments/adaptive/staircase.h"
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// One or several interleaved staircases (Levitt 1971; weighted: Kaernbach 1991), one for each
+/// starting level. "Yes" lowers the level: the test was more than the reference, or was felt.
+class StaircaseProcedure final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "staircase"; }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+/// The rule of the staircase that starts at the block's `series`-th starting level, from 1.
+/// Throws `Error` naming what does not fit together.
+[[nodiscard]] StaircaseRule staircase_rule_of(const Block& block, int series);
+
+}  // namespace jnd::experiments
