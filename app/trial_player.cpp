@@ -159,6 +159,7 @@ double TrialPlayer::device_damping(const Presenter::Felt& felt) const {
 Moment TrialPlayer::moment(const Block& block) const {
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
+  // Adaptive procedures have one repetition, as long as it takes.
   const auto per_repetition = static_cast<std::int64_t>(block.intensities.size());
   return {.trial = number,
           .attempt = trial.attempt,
@@ -186,7 +187,7 @@ void TrialPlayer::run_trial(const Block& block) {
 void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
   const TrialForm form = procedure_named(block.procedure).form(block);
   if (form.adjustable) return produce(block, trial);
-  if (form.answer == AnswerKind::kYesNo) return compare(block);
+  if (form.answer == AnswerKind::kYesNo) return compare(block, form.has_reference);
   estimate(block, trial);
 }
 
@@ -209,14 +210,17 @@ void TrialPlayer::estimate(const Block& block, std::int64_t trial) {
       felt.duration_s, felt.last_tick);
 }
 
-void TrialPlayer::compare(const Block& block) {
+/// Without a reference it is free space, as it is remembered, that the test is compared with.
+void TrialPlayer::compare(const Block& block, bool has_reference) {
+  const double remembered_ln =
+      std::log(std::max(run_.laboratory.device.mechanical_viscosity_n_s_per_m, 1e-6));
   double reference_ln = 0.0;
   double test_ln = 0.0;
   int looks = 0;
   Felt felt;
   do {
-    felt = present(block, "reference");
-    reference_ln += read(felt, block);
+    reference_ln +=
+        has_reference ? read(felt = present(block, "reference"), block) : remembered_ln;
     felt = present(block, "test");
     test_ln += read(felt, block);
     ++looks;

@@ -61,7 +61,7 @@ class TrialPlayer {
   [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
   [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;
   void estimate(const experiments::Block& block, std::int64_t trial);
-  void compare(const experiments::Block& block);
+  void compare(const experiments::Block& block, bool has_reference);
   void produce(const experiments::Block& block, std::int64_t trial);
 
   const LaboratoryRun& run_;

@@ -59,6 +59,11 @@ class Procedure {
   [[nodiscard]] virtual std::vector<PlannedTrial> draw_next(
       const Block& block, const std::vector<AnsweredTrial>& answered,
       core::RandomStream& stream) const = 0;
+  /// Test stimuli that a trial may present, at least the ends of their range. Not of an
+  /// adjustment, which goes where the participant wants.
+  [[nodiscard]] virtual std::vector<double> possible_intensities(const Block& block) const {
+    return block.intensities;
+  }
   /// How many trials to expect, for progress and planning.
   [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
 };

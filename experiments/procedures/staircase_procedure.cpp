@@ -126,6 +126,10 @@ std::vector<PlannedTrial> StaircaseProcedure::draw_next(
                          static_cast<int>(*next) + 1)};
 }
 
+std::vector<double> StaircaseProcedure::possible_intensities(const Block& block) const {
+  return {block.settings.number("lowest"), block.settings.number("highest")};
+}
+
 int StaircaseProcedure::expected_trials(const Block& block) const noexcept {
   // Some four trials for a reversal of a 1-up 2-down staircase.
   constexpr int kTrialsPerReversal = 4;

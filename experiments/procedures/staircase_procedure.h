@@ -16,6 +16,7 @@ class StaircaseProcedure final : public Procedure {
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
+  [[nodiscard]] std::vector<double> possible_intensities(const Block& block) const override;
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

@@ -74,7 +74,8 @@ class RangeCollector {
     } else if (const auto* post = std::get_if<PostExperiment>(&stage.content)) {
       for (const PostExperimentItem& item : post->items) add(stage, item.setting);
     } else if (const auto* block = std::get_if<Block>(&stage.content)) {
-      std::vector<double> intensities = block->intensities;
+      std::vector<double> intensities =
+          procedure_named(block->procedure).possible_intensities(*block);
       if (block->reference_intensity) intensities.push_back(*block->reference_intensity);
       if (block->max_intensity) intensities.push_back(*block->max_intensity);
       std::sort(intensities.begin(), intensities.end());
