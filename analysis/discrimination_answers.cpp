@@ -59,6 +59,9 @@ PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOption
   }
   return fit_psychometric(rows, {.reference = answers.reference,
                                  .free_pse = options.free_pse,
+                                 .diagnostics = options.num_goodness > 0,
+                                 .num_goodness = options.num_goodness,
+                                 .seed = options.seed,
                                  .intervals = options.intervals});
 }
 

@@ -32,6 +32,8 @@ struct OwnFitOptions {
   bool corrected = false;
   bool free_pse = false;
   bool intervals = false;
+  int num_goodness = 0;    ///< Redraws for the goodness of fit; 0 leaves it out.
+  std::uint64_t seed = 1;  ///< Of these.
 };
 [[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,
                                       const OwnFitOptions& options);

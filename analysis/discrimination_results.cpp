@@ -6,6 +6,7 @@
 
 #include "analysis/discrimination_answers.h"
 #include "analysis/discrimination_group.h"
+#include "analysis/discrimination_own_values.h"
 #include "analysis/groups/summary.h"
 #include "analysis/study_results.h"
 
@@ -52,9 +53,7 @@ void add_individual(ResultsSection& section, const Everybody& all, const BlockDe
   std::vector<IndividualFraction> individual;
   std::vector<double> with_fit;
   for (const DiscriminationAnswers& answers : all) {
-    const PsychometricFit fit = own_fit(answers, {.intervals = true});
-    section.participants.push_back({answers.participant, block.block + ".weber_fraction",
-                                    fit.weber_fraction, fit.weber_fraction_ci95, fit.reason});
+    const PsychometricFit fit = own_fit(answers, {});
     const double largest = answers.levels.rbegin()->first / answers.reference - 1.0;
     IndividualFraction one{.for_ranks = std::numeric_limits<double>::infinity(),
                            .beyond_stimuli = true};
@@ -192,6 +191,7 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
   const Everybody all = discrimination_answers(data, block, false, section.excluded);
   if (all.empty()) return section;
   add_group_estimates(section, data, block, options);
+  add_own_values(section, all, block, options);
   add_individual(section, all, block, options);
   add_trial_trends(section, all, block);
   return section;

@@ -23,7 +23,9 @@ struct LevelAnswers {
 struct OwnAnswers {
   std::string participant;
   std::map<double, LevelAnswers> levels;
-  const ParticipantEstimate* fraction = nullptr;
+  const ParticipantEstimate* fraction = nullptr;  ///< With the pse at the reference.
+  const ParticipantEstimate* free_fraction = nullptr;
+  const ParticipantEstimate* pse = nullptr;  ///< Of the latter.
 };
 
 struct BlockAnswers {
@@ -49,8 +51,12 @@ BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
       ++levels[*trial.intensity];
     }
     if (own.levels.empty()) continue;
-    own.fraction =
-        source.own(block.block, participant.participant, block.block + ".weber_fraction");
+    const auto value = [&](const std::string& name) {
+      return source.own(block.block, participant.participant, block.block + "." + name);
+    };
+    own.fraction = value("weber_fraction");
+    own.free_fraction = value("weber_fraction_free_pse");
+    own.pse = value("pse");
     all.participants.push_back(std::move(own));
   }
   for (const auto& [level, count] : levels) all.levels.push_back(level);
@@ -65,9 +71,9 @@ AxisRange intensity_range(const BlockAnswers& answers) {
   return range;
 }
 
-std::vector<std::pair<double, double>> curve(const BlockAnswers& answers, double fraction) {
-  const core::PsychometricFunction function{.pse = answers.reference,
-                                            .weber_fraction = fraction};
+std::vector<std::pair<double, double>> curve(const BlockAnswers& answers, double pse,
+                                             double fraction) {
+  const core::PsychometricFunction function{.pse = pse, .weber_fraction = fraction};
   const AxisRange range = intensity_range(answers);
   std::vector<std::pair<double, double>> points;
   constexpr int kPoints = 120;
@@ -103,7 +109,28 @@ FigureTable curves_table(const BlockAnswers& answers) {
   for (const OwnAnswers& own : answers.participants) {
     ++series;
     if (own.fraction == nullptr || !own.fraction->value) continue;
-    for (const auto& [intensity, ratio] : curve(answers, *own.fraction->value)) {
+    for (const auto& [intensity, ratio] :
+         curve(answers, answers.reference, *own.fraction->value)) {
+      table.rows.push_back({series, own.participant, intensity, ratio});
+    }
+  }
+  return table;
+}
+
+bool has_free_curve(const OwnAnswers& own) {
+  return own.free_fraction != nullptr && own.free_fraction->value && own.pse != nullptr &&
+         own.pse->value && *own.pse->value > 0.0;
+}
+
+FigureTable free_curves_table(const BlockAnswers& answers) {
+  FigureTable table{.name = file_word(answers.block) + "_curves_free_pse",
+                    .columns = {"series", "participant", "intensity", "ratio"}};
+  int series = 0;
+  for (const OwnAnswers& own : answers.participants) {
+    ++series;
+    if (!has_free_curve(own)) continue;
+    for (const auto& [intensity, ratio] :
+         curve(answers, *own.pse->value, *own.free_fraction->value)) {
       table.rows.push_back({series, own.participant, intensity, ratio});
     }
   }
@@ -147,7 +174,7 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
   FigureTable group{.name = file_word(answers.block) + "_group_curve",
                     .columns = {"intensity", "ratio"}};
   if (has_curve) {
-    for (const auto& [intensity, ratio] : curve(answers, *pooled->value)) {
+    for (const auto& [intensity, ratio] : curve(answers, answers.reference, *pooled->value)) {
       group.rows.push_back({intensity, ratio});
     }
   }
@@ -201,6 +228,7 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
   std::vector<Figure> figures;
   const FigureTable points = answers_table(answers);
   const FigureTable curves = curves_table(answers);
+  const FigureTable free_curves = free_curves_table(answers);
   for (std::size_t first = 0; first < answers.participants.size(); first += kPanels) {
     const std::size_t end = std::min(first + kPanels, answers.participants.size());
     const std::string part = first == 0 ? "" : "_" + std::to_string(first / kPanels + 1);
@@ -230,6 +258,10 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
         panel.plot += from_table(curves) + "'intensity':" + if_series(series, "ratio") +
                       " with lines ls 11 lw 1.3, ";
       }
+      if (has_free_curve(own)) {
+        panel.plot += from_table(free_curves) + "'intensity':" + if_series(series, "ratio") +
+                      " with lines lt 2 lw 1.3, ";
+      }
       panel.plot += from_table(points) + "'intensity':" + if_series(series, "ratio") +
                     ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' lw 1 pt "
                     "7 ps 0.4";
@@ -239,9 +271,12 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
     figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
     figure.caption =
         "Proportion of answers “more than the reference” with Wilson’s 95 % interval, and the "
-        "curve of maximum likelihood with its Weber fraction w, where there is one. Dashed: "
-        "the reference.";
+        "curves of maximum likelihood, where they exist: black, with its Weber fraction w, the "
+        "point of subjective equality at the reference, as published; dashed, it is free. "
+        "Vertical: the reference. The values of every participant say which curves the answers "
+        "reject.";
     figure.tables = {points, curves};
+    if (!free_curves.rows.empty()) figure.tables.push_back(free_curves);
     figures.push_back(std::move(figure));
   }
   return figures;

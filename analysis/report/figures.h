@@ -30,7 +30,7 @@ struct FigureSource {
 
 /// Psychometric curves (fig. 5, D.5, D.6, D.20, D.23 of the thesis).
 [[nodiscard]] std::vector<Figure> discrimination_figures(const FigureSource& source);
-/// Weber fractions (D.21) and absolute thresholds (D.22) of every block.
+/// Weber fractions (D.21) and difference thresholds (D.22: absolute ones) of every block.
 [[nodiscard]] std::vector<Figure> weber_figures(const FigureSource& source);
 
 /// Curves of estimation and production (fig. 4a and b, D.3, D.9, D.12, D.14), repetitions

@@ -35,13 +35,6 @@ std::string unit_words(const std::string& unit) {
   return words;
 }
 
-/// "0.71 (0.38 to 1.04)"
-std::string with_interval(const std::optional<double>& value, const Interval& ci95) {
-  const std::string words = number_words(value);
-  if (!value || (!ci95.low && !ci95.high)) return words;
-  return words + " (" + interval_words(ci95, value) + ")";
-}
-
 std::string effect_words(const Comparison& c) {
   if (c.cohen_dz) return "d_z " + with_interval(c.cohen_dz, c.cohen_dz_ci95);
   if (c.hedges_g) return "g " + with_interval(c.hedges_g, c.hedges_g_ci95);
@@ -280,7 +273,7 @@ void write_section(HtmlText& html, const StudyData& data, const StudyResults& re
   }
   write_comparisons(html, section);
   write_excluded(html, section);
-  OwnValues(section).write(html);
+  if (!write_own_fractions(html, section)) OwnValues(section).write(html);
   write_free_answers(html, section);
 }
 

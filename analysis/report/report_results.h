@@ -17,6 +17,10 @@ void write_section(HtmlText& html, const StudyData& data, const StudyResults& re
 /// The estimates of a section "questionnaires", a row an item.
 void write_questionnaires(HtmlText& html, const StudyData& data, const ResultsSection& section);
 
+/// Everybody's own Weber fractions with their goodness of fit, and how many of the fits with
+/// the pse at the reference the data reject. False, and nothing, for a section without any.
+[[nodiscard]] bool write_own_fractions(HtmlText& html, const ResultsSection& section);
+
 /// "Group D against Group E": a section's name to readers.
 [[nodiscard]] std::string section_title(const StudyWords& words, const std::string& name);
 

@@ -71,6 +71,12 @@ std::string interval_words(const Interval& ci95, const std::optional<double>& va
   return end(ci95.low) + gap + "to" + gap + end(ci95.high);
 }
 
+std::string with_interval(const std::optional<double>& value, const Interval& ci95) {
+  const std::string words = number_words(value);
+  if (!value || (!ci95.low && !ci95.high)) return words;
+  return words + " (" + interval_words(ci95, value) + ")";
+}
+
 std::string p_words(const std::optional<double>& p_value) {
   if (!p_value) return kNothing;
   return *p_value < 0.001 ? "< 0.001" : number_words(p_value, 3);

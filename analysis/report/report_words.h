@@ -24,6 +24,10 @@ namespace jnd::analysis {
 [[nodiscard]] std::string interval_words(const Interval& ci95,
                                          const std::optional<double>& value);
 
+/// "0.71 (0.38 to 1.04)"; the value alone without an interval.
+[[nodiscard]] std::string with_interval(const std::optional<double>& value,
+                                        const Interval& ci95);
+
 /// "0.021", "< 0.001".
 [[nodiscard]] std::string p_words(const std::optional<double>& p_value);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/discrimination_own_values.h"
 #include "analysis/report/box_plot.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
@@ -29,23 +30,29 @@ std::optional<double> reference_of(const StudyData& data, const std::string& blo
   return std::nullopt;
 }
 
-/// Everybody's fraction in every block, with what there is to see of its interval.
+/// Everybody's fraction in every block, with what there is to see of its interval, and the one
+/// with a free pse beside it.
 FigureTable fractions_table(const FigureSource& source,
                             const std::vector<BlockDesign>& blocks) {
-  FigureTable table{.name = "weber_fractions",
-                    .columns = {"series", "block", "position", "participant", "weber_fraction",
-                                "ci95_low", "ci95_high", "reason"}};
+  FigureTable table{
+      .name = "weber_fractions",
+      .columns = {"series", "block", "position", "participant", "weber_fraction", "ci95_low",
+                  "ci95_high", "reason", "position_free_pse", "weber_fraction_free_pse"}};
   const std::vector<std::string> people = source.participants();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (std::size_t i = 0; i < people.size(); ++i) {
       const ParticipantEstimate* const own =
           source.own(blocks[b].block, people[i], blocks[b].block + ".weber_fraction");
       if (own == nullptr) continue;
-      const double aside =
-          0.28 * (static_cast<double>(b) - 0.5 * static_cast<double>(blocks.size() - 1));
-      table.rows.push_back({static_cast<int>(b) + 1, blocks[b].block,
-                            static_cast<double>(i) + 1.0 + aside, people[i], own->value,
-                            own->ci95.low, own->ci95.high, own->reason});
+      const ParticipantEstimate* const free =
+          source.own(blocks[b].block, people[i], blocks[b].block + ".weber_fraction_free_pse");
+      const double position =
+          static_cast<double>(i) + 0.95 +
+          0.36 * (static_cast<double>(b) - 0.5 * static_cast<double>(blocks.size() - 1));
+      table.rows.push_back({static_cast<int>(b) + 1, blocks[b].block, position, people[i],
+                            own->value, own->ci95.low, own->ci95.high, own->reason,
+                            position + 0.13,
+                            free == nullptr ? std::optional<double>() : free->value});
     }
   }
   return table;
@@ -59,6 +66,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   int num_without = 0;
   for (const std::vector<FigureCell>& row : table.rows) {
     if (row[4].number) values.push_back(*row[4].number);
+    if (row[9].number) values.push_back(*row[9].number);
     num_without += row[4].number ? 0 : 1;
   }
   if (values.empty()) return std::nullopt;
@@ -89,8 +97,12 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
         "(valid(7) ? column('ci95_high') : " + plot_number(range.high) + ")";
     plot += (b > 0 ? ", " : "") + from_table(table) +
             "'position':" + if_series(series, "weber_fraction") + ":" + low + ":" + high +
-            " with yerrorbars lt " + type + " dt 1 ps 0.6 title " +
-            gnuplot_quoted(source.words.short_title_of(blocks[b].block));
+            " with yerrorbars lt " + type + " dt 1 pt " + (b == 0 ? "7" : "5") +
+            " ps 0.6 title " + gnuplot_quoted(source.words.short_title_of(blocks[b].block)) +
+            ", " + from_table(table) +
+            "'position_free_pse':" + if_series(series, "weber_fraction_free_pse") +
+            " with points lt " + type + " pt " + (b == 0 ? "6" : "4") + " ps 0.6 title " +
+            gnuplot_quoted(source.words.short_title_of(blocks[b].block) + ", PSE free");
     const Estimate* const median =
         source.results.find(blocks[b].block + ".individual_weber_fraction_median");
     if (median != nullptr && median->value) {
@@ -99,8 +111,17 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   }
   figure.plot += plot + "\n";
   figure.caption =
-      "Maximum likelihood with 95 % likelihood-ratio intervals, which go to the edge where "
-      "the data do not bound them; horizontal lines: medians.";
+      "Maximum likelihood. Full marks: point of subjective equality (PSE) at the reference, as "
+      "published, with 95 % likelihood-ratio intervals, which go to the edge where the data do "
+      "not bound them, and medians as horizontal lines. Open marks beside them: PSE free. ";
+  for (const BlockDesign& block : blocks) {
+    const FitsBorne borne = fits_borne(*source.section(block.block), block.block);
+    figure.caption += source.words.short_title_of(block.block) + ": " +
+                      std::to_string(borne.num_rejected) + " of " +
+                      counted_words(borne.num_fits, "fit") +
+                      " with the PSE at the reference rejected by the answers. ";
+  }
+  figure.caption.pop_back();
   if (num_without > 0) {
     figure.caption += " " + counted_words(num_without, "fraction") +
                       " of their own that do not exist are left out; the tables say why.";
@@ -131,27 +152,31 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
   if (values.empty()) return std::nullopt;
   const std::string& quantity = blocks.front().quantity;
   const std::string unit = quantity_unit(quantity);
-  Figure figure{.name = "absolute_thresholds",
-                .section = blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block
-                                             : blocks[0].block,
-                .title = "Absolute thresholds",
-                .caption =
-                    "Weber fraction times reference, one circle a participant; boxes: "
-                    "quartiles and median, whiskers to the last value within 1.5 "
-                    "interquartile ranges. Logarithmic axis.",
-                .thesis = "Fig. D.22",
-                .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
-                .height_in = 3.0};
+  Figure figure{
+      .name = "absolute_thresholds",
+      .section =
+          blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block : blocks[0].block,
+      .title = "Difference thresholds (in the thesis: absolute thresholds)",
+      .caption =
+          "The difference from the reference that is told in 84.13 % of trials: "
+          "Weber fraction, with the point of subjective equality at the reference as "
+          "published, times the reference. One circle a participant; boxes: quartiles "
+          "and median, whiskers to the last value within 1.5 interquartile ranges. "
+          "Logarithmic axis.",
+      .thesis = "Fig. D.22",
+      .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
+      .height_in = 3.0};
   FigureTable boxes = box_table("absolute_thresholds_boxes", groups);
   FigureTable points = box_values_table("absolute_thresholds_values", groups);
-  figure.plot = "  set logscale y\n  set yrange " +
-                range_words(axis_range(values, /*logarithmic=*/true)) +
-                "\n  set xrange [0.4:" + plot_number(static_cast<double>(blocks.size()) + 0.6) +
-                "]\n" + named_tics("x", titles, false) +
-                "  set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n"
-                "  set ylabel " +
-                gnuplot_quoted("Threshold" + (unit.empty() ? "" : " [" + unit + "]")) +
-                "\n  plot " + box_plot_commands(boxes, points, 0.45) + "\n";
+  figure.plot =
+      "  set logscale y\n  set yrange " +
+      range_words(axis_range(values, /*logarithmic=*/true)) +
+      "\n  set xrange [0.4:" + plot_number(static_cast<double>(blocks.size()) + 0.6) + "]\n" +
+      named_tics("x", titles, false) +
+      "  set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n"
+      "  set ylabel " +
+      gnuplot_quoted("Difference threshold" + (unit.empty() ? "" : " [" + unit + "]")) +
+      "\n  plot " + box_plot_commands(boxes, points, 0.45) + "\n";
   figure.tables = {std::move(boxes), std::move(points)};
   return figure;
 }
