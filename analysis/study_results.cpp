@@ -76,6 +76,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
         estimate.published = found->second.value;
         estimate.published_positive = found->second.positive;
         estimate.published_sd = found->second.standard_deviation;
+        estimate.published_place = found->second.place;
       }
       estimate.calibrated = data.simulated && is_named(data.calibrated_on, data, estimate.name);
       estimate.implied = data.simulated && is_named(data.implied, data, estimate.name);

@@ -20,6 +20,7 @@ struct Estimate {
   std::string meaning;  ///< What is estimated and how, in one phrase.
   std::optional<double> published;
   std::optional<double> published_sd;
+  std::string published_place;      ///< Where it stands, and as what it is printed there.
   bool published_positive = false;  ///< Published as above zero, without a number.
   bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
   bool implied = false;     ///< It follows, nearly or wholly, from values that were.

@@ -60,14 +60,19 @@ double mean_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// Conditions whose device had joints, as many as a page holds.
-std::vector<ShownCondition> with_joints(const FigureSource& source,
-                                        const ParticipantMovement& person) {
-  std::vector<ShownCondition> kept;
+/// Conditions whose device had joints, as many as a page holds, and how many there are.
+struct JointConditions {
+  std::vector<ShownCondition> shown;
+  std::size_t num_there = 0;
+};
+JointConditions with_joints(const FigureSource& source, const ParticipantMovement& person) {
+  JointConditions found;
   for (const ShownCondition& condition : whole_conditions(source, person)) {
-    if (condition.movement->curves.has_joints && kept.size() < kRows) kept.push_back(condition);
+    if (!condition.movement->curves.has_joints) continue;
+    ++found.num_there;
+    if (found.shown.size() < kRows) found.shown.push_back(condition);
   }
-  return kept;
+  return found;
 }
 
 /// The condition of a row, beside its first panel.
@@ -98,22 +103,25 @@ constexpr char kKeyAbove[] =
     "  set key at screen 0.5,0.995 center top vertical maxrows 1 reverse Left samplen 2 font "
     "small\n";
 
-std::string who_words(const ParticipantMovement& person,
-                      const std::vector<ShownCondition>& conditions) {
-  std::string words = "Participant " + person.participant + "; rows:";
+std::string who_words(const MovementAnalysis& movement, const ParticipantMovement& person,
+                      const std::vector<ShownCondition>& conditions, std::size_t num_there) {
+  std::string words =
+      "Participant " + person.participant + person_selection_words(movement) + "; rows:";
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     words += (i > 0 ? ", " : " ") + conditions[i].title + " (" +
              counted_words(conditions[i].movement->curves.num_strokes, "stroke") + ")";
   }
-  return words +
-         ". Columns: the five fingers of the exoskeleton, by where they hold the hand. ";
+  return words + "." +
+         selection_words(conditions.size(), num_there, "conditions with strokes") +
+         " Columns: the five fingers of the exoskeleton, by where they hold the hand. ";
 }
 
 }  // namespace
 
 std::optional<Figure> joint_angles_figure(const FigureSource& source,
+                                          const MovementAnalysis& movement,
                                           const ParticipantMovement& person) {
-  const std::vector<ShownCondition> conditions = with_joints(source, person);
+  const auto [conditions, num_there] = with_joints(source, person);
   if (conditions.empty()) return std::nullopt;
   FigureTable table =
       joints_table("joint_angles", "_rad", conditions, &StrokeCurves::joint_position_rad);
@@ -163,7 +171,7 @@ std::optional<Figure> joint_angles_figure(const FigureSource& source,
   figure.height_in = grid_height_in(grid, panels.size(), 1.25);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
   figure.caption =
-      who_words(person, conditions) +
+      who_words(movement, person, conditions, num_there) +
       "Mean and standard deviation over strokes, each joint about its mean over the stroke; "
       "the distal joint follows the proximal one. 0 % is the middle of the motion back, dashed "
       "lines are the turning points.";
@@ -172,8 +180,9 @@ std::optional<Figure> joint_angles_figure(const FigureSource& source,
 }
 
 std::optional<Figure> joint_torques_figure(const FigureSource& source,
+                                           const MovementAnalysis& movement,
                                            const ParticipantMovement& person) {
-  const std::vector<ShownCondition> conditions = with_joints(source, person);
+  const auto [conditions, num_there] = with_joints(source, person);
   if (conditions.empty()) return std::nullopt;
   FigureTable table =
       joints_table("joint_torques", "_n_m", conditions, &StrokeCurves::joint_torque_n_m);
@@ -216,7 +225,7 @@ std::optional<Figure> joint_torques_figure(const FigureSource& source,
   }
   figure.height_in = grid_height_in(grid, panels.size(), 1.25);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption = who_words(person, conditions) +
+  figure.caption = who_words(movement, person, conditions, num_there) +
                    "Means over strokes, as the torque sensors say; black dots: the middle of "
                    "the motion back, where a stroke begins.";
   figure.tables = {std::move(table)};

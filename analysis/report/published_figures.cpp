@@ -3,9 +3,34 @@
 
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
+#include "analysis/report/report_results.h"
 #include "analysis/report/report_words.h"
 
 namespace jnd::analysis {
+namespace {
+
+/// An arrow for each end of an interval that lies outside of the axis.
+std::string cut_ends(const FigureTable& table, const AxisRange& axis) {
+  std::string arrows;
+  int number = 20;
+  for (const std::vector<FigureCell>& row : table.rows) {
+    const std::string y = "first " + plot_number(*row[0].number);
+    const std::string from = "first " + plot_number(*row[4].number) + "," + y;
+    const std::string style = std::string(" head filled size screen 0.008,25 lw 1 lc rgb ") +
+                              (*row[7].number > 0.5 ? "'#0072B2'" : "'#D55E00'") + "\n";
+    if (*row[5].number < axis.low) {
+      arrows += "  set arrow " + std::to_string(number++) + " from " + from + " to graph 0," +
+                y + style;
+    }
+    if (*row[6].number > axis.high) {
+      arrows += "  set arrow " + std::to_string(number++) + " from " + from + " to graph 1," +
+                y + style;
+    }
+  }
+  return arrows;
+}
+
+}  // namespace
 
 std::vector<Figure> published_figures(const FigureSource& source) {
   FigureTable table{.name = "published_ratios",
@@ -13,6 +38,7 @@ std::vector<Figure> published_figures(const FigureSource& source) {
                                 "ratio_low", "ratio_high", "held_out"}};
   std::vector<std::string> names;
   std::vector<double> ratios;
+  bool any_differs = false;
   constexpr double kLowest = 0.05;  // Of an interval that is open below.
   constexpr double kHighest = 20.0;
   for (const ResultsSection& section : source.results.sections) {
@@ -27,7 +53,9 @@ std::vector<Figure> published_figures(const FigureSource& source) {
       const bool has_interval = estimate.ci95.low || estimate.ci95.high;
       const double low = has_interval ? end(estimate.ci95.low, kLowest) : ratio;
       const double high = has_interval ? end(estimate.ci95.high, kHighest) : ratio;
-      names.push_back(estimate.name);
+      const bool differs = !published_statistic(estimate).empty();
+      any_differs = any_differs || differs;
+      names.push_back(estimate.name + (differs ? " ‡" : ""));
       ratios.insert(ratios.end(),
                     {ratio, std::max(low, ratio / 4.0), std::min(high, ratio * 4.0)});
       table.rows.push_back({static_cast<int>(names.size()), estimate.name, estimate.value,
@@ -37,6 +65,8 @@ std::vector<Figure> published_figures(const FigureSource& source) {
   }
   if (names.empty()) return {};
   ratios.push_back(1.0);
+  const AxisRange axis = axis_range(ratios, /*logarithmic=*/true);
+  const std::string arrows = cut_ends(table, axis);
   const auto count = static_cast<double>(names.size());
   Figure figure{.name = "published",
                 .section = "",
@@ -45,14 +75,14 @@ std::vector<Figure> published_figures(const FigureSource& source) {
   figure.plot =
       "  set lmargin at screen 0.44\n  set rmargin at screen 0.97\n"
       "  set tmargin 2.5\n" +
-      std::string("  set logscale x\n  set xrange ") +
-      range_words(axis_range(ratios, /*logarithmic=*/true)) + "\n  set yrange [" +
+      std::string("  set logscale x\n  set xrange ") + range_words(axis) + "\n  set yrange [" +
       plot_number(count + 0.7) + ":0.3]\n" + named_tics("y", names, false) +
       "  set ytics font small\n"
       "  set xtics (0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 10)\n"
       "  set xlabel 'Estimate over published value'\n"
       "  set arrow 1 from 1,graph 0 to 1,graph 1 nohead ls 12\n"
-      "  set bars 0.6\n  plot ";
+      "  set bars 0.6\n" +
+      arrows + "  plot ";
   const auto part = [&](int held_out, const char* type) {
     return from_table(table) + "(column('held_out')==" + std::to_string(held_out) +
            " ? column('ratio') : NaN):'position':'ratio_low':'ratio_high' with xerrorbars lt " +
@@ -72,6 +102,11 @@ std::vector<Figure> published_figures(const FigureSource& source) {
     figure.caption = "With 95 % intervals. ";
   }
   figure.caption += "At 1 ours and the published value agree.";
+  if (any_differs) {
+    figure.caption +=
+        " ‡: different statistics are compared (see the table), which need not agree.";
+  }
+  if (!arrows.empty()) figure.caption += " An arrow: the interval goes on beyond the axis.";
   figure.tables = {std::move(table)};
   return {std::move(figure)};
 }

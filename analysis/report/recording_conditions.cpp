@@ -17,8 +17,9 @@ std::string quantity_of(const FigureSource& source, const ConditionMovement& con
   return condition.medium == "viscous" ? "viscosity_pa_s" : "";
 }
 
-/// "free space", "viscous, 5 Pa s", "Group D, 1.093 Pa s".
-ShownCondition shown(const FigureSource& source, const ConditionMovement& condition) {
+}  // namespace
+
+ShownCondition shown_condition(const FigureSource& source, const ConditionMovement& condition) {
   std::string medium = condition.medium;
   for (char& letter : medium) {
     if (letter == '_') letter = ' ';
@@ -35,7 +36,21 @@ ShownCondition shown(const FigureSource& source, const ConditionMovement& condit
   return one;
 }
 
-}  // namespace
+std::string selection_words(std::size_t num_shown, std::size_t num_there,
+                            const std::string& of_what) {
+  if (num_shown >= num_there) return "";
+  return " A selection: the first " + std::to_string(num_shown) + " of " +
+         std::to_string(num_there) + " " + of_what + ".";
+}
+
+std::string person_selection_words(const MovementAnalysis& movement) {
+  std::size_t num_recorded = 0;
+  for (const ParticipantMovement& person : movement.participants) {
+    num_recorded += person.num_samples > 0 ? 1 : 0;
+  }
+  if (num_recorded < 2) return "";
+  return " (one of " + std::to_string(num_recorded) + " with recordings)";
+}
 
 std::vector<ShownCondition> whole_conditions(const FigureSource& source,
                                              const ParticipantMovement& person) {
@@ -44,9 +59,9 @@ std::vector<ShownCondition> whole_conditions(const FigureSource& source,
   for (const ConditionMovement& condition : person.conditions) {
     if (!has_strokes(condition)) continue;
     if (condition.block.empty()) {
-      explored.push_back(shown(source, condition));
+      explored.push_back(shown_condition(source, condition));
     } else if (!condition.intensity) {
-      blocks.push_back(shown(source, condition));
+      blocks.push_back(shown_condition(source, condition));
     }
   }
   return blocks.empty() ? explored : blocks;
@@ -58,9 +73,9 @@ std::vector<ShownCondition> each_intensity(const FigureSource& source,
   std::vector<ShownCondition> inside;
   for (const ConditionMovement& condition : person.conditions) {
     if (!has_strokes(condition)) continue;
-    if (condition.block.empty()) explored.push_back(shown(source, condition));
+    if (condition.block.empty()) explored.push_back(shown_condition(source, condition));
     if (!condition.block.empty() && condition.intensity) {
-      inside.push_back(shown(source, condition));
+      inside.push_back(shown_condition(source, condition));
     }
   }
   return explored.size() >= 3 || inside.empty() ? explored : inside;

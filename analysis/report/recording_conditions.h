@@ -27,6 +27,16 @@ struct ShownCondition {
 [[nodiscard]] const ParticipantMovement* shown_participant(const FigureSource& source,
                                                            const MovementAnalysis& movement);
 
+/// "free space", "viscous, 5 Pa s", "Group D, 1.093 Pa s".
+[[nodiscard]] ShownCondition shown_condition(const FigureSource& source,
+                                             const ConditionMovement& condition);
+
+/// " A selection: the first 4 of 9 conditions." for a caption; "" if all are shown.
+[[nodiscard]] std::string selection_words(std::size_t num_shown, std::size_t num_there,
+                                          const std::string& of_what);
+/// " (one of 13 with recordings)" after a participant's name; "" if there is one.
+[[nodiscard]] std::string person_selection_words(const MovementAnalysis& movement);
+
 /// Of the five fingers, in the order of the contact points.
 inline constexpr const char* kFingerTitles[] = {"palm, inner", "palm, outer", "thumb", "index",
                                                 "middle"};
@@ -38,9 +48,11 @@ inline constexpr const char* kFingerTitles[] = {"palm, inner", "palm, outer", "t
 
 /// Joint angles over a stroke (D.18, D.26).
 [[nodiscard]] std::optional<Figure> joint_angles_figure(const FigureSource& source,
+                                                        const MovementAnalysis& movement,
                                                         const ParticipantMovement& person);
 /// Joint torques over the hand's velocity (D.19, D.27).
 [[nodiscard]] std::optional<Figure> joint_torques_figure(const FigureSource& source,
+                                                         const MovementAnalysis& movement,
                                                          const ParticipantMovement& person);
 
 // tip_distance_figure.cpp

@@ -39,17 +39,20 @@ AxisRange at_least(const AxisRange& range, double width) {
 
 /// D.16 and D.24, from above and from the front.
 std::optional<Figure> trajectories_figure(const FigureSource& source,
+                                          const MovementAnalysis& movement,
                                           const ParticipantMovement& person) {
   FigureTable table{.name = "trajectories",
                     .columns = {"series", "block", "repetition", "x_m", "y_m", "z_m"}};
   std::vector<std::string> blocks;
   std::map<std::string, std::size_t> shown;
-  std::size_t most = 0;
+  std::map<std::string, std::size_t> there;
+  std::size_t most = 0, num_there = 0;
   for (const Trajectory& trajectory : person.trajectories) {
     const Path* const path = longest(trajectory.hand);
     if (path == nullptr || path->x_m.size() < 2) continue;
     if (!shown.contains(trajectory.block)) blocks.push_back(trajectory.block);
     std::size_t& number = shown[trajectory.block];
+    num_there = std::max(num_there, ++there[trajectory.block]);
     if (number == kRepetitions) continue;
     ++number;
     most = std::max(most, number);
@@ -105,16 +108,17 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
   figure.height_in = grid_height_in(grid, panels.size(), 1.7);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
   figure.caption =
-      "Participant " + person.participant +
+      "Participant " + person.participant + person_selection_words(movement) +
       ": mean of the points of the hand, the first quarter of a minute of the "
       "longest stretch without a gap in each repetition. Workspace frame: x to the "
-      "participant’s right, y away, z up from the surface of the fluid.";
+      "participant’s right, y away, z up from the surface of the fluid." +
+      selection_words(most, num_there, "repetitions");
   figure.tables = {std::move(table)};
   return figure;
 }
 
 /// What was delivered against what the law commands.
-std::optional<Figure> force_figure(const FigureSource& source,
+std::optional<Figure> force_figure(const FigureSource& source, const MovementAnalysis& movement,
                                    const ParticipantMovement& person) {
   constexpr std::size_t kIntensities = 12;
   FigureTable table{.name = "force_by_speed",
@@ -122,11 +126,14 @@ std::optional<Figure> force_figure(const FigureSource& source,
                                 "commanded_n"}};
   std::vector<std::string> blocks;
   std::map<std::string, std::vector<double>> intensities;
+  std::map<std::string, std::size_t> there;
+  std::size_t num_there = 0;
   for (const ConditionMovement& condition : person.conditions) {
     if (condition.block.empty() || !condition.intensity) continue;
     const ForceBySpeed& force = condition.force;
     if (force.speed_m_per_s.empty()) continue;
     std::vector<double>& known = intensities[condition.block];
+    num_there = std::max(num_there, ++there[condition.block]);
     if (known.empty()) blocks.push_back(condition.block);
     if (known.size() == kIntensities) continue;
     known.push_back(*condition.intensity);
@@ -167,10 +174,11 @@ std::optional<Figure> force_figure(const FigureSource& source,
   }
   figure.height_in = grid_height_in(grid, panels.size(), 2.0);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption = "Participant " + person.participant +
+  figure.caption = "Participant " + person.participant + person_selection_words(movement) +
                    ": circles: mean force that was rendered against the motion, after every "
                    "limit, in classes of speed; lines: what the law commands there. One line "
-                   "an intensity.";
+                   "an intensity." +
+                   selection_words(kIntensities, num_there, "intensities of a block");
   figure.tables = {std::move(table)};
   return figure;
 }
@@ -184,10 +192,10 @@ std::vector<Figure> recording_figures(const FigureSource& source,
     if (figure) figures.push_back(std::move(*figure));
   };
   if (const ParticipantMovement* const person = shown_participant(source, movement)) {
-    add(trajectories_figure(source, *person));
-    add(joint_angles_figure(source, *person));
-    add(joint_torques_figure(source, *person));
-    add(force_figure(source, *person));
+    add(trajectories_figure(source, movement, *person));
+    add(joint_angles_figure(source, movement, *person));
+    add(joint_torques_figure(source, movement, *person));
+    add(force_figure(source, movement, *person));
   }
   add(tip_distances_figure(source, movement));
   return figures;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/report/explored_media.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/report_pdf.h"
 #include "analysis/report/run_tool.h"
@@ -102,6 +103,7 @@ std::vector<Figure> figures_of(const ReportSource& source) {
   add(discrimination_figures(from));
   add(weber_figures(from));
   add(stroke_figures(from));
+  add(explored_figures(from, source.movement));
   add(recording_figures(from, source.movement));
   return figures;
 }

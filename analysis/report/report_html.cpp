@@ -132,6 +132,7 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   for (const ResultsSection& section : source.results.sections) {
     html.heading(3, section_title(words, section.name));
     write_section(html, source.data, source.results, section);
+    if (section.name == "movement") write_movement(html, source, words);
     figure_chapters.write_section(section.name);
   }
   figure_chapters.write_others();

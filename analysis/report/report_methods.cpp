@@ -56,7 +56,8 @@ std::string design_words(const ChapterSource& source) {
   const StudyWords& words = source.words;
   std::string text = words.description;
   if (!text.empty() && !text.ends_with('.')) text += ".";
-  if (!words.blinding.empty()) {
+  // Where nothing is asked there is nothing to be blind to.
+  if (!words.blinding.empty() && !source.report.data.blocks.empty()) {
     text += " Blinding: " +
             (words.blinding == "double"
                  ? std::string("double; the levels were unblinded before this report")

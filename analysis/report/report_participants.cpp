@@ -2,6 +2,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "analysis/groups/summary.h"
 #include "analysis/report/report_methods.h"
@@ -84,6 +85,21 @@ std::string dash_if_none(std::int64_t count) {
   return count == 0 ? "–" : std::to_string(count);
 }
 
+/// Takes the columns away whose titles these are.
+void drop_columns(HtmlTable& table, const std::set<std::string>& titles) {
+  for (std::size_t i = table.columns.size(); i-- > 0;) {
+    if (!titles.contains(table.columns[i].title)) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    table.columns.erase(table.columns.begin() + at);
+    for (std::vector<std::string>& row : table.rows) row.erase(row.begin() + at);
+  }
+}
+
+bool any_trials(const ChapterSource& source) {
+  return std::ranges::any_of(source.quality,
+                             [](const SessionQuality& one) { return one.num_drawn > 0; });
+}
+
 HtmlTable quality_table(const ChapterSource& source) {
   HtmlTable table{
       .caption =
@@ -116,6 +132,11 @@ HtmlTable quality_table(const ChapterSource& source) {
   table.notes = {
       "Undone: answers taken back or corrected. Run again: attempts without an "
       "answer that were given up, because they were interrupted or invalid."};
+  if (!any_trials(source)) {
+    table.caption = "Every session";
+    drop_columns(table, {"Drawn", "Answered", "Missing", "Set aside", "Undone", "Run again"});
+    table.notes.clear();
+  }
   return table;
 }
 
@@ -125,6 +146,7 @@ HtmlTable movement_table(const ChapterSource& source) {
                               {"Presentations", true},
                               {"Force limited", true},
                               {"No whole stroke", true},
+                              {"Media explored", true},
                               {"Recording"},
                               {"Lost samples", true},
                               {"Lost contact", true}}};
@@ -132,24 +154,35 @@ HtmlTable movement_table(const ChapterSource& source) {
     std::string recording = one.session.recorded ? "missing" : "summaries of strokes";
     if (one.missing_ticks) recording = *one.missing_ticks == 0 ? "whole" : "with gaps";
     std::int64_t lost_contact = 0;
+    std::int64_t num_explored = 0;
     bool analysed = false;
     for (const ParticipantMovement& person : source.report.movement.participants) {
       if (person.participant != one.session.participant || !person.reason.empty()) continue;
       for (const PresentationMovement& presentation : person.presentations) {
         if (presentation.session != one.session.session) continue;
         analysed = true;
+        num_explored += presentation.block.empty() ? 1 : 0;
         lost_contact += presentation.marks.lost_contact_ticks > 0 ? 1 : 0;
       }
     }
     table.rows.push_back({one.session.participant, std::to_string(one.num_presentations),
                           dash_if_none(one.num_limited), dash_if_none(one.num_strokeless),
-                          recording,
+                          analysed ? std::to_string(num_explored) : "–", recording,
                           one.missing_ticks ? std::to_string(*one.missing_ticks) : "–",
                           analysed ? std::to_string(lost_contact) : "–"});
   }
   table.notes = {
       "Force limited, no whole stroke, lost contact: counts of presentations. Lost "
       "samples are not filled in anywhere."};
+  const bool any_presented = std::ranges::any_of(
+      source.quality, [](const SessionQuality& one) { return one.num_presentations > 0; });
+  if (!any_presented) {
+    table.caption = "Recordings of every session";
+    drop_columns(table, {"Presentations", "Force limited", "No whole stroke"});
+    table.notes = {
+        "This study presents nothing in trials. Lost contact: media during which a point lost "
+        "the hand. Lost samples are not filled in anywhere."};
+  }
   return table;
 }
 
@@ -244,10 +277,14 @@ void write_data_quality(HtmlText& html, const ChapterSource& source) {
     excluded += one.num_excluded;
     open += one.completed ? 0 : 1;
   }
-  std::string text = std::to_string(answered) + " of " + counted_words(drawn, "drawn trial") +
-                     " were answered and count; " + std::to_string(excluded) +
-                     " were answered and set aside, " +
-                     std::to_string(drawn - answered - excluded) + " have no answer. ";
+  std::string text =
+      drawn == 0 ? std::string(
+                       "This study has no trials: nothing is asked that could be "
+                       "missing. ")
+                 : std::to_string(answered) + " of " + counted_words(drawn, "drawn trial") +
+                       " were answered and count; " + std::to_string(excluded) +
+                       " were answered and set aside, " +
+                       std::to_string(drawn - answered - excluded) + " have no answer. ";
   text += open == 0 ? "Every session was completed."
                     : counted_words(open, "session") + " did not come to its end.";
   html.paragraph(text);

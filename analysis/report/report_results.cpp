@@ -17,7 +17,33 @@ std::string published_words(const Estimate& estimate) {
   if (!estimate.published) return "–";
   std::string words = shortest_words(*estimate.published);
   if (estimate.published_sd) words += " ± " + shortest_words(*estimate.published_sd);
+  if (!published_statistic(estimate).empty()) words += " ‡";
   return words;
+}
+
+/// What has to be known to compare both columns.
+std::vector<std::string> published_notes(const std::vector<const Estimate*>& estimates) {
+  std::vector<std::string> notes;
+  std::string others;
+  bool any_sd = false;
+  for (const Estimate* const estimate : estimates) {
+    any_sd = any_sd || estimate->published_sd;
+    const std::string statistic = published_statistic(*estimate);
+    if (statistic.empty()) continue;
+    others += (others.empty() ? "" : "; ") + estimate->name + ": published is the " + statistic;
+  }
+  if (any_sd) {
+    notes.emplace_back(
+        "Published a ± b: b is the standard deviation between participants; our 95 % interval "
+        "is that of the estimate itself, and narrower.");
+  }
+  if (!others.empty()) {
+    notes.push_back(
+        "‡ Ours and the published value are different statistics of the participants’ own "
+        "values, which need not agree even in the same data. " +
+        others + ".");
+  }
+  return notes;
 }
 
 std::string basis_words(const Estimate& estimate) {
@@ -79,6 +105,7 @@ void write_estimates(HtmlText& html, const StudyResults& results,
                               {"n", true}}};
   if (any_published) table.columns.push_back({"Published", true});
   if (any_published && results.simulated) table.columns.push_back({"Basis"});
+  std::vector<const Estimate*> published;
   for (const Estimate& estimate : section.estimates) {
     std::vector<std::string> row = {estimate.name + "\n" + estimate.meaning,
                                     number_words(estimate.value),
@@ -87,7 +114,9 @@ void write_estimates(HtmlText& html, const StudyResults& results,
     if (any_published) row.push_back(published_words(estimate));
     if (any_published && results.simulated) row.push_back(basis_words(estimate));
     table.rows.push_back(std::move(row));
+    if (is_published(estimate)) published.push_back(&estimate);
   }
+  table.notes = published_notes(published);
   html.table(table);
 }
 
@@ -222,6 +251,12 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
 
 }  // namespace
 
+std::string published_statistic(const Estimate& estimate) {
+  const std::string mark = "printed as a ";
+  const std::size_t at = estimate.published_place.find(mark);
+  return at == std::string::npos ? "" : estimate.published_place.substr(at + mark.size());
+}
+
 std::string section_title(const StudyWords& words, const std::string& name) {
   const std::string between = "_against_";
   const std::size_t at = name.find(between);
@@ -243,10 +278,12 @@ void write_published(HtmlText& html, const StudyResults& results) {
                               {"95 % interval", true},
                               {"Unit"},
                               {"Published", true}}};
+  std::vector<const Estimate*> published;
   if (results.simulated) table.columns.push_back({"Basis"});
   for (const ResultsSection& section : results.sections) {
     for (const Estimate& estimate : section.estimates) {
       if (!is_published(estimate)) continue;
+      published.push_back(&estimate);
       std::vector<std::string> row = {estimate.name, number_words(estimate.value),
                                       interval_words(estimate.ci95, estimate.value),
                                       unit_words(estimate.unit), published_words(estimate)};
@@ -255,6 +292,7 @@ void write_published(HtmlText& html, const StudyResults& results) {
     }
   }
   if (table.rows.empty()) return;
+  table.notes = published_notes(published);
   if (results.simulated) {
     table.notes.emplace_back(
         "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "

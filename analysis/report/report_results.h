@@ -6,6 +6,10 @@
 
 namespace jnd::analysis {
 
+/// Of an estimate whose published value is another statistic, as the place says: "mean" of
+/// "app. D; printed as a mean"; "" if both are the same.
+[[nodiscard]] std::string published_statistic(const Estimate& estimate);
+
 /// Everything that has a published value, before all else; nothing without any.
 void write_published(HtmlText& html, const StudyResults& results);
 
@@ -20,6 +24,10 @@ void write_questionnaires(HtmlText& html, const StudyData& data, const ResultsSe
 /// Everybody's own Weber fractions with their goodness of fit, and how many of the fits with
 /// the pse at the reference the data reject. False, and nothing, for a section without any.
 [[nodiscard]] bool write_own_fractions(HtmlText& html, const ResultsSection& section);
+
+/// On how many presentations width and speed rest, with cautions; strokes in media explored
+/// outside of trials.
+void write_movement(HtmlText& html, const ReportSource& source, const StudyWords& words);
 
 /// "Group D against Group E": a section's name to readers.
 [[nodiscard]] std::string section_title(const StudyWords& words, const std::string& name);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
@@ -26,7 +27,8 @@ class TipDistances {
       .name = "tip_distances",
       .columns = {"person", "participant", "series", "condition", "stroke_percent"}};
   std::vector<ShownPerson> people;
-  std::vector<std::string> titles;  ///< Of conditions, in the order of their series.
+  std::vector<std::string> titles;   ///< Of conditions, in the order of their series.
+  std::set<std::string> all_titles;  ///< Also of those that are not shown.
 
   TipDistances() {
     for (const std::string_view point : core::kContactPointNames) {
@@ -54,6 +56,7 @@ class TipDistances {
  private:
   /// From 1; nothing once there are as many conditions as lines can be told apart.
   std::optional<int> series_of(const std::string& title) {
+    all_titles.insert(title);
     const auto known = std::ranges::find(titles, title);
     const auto index = static_cast<int>(known - titles.begin());
     if (known == titles.end()) {
@@ -148,7 +151,8 @@ std::optional<Figure> tip_distances_figure(const FigureSource& source,
       (movement.participants.size() > num_shown ? "the first " + std::to_string(num_shown)
                                                 : std::string("all")) +
       " with recordings). 0 % is the middle of the motion back; dashed lines: the "
-      "turning points in the first condition.";
+      "turning points in the first condition." +
+      selection_words(shown.titles.size(), shown.all_titles.size(), "conditions");
   figure.tables = {std::move(shown.table)};
   return figure;
 }

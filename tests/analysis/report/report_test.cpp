@@ -8,6 +8,7 @@
 
 #include "analysis/hand_made_study.h"
 #include "analysis/report/data_quality.h"
+#include "analysis/report/figures.h"
 #include "analysis/report/html_text.h"
 #include "core/error.h"
 
@@ -65,7 +66,11 @@ class ReportTest : public ::testing::Test {
     const ResultsOptions results_options{.num_resamples = 100};
     const Published published{
         .citation = "Somebody (2018).",
-        .values = {{"group_d.weber_fraction", {.value = 0.697, .place = "somewhere"}}}};
+        .values = {
+            {"group_d.weber_fraction", {.value = 0.697, .place = "somewhere"}},
+            {"estimation.k", {.value = 60.0, .standard_deviation = 5.0, .place = "somewhere"}},
+            {"group_d.individual_weber_fraction_median",
+             {.value = 0.72, .place = "app. D; printed as a mean"}}}};
     const StudyResults results = results_of(data, published, results_options);
     const MovementAnalysis movement = analyse_movement(study_.store(), {.pilot = pilot});
     return write_report({.store = study_.store(),
@@ -107,6 +112,48 @@ TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
   }
   EXPECT_TRUE(has(html, "0.697")) << "the published value";
   EXPECT_TRUE(has(html, "Somebody (2018)."));
+}
+
+TEST_F(ReportTest, OfPublishedValuesSaysWhatTheyAre) {
+  const std::string html = without_breaks(read(report(out()).html));
+  EXPECT_TRUE(has(html, "0.72 ‡"));
+  EXPECT_FALSE(has(html, "0.697 ‡"));
+  EXPECT_TRUE(has(html, "group_d.individual_weber_fraction_median: published is the mean"));
+  EXPECT_TRUE(has(html, "b is the standard deviation between participants"));
+}
+
+TEST_F(ReportTest, OfAStudyWithoutTrialsSpeaksOfNone) {
+  HandMadeStudy study(R"({"name": "by_hand", "blinding": "participant"})");
+  (void)study.add("P01", false, kLaboratory);
+  study.say("about", "age_years", "26");
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 100});
+  const std::string html = without_breaks(report_html({.store = study.store(),
+                                                       .data = data,
+                                                       .results = results,
+                                                       .results_options = {},
+                                                       .movement = {},
+                                                       .program_version = "1"},
+                                                      {}, {}));
+  EXPECT_TRUE(has(html, "This study has no trials"));
+  for (const char* none : {"0 of 0", "no whole stroke", "Blinding", ">Drawn<"}) {
+    EXPECT_FALSE(has(html, none)) << none;
+  }
+}
+
+TEST(PublishedFigure, AnIntervalThatIsCutEndsInAnArrow) {
+  const auto plot_of = [](double low) {
+    const StudyData data;
+    StudyResults results;
+    results.sections.push_back({.name = "group_d",
+                                .estimates = {{.name = "group_d.weber_fraction",
+                                               .value = 0.4,
+                                               .ci95 = {low, 0.5},
+                                               .published = 0.4}}});
+    return published_figures({data, results, {}}).at(0).plot;
+  };
+  EXPECT_TRUE(has(plot_of(0.01), "to graph 0,"));
+  EXPECT_FALSE(has(plot_of(0.3), "to graph 0,"));
 }
 
 TEST_F(ReportTest, SaysWhatWasRunWithWhichSeedsAndHashes) {
