@@ -115,7 +115,7 @@ std::vector<Figure> explored_figures(const FigureSource& source,
                  "'position':'" + quantity.name + "' with points lt 1 pt 6 ps 0.7";
     panels.push_back(std::move(panel));
   }
-  figure.height_in = grid_height_in(grid, panels.size(), 1.9);
+  figure.height_in = grid_height_in(grid, panels.size(), 1.5);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
   figure.tables = {std::move(table), std::move(means)};
   return {std::move(figure)};

@@ -138,6 +138,7 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   figure_chapters.write_others();
   figure_chapters.write_list();
   write_provenance(html, chapters);
+  write_references(html, chapters);
   return html_document(words.title,
                        simulated ? "SIMULATED data" : (source.pilot ? "PILOT data" : ""),
                        front(source, words) + contents(html) + html.text());

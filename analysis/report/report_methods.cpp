@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/report/method_words.h"
 #include "analysis/report/report_words.h"
 #include "core/storage/sha256.h"
 
@@ -104,27 +105,6 @@ std::string apparatus_words(const ChapterSource& source) {
   return text;
 }
 
-std::string analysis_words(const ChapterSource& source) {
-  const ReportSource& report = source.report;
-  std::string text =
-      "Computed by jnd " + report.program_version +
-      ". Each table says what is estimated and how. Group intervals are 95 % percentiles "
-      "over " +
-      std::to_string(report.results_options.num_resamples) +
-      " resamples of participants (expanded percentiles, seed " +
-      std::to_string(report.results_options.seed) +
-      "), so they respect that people differ; means of participants have Student’s t. "
-      "Individual Weber fractions are of maximum likelihood with likelihood-ratio intervals. "
-      "Where a value does not exist for the data (perfectly separated, flat or inverted "
-      "answers), it is left out with the reason, never replaced by a number. Trials that were "
-      "undone or set aside and sessions of participants who withdrew are left out";
-  text += report.pilot ? "; PILOT sessions are included." : ", as are pilot sessions.";
-  if (!report.results.citation.empty()) {
-    text += " Published values, for comparison alone: " + report.results.citation;
-  }
-  return text;
-}
-
 }  // namespace
 
 void write_methods(HtmlText& html, const ChapterSource& source) {
@@ -137,10 +117,19 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
   }
   html.list(blocks);
   html.paragraph_about("Apparatus", apparatus_words(source));
-  html.paragraph_about("Analysis", analysis_words(source));
+  for (const auto& [topic, text] : method_words(source.report).topics) {
+    html.paragraph_about(topic, text);
+  }
   if (!source.words.citation.empty()) {
     html.paragraph_about("After", source.words.citation);
   }
+}
+
+void write_references(HtmlText& html, const ChapterSource& source) {
+  const std::vector<std::string> references = method_words(source.report).references;
+  if (references.empty()) return;
+  html.heading(2, "References");
+  html.list(references);
 }
 
 void write_provenance(HtmlText& html, const ChapterSource& source) {

@@ -21,6 +21,8 @@ void write_methods(HtmlText& html, const ChapterSource& source);
 void write_participants(HtmlText& html, const ChapterSource& source);
 /// Missing, resumed, undone, set aside; recordings; timing.
 void write_data_quality(HtmlText& html, const ChapterSource& source);
+/// What the methods cite; nothing where they cite nothing.
+void write_references(HtmlText& html, const ChapterSource& source);
 /// Sessions with their seeds, hashes, versions.
 void write_provenance(HtmlText& html, const ChapterSource& source);
 

@@ -66,8 +66,7 @@ void add_cautions(HtmlTable& table, const StudyData& data,
         "way "
         "of more than 3 cm from there back to the turning point counts as half of the first "
         "stroke, so widths after the first presentation of a trial may come out too small: "
-        "compare "
-        "references with references and tests with tests.");
+        "compare only those that come at the same place in their trials.");
   }
 }
 

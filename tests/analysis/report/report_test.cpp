@@ -136,7 +136,8 @@ TEST_F(ReportTest, OfAStudyWithoutTrialsSpeaksOfNone) {
                                                        .program_version = "1"},
                                                       {}, {}));
   EXPECT_TRUE(has(html, "This study has no trials"));
-  for (const char* none : {"0 of 0", "no whole stroke", "Blinding", ">Drawn<"}) {
+  for (const char* none :
+       {"0 of 0", "no whole stroke", "Weber", "Blinding", ">Drawn<", "p value", "Hesterberg"}) {
     EXPECT_FALSE(has(html, none)) << none;
   }
 }

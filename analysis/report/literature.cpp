@@ -1,0 +1,96 @@
+#include "analysis/report/literature.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+struct Work {
+  const char* citation;
+  const char* entry;
+};
+
+constexpr Work kWorks[] = {
+    {"Bergmann Tiest et al. 2013",
+     "Bergmann Tiest, W. M., Vrijling, A. C. L., Kappers, A. M. L. (2013). Haptic "
+     "discrimination "
+     "and matching of viscosity. IEEE Transactions on Haptics 6, 24-34."},
+    {"Bonett and Wright 2000",
+     "Bonett, D. G., Wright, T. A. (2000). Sample size requirements for estimating Pearson, "
+     "Kendall and Spearman correlations. Psychometrika 65, 23-28."},
+    {"Fisher 1921",
+     "Fisher, R. A. (1921). On the “probable error” of a coefficient of correlation deduced "
+     "from "
+     "a small sample. Metron 1, 3-32."},
+    {"Hedges 1981",
+     "Hedges, L. V. (1981). Distribution theory for Glass’s estimator of effect size and "
+     "related "
+     "estimators. Journal of Educational Statistics 6, 107-128."},
+    {"Hesterberg 2015",
+     "Hesterberg, T. C. (2015). What teachers should know about the bootstrap: resampling in "
+     "the "
+     "undergraduate statistics curriculum. The American Statistician 69, 371-386."},
+    {"Hodges and Lehmann 1963",
+     "Hodges, J. L., Lehmann, E. L. (1963). Estimates of location based on rank tests. Annals "
+     "of "
+     "Mathematical Statistics 34, 598-611."},
+    {"Holm 1979",
+     "Holm, S. (1979). A simple sequentially rejective multiple test procedure. Scandinavian "
+     "Journal of Statistics 6, 65-70."},
+    {"Kerby 2014",
+     "Kerby, D. S. (2014). The simple difference formula: an approach to teaching "
+     "nonparametric "
+     "correlation. Comprehensive Psychology 3, 11.IT.3.1."},
+    {"Lane et al. 1961",
+     "Lane, H. L., Catania, A. C., Stevens, S. S. (1961). Voice level: autophonic scale, "
+     "perceived loudness, and effects of sidetone. Journal of the Acoustical Society of "
+     "America "
+     "33, 160-167."},
+    {"Mann and Whitney 1947",
+     "Mann, H. B., Whitney, D. R. (1947). On a test of whether one of two random variables is "
+     "stochastically larger than the other. Annals of Mathematical Statistics 18, 50-60."},
+    {"Pinheiro and Bates 1995",
+     "Pinheiro, J. C., Bates, D. M. (1995). Approximations to the log-likelihood function in "
+     "the "
+     "nonlinear mixed-effects model. Journal of Computational and Graphical Statistics 4, "
+     "12-35."},
+    {"Steiger and Fouladi 1997",
+     "Steiger, J. H., Fouladi, R. T. (1997). Noncentrality interval estimation and the "
+     "evaluation of statistical models. In: Harlow, L. L., Mulaik, S. A., Steiger, J. H. "
+     "(eds.), "
+     "What if there were no significance tests? Erlbaum, 221-257."},
+    {"Stevens 1957",
+     "Stevens, S. S. (1957). On the psychophysical law. Psychological Review 64, 153-181."},
+    {"Welch 1947",
+     "Welch, B. L. (1947). The generalization of “Student’s” problem when several different "
+     "population variances are involved. Biometrika 34, 28-35."},
+    {"Wichmann and Hill 2001",
+     "Wichmann, F. A., Hill, N. J. (2001). The psychometric function: I. Fitting, sampling, "
+     "and "
+     "goodness of fit. Perception & Psychophysics 63, 1293-1313."},
+    {"Wilcoxon 1945",
+     "Wilcoxon, F. (1945). Individual comparisons by ranking methods. Biometrics Bulletin 1, "
+     "80-83."},
+    {"Wilson 1927",
+     "Wilson, E. B. (1927). Probable inference, the law of succession, and statistical "
+     "inference. Journal of the American Statistical Association 22, 209-212."},
+};
+
+}  // namespace
+
+std::vector<std::string> literature_of(const std::set<std::string>& citations) {
+  std::vector<std::string> entries;
+  for (const std::string& citation : citations) {
+    const auto* const work =
+        std::ranges::find_if(kWorks, [&](const Work& one) { return citation == one.citation; });
+    if (work == std::end(kWorks)) {
+      throw core::Error("literature: expected a work that is known, found " + citation);
+    }
+    entries.emplace_back(work->entry);
+  }
+  return entries;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,323 @@
+#include "analysis/report/method_words.h"
+
+#include <algorithm>
+#include <set>
+
+#include "analysis/presentation_use.h"
+#include "analysis/report/literature.h"
+
+namespace jnd::analysis {
+namespace {
+
+using Kind = Comparison::Kind;
+
+/// Paragraphs as they are written, with what they cite.
+class Writer {
+ public:
+  explicit Writer(const ReportSource& source) : source_(source) {
+    for (const ResultsSection& section : source.results.sections) {
+      for (const NamedComparison& named : section.comparisons) {
+        if (named.comparison.status == FitStatus::kOk) comparisons_.push_back(&named);
+      }
+    }
+  }
+
+  [[nodiscard]] MethodWords finish() && { return {std::move(topics_), literature_of(cited_)}; }
+
+  void write_analysis();
+  void write_psychometric();
+  void write_hierarchical();
+  void write_power_laws();
+  void write_groups();
+  void write_tests();
+  void write_effects();
+  void write_movement();
+
+ private:
+  /// "Holm 1979", which then stands in the list.
+  std::string cite(const std::string& work) {
+    cited_.insert(work);
+    return work;
+  }
+  void add(const std::string& topic, const std::string& text) {
+    if (!text.empty()) topics_.emplace_back(topic, text);
+  }
+  [[nodiscard]] bool has_procedure(const std::string& procedure) const {
+    return std::ranges::any_of(source_.data.blocks, [&](const BlockDesign& one) {
+      return one.procedure == procedure;
+    });
+  }
+  [[nodiscard]] bool discriminates() const { return has_procedure("constant_stimuli"); }
+  [[nodiscard]] bool has_magnitudes() const {
+    return has_procedure("magnitude_estimation") || has_procedure("magnitude_production");
+  }
+  template <typename Predicate>
+  [[nodiscard]] bool any_comparison(Predicate predicate) const {
+    return std::ranges::any_of(comparisons_, [&](const NamedComparison* named) {
+      return predicate(named->comparison);
+    });
+  }
+  [[nodiscard]] bool has_kind(Kind kind) const {
+    return any_comparison([kind](const Comparison& one) { return one.kind == kind; });
+  }
+  /// Tests of these people, not the hierarchical ones, which have words of their own.
+  [[nodiscard]] bool has_method(const std::string& start) const {
+    return any_comparison([&](const Comparison& one) { return one.method.starts_with(start); });
+  }
+
+  const ReportSource& source_;
+  std::vector<const NamedComparison*> comparisons_;
+  std::vector<std::pair<std::string, std::string>> topics_;
+  std::set<std::string> cited_;
+};
+
+void Writer::write_analysis() {
+  std::string text = "Computed by jnd " + source_.program_version +
+                     ". Each table says what is estimated and how.";
+  if (!source_.data.blocks.empty()) {
+    text +=
+        " Where a value does not exist for the data, it is left out with the reason, never "
+        "replaced by a number. Trials that were undone or set aside and sessions of "
+        "participants who withdrew are left out";
+  } else {
+    text += " Sessions of participants who withdrew are left out";
+  }
+  text += source_.pilot ? "; PILOT sessions are included." : ", as are pilot sessions.";
+  if (!source_.results.citation.empty()) {
+    text += " Published values, for comparison alone: " + source_.results.citation;
+  }
+  add("Analysis", text);
+}
+
+void Writer::write_psychometric() {
+  if (!discriminates()) return;
+  add("Psychometric function",
+      "The probability of the answer “more than the reference” at intensity x is P(x) = "
+      "Φ(ln(x / PSE) / ln(1 + w)), Φ being the standard normal distribution function (" +
+          cite("Bergmann Tiest et al. 2013") +
+          "): 50 % at the point of subjective equality PSE, 84.13 % at PSE (1 + w), w being "
+          "the "
+          "Weber fraction. There are no lapses in it (lapse rate 0). “PSE at the reference” "
+          "fixes PSE = reference, as published; otherwise it is free. Group curves “as "
+          "published” are unweighted least squares on the proportions pooled over "
+          "participants, one term a level; all others are of maximum likelihood, answers being "
+          "binomial. Intervals of one participant’s w and PSE are those of the likelihood "
+          "ratio, profiled over the other parameter: all values whose log-likelihood is at "
+          "most "
+          "1.92 (half the 95 % quantile of χ² with 1 degree of freedom) below the greatest; an "
+          "end that the answers do not bound is open. No curve exists for answers that one "
+          "threshold separates without overlap, or that do not rise with the intensity. "
+          "Goodness of fit: 1000 sets of answers are drawn from the fitted curve (seed " +
+          std::to_string(source_.results_options.seed) +
+          ") and fitted anew; p = (1 + number with at least the deviance of the data) / 1001 "
+          "(" +
+          cite("Wichmann and Hill 2001") +
+          "). Error bars of single proportions are Wilson’s (" + cite("Wilson 1927") + ").");
+}
+
+void Writer::write_hierarchical() {
+  const bool any =
+      std::ranges::any_of(source_.results.sections, [](const ResultsSection& section) {
+        return std::ranges::any_of(section.estimates, [](const Estimate& one) {
+          return one.name.ends_with(".weber_fraction_median_person") && one.value;
+        });
+      });
+  if (!any) return;
+  add("Hierarchical model",
+      "Everybody’s answers at once: participant i says “more” with probability Φ(e^a_i (ln(x / "
+      "reference) − p_i)), with a_i = −ln ln(1 + w_i) and p_i = ln(PSE_i / reference). Over "
+      "people a and p are normal. The a of two conditions have a spread each and are "
+      "correlated; each condition’s p has its own spread and is independent of all others. "
+      "“PSE at the reference” sets every p to 0. The likelihood, integrated over people by "
+      "adaptive Gauss-Hermite quadrature (" +
+          cite("Pinheiro and Bates 1995") +
+          "), is maximised. The estimand is the median person’s Weber fraction, which a curve "
+          "through pooled answers flattens. Intervals and tests are Wald’s on ln ln(1 + w), "
+          "with the standard error times √(n / (n − 1)) and Student’s t with n − 1 degrees of "
+          "freedom, n being the number of participants; nobody with answers is left out.");
+}
+
+void Writer::write_power_laws() {
+  if (!has_magnitudes()) return;
+  std::string text = "S = k I^a (" + cite("Stevens 1957") +
+                     "), S being the magnitude as a ratio to the modulus and I the intensity, "
+                     "0^a = 0. Unless a name says otherwise, k and a are of nonlinear least "
+                     "squares of S, through the arithmetic means over participants, every mean "
+                     "of equal weight";
+  if (has_procedure("magnitude_estimation"))
+    text += ", intensity 0 included where it was presented";
+  text += ".";
+  if (has_procedure("magnitude_production")) {
+    text +=
+        " Production: the magnitude asked for over the mean intensity set, as published; "
+        "“intensity_on_magnitude” is instead the line ln I = c + d ln S, what was set on what "
+        "was asked, turned around to a = 1 / d and k = e^(−c / d).";
+  }
+  if (source_.results.find("combined.a") != nullptr) {
+    text +=
+        " Combined: the power law that lies nearest to both curves (least squares of S) at the "
+        "intensities of the estimation.";
+  }
+  text +=
+      " “log_log” is a line through the logarithms of the arithmetic means above 0, "
+      "“geometric” "
+      "one through the geometric means, where an answer of 0 counts as half the person’s "
+      "smallest above 0; both are without intensity 0. “equalised” brings all participants to "
+      "the same geometric mean first (" +
+      cite("Lane et al. 1961") +
+      "). Intervals of one participant’s a and ln k have Student’s t with as many degrees of "
+      "freedom as points less 2.";
+  add("Power laws", text);
+}
+
+void Writer::write_groups() {
+  std::string text;
+  if (discriminates() || has_magnitudes()) {
+    text =
+        "Group intervals: participants are drawn anew with replacement, " +
+        std::to_string(source_.results_options.num_resamples) + " times (seed " +
+        std::to_string(source_.results_options.seed) +
+        "), and everything is computed again; the 95 % interval runs between the percentiles α "
+        "and 1 − α with α = Φ(−√(n / (n − 1)) t), t being the 97.5 % quantile of Student’s t "
+        "with n − 1 degrees of freedom (expanded percentiles, " +
+        cite("Hesterberg 2015") +
+        "), so it respects that people differ; there is none below 5 participants. ";
+  }
+  if (!source_.data.blocks.empty() || !source_.data.items.empty()) {
+    text += "Means over participants have Student’s t intervals.";
+  }
+  add("Groups", text);
+}
+
+void Writer::write_tests() {
+  if (comparisons_.empty()) return;
+  std::string text = "All p values are two-sided.";
+  std::string t_tests;
+  const auto also = [&t_tests](const std::string& test) {
+    t_tests += (t_tests.empty() ? "" : ", ") + test;
+  };
+  if (has_method("paired t")) also("paired");
+  if (has_kind(Kind::kOneSample)) also("of one sample against 0");
+  if (has_kind(Kind::kWelch)) {
+    also("Welch’s for unequal variances (" + cite("Welch 1947") + ")");
+  }
+  if (has_kind(Kind::kPooled)) also("with pooled variance, the published one");
+  if (!t_tests.empty()) text += " t tests: " + t_tests + "; the statistic is t.";
+  if (has_kind(Kind::kWilcoxon)) {
+    text += " Wilcoxon’s signed ranks (" + cite("Wilcoxon 1945") +
+            "): the statistic is the smaller sum of ranks.";
+  }
+  if (has_kind(Kind::kRankSum)) {
+    text += " Rank sums (" + cite("Mann and Whitney 1947") +
+            "): the statistic is U of the group named first.";
+  }
+  if (has_kind(Kind::kWilcoxon) || has_kind(Kind::kRankSum)) {
+    text +=
+        " Rank tests are exact without ties up to 50 values, otherwise normal with the "
+        "variance corrected for ties; as difference they give the estimate of Hodges and "
+        "Lehmann (" +
+        cite("Hodges and Lehmann 1963") + ") with its distribution-free interval.";
+  }
+  if (has_kind(Kind::kPearson)) {
+    text += " Pearson’s correlation has Fisher’s z interval (" + cite("Fisher 1921") +
+            ") and a t test.";
+  }
+  if (has_kind(Kind::kSpearman)) {
+    text += " Spearman’s correlation has that of " + cite("Bonett and Wright 2000") +
+            " and a t test.";
+  }
+  const bool adjusted = std::ranges::any_of(comparisons_, [](const NamedComparison* named) {
+    return named->p_value_holm.has_value();
+  });
+  text += adjusted ? " p values adjusted by Holm (" + cite("Holm 1979") +
+                         ") have a column of their own, each for the family named in brackets; "
+                         "all others are not adjusted."
+                   : " No p value is adjusted for their number.";
+  if (discriminates()) {
+    text +=
+        " “Becomes more frequent over the trials”: of each participant the covariance of "
+        "answer and running number, summed over levels, over its standard deviation were "
+        "every order within a level equally likely; exploratory.";
+  }
+  add("Tests", text);
+}
+
+void Writer::write_effects() {
+  std::string text;
+  const bool d_z =
+      any_comparison([](const Comparison& one) { return one.cohen_dz.has_value(); });
+  const bool g = any_comparison([](const Comparison& one) {
+    return one.hedges_g && (one.kind == Kind::kWelch || one.kind == Kind::kPooled);
+  });
+  if (d_z) text += "d_z is the mean difference over the standard deviation of the differences.";
+  if (g) {
+    text += std::string(text.empty() ? "" : " ") +
+            "g is the difference of two means over the pooled standard deviation without its "
+            "bias (" +
+            cite("Hedges 1981") +
+            "), with n1 + n2 − 2 degrees of freedom, also beside Welch’s test.";
+  }
+  if (d_z || g) {
+    text +=
+        " Their intervals are by the noncentral t (" + cite("Steiger and Fouladi 1997") + ").";
+  }
+  const bool r_rb =
+      any_comparison([](const Comparison& one) { return one.rank_biserial.has_value(); });
+  if (r_rb) {
+    text += std::string(text.empty() ? "" : " ") + "r_rb is the rank-biserial correlation (" +
+            cite("Kerby 2014") +
+            "): the share of ranks or pairs for a > b minus that for a < b.";
+  }
+  add("Effect sizes", text);
+}
+
+void Writer::write_movement() {
+  const bool presented = !presentation_uses(source_.data).empty();
+  if (!presented && !source_.movement.any()) return;
+  std::string text =
+      "A stroke is a full cycle, from a turning point to the other side and back. The hand is "
+      "the mean of its contact points, seen from above. The farthest point from the last "
+      "turning point becomes one once the hand has come back from it by 3 cm (hysteresis); the "
+      "way to the first turning point is left out, and so is a stroke that is not finished. "
+      "Width: mean distance between the turning points of whole strokes; highest speed: mean "
+      "over strokes of the highest speed in each.";
+  if (presented) {
+    text +=
+        " A participant’s value is the mean over presentations with a whole stroke, free "
+        "space between stimuli left out; the mean over participants follows.";
+    if (source_.results.find("stroke_width_m") != nullptr &&
+        std::ranges::any_of(source_.results.sections, [](const ResultsSection& section) {
+          return std::ranges::any_of(section.estimates, [](const Estimate& one) {
+            return one.name.ends_with(".equal_intervals");
+          });
+        })) {
+      text +=
+          " “References and tests weighed equally”: the mean over references and the mean "
+          "over tests, and the mean of the two.";
+    }
+  }
+  if (source_.movement.any()) {
+    text +=
+        " From recordings: all whole strokes, after the medium’s ramp, without those with "
+        "missing samples, a lost contact or a fault; mean speed is over the time of the "
+        "strokes, pauses included.";
+  }
+  add("Movement", text);
+}
+
+}  // namespace
+
+MethodWords method_words(const ReportSource& source) {
+  Writer writer(source);
+  writer.write_analysis();
+  writer.write_psychometric();
+  writer.write_hierarchical();
+  writer.write_power_laws();
+  writer.write_groups();
+  writer.write_tests();
+  writer.write_effects();
+  writer.write_movement();
+  return std::move(writer).finish();
+}
+
+}  // namespace jnd::analysis
