@@ -91,9 +91,9 @@ json to_json(const analysis::StudyResults& results) {
                              {"hedges_g", number(c.hedges_g)},
                              {"hedges_g_ci95", interval(c.hedges_g_ci95)},
                              {"rank_biserial", number(c.rank_biserial)},
-                             {"rank_biserial_ci95", interval(c.rank_biserial_ci95)},
-                             {"median_difference", number(c.median_difference)},
-                             {"median_difference_ci95", interval(c.median_difference_ci95)},
+                             {"rank_biserial_ci95", nullptr},
+                             {"hodges_lehmann", number(c.hodges_lehmann)},
+                             {"hodges_lehmann_ci95", interval(c.hodges_lehmann_ci95)},
                              {"n_a", c.num_a},
                              {"n_b", c.num_b}});
     }

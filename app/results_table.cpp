@@ -77,9 +77,11 @@ std::string effect_text(const analysis::Comparison& c) {
   const std::tuple<const char*, std::optional<double>, Interval> kEffects[] = {
       {"dz", c.cohen_dz, c.cohen_dz_ci95},
       {"g", c.cohen_dz ? std::nullopt : c.hedges_g, c.hedges_g_ci95},
-      {"rank-biserial r", c.rank_biserial, c.rank_biserial_ci95}};
+      {"rank-biserial r", c.rank_biserial, Interval{}}};
   for (const auto& [name, value, ci95] : kEffects) {
-    if (value) return fmt::format(", {} {} ({})", name, text(value), text(ci95));
+    if (!value) continue;
+    if (!ci95.low && !ci95.high) return fmt::format(", {} {}", name, text(value));
+    return fmt::format(", {} {} ({})", name, text(value), text(ci95));
   }
   return "";
 }
@@ -91,11 +93,11 @@ std::string comparison_row(const analysis::NamedComparison& named) {
     return fmt::format("  {}: {}\n", named.name, c.reason);
   }
   std::string line = fmt::format("  {}: ", named.name);
-  if (c.median_difference) {
-    line += fmt::format(
-        "{} {} ({}), {} = {:.1f}, ", c.kind == Kind::kRankSum ? "median difference" : "median",
-        text(c.median_difference), text(c.median_difference_ci95),
-        c.kind == Kind::kRankSum ? "U" : "smaller sum of ranks", c.statistic.value_or(0.0));
+  if (c.hodges_lehmann) {
+    line += fmt::format("Hodges-Lehmann {} ({}), {} = {:.1f}, ", text(c.hodges_lehmann),
+                        text(c.hodges_lehmann_ci95),
+                        c.kind == Kind::kRankSum ? "U" : "smaller sum of ranks",
+                        c.statistic.value_or(0.0));
   } else {
     const bool correlation = c.kind == Kind::kPearson || c.kind == Kind::kSpearman;
     const char* what = correlation ? "r" : c.kind == Kind::kOneSample ? "mean" : "difference";

@@ -94,10 +94,10 @@ Json to_json(const Comparison& comparison) {
     json["hedges_g_ci95"] = interval(comparison.hedges_g_ci95);
   }
   if (kind == Kind::kWilcoxon || kind == Kind::kRankSum) {
-    json["median_difference"] = number(comparison.median_difference);
-    json["median_difference_ci95"] = interval(comparison.median_difference_ci95);
+    json["hodges_lehmann"] = number(comparison.hodges_lehmann);
+    json["hodges_lehmann_ci95"] = interval(comparison.hodges_lehmann_ci95);
     json["rank_biserial"] = number(comparison.rank_biserial);
-    json["rank_biserial_ci95"] = interval(comparison.rank_biserial_ci95);
+    json["rank_biserial_ci95"] = nullptr;
   }
   json["num_a"] = comparison.num_a;
   json["num_b"] = comparison.num_b;

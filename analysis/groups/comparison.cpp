@@ -99,12 +99,9 @@ void test_differences(Comparison& result, const std::vector<double>& differences
   result.ci95 = grown(result.ci95, exponent);
 }
 
-void add_rank_biserial(Comparison& result, const SignedRanks& ranks) {
+double rank_biserial_of(const SignedRanks& ranks) {
   const double n = ranks.num_nonzero;
-  const double all = 0.5 * n * (n + 1.0);
-  result.rank_biserial = (ranks.positive_sum - ranks.negative_sum) / all;
-  result.rank_biserial_ci95 = fisher_interval(
-      *result.rank_biserial, std::sqrt(n * (n + 1.0) * (2.0 * n + 1.0) / 6.0) / all);
+  return (ranks.positive_sum - ranks.negative_sum) / (0.5 * n * (n + 1.0));
 }
 
 void fill_welch(Comparison& result, const PublishedGroup& a, const PublishedGroup& b) {
@@ -279,9 +276,9 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
   result.statistic = std::min(ranks.positive_sum, ranks.negative_sum);
   result.p_value = ranks.p_value;
   result.method += ranks.exact ? ", exact" : ", normal approximation corrected for ties";
-  result.median_difference = grown(ranks.median, exponent);
-  result.median_difference_ci95 = grown(ranks.median_ci95, exponent);
-  add_rank_biserial(result, ranks);
+  result.hodges_lehmann = grown(ranks.median, exponent);
+  result.hodges_lehmann_ci95 = grown(ranks.median_ci95, exponent);
+  result.rank_biserial = rank_biserial_of(ranks);
   result.status = FitStatus::kOk;
   return result;
 }

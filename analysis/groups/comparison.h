@@ -25,7 +25,9 @@ struct Comparison {
   Kind kind = Kind::kPaired;
   std::string reason;               ///< Why a value is undefined; "" if all are defined.
   std::string method;               ///< The test in words, with the approximation if any.
-  std::optional<double> estimate;   ///< Mean of a - b, of the values, or the correlation.
+  /// Mean of a - b (also of the rank tests, which test `hodges_lehmann`), of the values, or
+  /// the correlation.
+  std::optional<double> estimate;
   Interval ci95;                    ///< Of the estimate.
   std::optional<double> statistic;  ///< t; Wilcoxon: the smaller sum of ranks; rank sum: U.
   std::optional<double> degrees_of_freedom;
@@ -37,14 +39,14 @@ struct Comparison {
   /// groups' spreads for equal, whatever the test does.
   std::optional<double> hedges_g;
   Interval hedges_g_ci95;
-  /// Wilcoxon, rank sum: how much more weight a > b has than a < b, -1 to 1 (Kerby 2014); its
-  /// interval is Fisher's z with the standard error of no effect.
+  /// Wilcoxon, rank sum: how much more weight a > b has than a < b, -1 to 1 (Kerby 2014).
+  /// Without an interval: one by Fisher's z, with the standard error of no effect, contradicts
+  /// the exact test beside it and does not exist at -1 and 1.
   std::optional<double> rank_biserial;
-  Interval rank_biserial_ci95;
   /// Wilcoxon: the median of all pairwise means of the differences; rank sum: of all
   /// differences a - b (Hodges and Lehmann 1963). With its distribution-free interval.
-  std::optional<double> median_difference;
-  Interval median_difference_ci95;
+  std::optional<double> hodges_lehmann;
+  Interval hodges_lehmann_ci95;
   int num_a = 0, num_b = 0;  ///< Values used.
 };
 

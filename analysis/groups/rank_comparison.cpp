@@ -122,14 +122,12 @@ Comparison rank_sum_test(const std::vector<double>& a, const std::vector<double>
       std::min(1.0, exact ? 2.0 * probability_up_to(probabilities, smaller)
                           : std::erfc((mean - smaller) / deviation / std::numbers::sqrt2));
   result.rank_biserial = u / mean - 1.0;
-  result.rank_biserial_ci95 =
-      fisher_interval(*result.rank_biserial, std::sqrt((num + 1.0) / (3.0 * num_a * num_b)));
   const std::vector<double> differences = all_differences(a, b);
-  result.median_difference = finite(percentile(differences, 0.5));
+  result.hodges_lehmann = finite(percentile(differences, 0.5));
   const std::size_t outside = num_outside(probabilities, mean, deviation);
   if (outside > 0) {
-    result.median_difference_ci95 = {finite(differences[outside - 1]),
-                                     finite(differences[differences.size() - outside])};
+    result.hodges_lehmann_ci95 = {finite(differences[outside - 1]),
+                                  finite(differences[differences.size() - outside])};
   }
   result.status = FitStatus::kOk;
   return result;

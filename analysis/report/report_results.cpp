@@ -64,7 +64,7 @@ std::string unit_words(const std::string& unit) {
 std::string effect_words(const Comparison& c) {
   if (c.cohen_dz) return "d_z " + with_interval(c.cohen_dz, c.cohen_dz_ci95);
   if (c.hedges_g) return "g " + with_interval(c.hedges_g, c.hedges_g_ci95);
-  if (c.rank_biserial) return "r_rb " + with_interval(c.rank_biserial, c.rank_biserial_ci95);
+  if (c.rank_biserial) return "r_rb " + number_words(c.rank_biserial);
   return "–";
 }
 
@@ -83,8 +83,9 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
   if (c.num_b != c.num_a && c.num_b > 0) count += ", " + std::to_string(c.num_b);
   // What the test is about: of ranks the median of pairwise differences, else the mean.
   return {name,
-          c.median_difference ? with_interval(c.median_difference, c.median_difference_ci95)
-                              : with_interval(c.estimate, c.ci95),
+          c.hodges_lehmann
+              ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
+              : with_interval(c.estimate, c.ci95),
           number_words(c.statistic, 2),
           c.degrees_of_freedom ? number_words(c.degrees_of_freedom, 1) : "–",
           p_words(c.p_value),

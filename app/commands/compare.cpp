@@ -70,7 +70,7 @@ void print_for_people(const Comparison& result) {
                                : "mean of a - b";
   fmt::print("  {:<24} {}\n", correlation ? "r" : difference, number(result.estimate));
   print_interval("  95 %", result.ci95);
-  print_effect("median of a - b", result.median_difference, result.median_difference_ci95);
+  print_effect("Hodges-Lehmann", result.hodges_lehmann, result.hodges_lehmann_ci95);
   if (result.status != analysis::FitStatus::kOk) return;
   fmt::print("  {:<24} {}\n", statistic_name(result.kind), number(result.statistic));
   if (result.degrees_of_freedom) {
@@ -79,7 +79,7 @@ void print_for_people(const Comparison& result) {
   fmt::print("  {:<24} {}\n", "p, two-sided", number(result.p_value));
   print_effect("Cohen's dz", result.cohen_dz, result.cohen_dz_ci95);
   print_effect("Hedges' g", result.hedges_g, result.hedges_g_ci95);
-  print_effect("rank-biserial r", result.rank_biserial, result.rank_biserial_ci95);
+  print_effect("rank-biserial r", result.rank_biserial, {});
 }
 
 /// The groups of a table with their tests, and the p values adjusted for there being several.

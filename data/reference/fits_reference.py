@@ -428,7 +428,7 @@ def compare(test, a, b):
     kept = d[d != 0]
     walsh = [(kept[i] + kept[j]) / 2 for i in range(len(kept)) for j in range(i, len(kept))]
     return {"status": "ok", "estimate": d.mean(), "statistic": result.statistic,
-            "p_value": result.pvalue, "median_difference": float(np.median(walsh))}
+            "p_value": result.pvalue, "hodges_lehmann": float(np.median(walsh))}
 
 
 def compare_cases():

@@ -104,7 +104,9 @@ TEST(ResultsOutput, JsonHasTheAdjustedTestsEffectSizesAndFreeAnswers) {
   const nlohmann::json& ranks = section["comparisons"][1];
   EXPECT_TRUE(ranks["p_value_holm"].is_null());
   EXPECT_EQ(ranks["rank_biserial"], 1.0);
-  EXPECT_EQ(ranks["median_difference"], 2.25);
+  EXPECT_EQ(ranks["hodges_lehmann"], 2.25);
+  EXPECT_TRUE(ranks.contains("hodges_lehmann_ci95"));
+  EXPECT_TRUE(ranks["rank_biserial_ci95"].is_null());
   EXPECT_EQ(section["free_answers"], nlohmann::json::parse(R"([{"participant": "P02",
       "item": "remarks", "question": "Anything else?", "answer": "wetness"}])"));
 }
@@ -117,8 +119,9 @@ TEST(ResultsOutput, TheTablePutsPlainNumbersInColumnsAndSaysWhatWasSaid) {
   EXPECT_NE(table.find("P01 own.k"), std::string::npos) << table;
   EXPECT_NE(table.find("P02 remarks: wetness"), std::string::npos) << table;
   EXPECT_NE(table.find("Holm p = 0.5000"), std::string::npos) << table;
-  EXPECT_NE(table.find("median 2.2500"), std::string::npos) << table;
+  EXPECT_NE(table.find("Hodges-Lehmann 2.2500"), std::string::npos) << table;
   EXPECT_NE(table.find("smaller sum of ranks = 0.0"), std::string::npos) << table;
+  EXPECT_NE(table.find("rank-biserial r 1.0000\n"), std::string::npos) << table;
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ TEST(RankSum, IsExactAndWorkedByHand) {
   EXPECT_DOUBLE_EQ(*result.p_value, 0.2);
   EXPECT_NEAR(*result.rank_biserial, 2.0 * 8.0 / 9.0 - 1.0, 1e-15);
   // Differences -1, 1, 1, 2, 2, 3, 4, 4, 5.
-  EXPECT_EQ(*result.median_difference, 2.0);
-  EXPECT_FALSE(result.median_difference_ci95.low) << "three and three can reject nothing";
+  EXPECT_EQ(*result.hodges_lehmann, 2.0);
+  EXPECT_FALSE(result.hodges_lehmann_ci95.low) << "three and three can reject nothing";
   EXPECT_THAT(result.method, HasSubstr("exact"));
 }
 
@@ -30,8 +30,8 @@ TEST(RankSum, SwappingTheGroupsOnlyTurnsTheSign) {
   const Comparison one = rank_sum_test(a, b), other = rank_sum_test(b, a);
   EXPECT_DOUBLE_EQ(*one.p_value, *other.p_value);
   EXPECT_DOUBLE_EQ(*one.rank_biserial, -*other.rank_biserial);
-  EXPECT_DOUBLE_EQ(*one.median_difference, -*other.median_difference);
-  EXPECT_DOUBLE_EQ(*one.median_difference_ci95.low, -*other.median_difference_ci95.high);
+  EXPECT_DOUBLE_EQ(*one.hodges_lehmann, -*other.hodges_lehmann);
+  EXPECT_DOUBLE_EQ(*one.hodges_lehmann_ci95.low, -*other.hodges_lehmann_ci95.high);
 }
 
 TEST(RankSum, OnlyTheOrderOfTheValuesCounts) {
@@ -51,7 +51,7 @@ TEST(RankSum, SaysWhyThereIsNone) {
   EXPECT_THROW((void)rank_sum_test({std::nan("")}, {1.0}), core::Error);
   const Comparison huge = rank_sum_test({1.7e308, 1.6e308}, {-1.7e308});
   EXPECT_FALSE(huge.estimate.has_value()) << "past the range of numbers, not infinite";
-  EXPECT_FALSE(huge.median_difference.has_value());
+  EXPECT_FALSE(huge.hodges_lehmann.has_value());
 }
 
 TEST(Spearman, IsPearsonsCorrelationOfTheRanks) {
