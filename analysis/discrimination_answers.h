@@ -25,9 +25,10 @@ struct DiscriminationAnswers {
     const StudyData& data, const BlockDesign& block, bool with_excluded,
     std::vector<ExcludedParticipant>& excluded);
 
-/// One participant's fit. `corrected` adds half a "yes" and half a "no" in all, spread over the
-/// levels (the count of Firth 1993 for one parameter): it exists for answers that separate the
-/// stimuli perfectly, and moves the others little.
+/// One participant's fit. `corrected` adds half a "yes" and half a "no" to the participant, in
+/// equal shares of 1 / (2 levels) at every level, so that answers that separate the stimuli
+/// perfectly have a fraction too (after the log-linear correction of Hautus 1995). It moves
+/// every fraction, so it is for those alone who have none.
 struct OwnFitOptions {
   bool corrected = false;
   bool free_pse = false;

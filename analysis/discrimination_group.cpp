@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/groups/summary.h"
+#include "analysis/test_families.h"
 
 namespace jnd::analysis {
 namespace {
@@ -184,13 +185,15 @@ void add_trial_trends(ResultsSection& section, const Everybody& all, const Block
     if (trend.learning) learning.push_back(*trend.learning);
   }
   section.comparisons.push_back(
-      {block.block + ": \"yes\" becomes more frequent over the trials, exploratory (mean of "
-                     "participants' z)",
-       one_sample_t_test(drift)});
+      {.name = block.block + ": \"yes\" becomes more frequent over the trials, exploratory "
+                             "(mean of participants' z)",
+       .comparison = one_sample_t_test(drift),
+       .family = kTrialTrendsFamily});
   section.comparisons.push_back(
-      {block.block + ": right answers become more frequent over the trials, exploratory (mean "
-                     "of participants' z)",
-       one_sample_t_test(learning)});
+      {.name = block.block + ": right answers become more frequent over the trials, "
+                             "exploratory (mean of participants' z)",
+       .comparison = one_sample_t_test(learning),
+       .family = kTrialTrendsFamily});
 }
 
 Comparison median_person_difference(const Everybody& first_answers, const BlockDesign& first,
@@ -207,7 +210,8 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   comparison.num_b = static_cast<int>(second_answers.size());
   if (fit.status != FitStatus::kOk || fit.differences.empty()) {
     if (comparison.status == FitStatus::kOk) comparison.status = FitStatus::kDegenerate;
-    if (comparison.reason.empty()) comparison.reason = "answers in one condition only";
+    if (comparison.reason.empty())
+      comparison.reason = "fewer than two participants in one of the conditions";
     return comparison;
   }
   const HierarchicalDifference& difference = fit.differences.front();

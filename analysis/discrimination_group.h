@@ -10,7 +10,7 @@ namespace jnd::analysis {
 void add_group_estimates(ResultsSection& section, const StudyData& data,
                          const BlockDesign& block, const ResultsOptions& options);
 
-/// Adds whether answers change over the trials: exploratory.
+/// Adds whether answers change over the trials: exploratory, one family with the other blocks.
 void add_trial_trends(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
                       const BlockDesign& block);
 

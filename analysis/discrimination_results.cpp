@@ -15,21 +15,38 @@ namespace {
 
 using Everybody = std::vector<DiscriminationAnswers>;
 
-/// Individual Weber fractions; those without one are named.
-std::map<std::string, double> individual_weber_fractions(
-    const Everybody& all, const OwnFitOptions& options,
-    std::vector<ExcludedParticipant>& excluded, const std::string& block) {
-  std::map<std::string, double> fractions;
+/// Individual Weber fractions of a block, and who has none.
+struct OwnFractions {
+  std::map<std::string, double> plain;
+  std::map<std::string, double> corrected;  ///< Of those who have none, as far as that helps.
+  std::vector<ExcludedParticipant> without;
+};
+
+OwnFractions own_fractions(const Everybody& all, bool free_pse, const std::string& block) {
+  OwnFractions fractions;
+  const std::string what =
+      block + ": no Weber fraction of their own" + (free_pse ? " with a free pse, " : ", ");
   for (const DiscriminationAnswers& answers : all) {
-    const PsychometricFit fit = own_fit(answers, options);
+    const PsychometricFit fit = own_fit(answers, {.free_pse = free_pse});
     if (fit.weber_fraction) {
-      fractions[answers.participant] = *fit.weber_fraction;
-    } else {
-      excluded.push_back(
-          {answers.participant, block + ": no Weber fraction of their own, " + fit.reason});
+      fractions.plain[answers.participant] = *fit.weber_fraction;
+      continue;
     }
+    const PsychometricFit mended = own_fit(answers, {.corrected = true, .free_pse = free_pse});
+    if (mended.weber_fraction) {
+      fractions.corrected[answers.participant] = *mended.weber_fraction;
+    }
+    fractions.without.push_back(
+        {answers.participant,
+         what + fit.reason + (mended.weber_fraction ? "" : "; nor with half an answer added")});
   }
   return fractions;
+}
+
+std::map<std::string, double> everybody_of(const OwnFractions& fractions) {
+  std::map<std::string, double> all = fractions.plain;
+  all.insert(fractions.corrected.begin(), fractions.corrected.end());
+  return all;
 }
 
 std::vector<double> values_of(const std::map<std::string, double>& by_participant) {
@@ -148,14 +165,11 @@ Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
                        {*second.mean, *second.standard_deviation, second.num_values});
 }
 
-/// Tests between the fractions that people have of their own, free or with the pse at the
-/// reference, with or without those who have none uncorrected.
-void add_own_fraction_tests(ResultsSection& section, const Everybody& first_answers,
-                            const BlockDesign& first, const Everybody& second_answers,
-                            const BlockDesign& second, const OwnFitOptions& options) {
-  std::vector<ExcludedParticipant> without_fit;
-  const auto a = individual_weber_fractions(first_answers, options, without_fit, first.block);
-  const auto b = individual_weber_fractions(second_answers, options, without_fit, second.block);
+/// Tests between two blocks' fractions that people have of their own; `words` say whose and
+/// how.
+void add_own_fraction_tests(ResultsSection& section, const std::map<std::string, double>& a,
+                            const std::map<std::string, double>& b, const std::string& pair,
+                            const std::string& words, bool free_pse) {
   std::vector<double> paired_a, paired_b;
   for (const auto& [participant, fraction] : a) {
     const auto other = b.find(participant);
@@ -163,24 +177,38 @@ void add_own_fraction_tests(ResultsSection& section, const Everybody& first_answ
     paired_a.push_back(log_log(fraction));
     paired_b.push_back(log_log(other->second));
   }
-  // Everybody with the same small correction, so that a perfect observer has a fraction too.
-  const std::string who =
-      std::string(options.free_pse ? ", pse free" : "") +
-      (options.corrected ? ", with degenerate participants (half an answer added)"
-                         : ", without degenerate participants");
-  if (options.corrected && !options.free_pse) {
-    section.excluded.insert(section.excluded.end(), without_fit.begin(), without_fit.end());
-  }
   const auto add = [&](const std::string& name, const Comparison& comparison) {
-    section.comparisons.push_back(
-        {first.block + " - " + second.block + ": " + name + who, comparison});
+    section.comparisons.push_back({pair + name + words, comparison});
   };
   add("ln ln(1 + w), paired", paired_t_test(paired_a, paired_b));
-  add("ln ln(1 + w), Wilcoxon", wilcoxon_test(paired_a, paired_b));
-  if (options.free_pse) return;
+  add("ln ln(1 + w), Wilcoxon, sensitivity", wilcoxon_test(paired_a, paired_b));
+  if (free_pse) return;
   add("ln ln(1 + w), unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
   add("w, unpaired, Welch", welch_t_test(values_of(a), values_of(b)));
   add("w, unpaired, pooled variance, as published", pooled(values_of(a), values_of(b)));
+}
+
+/// With a free pse or with that at the reference; where somebody has no fraction, both without
+/// and with them.
+void add_own_fractions(ResultsSection& section, const Everybody& first_answers,
+                       const BlockDesign& first, const Everybody& second_answers,
+                       const BlockDesign& second, bool free_pse) {
+  const OwnFractions a = own_fractions(first_answers, free_pse, first.block);
+  const OwnFractions b = own_fractions(second_answers, free_pse, second.block);
+  section.excluded.insert(section.excluded.end(), a.without.begin(), a.without.end());
+  section.excluded.insert(section.excluded.end(), b.without.begin(), b.without.end());
+  const std::string pair = first.block + " - " + second.block + ": ";
+  const std::string words = free_pse ? ", pse free" : "";
+  const bool all_have_one = a.without.empty() && b.without.empty();
+  add_own_fraction_tests(section, a.plain, b.plain, pair,
+                         words + (all_have_one ? "" : ", without degenerate participants"),
+                         free_pse);
+  if (a.corrected.empty() && b.corrected.empty()) return;
+  add_own_fraction_tests(section, everybody_of(a), everybody_of(b), pair,
+                         words +
+                             ", with degenerate participants (half a yes and half a no "
+                             "added to theirs alone, spread evenly over the levels)",
+                         free_pse);
 }
 
 }  // namespace
@@ -213,10 +241,7 @@ ResultsSection discrimination_comparison(const StudyData& data, const BlockDesig
              free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference)});
   }
   for (const bool free_pse : {false, true}) {
-    for (const bool corrected : {false, true}) {
-      add_own_fraction_tests(section, first_answers, first, second_answers, second,
-                             {.corrected = corrected, .free_pse = free_pse});
-    }
+    add_own_fractions(section, first_answers, first, second_answers, second, free_pse);
   }
   return section;
 }

@@ -7,15 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "analysis/groups/multiplicity.h"
 #include "analysis/groups/within_slope.h"
 #include "analysis/magnitude_section.h"
+#include "analysis/test_families.h"
 
 namespace jnd::analysis {
 namespace {
-
-constexpr char kFamilyT[] = "exploratory, t tests";
-constexpr char kFamilyRanks[] = "exploratory, rank tests";
 
 using Trials = std::vector<core::TrialRow>;
 using Points = std::vector<GroupedPoint>;
@@ -115,9 +112,9 @@ std::vector<Effect> effects_of(const BlockDesign& block) {
 void add_tests(ResultsSection& section, const std::string& name, Comparison t,
                Comparison ranks) {
   section.comparisons.push_back(
-      {.name = name + ", t", .comparison = std::move(t), .family = kFamilyT});
+      {.name = name + ", t", .comparison = std::move(t), .family = kEffectsFamily});
   section.comparisons.push_back(
-      {.name = name + ", ranks", .comparison = std::move(ranks), .family = kFamilyRanks});
+      {.name = name + ", ranks, sensitivity", .comparison = std::move(ranks)});
 }
 
 void add_effect(ResultsSection& section, const StudyData& data, const BlockDesign& block,
@@ -212,17 +209,6 @@ void compare_arms(ResultsSection& section, const StudyData& data, const Outcome&
   }
 }
 
-void adjust(ResultsSection& section, const std::string& family) {
-  std::vector<std::optional<double>> p_values;
-  for (const NamedComparison& named : section.comparisons) {
-    p_values.push_back(named.family == family ? named.comparison.p_value : std::nullopt);
-  }
-  const auto adjusted = holm_adjusted(p_values);
-  for (std::size_t i = 0; i < adjusted.size(); ++i) {
-    if (adjusted[i]) section.comparisons[i].p_value_holm = adjusted[i];
-  }
-}
-
 }  // namespace
 
 ResultsSection exploratory_results(const StudyData& data,
@@ -240,8 +226,6 @@ ResultsSection exploratory_results(const StudyData& data,
       compare_arms(section, data, outcome, counterbalance);
     }
   }
-  adjust(section, kFamilyT);
-  adjust(section, kFamilyRanks);
   return section;
 }
 

@@ -11,7 +11,8 @@ namespace jnd::analysis {
 /// - estimation: how an answer leans on the stimulus before it;
 /// - every counterbalance (priming, order of the methods): whether the participants' own
 ///   parameters, taken from `sections`, differ between its arms.
-/// All p values are adjusted by Holm, the t tests as one family and the rank tests as another.
+/// The t tests are one family, for `adjust_by_family`; the rank tests beside them are of the
+/// same hypotheses and belong to none.
 /// No estimates and no comparisons where a study has nothing of this.
 [[nodiscard]] ResultsSection exploratory_results(const StudyData& data,
                                                  const std::vector<ResultsSection>& sections);

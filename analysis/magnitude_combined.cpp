@@ -136,20 +136,47 @@ void add_extrapolation(ResultsSection& section, const BothParts& parts, DrawnCur
       options);
 }
 
-/// Whose exponents are steeper, and whether they go together.
-void compare_exponents(ResultsSection& section, const BothParts& parts) {
+/// Each participant's own exponents, where both exist.
+struct OwnExponents {
   std::vector<double> estimation, production;
+
+  void add(const PowerFit& estimated, const PowerFit& produced) {
+    if (!estimated.a || !produced.a) return;
+    estimation.push_back(*estimated.a);
+    production.push_back(*produced.a);
+  }
+};
+
+void compare_exponents(ResultsSection& section, const OwnExponents& own,
+                       const std::string& words) {
+  const std::string pair = "own exponents, estimation - production, " + words + ": ";
+  section.comparisons.push_back(
+      {pair + "paired t", paired_t_test(own.estimation, own.production)});
+  section.comparisons.push_back(
+      {pair + "Wilcoxon, sensitivity", wilcoxon_test(own.estimation, own.production)});
+  section.comparisons.push_back(
+      {"own exponents, estimation and production, " + words + ": Spearman's r",
+       spearman_correlation(own.estimation, own.production)});
+}
+
+/// Whose exponents are steeper, and whether they go together. A production answers with an
+/// intensity, so primary is its regression of I on S: that of S on I takes what was asked for
+/// the answer, and the spread of the answers makes its exponent something else.
+void compare_exponents(ResultsSection& section, const BothParts& parts) {
+  OwnExponents primary, secondary;
   for (std::size_t i = 0; i < parts.estimated.size(); ++i) {
     const BothCurves own = curves_of(parts, {i}, Solver::kCeres);
-    if (!own.exist()) continue;
-    estimation.push_back(*own.estimation.a);
-    production.push_back(*own.production.a);
+    const PowerFit turned = fit_own_intensity_on_magnitude(parts.produced.answers[i]);
+    primary.add(own.estimation, turned);
+    secondary.add(own.estimation, own.production);
+    if (own.estimation.a && turned.a) continue;
+    section.excluded.push_back(
+        {parts.estimated.names[i],
+         own.estimation.a ? "own exponents: none of the production, " + turned.reason
+                          : "own exponents: none of the estimation, " + own.estimation.reason});
   }
-  const std::string pair = "own exponents, estimation - production: ";
-  section.comparisons.push_back({pair + "paired t", paired_t_test(estimation, production)});
-  section.comparisons.push_back({pair + "Wilcoxon", wilcoxon_test(estimation, production)});
-  section.comparisons.push_back({"own exponents, estimation and production: Spearman's r",
-                                 spearman_correlation(estimation, production)});
+  compare_exponents(section, primary, "production as I on S (primary)");
+  compare_exponents(section, secondary, "production as S on I (secondary)");
 }
 
 void name_missing(ResultsSection& section, const MagnitudeBlock& has,

@@ -79,6 +79,17 @@ PowerFit fit_intensity_on_magnitude(const std::vector<Produced>& rows) {
   return turned;
 }
 
+PowerFit fit_own_intensity_on_magnitude(const MagnitudeAnswers& intensities_at_target) {
+  std::vector<Produced> rows;
+  for (const auto& [target_percent, logs] :
+       log_answers(intensities_at_target, ZeroRule::kHalfSmallest).logs) {
+    for (const double log_intensity : logs) {
+      rows.push_back({target_percent * kRatioPerPercent, log_intensity});
+    }
+  }
+  return fit_intensity_on_magnitude(rows);
+}
+
 core::PowerFunction geometric_mean_of(const core::PowerFunction& first,
                                       const core::PowerFunction& second) {
   return {.k = std::sqrt(first.k) * std::sqrt(second.k), .a = 0.5 * (first.a + second.a)};

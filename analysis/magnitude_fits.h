@@ -29,6 +29,11 @@ struct Produced {
 };
 [[nodiscard]] PowerFit fit_intensity_on_magnitude(const std::vector<Produced>& rows);
 
+/// The same through every answer of one participant: the intensities set for targets in
+/// percent, those of 0 as half the smallest above 0.
+[[nodiscard]] PowerFit fit_own_intensity_on_magnitude(
+    const MagnitudeAnswers& intensities_at_target);
+
 /// At every intensity the geometric mean of two power laws' magnitudes: k = sqrt(k1 k2),
 /// a = (a1 + a2) / 2.
 [[nodiscard]] core::PowerFunction geometric_mean_of(const core::PowerFunction& first,

@@ -166,17 +166,7 @@ void add_production_ratios(ResultsSection& section, const MagnitudeBlock& block,
   }
 }
 
-/// Each participant's answers, or the means of those drawn, as rows of the regression of I on
-/// S.
-std::vector<Produced> produced(const MagnitudeAnswers& log_answers_at_target) {
-  std::vector<Produced> rows;
-  for (const auto& [target_percent, logs] : log_answers_at_target) {
-    for (const double log_intensity : logs)
-      rows.push_back({target_percent / 100.0, log_intensity});
-  }
-  return rows;
-}
-
+/// The means of those drawn as rows of the regression of I on S.
 std::vector<Produced> produced(const Means& log_means_at_target) {
   std::vector<Produced> rows;
   for (const auto& [target_percent, log_intensity] : log_means_at_target) {
@@ -196,10 +186,8 @@ void add_intensity_on_magnitude(ResultsSection& section, const std::string& name
       },
       options);
   add_own_power_laws(
-      section, name + ".intensity_on_magnitude", block.names, [&](std::size_t i) {
-        return fit_intensity_on_magnitude(
-            produced(log_answers(block.answers[i], ZeroRule::kHalfSmallest).logs));
-      });
+      section, name + ".intensity_on_magnitude", block.names,
+      [&](std::size_t i) { return fit_own_intensity_on_magnitude(block.answers[i]); });
 }
 
 }  // namespace
@@ -216,9 +204,13 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
         return fit_estimation(group_means(block.means, drawn), PowerMethod::kNonlinear, solver);
       },
       options);
-  add_r_squared(section, name, whole, static_cast<int>(block.size()));
+  add_r_squared(section, name, whole, static_cast<int>(block.size()),
+                by_x(block.means).contains(0.0));
   (void)add_power_law(
-      section, name + ".data_points", "power law through the participants' means", block.size(),
+      section, name + ".data_points",
+      "power law through the participants' means (where everybody answered every stimulus the "
+      "same as through the group means, by construction)",
+      block.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         std::vector<Magnitude> rows;
         for (const std::size_t index : drawn) {

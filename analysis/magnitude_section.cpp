@@ -64,14 +64,17 @@ PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
 }
 
 void add_r_squared(ResultsSection& section, const std::string& prefix, const PowerFit& fit,
-                   int num_participants) {
+                   int num_participants, bool with_zero) {
   if (!fit.r_squared) return;
   section.estimates.push_back({.name = prefix + ".r_squared",
                                .value = fit.r_squared,
                                .unit = "1",
                                .meaning = "share of the spread of the " +
                                           std::to_string(fit.num_rows) +
-                                          " means that the power law explains",
+                                          " means that the power law explains" +
+                                          (with_zero ? ", the one at intensity 0 included, "
+                                                       "where every power law is 0"
+                                                     : ""),
                                .n = num_participants});
 }
 

@@ -18,9 +18,10 @@ PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
                        const std::string& meaning, std::size_t num_participants,
                        const GroupFit& fit, const ResultsOptions& options);
 
-/// Adds PREFIX.r_squared of a fit that has one.
+/// Adds PREFIX.r_squared of a fit that has one. `with_zero`: one of the means is at intensity
+/// 0, where every power law is 0.
 void add_r_squared(ResultsSection& section, const std::string& prefix, const PowerFit& fit,
-                   int num_participants);
+                   int num_participants, bool with_zero = false);
 
 /// Adds the mean of one number each, with Student's interval.
 void add_mean(ResultsSection& section, const std::string& name, const std::string& meaning,

@@ -4,6 +4,7 @@
 
 #include "analysis/exploratory_results.h"
 #include "analysis/questionnaire_results.h"
+#include "analysis/test_families.h"
 
 namespace jnd::analysis {
 namespace {
@@ -69,6 +70,8 @@ StudyResults results_of(const StudyData& data, const Published& published,
   }
   if (!data.items.empty()) results.sections.push_back(questionnaire_results(data));
 
+  mark_movement_family(results.sections);
+  adjust_by_family(results.sections);
   for (ResultsSection& section : results.sections) {
     for (Estimate& estimate : section.estimates) {
       const auto found = published.values.find(estimate.name);

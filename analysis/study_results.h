@@ -47,7 +47,7 @@ struct NamedComparison {
   Comparison comparison;
   /// Adjusted by Holm (1979) for the tests of its family; absent where none was made.
   std::optional<double> p_value_holm;
-  std::string family;  ///< "exploratory, t"; "" with a test that stands alone.
+  std::string family;  ///< "exploratory, movement"; "" with a test that stands alone.
 };
 
 /// What a participant said in words of their own.

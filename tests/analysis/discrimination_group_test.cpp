@@ -7,6 +7,7 @@
 
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
+#include "core/psychometric_function.h"
 
 namespace jnd::analysis {
 namespace {
@@ -111,10 +112,10 @@ TEST(DiscriminationGroup, TwoConditionsAreComparedHierarchicallyAndByRanks) {
   EXPECT_GT(*primary.estimate, 0.0) << "D is the coarser";
   EXPECT_LT(*primary.ci95.low, *primary.estimate);
   EXPECT_GT(*primary.statistic, 0.0);
-  const Comparison paired = named("ln ln(1 + w), paired, without");
+  const Comparison paired = named("ln ln(1 + w), paired");
   EXPECT_NEAR(*named("hierarchical, pse at the reference").estimate, *paired.estimate, 0.1);
-  EXPECT_EQ(named("Wilcoxon, without").num_a, 5);
-  EXPECT_EQ(named("paired, pse free, without").status, FitStatus::kOk);
+  EXPECT_EQ(named("ln ln(1 + w), Wilcoxon, sensitivity").num_a, 5);
+  EXPECT_EQ(named("ln ln(1 + w), paired, pse free").status, FitStatus::kOk);
 }
 
 TEST(DiscriminationGroup, NobodyWithAnAnswerLeavesReasonsAndNoNumber) {
@@ -130,6 +131,109 @@ TEST(DiscriminationGroup, NobodyWithAnAnswerLeavesReasonsAndNoNumber) {
                  one.reason.find("median_person: no value") != std::string::npos;
         }));
   }
+}
+
+ResultsSection section_of(const StudyResults& of, const std::string& name) {
+  for (const ResultsSection& one : of.sections) {
+    if (one.name == name) return one;
+  }
+  throw core::Error("no section " + name);
+}
+
+const NamedComparison* find_comparison(const ResultsSection& section,
+                                       const std::string& words) {
+  for (const NamedComparison& one : section.comparisons) {
+    if (one.name.find(words) != std::string::npos) return &one;
+  }
+  return nullptr;
+}
+
+double log_log_of_right(double num_right, double num_trials) {
+  const double z = core::standard_normal_quantile(num_right / num_trials);
+  return std::log(std::log(1.5) / z);
+}
+
+TEST(DiscriminationGroup, HalfAnAnswerIsAddedToTheDegenerateAlone) {
+  HandMadeStudy study;
+  int number = 0;
+  for (const int right : {7, 8, 10}) {
+    study.add("P0" + std::to_string(++number));
+    study.compare_ten("group_d", right);
+    study.compare_ten("group_e", 9);
+  }
+  const ResultsSection against = section_of(results(study), "group_d_against_group_e");
+  const NamedComparison* with = find_comparison(against, "paired, with degenerate");
+  ASSERT_NE(with, nullptr);
+  EXPECT_NE(with->name.find("half a yes and half a no added to theirs alone"),
+            std::string::npos);
+  // Two levels of ten: a quarter of a yes and of a no at each makes 10.25 of 10.5 right.
+  const double by_hand =
+      (log_log_of_right(7, 10) + log_log_of_right(8, 10) + log_log_of_right(10.25, 10.5)) /
+          3.0 -
+      log_log_of_right(9, 10);
+  EXPECT_NEAR(with->comparison.estimate.value(), by_hand, 1e-6);
+  EXPECT_EQ(find_comparison(against, "paired, without degenerate")->comparison.num_a, 2);
+}
+
+TEST(DiscriminationGroup, WithoutADegenerateParticipantThereIsNoRowOfSuch) {
+  HandMadeStudy study;
+  int number = 0;
+  for (const int right : {7, 8, 9}) {
+    study.add("P0" + std::to_string(++number));
+    study.compare_ten("group_d", right);
+    study.compare_ten("group_e", 9);
+  }
+  const ResultsSection against = section_of(results(study), "group_d_against_group_e");
+  EXPECT_EQ(find_comparison(against, "degenerate participants"), nullptr);
+  EXPECT_NE(find_comparison(against, "ln ln(1 + w), paired"), nullptr);
+  EXPECT_TRUE(against.excluded.empty());
+}
+
+TEST(DiscriminationGroup, WhoHasNoFractionWithAFreePseIsNamedWithTheReason) {
+  HandMadeStudy study;
+  for (const char* name : {"P01", "P02", "P03"}) {
+    study.add(name);
+    study.compare_ten("group_d", name[2] == '3' ? 7 : 8);
+    study.compare_ten("group_e", 9);
+  }
+  // Three of three "thicker" at each level but the reference's lower side: with the pse at the
+  // reference there is a fraction, with a free one all answers are alike.
+  study.add("P04");
+  for (const double intensity : {7.0, 12.0, 16.0}) {
+    for (int i = 0; i < 3; ++i) study.compare("group_d", intensity, 8.0, true);
+  }
+  study.compare_ten("group_e", 8);
+  const ResultsSection against = section_of(results(study), "group_d_against_group_e");
+  const auto named = std::ranges::find_if(against.excluded, [](const auto& one) {
+    return one.participant == "P04" &&
+           one.reason.starts_with("group_d: no Weber fraction of their own with a free pse");
+  });
+  EXPECT_NE(named, against.excluded.end());
+  EXPECT_EQ(find_comparison(against, "paired, pse free, without")->comparison.num_a, 3);
+}
+
+TEST(DiscriminationGroup, ChangesOverTheTrialsAreOneFamilyOfTheStudy) {
+  HandMadeStudy study;
+  int number = 0;
+  for (const int right : {7, 8, 9, 8, 6}) {
+    study.add("P0" + std::to_string(++number));
+    study.compare_ten("group_d", right);
+    study.compare_ten("group_e", 15 - right);
+  }
+  const StudyResults of = results(study);
+  std::vector<double> p_values, adjusted;
+  for (const ResultsSection& section : of.sections) {
+    for (const NamedComparison& one : section.comparisons) {
+      if (one.family != "exploratory, changes over the trials") continue;
+      if (!one.comparison.p_value) continue;
+      p_values.push_back(*one.comparison.p_value);
+      adjusted.push_back(one.p_value_holm.value());
+    }
+  }
+  ASSERT_GE(p_values.size(), 3U) << "of both blocks";
+  const auto least = std::ranges::min_element(p_values);
+  EXPECT_NEAR(adjusted[static_cast<std::size_t>(least - p_values.begin())],
+              std::min(1.0, *least * static_cast<double>(p_values.size())), 1e-12);
 }
 
 }  // namespace

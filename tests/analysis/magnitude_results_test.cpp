@@ -297,5 +297,43 @@ TEST(CombinedResults, AProductionWithoutALawIsNamedAsTheReason) {
   EXPECT_EQ(section.comparisons[0].comparison.status, FitStatus::kDegenerate);
 }
 
+TEST(CombinedResults, ExponentsAreComparedWithTheProductionAsIOnS) {
+  StudyData data = both_parts();
+  // Sets of 1 and 4 at 50 % and 100 %, and of 2 at 200 %: S on I is flatter than I on S.
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<core::TrialRow>& trials = data.participants[i].trials;
+    const double more = 1.0 + static_cast<double>(i);
+    trials.push_back(produced(50.0, more));
+    trials.push_back(produced(50.0, 2.5));
+    trials.push_back(produced(100.0, 3.0));
+  }
+  const ResultsSection section = combined_results(data, kEstimation, kProduction, kQuick);
+  const ResultsSection production = production_results(data, kProduction, kQuick);
+  const auto mean_of = [&](const std::string& name) {
+    return 0.5 * (*own(production, "P01", name).value + *own(production, "P02", name).value);
+  };
+  const auto estimate_of = [&](const std::string& words) {
+    for (const NamedComparison& one : section.comparisons) {
+      if (one.name.find(words) != std::string::npos) return *one.comparison.estimate;
+    }
+    throw core::Error("no comparison " + words);
+  };
+  EXPECT_NEAR(estimate_of("production as I on S (primary): paired t"),
+              0.5 - mean_of("production.intensity_on_magnitude.a"), 1e-9);
+  EXPECT_NEAR(estimate_of("production as S on I (secondary): paired t"),
+              0.5 - mean_of("production.a"), 1e-6);
+  EXPECT_NE(section.comparisons[0].name.find("primary"), std::string::npos);
+  EXPECT_GT(mean_of("production.intensity_on_magnitude.a"), 0.0);
+}
+
+TEST(MagnitudeResults, WhatIsTheSameByConstructionAndWhatAPointAtZeroAddsIsSaid) {
+  const ResultsSection section = estimation_results(two_units(), kEstimation, kQuick);
+  EXPECT_NEAR(value(section, "estimation.data_points.a"), value(section, "estimation.a"), 1e-6);
+  EXPECT_NE(find(section, "estimation.data_points.a")->meaning.find("by construction"),
+            std::string::npos);
+  EXPECT_NE(find(section, "estimation.r_squared")->meaning.find("at intensity 0 included"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace jnd::analysis

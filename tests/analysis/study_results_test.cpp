@@ -178,7 +178,7 @@ TEST(StudyResults, TwoConditionsAreComparedPairedInLnLnAndUnpairedInW) {
   study.compare_ten("group_e", 9);
   const StudyResults of = results(study);
   const ResultsSection& against = section(of, "group_d_against_group_e");
-  const Comparison& paired = comparison(against, "ln ln(1 + w), paired, without");
+  const Comparison& paired = comparison(against, "ln ln(1 + w), paired");
   // ln ln(1 + w) is ln ln 1.5 - ln z: differences ln(z_e / z_d).
   const double z70 = 0.5244005127080407;
   const double z80 = 0.8416212335729143;
@@ -188,7 +188,7 @@ TEST(StudyResults, TwoConditionsAreComparedPairedInLnLnAndUnpairedInW) {
   EXPECT_NEAR(paired.estimate.value(), 0.5 * (first + second), 1e-6);
   EXPECT_EQ(paired.degrees_of_freedom, 1.0);
   EXPECT_NEAR(paired.statistic.value(), (first + second) / (second - first), 1e-4);
-  const Comparison& unpaired = comparison(against, "w, unpaired, Welch, without");
+  const Comparison& unpaired = comparison(against, ": w, unpaired, Welch");
   const auto w = [](double z) { return std::expm1(std::log(1.5) / z); };
   EXPECT_NEAR(unpaired.estimate.value(), 0.5 * (w(z80) + w(z70)) - w(z90), 1e-5);
   EXPECT_EQ(unpaired.num_a, 2);
@@ -364,6 +364,12 @@ TEST(StudyResults, MovementIsTheMeanOverParticipantsOfPresentationsWithAWholeStr
   EXPECT_NEAR(value(of, "stroke_width_m"), 0.5 * (0.3 + 0.3), 1e-12);
   EXPECT_NEAR(comparison(section(of, "movement"), "max_speed_m_per_s, paired").estimate.value(),
               0.5 * (0.2 + 0.5), 1e-12);
+  for (const NamedComparison& named : section(of, "movement").comparisons) {
+    const bool paired = named.comparison.kind == Comparison::Kind::kPaired;
+    EXPECT_EQ(named.family, paired ? "exploratory, movement" : "") << named.name;
+    EXPECT_EQ(named.p_value_holm.has_value(), paired) << named.name;
+    EXPECT_EQ(named.name.ends_with(", sensitivity"), !paired) << named.name;
+  }
 }
 
 TEST(StudyResults, FingersTrailBehindThePalmOfADeviceThatHasThem) {
