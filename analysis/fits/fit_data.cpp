@@ -19,9 +19,10 @@ void check(CsvReader& reader, const std::string& column, const std::vector<doubl
 
 std::vector<double> counts(CsvReader& reader, const std::string& column) {
   std::vector<double> values = reader.numbers(column);
-  check(reader, column, values, "a whole number >= 0", [](double value) {
-    return value >= 0.0 && value == std::floor(value) && value <= kLargestCount;
-  });
+  check(reader, column, values, "a whole number >= 0",
+        [](double value) { return value >= 0.0 && value == std::floor(value); });
+  check(reader, column, values, "a whole number of at most 1e15",
+        [](double value) { return value <= kLargestCount || value != std::floor(value); });
   return values;
 }
 

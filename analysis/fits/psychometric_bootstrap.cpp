@@ -65,7 +65,7 @@ std::optional<double> acceleration_of(const PsychometricSearch& search,
       const auto value = fraction_or_limit(search, without, fitted, num_degenerate);
       without.num_yes[level] += yes;
       without.num_trials[level] += 1.0;
-      if (num_degenerate > 0 || !value) return std::nullopt;
+      if (num_degenerate > 0 || !value || !std::isfinite(*value)) return std::nullopt;
       all.push_back({*value, num_answers});
     }
   }

@@ -15,6 +15,10 @@ struct OrderedAnswers {
   std::optional<bool> test_first;  ///< The test came in the first interval.
 };
 
+/// By what an effect's interval and its p value are: near the edge of 5 % they may disagree.
+inline constexpr char kEffectInterval[] = "Wald";
+inline constexpr char kEffectTest[] = "likelihood ratio";
+
 /// One term of the regression, tested by the likelihood ratio against leaving it out.
 struct PsychometricEffect {
   FitStatus status = FitStatus::kNotRun;

@@ -13,6 +13,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view kNoTrials = "too few rows: no level has an answer";
 constexpr std::string_view kTooFewForLapse =
     "too few rows: slope, pse and lapse rate cannot be told apart with so few levels";
+constexpr std::string_view kTooFewForSlopeAndLapse =
+    "too few rows: slope and lapse rate cannot be told apart with so few levels";
 constexpr std::string_view kNoOther =
     "one intensity: beside 0 and the reference, where every slope gives the same, there is "
     "none, so nothing tells how fine the discrimination is";
@@ -22,6 +24,8 @@ constexpr std::string_view kYesAtZero =
     "impossible: a yes at intensity 0 has probability 0 without lapses";
 constexpr std::string_view kAllAlike =
     "all alike: every answer is the same, so the pse lies beyond all levels";
+constexpr std::string_view kAllAlikeAtReference =
+    "all alike: every answer is the same, so nothing tells how fine the discrimination is";
 constexpr std::string_view kSeparated =
     "separated: one threshold splits the answers without overlap, so the Weber fraction falls "
     "to 0";
@@ -61,6 +65,10 @@ Reach reach_of(const PsychometricLevels& levels) noexcept {
 }
 
 PsychometricExistence flat_or_inverted(const PsychometricLevels& levels, bool free_pse) {
+  // Answers that are all alike do not fall, though they may weigh more on one side.
+  if (!free_pse && reach_of(levels).all_alike()) {
+    return {PsychometricSupremum::kFlat, kAllAlikeAtReference};
+  }
   return {PsychometricSupremum::kFlat,
           rise_of_answers(levels, free_pse) < 0.0 ? kInverted : kFlat};
 }
@@ -101,7 +109,8 @@ std::string_view why_unidentified(const PsychometricLevels& levels, bool free_ps
                                 [](double a, double b) { return b - a <= 1e-12 * b; });
   const int num_distances = static_cast<int>(last - distances.begin());
   if (num_distances == 0) return kNoOther;
-  return free_lapse && num_distances + at_zero < 2 ? kTooFewForLapse : std::string_view();
+  return free_lapse && num_distances + at_zero < 2 ? kTooFewForSlopeAndLapse
+                                                   : std::string_view();
 }
 
 PsychometricExistence existence_from_counts(const PsychometricLevels& levels, bool free_pse) {

@@ -13,6 +13,11 @@ enum class PsychometricFamily {
   kWeibull,  ///< 1 - exp(-(x / scale)^shape)
 };
 
+/// What a Weber fraction is, whatever the family: of the sigmoid without its lapses.
+inline constexpr std::string_view kWeberFractionMeaning =
+    "(x84.13 - pse) / pse, where the curve, lapses aside, is 50 % at the pse and "
+    "Phi(1) = 84.13 % at x84.13";
+
 /// What makes a family: a shape, over the intensity or its logarithm.
 struct PsychometricFamilyTraits {
   PsychometricFamily family;

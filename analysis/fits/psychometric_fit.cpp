@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <numbers>
@@ -42,6 +43,17 @@ double sum_about_mean(const PsychometricLevels& levels) {
   return sum;
 }
 
+/// Derivatives of w in slope, offset and lapse: of exp(c unit / slope) - 1, or, the pse being
+/// origin - unit offset / slope, of c unit / (slope origin - unit offset).
+Eigen::Vector3d fraction_gradient(const PsychometricLevels& levels,
+                                  const PsychometricCurve& curve) {
+  const double step = sigmoid_jnd(levels.sigmoid) * levels.unit / curve.slope;
+  if (levels.logarithmic()) return {-std::exp(step) * step / curve.slope, 0.0, 0.0};
+  const double pse = curve.pse(levels);
+  return {-step * levels.origin / (curve.slope * pse * pse),
+          step * levels.unit / (curve.slope * pse * pse), 0.0};
+}
+
 /// Standard error of w by the delta method, the matrix being that of the information over its
 /// `scale`. A lapse on its bound is held there.
 std::optional<double> standard_error(const PsychometricLevels& levels,
@@ -55,11 +67,8 @@ std::optional<double> standard_error(const PsychometricLevels& levels,
     information.col(parameter).setZero();
     information(parameter, parameter) = 1.0;
   }
-  const double variance = information.inverse()(0, 0) * scale;
-  // |dw / dslope| of w = exp(c unit / slope) - 1, or c unit / slope over the reference.
-  const double step = sigmoid_jnd(levels.sigmoid) * levels.unit / curve.slope;
-  const double by_step = levels.logarithmic() ? std::exp(step) : 1.0 / levels.reference;
-  return finite(std::sqrt(variance) * by_step * step / curve.slope);
+  const Eigen::Vector3d by_curve = fraction_gradient(levels, curve);
+  return finite(std::sqrt(by_curve.dot(information.inverse() * by_curve) * scale));
 }
 
 void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
@@ -102,6 +111,43 @@ void add_parameters(PsychometricFit& fit, const PsychometricLevels& levels,
       fit.parameters = {{"scale", scale}, {"shape", shape}};
       break;
     }
+  }
+}
+
+/// Whether the deviance is beyond what chi-squared with as many degrees of freedom has in one
+/// of a hundred data sets.
+bool is_far_off(const PsychometricFit& fit, int degrees_of_freedom) {
+  constexpr double kLevel = 0.01;
+  if (degrees_of_freedom < 1 || !fit.deviance) return false;
+  const boost::math::chi_squared chance(degrees_of_freedom);
+  return boost::math::cdf(boost::math::complement(chance, *fit.deviance)) < kLevel;
+}
+
+bool all_alike(const std::vector<AnswerCount>& data) {
+  const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
+  const auto every = [](const AnswerCount& row) { return row.num_yes == row.num_trials; };
+  return std::ranges::all_of(data, none) || std::ranges::all_of(data, every);
+}
+
+/// What the value rests on, where that is less than it seems.
+void add_doubts(PsychometricFit& fit, const std::vector<AnswerCount>& data,
+                const PsychometricLevels& levels, int degrees_of_freedom) {
+  if (all_alike(data)) {
+    fit.warnings.emplace_back(
+        "every answer is the same: the Weber fraction rests on the assumed pse alone");
+  }
+  if (*fit.pse * (1.0 + *fit.weber_fraction) > levels.intensity.back()) {
+    fit.warnings.emplace_back(
+        "the Weber fraction lies beyond the stimuli: no level is as high as where the curve is "
+        "84.13 %");
+  }
+  // Least squares does not seek the lowest deviance, and a simulated p goes before.
+  const bool other =
+      fit.method == PsychometricMethod::kLeastSquares || fit.goodness.p_value.has_value();
+  if (!other && is_far_off(fit, degrees_of_freedom)) {
+    fit.warnings.emplace_back(
+        "the answers lie farther from the curve than chance has them (deviance, chi-squared: "
+        "p < 0.01): the curve is not theirs, and the intervals are too narrow");
   }
 }
 
@@ -157,8 +203,12 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   const PsychometricCurve& curve = found.optimum.curve;
   const double weber_fraction = curve.weber_fraction(levels);
   const double pse = free_pse ? curve.pse(levels) : options.reference;
-  const bool pse_in_range = std::isfinite(pse) && (pse > 0.0 || !levels.logarithmic());
-  if (!(std::isfinite(weber_fraction) && pse_in_range)) {
+  if (!levels.logarithmic() && !(pse > 0.0)) {
+    fit.reason =
+        "the pse is not above 0: there is nothing that a Weber fraction is relative to";
+    return fit;
+  }
+  if (!(std::isfinite(weber_fraction) && std::isfinite(pse) && pse > 0.0)) {
     fit.reason = "flat: the answers rise so little that the values exceed the range of numbers";
     return fit;
   }
@@ -183,6 +233,8 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
     fit.goodness = goodness_of_fit(search, levels, curve, options.num_goodness, options.seed);
   }
   add_warnings(fit, levels, options);
+  add_doubts(fit, data, levels,
+             residual_degrees_of_freedom(levels, search.free(), curve.lapse));
   return fit;
 }
 

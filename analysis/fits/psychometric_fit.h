@@ -121,25 +121,27 @@ struct PsychometricFit {
   std::vector<Parameter> parameters;  ///< In the family's own words, beside w, pse and lapse.
   PsychometricGoodness goodness;
   PsychometricPosterior posterior;
-  /// Where an interval above is known to be too narrow, one sentence each.
+  /// Where an interval above is known to be too narrow, or the value to rest on less than it
+  /// seems to, one sentence each.
   std::vector<std::string> warnings;
   int num_levels = 0;           ///< Distinct intensities with trials.
   std::int64_t num_trials = 0;  ///< Over all levels.
 };
 
 /// Fits a curve of the family, p(x) = lapse + (1 - 2 lapse) F. For all of them the pse is where
-/// F = 0.5, and F = 84.13 % at pse (1 + w); for kGauss w is the standard deviation over the
-/// reference. kWeber is Phi( ln(x / pse) / ln(1 + w) ), the curve of
+/// F = 0.5, and F = Phi(1) = 84.13 % at pse (1 + w); for kGauss w is the standard deviation
+/// over the pse. kWeber is Phi( ln(x / pse) / ln(1 + w) ), the curve of
 /// core::PsychometricFunction, in its slope s = 1 / ln(1 + w) > 0: there it is a probit line,
 /// whose likelihood has one optimum (Bergmann Tiest et al. 2013 for the curve). Rows of the
 /// same intensity are pooled into one level. The optimum is global: least squares and free
 /// lapses, which can have several, are searched from a grid.
 ///
 /// `degenerate` exactly where the supremum is not attained, or by more than one curve: at
-/// infinite slope (separated), at slope 0 (flat, inverted), or with fewer levels than it takes
-/// to tell the free parameters apart. A lapse rate on its bound 0 is an optimum.
-/// Throws `core::Error` for a reference not > 0, an intensity not finite and >= 0, or counts
-/// that are not 0 <= num_yes <= num_trials. Not real time.
+/// infinite slope (separated), at slope 0 (flat, inverted, all alike), with fewer levels than
+/// it takes to tell the free parameters apart, or with a pse that is not > 0, to which no
+/// fraction is relative. A lapse rate on its bound 0 is an optimum. Throws `core::Error` for a
+/// reference not > 0, an intensity not finite and >= 0, or counts that are not 0 <= num_yes <=
+/// num_trials. Not real time.
 [[nodiscard]] PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                                                const PsychometricOptions& options);
 

@@ -85,6 +85,12 @@ double deviance_of(const PsychometricLevels& levels, double log_likelihood) {
   return std::max(0.0, 2.0 * (saturated - log_likelihood));
 }
 
+int residual_degrees_of_freedom(const PsychometricLevels& levels, const FreeParameters& free,
+                                double lapse) {
+  return static_cast<int>(levels.size()) - 1 - (free[1] ? 1 : 0) -
+         (free[2] && lapse > 0.0 ? 1 : 0);
+}
+
 PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
                                      const PsychometricLevels& levels,
                                      const PsychometricCurve& fitted, int num_redraws,
@@ -95,11 +101,11 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
   };
   const Residuals residuals = residuals_of(levels, fitted);
   PsychometricGoodness goodness;
-  goodness.degrees_of_freedom = static_cast<int>(levels.size()) - 1 - search.free()[1] -
-                                (search.free()[2] && fitted.lapse > 0.0 ? 1 : 0);
+  goodness.degrees_of_freedom =
+      residual_degrees_of_freedom(levels, search.free(), fitted.lapse);
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    goodness.residuals.push_back({levels.intensity_at(levels.abscissa[level]),
-                                  residuals.fitted[level], residuals.deviance[level]});
+    goodness.residuals.push_back(
+        {levels.intensity[level], residuals.fitted[level], residuals.deviance[level]});
   }
   if (goodness.degrees_of_freedom > 0) {
     goodness.overdispersion = residuals.pearson / goodness.degrees_of_freedom;

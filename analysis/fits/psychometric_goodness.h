@@ -7,6 +7,10 @@ namespace jnd::analysis {
 /// Twice the log-likelihood that the saturated model, each level's own proportion, has more.
 [[nodiscard]] double deviance_of(const PsychometricLevels& levels, double log_likelihood);
 
+/// Levels minus parameters that are free; a lapse rate on its bound 0 is not.
+[[nodiscard]] int residual_degrees_of_freedom(const PsychometricLevels& levels,
+                                              const FreeParameters& free, double lapse);
+
 /// Residuals, overdispersion and, with `num_redraws` > 0, how often data drawn from the fitted
 /// curve and refitted lie at least as far off: chi-squared does not hold at few answers a level
 /// (Wichmann and Hill 2001). A refit without an optimum has the deviance of its limit.

@@ -14,6 +14,8 @@ constexpr double kLargestLog = 700.0;  ///< exp of more would leave the range of
 constexpr double kStepZ = 40.0;        ///< Neighbouring levels this many z apart: a step.
 /// A curve over the intensity itself that rises less than this from end to end is flat.
 constexpr double kFlattestLinear = 1e-6;
+/// A linear curve's Weber fraction beyond this is none: its pse is all but 0.
+constexpr double kLargestLinearFraction = 1e6;
 
 /// Where `excess`, < 0 at `from`, first is 0 when going by growing steps toward `limit`; absent
 /// if it is not by then.
@@ -74,6 +76,52 @@ class SlopeProfile {
   PsychometricCurve last_;
 };
 
+/// Cost of a curve over the intensity itself at a given Weber fraction, at its best over what
+/// else is free. With the abscissa's origin at intensity 0 the offset is -jnd / w, whatever the
+/// slope.
+class LinearFractionProfile {
+ public:
+  LinearFractionProfile(const PsychometricLevels& levels, PsychometricMethod method,
+                        const FreeParameters& free, const PsychometricCurve& start)
+      : levels_(from_zero(levels)),
+        method_(method),
+        free_{true, false, free[2]},
+        last_{start.slope, start.offset - start.slope * levels.origin / levels.unit,
+              start.lapse} {}
+
+  /// ln(1 / w) of the curve it starts from.
+  [[nodiscard]] double start() const noexcept {
+    return std::log(-last_.offset / sigmoid_jnd(levels_.sigmoid));
+  }
+
+  double operator()(double minus_log_fraction) {
+    const double offset = -sigmoid_jnd(levels_.sigmoid) * std::exp(minus_log_fraction);
+    // The same pse with a steeper or a flatter curve.
+    const PsychometricCurve start = {last_.slope * offset / last_.offset, offset, last_.lapse};
+    PsychometricOptimum best = minimised_by_newton(levels_, method_, free_, start);
+    if (free_[2]) {
+      PsychometricCurve with_lapses = start;
+      with_lapses.lapse = 0.05;
+      const PsychometricOptimum other =
+          minimised_by_newton(levels_, method_, free_, with_lapses);
+      if (other.cost.value < best.cost.value) best = other;
+    }
+    last_ = best.curve;
+    return best.cost.value;
+  }
+
+ private:
+  static PsychometricLevels from_zero(PsychometricLevels levels) {
+    for (double& place : levels.abscissa) place += levels.origin / levels.unit;
+    return levels;
+  }
+
+  PsychometricLevels levels_;
+  PsychometricMethod method_;
+  FreeParameters free_;
+  PsychometricCurve last_;
+};
+
 /// Cost at a given pse, `place` = ln(pse / origin) / unit.
 class PseProfile {
  public:
@@ -108,22 +156,40 @@ class PseProfile {
   PsychometricCurve last_;
 };
 
+Interval linear_interval(const PsychometricLevels& levels, PsychometricMethod method,
+                         const FreeParameters& free, const PsychometricOptimum& optimum,
+                         double drop) {
+  const double level = optimum.cost.value + drop;
+  const LinearFractionProfile at_optimum(levels, method, free, optimum.curve);
+  const double from = at_optimum.start();
+  const double steepest =
+      from + std::log(kStepZ / (optimum.curve.slope * levels.smallest_gap(free[1])));
+  const auto end = [&](double limit) -> std::optional<double> {
+    LinearFractionProfile profile = at_optimum;
+    const std::optional<double> found =
+        crossing([&](double place) { return profile(place) - level; }, from, 0.1, limit);
+    return found ? std::optional(std::exp(-*found)) : std::nullopt;
+  };
+  return {.low = end(std::max(steepest, from + 1.0)),
+          .high = end(std::min(-std::log(kLargestLinearFraction), from))};
+}
+
 }  // namespace
 
 Interval weber_fraction_interval(const PsychometricLevels& levels, PsychometricMethod method,
                                  const FreeParameters& free, const PsychometricOptimum& optimum,
                                  double drop) {
+  if (!levels.logarithmic()) return linear_interval(levels, method, free, optimum, drop);
   const double level = optimum.cost.value + drop;
   const double log_slope = std::log(optimum.curve.slope);
-  const double flattest =
-      std::log(levels.logarithmic() ? levels.unit / kLargestLog : kFlattestLinear);
+  const double flattest = std::log(levels.unit / kLargestLog);
   const double steepest = std::log(kStepZ / levels.smallest_gap(free[1]));
   const auto end = [&](double limit) -> std::optional<double> {
     SlopeProfile profile(levels, method, free, optimum.curve);
     const std::optional<double> found =
         crossing([&](double place) { return profile(place) - level; }, log_slope, 0.1, limit);
     if (!found) return std::nullopt;
-    return levels.weber_fraction_at(std::exp(*found));
+    return levels.weber_fraction_at(std::exp(*found), optimum.curve.pse(levels));
   };
   return {.low = end(std::max(steepest, log_slope + 1.0)),
           .high = end(std::min(flattest, log_slope))};

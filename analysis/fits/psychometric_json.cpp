@@ -50,6 +50,7 @@ Json to_json(const PsychometricPosterior& posterior) {
 
 void add_psychometric_details(Json& json, const PsychometricFit& fit) {
   json["family"] = traits_of(fit.family).name;
+  json["weber_fraction_meaning"] = kWeberFractionMeaning;
   json["parameters"] = Json::object();
   for (const PsychometricFit::Parameter& one : fit.parameters) {
     json["parameters"][std::string(one.name)] = number(one.value);
@@ -68,7 +69,10 @@ void add_psychometric_details(Json& json, const PsychometricFit& fit) {
 }
 
 Json to_json(const std::vector<PsychometricEffect>& effects) {
-  Json json = {{"status", to_string(FitStatus::kOk)}, {"effects", Json::array()}};
+  Json json = {{"status", to_string(FitStatus::kOk)},
+               {"ci95_method", kEffectInterval},
+               {"p_value_method", kEffectTest},
+               {"effects", Json::array()}};
   for (const PsychometricEffect& effect : effects) {
     if (effect.status != FitStatus::kOk) json["status"] = to_string(effect.status);
     json["effects"].push_back({{"name", effect.name},

@@ -143,9 +143,10 @@ double PsychometricLevels::intensity_at(double place) const noexcept {
   return logarithmic() ? origin * std::exp(place * unit) : origin + place * unit;
 }
 
-double PsychometricLevels::weber_fraction_at(double slope) const noexcept {
+double PsychometricLevels::weber_fraction_at(double slope, double pse) const noexcept {
   const double step = sigmoid_jnd(sigmoid) * unit / slope;
-  return logarithmic() ? std::expm1(step) : step / reference;
+  if (logarithmic()) return std::expm1(step);
+  return pse > 0.0 ? step / pse : std::numeric_limits<double>::infinity();
 }
 
 PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double reference,
@@ -178,6 +179,7 @@ PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double re
   }
   double largest = 0.0;
   for (const auto& [intensity, count] : by_intensity) {
+    levels.intensity.push_back(intensity);
     levels.abscissa.push_back(logarithmic ? log_ratio(intensity, levels.origin)
                                           : intensity - levels.origin);
     levels.num_yes.push_back(count.num_yes);
@@ -192,7 +194,7 @@ PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double re
 }
 
 double PsychometricCurve::weber_fraction(const PsychometricLevels& levels) const noexcept {
-  return levels.weber_fraction_at(slope);
+  return levels.weber_fraction_at(slope, pse(levels));
 }
 
 double PsychometricCurve::pse(const PsychometricLevels& levels) const noexcept {

@@ -16,7 +16,8 @@ struct PsychometricLevels {
   double reference = 1.0;
   double origin = 1.0;  ///< Intensity at abscissa 0: the reference, or a level if pse is free.
   double unit = 1.0;    ///< Largest |ln(x / origin)|, or |x - origin|; 1 if that is 0.
-  std::vector<double> abscissa;  ///< ln(x / origin) / unit, or (x - origin) / unit.
+  std::vector<double> intensity;  ///< As it was given.
+  std::vector<double> abscissa;   ///< ln(x / origin) / unit, or (x - origin) / unit.
   std::vector<double> num_yes, num_trials;
   /// Of the level at intensity 0, which a logarithmic family keeps apart.
   double zero_yes = 0.0, zero_trials = 0.0;
@@ -30,9 +31,9 @@ struct PsychometricLevels {
   [[nodiscard]] bool logarithmic() const noexcept { return traits_of(family).logarithmic; }
   /// Intensity at a place on the abscissa, which may leave the range of numbers.
   [[nodiscard]] double intensity_at(double place) const noexcept;
-  /// Relative step from the pse, or for a linear family step over the reference, at which a
-  /// curve of this slope is 84.13 %.
-  [[nodiscard]] double weber_fraction_at(double slope) const noexcept;
+  /// (x84.13 - pse) / pse of a curve of this slope, which on a logarithmic abscissa is the same
+  /// at every pse. Infinite for a pse that is not > 0.
+  [[nodiscard]] double weber_fraction_at(double slope, double pse) const noexcept;
 };
 
 /// Pools the rows. Throws `core::Error` as `fit_psychometric` says.

@@ -65,7 +65,9 @@ double log_likelihood_of(const PsychometricLevels& levels, const std::vector<dou
 }
 
 /// Posterior over the grid, up to a factor, integrated over all but one parameter, for each.
-Marginals marginals_over(const PsychometricLevels& levels, const Axes& axes) {
+/// `joint` is given that of the first two, the place within the slope.
+Marginals marginals_over(const PsychometricLevels& levels, const Axes& axes,
+                         std::vector<double>* joint = nullptr) {
   std::vector<double> log_density;
   log_density.reserve(axes[0].size * axes[1].size * axes[2].size);
   std::vector<double> lower(levels.size()), upper(levels.size());
@@ -89,6 +91,7 @@ Marginals marginals_over(const PsychometricLevels& levels, const Axes& axes) {
   }
   Marginals marginals;
   for (std::size_t axis = 0; axis < 3; ++axis) marginals[axis].assign(axes[axis].size, 0.0);
+  if (joint != nullptr) joint->assign(axes[0].size * axes[1].size, 0.0);
   std::size_t place = 0;
   for (std::size_t i = 0; i < axes[0].size; ++i) {
     for (std::size_t j = 0; j < axes[1].size; ++j) {
@@ -97,6 +100,7 @@ Marginals marginals_over(const PsychometricLevels& levels, const Axes& axes) {
         marginals[0][i] += density * axes[1].weight(j) * axes[2].weight(k);
         marginals[1][j] += density * axes[0].weight(i) * axes[2].weight(k);
         marginals[2][k] += density * axes[0].weight(i) * axes[1].weight(j);
+        if (joint != nullptr) (*joint)[i * axes[1].size + j] += density * axes[2].weight(k);
       }
     }
   }
@@ -186,6 +190,73 @@ double quantile_of(Axis axis, const std::vector<double>& coarse, double probabil
   return axis.at(cell) + h * 0.5 * (low + high);
 }
 
+/// Integral up to `x`: Hermite's cubic with the density as slope.
+double cumulated_at(const Axis& axis, const std::vector<double>& density,
+                    const std::vector<double>& sum, double x) {
+  if (!(x > axis.low)) return 0.0;
+  if (!(x < axis.high)) return sum.back();
+  const double h = axis.step();
+  const auto cell = std::min(static_cast<std::size_t>((x - axis.low) / h), sum.size() - 2);
+  const double t = (x - axis.at(cell)) / h, u = 1.0 - t;
+  return sum[cell] * (1.0 + 2.0 * t) * u * u + sum[cell + 1] * t * t * (3.0 - 2.0 * t) +
+         h * t * u * (u * density[cell] - t * density[cell + 1]);
+}
+
+/// Over the intensity itself w is spread / pse: its distribution is that of ln spread, shifted
+/// by ln pse, over all places. A pse that is not > 0 counts as w without bound.
+class LinearFraction {
+ public:
+  LinearFraction(const PsychometricLevels& levels, const Axes& axes) : axis_(axes[0]) {
+    std::vector<double> joint;
+    (void)marginals_over(levels, axes, &joint);
+    for (std::size_t j = 0; j < axes[1].size; ++j) {
+      Column column;
+      for (std::size_t i = 0; i < axis_.size; ++i) {
+        column.density.push_back(joint[i * axes[1].size + j]);
+      }
+      column.sum = cumulated(axis_, column.density);
+      column.weight = axes[1].weight(j);
+      all_ += column.weight * column.sum.back();
+      const double pse = levels.intensity_at(axes[1].at(j));
+      if (!(pse > 0.0)) continue;
+      column.shift = std::log(pse / (sigmoid_jnd(levels.sigmoid) * levels.unit));
+      columns_.push_back(std::move(column));
+    }
+  }
+
+  [[nodiscard]] std::optional<double> quantile(double probability) const {
+    double low = kInfinity, high = -kInfinity;
+    for (const Column& column : columns_) {
+      low = std::min(low, axis_.low - column.shift);
+      high = std::max(high, axis_.high - column.shift);
+    }
+    if (!(low < high) || share_below(high) < probability) return std::nullopt;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (share_below(middle) < probability ? low : high) = middle;
+    }
+    return std::exp(0.5 * (low + high));
+  }
+
+ private:
+  struct Column {
+    std::vector<double> density, sum;
+    double weight = 0.0, shift = 0.0;
+  };
+  [[nodiscard]] double share_below(double log_fraction) const {
+    double sum = 0.0;
+    for (const Column& column : columns_) {
+      sum += column.weight *
+             cumulated_at(axis_, column.density, column.sum, log_fraction + column.shift);
+    }
+    return sum / all_;
+  }
+
+  Axis axis_;
+  std::vector<Column> columns_;
+  double all_ = 0.0;
+};
+
 std::string words_of_priors(const PsychometricLevels& levels, const FreeParameters& free) {
   const std::string of = levels.logarithmic() ? "logarithms of the levels" : "levels";
   std::string words = "ln spread of the curve uniform from a quarter of the smallest step " +
@@ -216,16 +287,22 @@ PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
     }
     marginals = marginals_over(levels, axes);
   }
-  const auto fraction = [&](double log_spread) {
-    return levels.weber_fraction_at(std::exp(-log_spread));
-  };
   const auto quantile = [&](std::size_t axis, double probability) {
     return quantile_of(axes[axis], marginals[axis], probability);
   };
   posterior.status = FitStatus::kOk;
   posterior.priors = words_of_priors(levels, free);
-  posterior.weber_fraction = fraction(quantile(0, 0.5));
-  posterior.weber_fraction_ci95 = {fraction(quantile(0, 0.025)), fraction(quantile(0, 0.975))};
+  if (levels.logarithmic()) {
+    const auto fraction = [&](double probability) {
+      return levels.weber_fraction_at(std::exp(-quantile(0, probability)), levels.origin);
+    };
+    posterior.weber_fraction = fraction(0.5);
+    posterior.weber_fraction_ci95 = {fraction(0.025), fraction(0.975)};
+  } else {
+    const LinearFraction fraction(levels, axes);
+    posterior.weber_fraction = fraction.quantile(0.5);
+    posterior.weber_fraction_ci95 = {fraction.quantile(0.025), fraction.quantile(0.975)};
+  }
   if (free[1]) {
     posterior.pse = levels.intensity_at(quantile(1, 0.5));
     posterior.pse_ci95 = Interval{levels.intensity_at(quantile(1, 0.025)),

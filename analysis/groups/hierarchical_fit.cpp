@@ -264,6 +264,37 @@ void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
   }
 }
 
+/// Why a condition's answers have no curve, whatever its pse; "" if nothing forbids one.
+std::string why_no_curve(const Arranged& all) {
+  for (std::size_t condition = 0; condition < all.conditions.size(); ++condition) {
+    const auto& rows = all.pooled[condition];
+    const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
+    const auto every = [](const AnswerCount& row) { return row.num_yes == row.num_trials; };
+    if (!std::ranges::all_of(rows, none) && !std::ranges::all_of(rows, every)) continue;
+    const std::string& name = all.conditions[condition];
+    return (name.empty() ? "" : name + ": ") +
+           "all alike: everybody's every answer is the same, so nothing tells how fine the "
+           "discrimination is";
+  }
+  return "";
+}
+
+/// One person says nothing of a median person: no value for such a condition, nor for a
+/// difference with it.
+void leave_out_single_people(HierarchicalFit& fit) {
+  for (HierarchicalCondition& one : fit.conditions) {
+    if (one.num_participants >= 2) continue;
+    one.weber_fraction.reset();
+    one.pse.reset();
+    if (one.pse_ci95) one.pse_ci95 = Interval{};
+    fit.note += (fit.note.empty() ? "" : "; ") + one.condition +
+                ": no value, for one participant says nothing of how people differ";
+    std::erase_if(fit.differences, [&](const HierarchicalDifference& difference) {
+      return difference.first == one.condition || difference.second == one.condition;
+    });
+  }
+}
+
 std::string method_of(const HierarchicalOptions& options, int num_nodes) {
   std::string words = options.link == HierarchicalLink::kLogSlope
                           ? "probit, ln slope normal between people"
@@ -303,6 +334,8 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
     fit.reason = "fewer than two participants with answers: how people differ is unknown";
     return fit;
   }
+  fit.reason = why_no_curve(all);
+  if (!fit.reason.empty()) return fit;
   const HierarchicalStructure structure = structure_of(num_conditions, options);
   fit.num_nodes =
       options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
@@ -319,6 +352,7 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   fill_conditions(fit, all, structure, found, options);
   fill_differences(fit, found, options.link);
   fill_spread(fit, structure, found);
+  leave_out_single_people(fit);
   const std::vector<Eigen::VectorXd> modes = likelihood.modes(found.parameters);
   for (std::size_t person = 0; person < all.people.size(); ++person) {
     for (const HierarchicalCell& cell : all.people[person]) {

@@ -26,13 +26,19 @@ family_case <- function(name, family, data, reference) {
   fit <- glm(answers ~ u, family = binomial(f$link), control = control)
   slope <- unname(coef(fit)[2])
   median <- unname((f$z0 - coef(fit)[1]) / slope)
-  weber <- function(slope) if (family == "gauss") f$jnd / slope / reference else expm1(f$jnd / slope)
+  # (x84.13 - pse) / pse: of gauss the standard deviation over the pse.
+  weber <- function(slope, median) if (family == "gauss") f$jnd / slope / median else
+    expm1(f$jnd / slope)
   at_slope <- function(s) deviance(glm(answers ~ 1 + offset(s * u), family = binomial(f$link),
                                        control = control)) - deviance(fit) - drop
   at_median <- function(m) deviance(glm(answers ~ 0 + I(u - m) + offset(rep(f$z0, length(u))),
                                         family = binomial(f$link), start = slope,
                                         control = control)) - deviance(fit) - drop
   slopes <- c(root(at_slope, slope * 0.2, slope), root(at_slope, slope, slope * 4))
+  # Of gauss z = slope x - 1 / w: at a given w one slope is left, by glm through an offset.
+  at_fraction <- function(w) deviance(glm(answers ~ 0 + u + offset(rep(-1 / w, length(u))),
+                                          family = binomial(f$link), start = 1 / w / median,
+                                          control = control)) - deviance(fit) - drop
   reach <- diff(range(u))
   medians <- c(root(at_median, median - 0.5 * reach, median),
                root(at_median, median, median + 0.5 * reach))
@@ -40,10 +46,15 @@ family_case <- function(name, family, data, reference) {
     p <- binomial(f$link)$linkinv(f$z0 + at[2] * (u - median) - at[1])
     -sum(data$k * log(p) + (data$n - data$k) * log1p(-p))
   }
-  variance <- solve(hessian(minus, c(0, slope)))[2, 2]
-  expected <- list(weber_fraction = weber(slope), pse = f$back(median),
-                   weber_fraction_ci95 = weber(rev(slopes)), pse_ci95 = f$back(medians),
-                   standard_error = abs(grad(weber, slope)) * sqrt(variance),
+  w <- weber(slope, median)
+  fractions <- if (family == "gauss") c(root(at_fraction, w * 0.5, w), root(at_fraction, w, w * 2)) else
+    weber(rev(slopes), median)
+  # At the curve c(at, slope) the median is median + at / slope.
+  by_curve <- grad(function(at) weber(at[2], median + at[1] / at[2]), c(0, slope))
+  variance <- drop(by_curve %*% solve(hessian(minus, c(0, slope))) %*% by_curve)
+  expected <- list(weber_fraction = w, pse = f$back(median),
+                   weber_fraction_ci95 = fractions, pse_ci95 = f$back(medians),
+                   standard_error = sqrt(variance),
                    log_likelihood = -minus(c(0, slope)), deviance = deviance(fit),
                    overdispersion = sum(residuals(fit, "pearson")^2) / fit$df.residual)
   parameters <- if (family == "gauss") list(mean = median, standard_deviation = 1 / slope) else

@@ -71,10 +71,11 @@ TEST(FitData, ComparesNoCountsThatHaveBeenRefused) {
         CsvTable::parse("intensity,num_yes,num_trials\n1,1e305,1e300\n1,1,-1\n", "t.csv"));
     FAIL() << "counts beyond every integer were accepted";
   } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "t.csv:2: num_yes: expected a whole number >= 0, found \"1e305\"\n"
-                 "t.csv:2: num_trials: expected a whole number >= 0, found \"1e300\"\n"
-                 "t.csv:3: num_trials: expected a whole number >= 0, found \"-1\"");
+    EXPECT_STREQ(
+        error.what(),
+        "t.csv:2: num_yes: expected a whole number of at most 1e15, found \"1e305\"\n"
+        "t.csv:2: num_trials: expected a whole number of at most 1e15, found \"1e300\"\n"
+        "t.csv:3: num_trials: expected a whole number >= 0, found \"-1\"");
   }
 }
 

@@ -317,5 +317,70 @@ TEST(PsychometricFit, RefusesDataThatAreNoCounts) {
   EXPECT_THROW((void)fit({{1.0, 0, 1}}, std::nan("")), core::Error);
 }
 
+TEST(PsychometricFit, OfEveryFamilyTheWeberFractionIsTheStepFromThePseOverThePse) {
+  const std::vector<AnswerCount> data = {
+      {2, 1, 20}, {3, 5, 20}, {4, 11, 20}, {5, 15, 20}, {6, 19, 20}};
+  for (const PsychometricFamily family :
+       {PsychometricFamily::kWeber, PsychometricFamily::kGauss, PsychometricFamily::kWeibull}) {
+    // The reference is not the pse, and the fraction does not know it.
+    for (const double reference : {2.5, 9.0}) {
+      const PsychometricFit found =
+          fit_psychometric(data, {.reference = reference, .family = family, .free_pse = true});
+      ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+      const double x84 = *found.pse * (1.0 + *found.weber_fraction);
+      double f = core::standard_normal_cdf(std::log(x84 / *found.pse) /
+                                           std::log1p(*found.weber_fraction));
+      if (family == PsychometricFamily::kGauss) {
+        f = core::standard_normal_cdf((x84 - found.parameters[0].value) /
+                                      found.parameters[1].value);
+      } else if (family == PsychometricFamily::kWeibull) {
+        f = -std::expm1(-std::pow(x84 / found.parameters[0].value, found.parameters[1].value));
+      }
+      EXPECT_NEAR(f, core::standard_normal_cdf(1.0), 1e-9) << traits_of(family).name;
+    }
+  }
+}
+
+TEST(PsychometricFit, AGaussianWhosePseIsNotAboveZeroHasNoWeberFraction) {
+  const PsychometricFit found =
+      fit_psychometric({{1, 12, 20}, {2, 14, 20}, {3, 15, 20}},
+                       {.reference = 2.0, .family = PsychometricFamily::kGauss});
+  EXPECT_EQ(found.status, FitStatus::kDegenerate);
+  EXPECT_THAT(found.reason, HasSubstr("not above 0"));
+  EXPECT_FALSE(found.weber_fraction.has_value());
+}
+
+TEST(PsychometricFit, AnswersAllAlikeAreNotCalledInverted) {
+  for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
+    const PsychometricFit no = fit({{1, 0, 5}, {2, 0, 5}, {3, 0, 5}, {4, 0, 5}}, 2.0, method);
+    EXPECT_EQ(no.status, FitStatus::kDegenerate);
+    EXPECT_THAT(no.reason, StartsWith("all alike"));
+  }
+}
+
+TEST(PsychometricFit, DoubtfulValuesCarryANote) {
+  const auto notes = [](const std::vector<AnswerCount>& data) {
+    const PsychometricFit found = fit(data, 2.0);
+    EXPECT_EQ(found.status, FitStatus::kOk) << found.reason;
+    std::string all;
+    for (const std::string& warning : found.warnings) all += warning + "\n";
+    return all;
+  };
+  const std::string yes = notes({{1, 5, 5}, {2, 5, 5}, {3, 5, 5}, {4, 5, 5}});
+  EXPECT_THAT(yes, HasSubstr("every answer is the same"));
+  EXPECT_THAT(yes, HasSubstr("beyond the stimuli"));
+  EXPECT_THAT(yes, HasSubstr("farther from the curve"));  // Deviance 27 on 3 degrees.
+  const std::string jumps = notes({{1, 0, 5}, {2, 5, 5}, {3, 0, 5}, {4, 5, 5}});
+  EXPECT_THAT(jumps, HasSubstr("beyond the stimuli"));
+  EXPECT_THAT(jumps, HasSubstr("farther from the curve"));
+  EXPECT_EQ(notes({{1, 2, 20}, {2, 10, 20}, {3, 15, 20}, {4, 19, 20}}), "");
+}
+
+TEST(PsychometricFit, WithAFixedPseTooFewLevelsAreToldOfSlopeAndLapseAlone) {
+  const PsychometricFit found = fit({{2.0, 8, 10}}, 1.0, kLikelihood, false, true);
+  EXPECT_EQ(found.reason,
+            "too few rows: slope and lapse rate cannot be told apart with so few levels");
+}
+
 }  // namespace
 }  // namespace jnd::analysis

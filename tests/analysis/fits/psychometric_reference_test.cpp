@@ -132,5 +132,47 @@ TEST(PsychometricReference, ThePosteriorAgreesWithIntegration) {
   expect_quantiles(*free.pse_ci95, *free.pse, expected.at("free_pse"));
 }
 
+TEST(PsychometricReference, TheGaussianPosteriorOfTheWeberFractionIsThatOfSpreadOverPse) {
+  const json& one = reference().at("families")[0];
+  const std::vector<AnswerCount> rows = rows_of(one.at("data"));
+  const PsychometricPosterior found =
+      fit_psychometric(
+          rows, {.reference = 3.0, .family = PsychometricFamily::kGauss, .posterior = true})
+          .posterior;
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  // By sums over a fine grid of ln spread and pse, within priors that are far wider.
+  constexpr int kSteps = 600;
+  std::vector<std::pair<double, double>> fraction_and_weight;
+  double all = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double spread = std::exp(std::log(0.5) + (i + 0.5) / kSteps * std::log(6.0));
+    for (int j = 0; j < kSteps; ++j) {
+      const double pse = 2.0 + (j + 0.5) / kSteps * 2.2;
+      double log_likelihood = 43.2;
+      for (const AnswerCount& row : rows) {
+        const double z = (row.intensity - pse) / spread / std::sqrt(2.0);
+        const auto yes = static_cast<double>(row.num_yes);
+        const double no = static_cast<double>(row.num_trials) - yes;
+        if (yes > 0.0) log_likelihood += yes * std::log(0.5 * std::erfc(-z));
+        if (no > 0.0) log_likelihood += no * std::log(0.5 * std::erfc(z));
+      }
+      fraction_and_weight.emplace_back(spread / pse, std::exp(log_likelihood));
+      all += fraction_and_weight.back().second;
+    }
+  }
+  std::sort(fraction_and_weight.begin(), fraction_and_weight.end());
+  const auto quantile = [&](double probability) {
+    double sum = 0.0;
+    for (const auto& [fraction, weight] : fraction_and_weight) {
+      sum += weight;
+      if (sum >= probability * all) return fraction;
+    }
+    return 0.0;
+  };
+  EXPECT_NEAR(*found.weber_fraction, quantile(0.5), 2e-3 * quantile(0.5));
+  EXPECT_NEAR(*found.weber_fraction_ci95.low, quantile(0.025), 2e-3 * quantile(0.025));
+  EXPECT_NEAR(*found.weber_fraction_ci95.high, quantile(0.975), 2e-3 * quantile(0.975));
+}
+
 }  // namespace
 }  // namespace jnd::analysis

@@ -241,5 +241,36 @@ TEST(HierarchicalFit, ReferencesThatDifferAndTooManyConditionsAreRefused) {
   EXPECT_EQ(shared.differences.size(), 2U);
 }
 
+TEST(HierarchicalFit, AnswersAllAlikeAreDegenerateAndNotCalledInverted) {
+  for (const bool yes : {false, true}) {
+    for (const HierarchicalPse pse :
+         {HierarchicalPse::kReference, HierarchicalPse::kPersonal}) {
+      std::vector<ParticipantAnswers> all;
+      for (const char* name : {"P1", "P2", "P3"}) {
+        all.push_back({name, "", 2.0, {{1, 0, 5}, {2, 0, 5}, {3, 0, 5}, {4, 0, 5}}});
+        for (AnswerCount& row : all.back().rows) row.num_yes = yes ? 5 : 0;
+      }
+      const HierarchicalFit fit = fit_hierarchical(all, {.pse = pse});
+      EXPECT_EQ(fit.status, FitStatus::kDegenerate);
+      EXPECT_TRUE(fit.reason.starts_with("all alike")) << fit.reason;
+    }
+  }
+}
+
+TEST(HierarchicalFit, AConditionOfOnePersonHasNoValueAndNoDifference) {
+  std::vector<ParticipantAnswers> all;
+  for (const auto& [name, w] : {std::pair{"P1", 0.4}, {"P2", 0.6}, {"P3", 0.5}}) {
+    all.push_back(exact_answers(name, w, 1.0, 40, "d"));
+  }
+  all.push_back(exact_answers("P1", 0.3, 1.0, 40, "e"));
+  const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_TRUE(fit.conditions[0].weber_fraction.has_value());
+  EXPECT_FALSE(fit.conditions[1].weber_fraction.has_value());
+  EXPECT_FALSE(fit.conditions[1].pse.has_value());
+  EXPECT_TRUE(fit.differences.empty());
+  EXPECT_NE(fit.note.find("e: no value"), std::string::npos) << fit.note;
+}
+
 }  // namespace
 }  // namespace jnd::analysis

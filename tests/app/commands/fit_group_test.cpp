@@ -91,6 +91,8 @@ TEST_F(FitGroupCommandTest, EffectsOfTrialAndIntervalOrderComeWhereTheTableHasTh
   ASSERT_EQ(json["effects"].size(), 4U);
   EXPECT_EQ(json["effects"][1]["name"], "interval_order");
   EXPECT_TRUE(json["effects"][3]["p_value"].is_number());
+  EXPECT_EQ(json["ci95_method"], "Wald");
+  EXPECT_EQ(json["p_value_method"], "likelihood ratio");
 }
 
 constexpr char kAnswers[] =
@@ -102,7 +104,9 @@ TEST_F(FitGroupCommandTest, WeberTakesOtherFamilies) {
       document(fit({"weber", "--csv", "a.csv", "--reference", "8", "--family", "gauss"}).out);
   EXPECT_EQ(gauss["family"], "gauss");
   EXPECT_NEAR(gauss["parameters"]["standard_deviation"].get<double>(),
-              8.0 * gauss["weber_fraction"].get<double>(), 1e-9);
+              gauss["pse"].get<double>() * gauss["weber_fraction"].get<double>(), 1e-9);
+  EXPECT_NE(gauss["weber_fraction_meaning"].get<std::string>().find("(x84.13 - pse) / pse"),
+            std::string::npos);
   EXPECT_TRUE(gauss["pse_ci95"].is_array());
   const auto weibull =
       document(fit({"weber", "--csv", "a.csv", "--reference", "8", "--family", "weibull"}).out);
