@@ -6,6 +6,7 @@
 #include <span>
 #include <tuple>
 
+#include "analysis/fits/bounded_interval.h"
 #include "app/results_basis.h"
 #include "app/results_output.h"
 
@@ -19,7 +20,8 @@ std::string text(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.4f}", *value) : "-";
 }
 
-std::string text(const Interval& ci95) {
+std::string text(const Interval& whole, const std::optional<double>& value) {
+  const Interval ci95 = analysis::bounded_by_data(whole, value);
   if (!ci95.low && !ci95.high) return "-";
   return fmt::format("{} .. {}", ci95.low ? text(ci95.low) : "open",
                      ci95.high ? text(ci95.high) : "open");
@@ -57,7 +59,8 @@ std::string header() {
 
 std::string row(const Estimate& estimate) {
   const std::optional<bool> inside = holds_published(estimate);
-  return fmt::format(kRow, estimate.name, text(estimate.value), text(estimate.ci95),
+  return fmt::format(kRow, estimate.name, text(estimate.value),
+                     text(estimate.ci95, estimate.value),
                      estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
                      inside ? (*inside ? "yes" : "no") : "");
 }
@@ -66,7 +69,7 @@ std::string row(const Estimate& estimate) {
 std::string explained_row(const Estimate& estimate) {
   std::string line =
       fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name,
-                  text(estimate.value), text(estimate.ci95),
+                  text(estimate.value), text(estimate.ci95, estimate.value),
                   estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
   if (is_published(estimate)) line += "; published " + published_text(estimate);
   return line + "\n";
@@ -81,7 +84,7 @@ std::string effect_text(const analysis::Comparison& c) {
   for (const auto& [name, value, ci95] : kEffects) {
     if (!value) continue;
     if (!ci95.low && !ci95.high) return fmt::format(", {} {}", name, text(value));
-    return fmt::format(", {} {} ({})", name, text(value), text(ci95));
+    return fmt::format(", {} {} ({})", name, text(value), text(ci95, value));
   }
   return "";
 }
@@ -93,17 +96,18 @@ std::string comparison_row(const analysis::NamedComparison& named) {
     return fmt::format("  {}: {}\n", named.name, c.reason);
   }
   std::string line = fmt::format("  {}: ", named.name);
+  if (!named.family.empty()) line = fmt::format("  {} [{}]: ", named.name, named.family);
   if (c.hodges_lehmann) {
     line += fmt::format("Hodges-Lehmann {} ({}), {} = {:.1f}, ", text(c.hodges_lehmann),
-                        text(c.hodges_lehmann_ci95),
+                        text(c.hodges_lehmann_ci95, c.hodges_lehmann),
                         c.kind == Kind::kRankSum ? "U" : "smaller sum of ranks",
                         c.statistic.value_or(0.0));
   } else {
     const bool correlation = c.kind == Kind::kPearson || c.kind == Kind::kSpearman;
     const char* what = correlation ? "r" : c.kind == Kind::kOneSample ? "mean" : "difference";
-    line +=
-        fmt::format("{} {} ({}), t({:.1f}) = {:.2f}, ", what, text(c.estimate), text(c.ci95),
-                    c.degrees_of_freedom.value_or(0.0), c.statistic.value_or(0.0));
+    line += fmt::format("{} {} ({}), t({:.1f}) = {:.2f}, ", what, text(c.estimate),
+                        text(c.ci95, c.estimate), c.degrees_of_freedom.value_or(0.0),
+                        c.statistic.value_or(0.0));
   }
   line += p_text(c.p_value) + effect_text(c);
   if (named.p_value_holm) line += fmt::format(", Holm {}", p_text(named.p_value_holm));
@@ -166,7 +170,7 @@ std::string participants_rows(const analysis::ResultsSection& section) {
   for (const analysis::ParticipantEstimate& own : section.participants) {
     if (std::ranges::find(plain, own.name) != plain.end()) continue;
     table += fmt::format("  {:<46} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
-                         text(own.value), text(own.ci95), own.reason);
+                         text(own.value), text(own.ci95, own.value), own.reason);
   }
   for (std::size_t first = 0; first < plain.size();) {
     std::size_t end = first + 1;
@@ -178,6 +182,13 @@ std::string participants_rows(const analysis::ResultsSection& section) {
     first = end;
   }
   return table;
+}
+
+/// What an open end means, where there is one.
+std::string note_of(const std::string& table) {
+  const bool any = table.find("open .. ") != std::string::npos ||
+                   table.find(" .. open") != std::string::npos;
+  return any ? fmt::format("\nopen: an end that is {}\n", analysis::kNotBounded) : "";
 }
 
 }  // namespace
@@ -198,7 +209,7 @@ std::string to_table(const analysis::StudyResults& results) {
       table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
     }
   }
-  return table;
+  return table + note_of(table);
 }
 
 std::string to_comparison_table(const analysis::StudyResults& results) {
@@ -228,7 +239,7 @@ std::string to_comparison_table(const analysis::StudyResults& results) {
       table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
     }
   }
-  return table;
+  return table + note_of(table);
 }
 
 }  // namespace jnd::app

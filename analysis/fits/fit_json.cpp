@@ -69,6 +69,7 @@ Json to_json(const PowerFit& fit) {
                                 {"magnitude", excluded.data.magnitude},
                                 {"reason", excluded.reason}});
   }
+  json["warnings"] = fit.warnings;
   return json;
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::string_view kTooFew =
     "too few rows: a power law needs two different intensities > 0";
+constexpr int kFewestRowsOfInterval = 4;
 constexpr std::string_view kOutOfRange = "k or a exceeds the range of numbers";
 
 /// Variances of intercept and slope of a line over x per unit of variance, the intercept's
@@ -68,6 +69,7 @@ void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, d
   const double a_error = std::sqrt(residual_variance * variance.slope);
   fit.k_standard_error = in_range(*fit.k * log_k_error, false);
   fit.a_standard_error = in_range(a_error, false);
+  if (fit.num_rows < kFewestRowsOfInterval) return;
   const double t = boost::math::quantile(
       boost::math::students_t(static_cast<double>(fit.num_rows - 2)), 0.975);
   fit.k_ci95 = {in_range(std::exp(log_k - t * log_k_error), true),
@@ -77,6 +79,9 @@ void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, d
 
 void fit_nonlinear(PowerFit& fit, const std::vector<Magnitude>& data, Solver solver) {
   fit.num_rows = static_cast<int>(data.size());
+  if (std::ranges::any_of(data, [](const Magnitude& row) { return row.magnitude < 0.0; })) {
+    fit.warnings.emplace_back("a magnitude lies below 0, which no power law reaches");
+  }
   const PowerMinimum minimum = power_minimum(data, solver);
   fit.status = minimum.status;
   fit.reason = minimum.reason;

@@ -43,11 +43,14 @@ struct PowerFit {
   /// nls: from sse/(n-2) (J^T J)^-1; loglog: of the line, for k by the delta method. Absent at
   /// two rows.
   std::optional<double> k_standard_error, a_standard_error;
-  /// By Student's t with n - 2 degrees of freedom; for k on ln k, so that it stays > 0.
+  /// By Student's t with n - 2 degrees of freedom; for k on ln k, so that it stays > 0. Open
+  /// below two degrees of freedom: at one t reaches 12.7 standard errors, of a standard error
+  /// that rests on a single number.
   Interval k_ci95, a_ci95;
   std::optional<double> r_squared;  ///< 1 - sse / sst; loglog: of the logarithms.
   std::vector<Excluded> excluded;
-  int num_rows = 0;  ///< Rows that were fitted.
+  std::vector<std::string> warnings;  ///< What a reader has to know, one sentence each.
+  int num_rows = 0;                   ///< Rows that were fitted.
 };
 
 /// Fits Stevens' power law S = k I^a, k > 0, with 0^a = 0. nls starts wherever a grid of

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/fits/bounded_interval.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -57,7 +59,8 @@ std::string shortest_words(double value) {
   return std::isfinite(value) ? typeset(digits_of(value)) : kNothing;
 }
 
-std::string interval_words(const Interval& ci95, const std::optional<double>& value) {
+std::string interval_words(const Interval& whole, const std::optional<double>& value) {
+  const Interval ci95 = bounded_by_data(whole, value);
   if (!ci95.low && !ci95.high) return kNothing;
   // As many decimals as the value, but none that a large end has no use for.
   const auto end = [&value](const std::optional<double>& number) {

@@ -20,8 +20,9 @@ namespace jnd::analysis {
 /// The shortest digits that give the value back, as it was published: 0.697.
 [[nodiscard]] std::string shortest_words(double value);
 
-/// "0.593 to 0.805" with no more decimals than `value`; an open end is said in words.
-[[nodiscard]] std::string interval_words(const Interval& ci95,
+/// "0.593 to 0.805" with no more decimals than `value`; an open end, also by
+/// `bounded_by_data`, is said in words.
+[[nodiscard]] std::string interval_words(const Interval& whole,
                                          const std::optional<double>& value);
 
 /// "0.71 (0.38 to 1.04)"; the value alone without an interval.

@@ -12,6 +12,7 @@
 #include "analysis/groups/comparison_data.h"
 #include "analysis/groups/multiplicity.h"
 #include "app/commands/commands.h"
+#include "app/commands/fit_words.h"
 #include "app/json_text.h"
 
 namespace jnd::app {
@@ -39,8 +40,8 @@ Comparison compared(const std::string& test, const analysis::ComparedColumns& co
   return analysis::paired_t_test(a, b);
 }
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4g}", *value) : "undefined";
+std::string defined(const std::optional<double>& value) {
+  return value ? number(value) : "undefined";
 }
 
 void print_interval(const char* name, const analysis::Interval& interval) {
@@ -51,7 +52,7 @@ void print_interval(const char* name, const analysis::Interval& interval) {
 void print_effect(const char* name, const std::optional<double>& value,
                   const analysis::Interval& interval) {
   if (!value) return;
-  fmt::print("  {:<24} {}\n", name, number(value));
+  fmt::print("  {:<24} {}\n", name, defined(value));
   print_interval("  95 %", interval);
 }
 
@@ -68,15 +69,15 @@ void print_for_people(const Comparison& result) {
   const char* difference = result.kind == Kind::kWelch || result.kind == Kind::kRankSum
                                ? "mean of a - mean of b"
                                : "mean of a - b";
-  fmt::print("  {:<24} {}\n", correlation ? "r" : difference, number(result.estimate));
+  fmt::print("  {:<24} {}\n", correlation ? "r" : difference, defined(result.estimate));
   print_interval("  95 %", result.ci95);
   print_effect("Hodges-Lehmann", result.hodges_lehmann, result.hodges_lehmann_ci95);
   if (result.status != analysis::FitStatus::kOk) return;
-  fmt::print("  {:<24} {}\n", statistic_name(result.kind), number(result.statistic));
+  fmt::print("  {:<24} {}\n", statistic_name(result.kind), defined(result.statistic));
   if (result.degrees_of_freedom) {
-    fmt::print("  {:<24} {}\n", "degrees of freedom", number(result.degrees_of_freedom));
+    fmt::print("  {:<24} {}\n", "degrees of freedom", defined(result.degrees_of_freedom));
   }
-  fmt::print("  {:<24} {}\n", "p, two-sided", number(result.p_value));
+  fmt::print("  {:<24} {}\n", "p, two-sided", defined(result.p_value));
   print_effect("Cohen's dz", result.cohen_dz, result.cohen_dz_ci95);
   print_effect("Hedges' g", result.hedges_g, result.hedges_g_ci95);
   print_effect("rank-biserial r", result.rank_biserial, {});
@@ -119,12 +120,12 @@ void print_for_people(const Tests& tests) {
   for (std::size_t i = 0; i < tests.results.size(); ++i) {
     std::string heading;
     for (const auto& [column, value] : tests.columns[i].key) {
-      heading += (heading.empty() ? "" : ", ") + column + " " + value;
+      heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
     }
     fmt::print("{}\n", heading);
     print_for_people(tests.results[i]);
     if (tests.p_values_holm[i]) {
-      fmt::print("  {:<24} {}\n", "p adjusted by Holm", number(tests.p_values_holm[i]));
+      fmt::print("  {:<24} {}\n", "p adjusted by Holm", defined(tests.p_values_holm[i]));
     }
   }
 }
@@ -176,7 +177,8 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       .add_option("--group-by", options->group_by,
                   "columns; one test for each of their values, p adjusted by Holm")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->option_text("COLUMN[,COLUMN,..]");
   compare.add_flag("--json", options->json, "print one JSON document");
   compare.callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

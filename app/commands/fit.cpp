@@ -38,10 +38,11 @@ struct Options {
 void print_posterior(const analysis::PsychometricPosterior& posterior) {
   if (posterior.status != FitStatus::kOk) return;
   fmt::print("  posterior       {:<8}  95 % {}, median of the Weber fraction\n",
-             number(posterior.weber_fraction), range(posterior.weber_fraction_ci95));
+             number(posterior.weber_fraction),
+             range(posterior.weber_fraction_ci95, posterior.weber_fraction));
   if (posterior.pse_ci95) {
     fmt::print("  posterior pse   {:<8}  95 % {}\n", number(posterior.pse),
-               range(*posterior.pse_ci95));
+               range(*posterior.pse_ci95, posterior.pse));
   }
   fmt::print("    priors: {}\n", posterior.priors);
   if (!posterior.note.empty()) fmt::print("    note: {}\n", posterior.note);
@@ -64,28 +65,51 @@ void print_details(const analysis::PsychometricFit& fit) {
   for (const std::string& warning : fit.warnings) fmt::print("  note: {}\n", warning);
 }
 
+/// Why least squares has no interval; "" if it has one.
+std::string why_no_interval(const analysis::PsychometricFit& fit) {
+  if (fit.method != analysis::PsychometricMethod::kLeastSquares) return "";
+  if (!fit.standard_error) return "no degree of freedom is left";
+  if (is_exact(fit.standard_error, fit.weber_fraction)) {
+    return "the curve passes through every level";
+  }
+  return "";
+}
+
+std::string why_no_interval(const analysis::PowerFit& fit) {
+  if (!fit.a_standard_error) return "no degree of freedom is left";
+  if (is_exact(fit.k_standard_error, fit.k)) return "the power law passes through every row";
+  const bool none = !fit.a_ci95.low && !fit.a_ci95.high;
+  return none ? "one degree of freedom is too few" : "";
+}
+
 void print_for_people(const analysis::PsychometricFit& fit, const Options& options) {
-  fmt::print("  {}, {} levels, {} trials\n",
+  fmt::print("  {}, {} level{}, {} trial{}\n",
              fit.method == analysis::PsychometricMethod::kLeastSquares ? "least squares"
                                                                        : "maximum likelihood",
-             fit.num_levels, fit.num_trials);
+             fit.num_levels, fit.num_levels == 1 ? "" : "s", fit.num_trials,
+             fit.num_trials == 1 ? "" : "s");
   if (fit.status != FitStatus::kOk) {
     fmt::print("  no Weber fraction: {}\n", fit.reason);
     print_posterior(fit.posterior);
     return;
   }
-  fmt::print("  Weber fraction  {:<8}  95 % {}, standard error {}\n",
-             number(fit.weber_fraction), range(fit.weber_fraction_ci95),
-             number(fit.standard_error));
+  const std::string none = why_no_interval(fit);
+  fmt::print(
+      "  Weber fraction  {:<8}  {}\n", number(fit.weber_fraction),
+      uncertainty(fit.weber_fraction_ci95, fit.weber_fraction, fit.standard_error, none));
+  fmt::print("    {}\n", analysis::kWeberFractionMeaning);
   if (!fit.bootstrap.method.empty()) {
     fmt::print("    bootstrap               95 % {} ({}, {} refits, {} without an optimum)\n",
-               range(fit.bootstrap.ci95), fit.bootstrap.method, fit.bootstrap.n,
-               fit.bootstrap.num_degenerate);
-    fmt::print("    corrected (BCa)         95 % {}{}\n", range(fit.bootstrap.bca_ci95),
-               fit.bootstrap.bca_reason.empty() ? "" : ": " + fit.bootstrap.bca_reason);
+               range(fit.bootstrap.ci95, fit.weber_fraction), fit.bootstrap.method,
+               fit.bootstrap.n, fit.bootstrap.num_degenerate);
+    fmt::print("    corrected (BCa)         95 % {}\n",
+               fit.bootstrap.bca_reason.empty()
+                   ? range(fit.bootstrap.bca_ci95, fit.weber_fraction)
+                   : "none: " + fit.bootstrap.bca_reason);
   }
   fmt::print("  PSE             {:<8}  {}, in the unit of the intensities\n", number(fit.pse),
-             fit.pse_ci95 ? "95 % " + range(*fit.pse_ci95) : "fixed at the reference");
+             fit.pse_ci95 ? uncertainty(*fit.pse_ci95, fit.pse, std::nullopt, none)
+                          : "fixed at the reference");
   const bool free_lapse =
       std::find(options.free.begin(), options.free.end(), "lapse") != options.free.end();
   fmt::print("  lapse rate      {:<8}  {}\n", number(fit.lapse_rate),
@@ -97,21 +121,23 @@ void print_for_people(const analysis::PsychometricFit& fit, const Options& optio
 }
 
 void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lines) {
-  fmt::print("  S = k I^a by {}, {} rows\n",
+  fmt::print("  S = k I^a by {}, {} row{}\n",
              fit.method == analysis::PowerMethod::kLogLog ? "a line through the logarithms"
                                                           : "least squares",
-             fit.num_rows);
+             fit.num_rows, fit.num_rows == 1 ? "" : "s");
   for (const analysis::PowerFit::Excluded& excluded : fit.excluded) {
     fmt::print("  left out line {}: {}\n", lines[excluded.row], excluded.reason);
   }
+  for (const std::string& warning : fit.warnings) fmt::print("  note: {}\n", warning);
   if (fit.status != FitStatus::kOk) {
     fmt::print("  no power law: {}\n", fit.reason);
     return;
   }
-  fmt::print("  k          {:<8}  95 % {}, standard error {}\n", number(fit.k),
-             range(fit.k_ci95), number(fit.k_standard_error));
-  fmt::print("  a          {:<8}  95 % {}, standard error {}\n", number(fit.a),
-             range(fit.a_ci95), number(fit.a_standard_error));
+  const std::string none = why_no_interval(fit);
+  fmt::print("  k          {:<8}  {}\n", number(fit.k),
+             uncertainty(fit.k_ci95, fit.k, fit.k_standard_error, none));
+  fmt::print("  a          {:<8}  {}\n", number(fit.a),
+             uncertainty(fit.a_ci95, fit.a, fit.a_standard_error, none));
   fmt::print("  R squared  {}\n", number(fit.r_squared));
 }
 
@@ -149,7 +175,7 @@ int fit_groups(const std::vector<Group>& groups, const Options& options, const c
     }
     std::string heading;
     for (const auto& [column, value] : group.key) {
-      heading += (heading.empty() ? "" : ", ") + column + " " + value;
+      heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
     }
     if (!heading.empty()) fmt::print("{}\n", heading);
     print(result, group);
@@ -255,7 +281,8 @@ void add_table_options(CLI::App& command, Options& options, const char* columns)
   command
       .add_option("--group-by", options.group_by, "columns; one fit for each of their values")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->option_text("COLUMN[,COLUMN,..]");
 }
 
 }  // namespace
@@ -271,10 +298,14 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   weber.add_option("--method", options->weber_method, "maximum likelihood or least squares")
       ->check(CLI::IsMember({"ml", "lsq"}))
       ->capture_default_str();
-  weber.add_option("--free", options->free, "also fit the pse, the lapse rate, or both")
+  weber
+      .add_option("--free", options->free,
+                  "also fit the pse, the lapse rate, or both; the lapse rate is that of "
+                  "either end: lapse + (1 - 2 lapse) F")
       ->check(CLI::IsMember({"pse", "lapse"}))
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->option_text("pse|lapse|pse,lapse");
   weber
       .add_option("--bootstrap", options->num_bootstrap,
                   "refits for a percentile interval of the Weber fraction")
@@ -289,8 +320,10 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   weber.add_flag("--posterior", options->posterior,
                  "also the Bayesian estimate on a grid, with its priors");
   weber
-      .add_option("--family", options->family,
-                  "the curve's form; gauss and weibull free the pse")
+      .add_option(
+          "--family", options->family,
+          "the curve's form; gauss and weibull free the pse; of all the Weber fraction is "
+          "(x84.13 - pse) / pse")
       ->check(CLI::IsMember({"weber", "gauss", "weibull"}))
       ->capture_default_str();
   weber.add_option("--seed", options->seed, "of bootstrap and goodness of fit")
@@ -317,7 +350,8 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   between.add_option("--intensities", options->intensities, "where both are evaluated")
       ->required()
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->option_text("NUMBER[,NUMBER,..] REQUIRED");
   between.callback(
       [&invocation, options] { invocation.run = [options] { return fit_between(*options); }; });
 

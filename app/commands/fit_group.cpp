@@ -48,10 +48,12 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   fmt::print("  {}; {} participants\n", fit.method, fit.num_participants);
   for (const analysis::HierarchicalCondition& one : fit.conditions) {
     if (!one.condition.empty()) fmt::print("{}\n", one.condition);
+    if (!one.weber_fraction) continue;  // The note says why.
     fmt::print("  Weber fraction  {:<8}  95 % {}, of the median person\n",
-               number(one.weber_fraction), range(one.weber_fraction_ci95));
-    fmt::print("  PSE             {:<8}  {}\n", number(one.pse),
-               one.pse_ci95 ? "95 % " + range(*one.pse_ci95) : "fixed at the reference");
+               number(one.weber_fraction), range(one.weber_fraction_ci95, one.weber_fraction));
+    fmt::print(
+        "  PSE             {:<8}  {}\n", number(one.pse),
+        one.pse_ci95 ? "95 % " + range(*one.pse_ci95, one.pse) : "fixed at the reference");
     fmt::print("  between people  {:<8}  standard deviation of the slope number\n",
                number(one.slope_sd));
     if (one.place_sd > 0.0) {
@@ -62,7 +64,7 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   if (fit.correlation) fmt::print("  correlation of the slopes  {}\n", number(fit.correlation));
   for (const analysis::HierarchicalDifference& one : fit.differences) {
     fmt::print("  {} - {}: {}  95 % {}, t({:.0f}) = {}, p = {}\n", one.second, one.first,
-               number(one.estimate), range(one.ci95), one.degrees_of_freedom,
+               number(one.estimate), range(one.ci95, one.estimate), one.degrees_of_freedom,
                number(one.statistic), number(one.p_value));
   }
   if (!fit.note.empty()) fmt::print("  {}\n", fit.note);
@@ -133,13 +135,16 @@ int fit_effects(const Options& options) {
     if (one.status != FitStatus::kOk && reason.empty()) reason = one.reason;
     if (options.json) continue;
     fmt::print("  {:<15} {:<9} 95 % {}, p = {}: {}\n", one.name, number(one.estimate),
-               range(one.ci95), number(one.p_value),
+               range(one.ci95, one.estimate), number(one.p_value),
                one.status == FitStatus::kOk ? one.meaning : one.reason);
   }
   if (options.json) {
     fmt::print("{}\n", json_text(analysis::to_json(effects)));
   } else {
-    fmt::print("  exploratory: not planned, not adjusted for there being several\n");
+    fmt::print(
+        "  intervals: {}; p: {}\n"
+        "  exploratory: not planned, not adjusted for there being several\n",
+        analysis::kEffectInterval, analysis::kEffectTest);
   }
   if (reason.empty()) return kDone;
   fmt::print(stderr, "jnd: {}: expected answers that have a regression, found none: {}\n",

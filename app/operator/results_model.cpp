@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "analysis/fits/bounded_interval.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
 #include "app/results_output.h"
@@ -51,7 +52,7 @@ std::string p_words(double p_value) {
 std::string comparison_words(const analysis::NamedComparison& named) {
   const analysis::Comparison& c = named.comparison;
   if (c.status != analysis::FitStatus::kOk) return c.reason;
-  std::string words = interval_words(c.ci95);
+  std::string words = interval_words(analysis::bounded_by_data(c.ci95, c.estimate));
   const auto add = [&words](const std::string& part) {
     words += (words.empty() ? "" : ", ") + part;
   };
@@ -100,16 +101,17 @@ std::string label_of(const std::string& section, const std::string& name) {
 void add_numbers(const ResultsSource& source, ResultsModel& model) {
   for (const analysis::ResultsSection& section : source.results.sections) {
     for (const Estimate& estimate : section.estimates) {
-      model.numbers.push_back({.section = section_words(source, section.name),
-                               .label = label_of(section.name, estimate.name),
-                               .name = estimate.name,
-                               .value = estimate.value && std::isfinite(*estimate.value)
-                                            ? number(*estimate.value, estimate.unit)
-                                            : "",
-                               .interval = interval_words(estimate.ci95),
-                               .published = published_words(estimate),
-                               .meaning = estimate.meaning,
-                               .basis = basis_of(source.results, estimate)});
+      model.numbers.push_back(
+          {.section = section_words(source, section.name),
+           .label = label_of(section.name, estimate.name),
+           .name = estimate.name,
+           .value = estimate.value && std::isfinite(*estimate.value)
+                        ? number(*estimate.value, estimate.unit)
+                        : "",
+           .interval = interval_words(analysis::bounded_by_data(estimate.ci95, estimate.value)),
+           .published = published_words(estimate),
+           .meaning = estimate.meaning,
+           .basis = basis_of(source.results, estimate)});
     }
     for (const analysis::NamedComparison& named : section.comparisons) {
       model.comparisons.push_back({.name = with_titles(source, named.name),

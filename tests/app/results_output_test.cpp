@@ -124,5 +124,17 @@ TEST(ResultsOutput, TheTablePutsPlainNumbersInColumnsAndSaysWhatWasSaid) {
   EXPECT_NE(table.find("rank-biserial r 1.0000\n"), std::string::npos) << table;
 }
 
+TEST(ResultsOutput, AnEndThatIsNoStatementIsPrintedAsOpenAndKeptInJson) {
+  analysis::StudyResults results{.study = "honey", .num_participants = 1};
+  analysis::ResultsSection section{.name = "group_d"};
+  section.participants.push_back(
+      {"P06", "group_d.weber_fraction", 1.6, {.low = 0.618, .high = 402367.0}, ""});
+  results.sections.push_back(section);
+  const std::string table = to_table(results);
+  EXPECT_NE(table.find("0.6180 .. open"), std::string::npos) << table;
+  EXPECT_NE(table.find("not bounded by these data"), std::string::npos) << table;
+  EXPECT_EQ(to_json(results)["sections"][0]["participants"][0]["ci95"][1], 402367.0);
+}
+
 }  // namespace
 }  // namespace jnd::app

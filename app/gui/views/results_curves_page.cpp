@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/fits/bounded_interval.h"
 #include "app/gui/views/layout.h"
 #include "app/gui/views/results_parts.h"
 #include "app/gui/views/results_plots.h"
@@ -58,8 +59,10 @@ void draw_discrimination(Ui& ui, const Rect& place, const Discrimination& block,
   std::string published;
   if (block.published && who == kEveryone)
     published = "published " + two_digits(*block.published);
-  draw_value(ui, value, "w = " + two_digits(*figure->weber_fraction),
-             joined({interval_words(figure->ci95), published}));
+  draw_value(
+      ui, value, "w = " + two_digits(*figure->weber_fraction),
+      joined({interval_words(analysis::bounded_by_data(figure->ci95, figure->weber_fraction)),
+              published}));
 }
 
 /// A large number under its name, for the card below the curves.

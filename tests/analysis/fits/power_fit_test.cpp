@@ -179,5 +179,20 @@ TEST(PowerFit, RefusesWhatIsNoMagnitude) {
   EXPECT_THROW((void)fit_power({{1, std::nan("")}}), core::Error);
 }
 
+TEST(PowerFit, OneDegreeOfFreedomGivesStandardErrorsButNoInterval) {
+  for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
+    const PowerFit three = fit_power({{1, 1}, {2, 4}, {4, 4}}, method);
+    EXPECT_TRUE(three.a_standard_error.has_value());
+    EXPECT_FALSE(three.a_ci95.low || three.a_ci95.high || three.k_ci95.low);
+    const PowerFit four = fit_power({{1, 1}, {2, 4}, {4, 4}, {8, 9}}, method);
+    EXPECT_TRUE(four.a_ci95.low && four.a_ci95.high && four.k_ci95.low);
+  }
+}
+
+TEST(PowerFit, AMagnitudeBelowZeroIsNotTakenSilently) {
+  EXPECT_EQ(fit_power({{1, -1}, {2, 2}, {4, 4}}).warnings.size(), 1U);
+  EXPECT_TRUE(fit_power({{0, 0}, {2, 2}, {4, 4}}).warnings.empty());
+}
+
 }  // namespace
 }  // namespace jnd::analysis

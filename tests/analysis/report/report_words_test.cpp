@@ -37,7 +37,8 @@ TEST(ReportWords, MinusIsTypesetAndMinusNothingIsNothing) {
 
 TEST(ReportWords, AnIntervalHasNoMoreDecimalsThanItsValueAndSaysWhereItIsOpen) {
   EXPECT_EQ(interval_words({0.59321, 12.5}, 0.6974), "0.5932\u00a0to\u00a012.50");
-  EXPECT_EQ(interval_words({0.4, 402366.9}, 1.605), "0.400\u00a0to\u00a0402367");
+  EXPECT_EQ(interval_words({0.4, 1203.4}, 1.605), "0.400\u00a0to\u00a01203");
+  EXPECT_EQ(interval_words({0.4, 402366.9}, 1.605), "from\u00a00.400") << "no statement";
   EXPECT_EQ(interval_words({std::nullopt, 1.5}, 1.2), "up\u00a0to\u00a01.500");
   EXPECT_EQ(interval_words({0.25, std::nullopt}, 0.6974), "from\u00a00.2500");
 }

@@ -12,9 +12,9 @@ using test_support::ProgramOutcome;
 
 class FitCommandTest : public ::testing::Test {
  protected:
-  ProgramOutcome fit(std::vector<std::string> arguments) {
+  ProgramOutcome fit(std::vector<std::string> arguments, bool as_json = true) {
     arguments.insert(arguments.begin(), "fit");
-    arguments.emplace_back("--json");
+    if (as_json) arguments.emplace_back("--json");
     return test_support::run_program(arguments,
                                      {.folder = temporary_.path(), .environment = {}});
   }
@@ -123,6 +123,41 @@ TEST_F(FitCommandTest, BetweenRefusesWhatIsNoNumber) {
     EXPECT_EQ(outcome.exit_code, 2) << wrong;
     EXPECT_EQ(outcome.out, "") << wrong;
   }
+}
+
+TEST_F(FitCommandTest, TextSaysOpenEndsAndMissingIntervalsInWords) {
+  table("one.csv", "intensity,num_yes,num_trials\n12,7,10\n");
+  const std::string one = fit({"weber", "--csv", "one.csv", "--reference", "8"}, false).out;
+  EXPECT_NE(one.find("1 level, 10 trials"), std::string::npos) << one;
+  EXPECT_NE(one.find("not bounded by these data"), std::string::npos) << one;
+  const std::string lsq =
+      fit({"weber", "--csv", "one.csv", "--reference", "8", "--method", "lsq"}, false).out;
+  EXPECT_NE(lsq.find("no interval: no degree of freedom is left"), std::string::npos) << lsq;
+  EXPECT_EQ(lsq.find("standard error"), std::string::npos) << lsq;
+  table("line.csv", "intensity,magnitude\n1,2\n2,4\n3,6\n4,8\n");
+  const std::string line = fit({"power", "--csv", "line.csv"}, false).out;
+  EXPECT_NE(line.find("no interval: the power law passes through every row"), std::string::npos)
+      << line;
+  table("three.csv", "intensity,magnitude\n1,-0.1\n2,2\n4,3\n");
+  const std::string three = fit({"power", "--csv", "three.csv"}, false).out;
+  EXPECT_NE(three.find("one degree of freedom is too few"), std::string::npos) << three;
+  EXPECT_NE(three.find("below 0"), std::string::npos) << three;
+}
+
+TEST_F(FitCommandTest, AnEmptyGroupIsMarked) {
+  table("m.csv", "who,intensity,magnitude\n,1,2\n,4,4\ny,1,3\ny,2,6\n");
+  const std::string out = fit({"power", "--csv", "m.csv", "--group-by", "who"}, false).out;
+  EXPECT_NE(out.find("who (empty)\n"), std::string::npos) << out;
+}
+
+TEST_F(FitCommandTest, HelpShowsListsAsTheyAreTakenAndWhatALapseRateIs) {
+  const std::string weber = fit({"weber", "--help"}, false).out;
+  EXPECT_EQ(weber.find("..."), std::string::npos) << weber;
+  EXPECT_NE(weber.find("pse,lapse"), std::string::npos) << weber;
+  EXPECT_NE(weber.find("lapse + (1 - 2 lapse) F"), std::string::npos) << weber;
+  EXPECT_NE(weber.find("(x84.13 - pse) / pse"), std::string::npos) << weber;
+  const std::string between = fit({"between", "--help"}, false).out;
+  EXPECT_EQ(between.find("..."), std::string::npos) << between;
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+#include "analysis/fits/bounded_interval.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr double kLargestFactor = 1000.0;
+
+}  // namespace
+
+Interval bounded_by_data(const Interval& ci95, const std::optional<double>& estimate) noexcept {
+  const double least = ci95.low.value_or(0.0);
+  if (!estimate || !(*estimate > 0.0) || !(least >= 0.0)) return ci95;
+  Interval shown = ci95;
+  if (least > 0.0 && least < *estimate / kLargestFactor) shown.low.reset();
+  if (ci95.high && !(*ci95.high <= *estimate * kLargestFactor)) shown.high.reset();
+  return shown;
+}
+
+}  // namespace jnd::analysis

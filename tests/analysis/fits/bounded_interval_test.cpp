@@ -1,0 +1,28 @@
+#include "analysis/fits/bounded_interval.h"
+
+#include <gtest/gtest.h>
+
+namespace jnd::analysis {
+namespace {
+
+void expect_ends(const Interval& shown, std::optional<double> low, std::optional<double> high) {
+  EXPECT_EQ(shown.low, low);
+  EXPECT_EQ(shown.high, high);
+}
+
+TEST(BoundedInterval, AnEndAThousandTimesOffTheEstimateIsOpen) {
+  expect_ends(bounded_by_data({0.018, 1.1e20}, 0.9), 0.018, std::nullopt);
+  expect_ends(bounded_by_data({2.1e-7, std::nullopt}, 4.513), std::nullopt, std::nullopt);
+  expect_ends(bounded_by_data({0.002, 2000.0}, 2.0), 0.002, 2000.0);
+  expect_ends(bounded_by_data({0.00199, 2001.0}, 2.0), std::nullopt, std::nullopt);
+}
+
+TEST(BoundedInterval, WhatMayBeNegativeOrNothingKeepsItsEnds) {
+  expect_ends(bounded_by_data({-0.5, 0.5}, 0.0001), -0.5, 0.5);
+  expect_ends(bounded_by_data({-3000.0, -0.1}, -1.0), -3000.0, -0.1);
+  expect_ends(bounded_by_data({0.0, 0.2}, 0.05), 0.0, 0.2);
+  expect_ends(bounded_by_data({0.1, 1e9}, std::nullopt), 0.1, 1e9);
+}
+
+}  // namespace
+}  // namespace jnd::analysis
