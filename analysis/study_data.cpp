@@ -64,7 +64,8 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
       block = {.block = row.block,
                .procedure = row.procedure,
                .quantity = row.quantity,
-               .num_trials = std::max(block.num_trials, ++num_trials[row.block])};
+               .num_trials = std::max(block.num_trials, ++num_trials[row.block]),
+               .reference_intensity = block.reference_intensity};
     }
     ParticipantData& participant = of(data.participants, session.participant);
     if (!session.cells.empty()) participant.cells = session.cells;
@@ -74,6 +75,9 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
     std::set<std::int64_t> standing;
     for (core::TrialRow& trial : store.trials(session.session)) {
       standing.insert(trial.trial);
+      if (trial.reference_intensity) {
+        blocks[trial.block].reference_intensity = trial.reference_intensity;
+      }
       participant.trials.push_back(std::move(trial));
     }
     for (core::TrialRow& trial : store.trials(session.session, /*include_excluded=*/true)) {

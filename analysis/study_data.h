@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,15 @@ struct BlockDesign {
   std::string block;
   std::string procedure;
   std::string quantity;
-  std::int64_t num_trials = 0;  ///< For one participant.
+  std::int64_t num_trials = 0;  ///< For one participant; the most of any, where they differ.
+  std::optional<double> reference_intensity;
+
+  /// Every test stimulus is compared with a reference, by yes or no: its answers have a
+  /// psychometric function, whatever procedure chose the stimuli.
+  [[nodiscard]] bool compares() const {
+    return reference_intensity && procedure != "magnitude_estimation" &&
+           procedure != "magnitude_production";
+  }
 };
 
 /// A whole study, ready for analysis. Pilot sessions are left out.

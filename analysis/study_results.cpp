@@ -1,6 +1,7 @@
 #include "analysis/study_results.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "analysis/exploratory_results.h"
 #include "analysis/questionnaire_results.h"
@@ -45,7 +46,9 @@ StudyResults results_of(const StudyData& data, const Published& published,
                        .num_participants = static_cast<int>(data.participants.size())};
   const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
   const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
-  const std::vector<BlockDesign> discriminations = blocks_of(data, "constant_stimuli");
+  std::vector<BlockDesign> discriminations;
+  std::ranges::copy_if(data.blocks, std::back_inserter(discriminations),
+                       &BlockDesign::compares);
   for (const BlockDesign& block : estimations) {
     results.sections.push_back(estimation_results(data, block, options));
   }

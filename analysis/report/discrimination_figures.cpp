@@ -287,7 +287,7 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
 std::vector<Figure> discrimination_figures(const FigureSource& source) {
   std::vector<Figure> figures;
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure != "constant_stimuli") continue;
+    if (!block.compares()) continue;
     const BlockAnswers answers = answers_of(source, block);
     if (answers.participants.empty()) continue;
     figures.push_back(group_figure(source, answers));

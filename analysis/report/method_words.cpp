@@ -47,7 +47,9 @@ class Writer {
       return one.procedure == procedure;
     });
   }
-  [[nodiscard]] bool discriminates() const { return has_procedure("constant_stimuli"); }
+  [[nodiscard]] bool discriminates() const {
+    return std::ranges::any_of(source_.data.blocks, &BlockDesign::compares);
+  }
   [[nodiscard]] bool has_magnitudes() const {
     return has_procedure("magnitude_estimation") || has_procedure("magnitude_production");
   }

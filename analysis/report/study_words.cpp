@@ -100,6 +100,8 @@ std::string procedure_words(const std::string& procedure) {
   if (procedure == "constant_stimuli") {
     return "method of constant stimuli as a reminder task (reference first, yes or no)";
   }
+  if (procedure == "limits") return "method of limits";
+  if (procedure == "quest_plus") return "QUEST+ (Watson 2017)";
   return in_words(procedure);
 }
 

@@ -14,7 +14,7 @@ namespace {
 std::vector<BlockDesign> discriminations(const FigureSource& source) {
   std::vector<BlockDesign> found;
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure == "constant_stimuli" && source.section(block.block) != nullptr) {
+    if (block.compares() && source.section(block.block) != nullptr) {
       found.push_back(block);
     }
   }

@@ -112,7 +112,7 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
   BoxFigure speed{.name = "max_speed_m_per_s", .title = "Largest speed", .unit = "m/s"};
   for (const BlockDesign& block : source.data.blocks) {
     const std::string label = short_title(source.title(block.block));
-    if (block.procedure == "constant_stimuli") {
+    if (block.compares()) {
       add_box(weber, label, own_values(source, block.block, block.block + ".weber_fraction"));
     }
     if (is_magnitude(block)) {
@@ -132,7 +132,7 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
 
 void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure == "constant_stimuli" || is_magnitude(block)) {
+    if (block.compares() || is_magnitude(block)) {
       model.columns.push_back({column_title(source, block), ""});
     }
   }
@@ -141,7 +141,7 @@ void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const ParticipantData& participant : source.data.participants) {
     TableRow row{.participant = participant.participant};
     for (const BlockDesign& block : source.data.blocks) {
-      const bool compares = block.procedure == "constant_stimuli";
+      const bool compares = block.compares();
       if (!compares && !is_magnitude(block)) continue;
       const analysis::ParticipantEstimate* own =
           source.own(block.block, participant.participant,

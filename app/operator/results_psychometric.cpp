@@ -140,7 +140,7 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
 std::vector<Discrimination> discriminations_of(const ResultsSource& source) {
   std::vector<Discrimination> figures;
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure != "constant_stimuli") continue;
+    if (!block.compares()) continue;
     if (auto figure = discrimination_of(source, block)) figures.push_back(std::move(*figure));
   }
   return figures;

@@ -166,7 +166,7 @@ TEST(ExploratoryResults, ATestThatCannotBeMadeSpoilsNoOther) {
 
 TEST(ExploratoryResults, AStudyWithNothingOfThisHasNone) {
   StudyData data{.participants = {{.participant = "P01"}},
-                 .blocks = {{"group_d", "constant_stimuli", "viscosity_pa_s", 40}}};
+                 .blocks = {{"group_d", "constant_stimuli", "viscosity_pa_s", 40, 1.853}}};
   const ResultsSection section = exploratory_results(data, {});
   EXPECT_TRUE(section.estimates.empty());
   EXPECT_TRUE(section.comparisons.empty());

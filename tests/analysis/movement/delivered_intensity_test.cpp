@@ -128,7 +128,7 @@ TEST(DeliveredIntensity, ADeviceThatDeliversTheSameShareOfEverythingChangesNoWeb
     }
   }
   StudyData data = one_person(trials, presentations);
-  data.blocks = {{.block = "d", .procedure = "constant_stimuli"}};
+  data.blocks = {{.block = "d", .procedure = "constant_stimuli", .reference_intensity = 2.0}};
   const auto weber_fraction = [](const StudyData& study) {
     return results_of(study, {}, {.num_resamples = 100}).find("d.weber_fraction")->value;
   };

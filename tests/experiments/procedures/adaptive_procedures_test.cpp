@@ -15,7 +15,6 @@
 namespace jnd::experiments {
 namespace {
 
-constexpr double kReference = 8.0;
 constexpr double kPse = 7.0;
 constexpr double kWeberFraction = 0.3;
 

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include "core/random_stream.h"
+#include "experiments/session/session.h"
+#include "experiments/study/study_reader.h"
+
+namespace jnd::experiments {
+namespace {
+
+class MemoryLog final : public EventLog {
+ public:
+  void append(const core::Commit& commit) override { events.push_back(commit.event); }
+  std::vector<core::EventRow> events;
+};
+
+const std::string kStudy = R"json({
+  "format": 1, "name": "adaptive", "languages": ["en"], "title": {"en": "Adaptive"},
+  "authors": ["A. Author"],
+  "stages": [{"kind": "block", "name": "stairs", "procedure": "staircase",
+    "medium": "viscous", "reference_viscosity_pa_s": 8, "start_viscosity_pa_s": [16, 4],
+    "lowest_viscosity_pa_s": 1, "highest_viscosity_pa_s": 64, "step_ratio": [1.5, 1.2],
+    "max_reversals": 6, "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
+    "expected_trial_s": 5}]})json";
+
+/// A block whose trials are drawn one after the other.
+class AdaptiveSessionTest : public ::testing::Test {
+ protected:
+  Session session() {
+    return Session({.session = 1, .seed = 42, .stages = {&study_.stages.front()}}, log_.events,
+                   log_, clock_);
+  }
+  Session begun() {
+    Session s = session();
+    s.start();
+    s.enter_stage();
+    return s;
+  }
+  static double level(const Session& s) {
+    return s.state().trial(*s.state().current_trial()).planned.intensity.value();
+  }
+  static void run_trial(Session& s, double response) {
+    s.start_trial(s.state().last_tick + 1);
+    for (const char* interval : {"reference", "test"}) {
+      const std::int64_t tick = s.state().last_tick + 1;
+      s.begin_presentation(interval, tick);
+      s.end_presentation(tick + 99, {});
+    }
+    s.answer(response, 1.5, s.state().last_tick);
+  }
+  /// "Yes" above 6 Pa s.
+  static void run_to_end(Session& s) {
+    while (s.state().current_trial()) run_trial(s, level(s) > 6.0 ? 1.0 : 0.0);
+  }
+
+  Study study_ = read_study_text(kStudy, "study.json");
+  MemoryLog log_;
+  core::SimulatedClock clock_;
+};
+
+TEST_F(AdaptiveSessionTest, TheNextTrialIsDrawnWhenTheOneBeforeIsAnswered) {
+  Session s = begun();
+  EXPECT_EQ(s.state().trials.size(), 1U);
+  run_trial(s, 1.0);
+  EXPECT_EQ(s.state().trials.size(), 2U);
+  run_to_end(s);
+  EXPECT_GT(s.state().trials.size(), 20U);
+  s.finish_stage();
+  s.complete();
+  EXPECT_TRUE(s.state().completed);
+}
+
+TEST_F(AdaptiveSessionTest, AnotherAnswerAfterAnUndoDrawsAnotherTrial) {
+  Session s = begun();
+  for (int trial = 0; trial < 6; ++trial) run_trial(s, level(s) > 6.0 ? 1.0 : 0.0);
+  const double before = level(s);
+  const auto answered = s.state().answered_in(0);
+  const double undone = *answered.back().planned.intensity;
+  const double response = answered.back().response;
+  s.undo("wrong key");
+  EXPECT_EQ(level(s), undone) << "the trial itself is run again";
+  EXPECT_TRUE(s.state().trials.back().is_void);
+  run_trial(s, response);
+  EXPECT_EQ(level(s), before) << "the same answer draws the same trial";
+  s.undo("wrong after all");
+  run_trial(s, 1.0 - response);
+  EXPECT_EQ(s.state().answered_in(0).size(), 6U);
+  run_to_end(s);
+  s.finish_stage();
+}
+
+TEST_F(AdaptiveSessionTest, ARestartedBlockBeginsAnewAndEndsTheSame) {
+  Session s = begun();
+  for (int trial = 0; trial < 9; ++trial) run_trial(s, 1.0);
+  s.restart_block("somebody came in");
+  EXPECT_EQ(s.state().answered_in(0).size(), 0U);
+  EXPECT_EQ(*s.state().current_trial(), 1);
+  run_to_end(s);
+  std::vector<double> levels;
+  for (const AnsweredTrial& trial : s.state().answered_in(0)) {
+    levels.push_back(*trial.planned.intensity);
+  }
+
+  log_.events.clear();
+  Session other = begun();
+  run_to_end(other);
+  std::vector<double> undisturbed;
+  for (const AnsweredTrial& trial : other.state().answered_in(0)) {
+    undisturbed.push_back(*trial.planned.intensity);
+  }
+  EXPECT_EQ(levels, undisturbed);
+}
+
+TEST_F(AdaptiveSessionTest, AResumedSessionGoesOnAsAnUninterruptedOne) {
+  Session s = begun();
+  for (int trial = 0; trial < 7; ++trial) run_trial(s, level(s) > 6.0 ? 1.0 : 0.0);
+  s.undo("wrong key");
+  const std::vector<core::EventRow> half = log_.events;
+  run_to_end(s);
+  const std::size_t num_events = log_.events.size();
+  const SessionState whole = s.state();
+
+  log_.events = half;
+  Session resumed = session();
+  run_to_end(resumed);
+  EXPECT_EQ(log_.events.size(), num_events);
+  ASSERT_EQ(resumed.state().trials.size(), whole.trials.size());
+  for (std::size_t i = 0; i < whole.trials.size(); ++i) {
+    EXPECT_EQ(resumed.state().trials[i].planned.intensity, whole.trials[i].planned.intensity);
+    EXPECT_EQ(resumed.state().trials[i].is_void, whole.trials[i].is_void);
+  }
+}
+
+}  // namespace
+}  // namespace jnd::experiments
