@@ -7,36 +7,12 @@
 #include <utility>
 
 #include "core/storage/flight_record.h"
+#include "core/storage/recorded_ticks.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
 
 namespace jnd::core {
 namespace {
-
-/// Ticks that were recorded, as ascending ranges that do not touch.
-using Ranges = std::vector<std::pair<std::int64_t, std::int64_t>>;
-
-Ranges merged(Ranges ranges) {
-  std::sort(ranges.begin(), ranges.end());
-  Ranges result;
-  for (const auto& [first, last] : ranges) {
-    if (!result.empty() && first <= result.back().second + 1) {
-      result.back().second = std::max(result.back().second, last);
-    } else {
-      result.emplace_back(first, last);
-    }
-  }
-  return result;
-}
-
-/// How many ticks of [first, last] are in none of the ranges.
-std::int64_t missing_ticks(const Ranges& ranges, std::int64_t first, std::int64_t last) {
-  std::int64_t missing = last - first + 1;
-  for (const auto& [from, to] : ranges) {
-    missing -= std::max<std::int64_t>(0, std::min(last, to) - std::max(first, from) + 1);
-  }
-  return missing;
-}
 
 std::string span(std::int64_t first, std::int64_t last) {
   return std::to_string(first) + " to " + std::to_string(last);
@@ -116,7 +92,7 @@ class SessionCheck {
 
   void check_recording(const std::vector<EventRow>& events) {
     const std::filesystem::path file = store_.recording_file(session_.session);
-    Ranges recorded;
+    std::vector<TickRange> recorded;
     try {
       const RecordingReader reader(file);
       if (reader.rate_hz() != 0.0 && reader.rate_hz() != session_.rate_hz) {
@@ -132,7 +108,7 @@ class SessionCheck {
           continue;
         }
         const std::int64_t last = chunk.first_tick + chunk.num_samples - 1;
-        recorded.emplace_back(chunk.first_tick, last);
+        recorded.push_back({chunk.first_tick, last});
         integrity_.num_samples += chunk.num_samples;
       }
     } catch (const Error& error) {
@@ -141,7 +117,8 @@ class SessionCheck {
       return;
     }
     recorded = merged(std::move(recorded));
-    check_presentations(recorded, events);
+    check_interruptions(events);
+    check_claims(recorded, events);
   }
 
   static bool speaks_of_ticks(const std::vector<EventRow>& events) {
@@ -150,27 +127,24 @@ class SessionCheck {
     });
   }
 
-  /// Every tick an event speaks of has to be there: the recording is synced before the event.
-  void check_presentations(const Ranges& recorded, const std::vector<EventRow>& events) {
-    std::int64_t presentation_first = -1;
+  void check_interruptions(const std::vector<EventRow>& events) {
     for (const EventRow& event : events) {
-      if (event.kind == "presentation_started")
-        presentation_first = event.first_tick.value_or(-1);
-      std::int64_t first = -1;
-      if (event.kind == "medium_explored") first = event.first_tick.value_or(-1);
-      if (event.kind == "presentation_ended") first = presentation_first;
       if (event.kind == "session_resumed" && event.first_tick && event.last_tick &&
           *event.last_tick >= *event.first_tick) {
         remark("ticks " + span(*event.first_tick, *event.last_tick) +
                " belong to the attempt that was interrupted");
       }
-      if (first < 0 || !event.last_tick) continue;
-      const std::int64_t missing = missing_ticks(recorded, first, *event.last_tick);
-      if (missing > 0) {
-        problem("expected ticks " + span(first, *event.last_tick) + " of " + event.kind +
-                (event.trial ? " in trial " + std::to_string(*event.trial) : "") + ", found " +
-                std::to_string(missing) + " of them missing");
-      }
+    }
+  }
+
+  void check_claims(const std::vector<TickRange>& recorded,
+                    const std::vector<EventRow>& events) {
+    for (const TickClaim& claim : tick_claims(events)) {
+      const std::int64_t missing = num_ticks(missing_in(recorded, claim.ticks));
+      if (missing == 0) continue;
+      problem("expected ticks " + span(claim.ticks.first_tick, claim.ticks.last_tick) + " of " +
+              claim.kind + (claim.trial ? " in trial " + std::to_string(*claim.trial) : "") +
+              ", found " + std::to_string(missing) + " of them missing");
     }
   }
 

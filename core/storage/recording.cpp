@@ -179,36 +179,62 @@ std::int64_t RecordingReader::last_tick() const {
   return rows.step() ? rows.optional_integer(0).value_or(-1) : -1;
 }
 
-std::int64_t RecordingReader::missing_ticks() const {
-  if (is_empty(implementation_->database)) return 0;
-  Statement rows(implementation_->database,
-                 "SELECT first_tick, num_samples FROM chunk ORDER BY first_tick");
-  std::int64_t missing = 0;
-  std::optional<std::int64_t> next;
+std::vector<TickRange> RecordingReader::ticks() const {
+  if (is_empty(implementation_->database)) return {};
+  Statement rows(implementation_->database, "SELECT first_tick, num_samples FROM chunk");
+  std::vector<TickRange> ranges;
   while (rows.step()) {
-    const std::int64_t first = rows.integer(0);
-    const std::int64_t end = first + rows.integer(1);
-    if (next && first > *next) missing += first - *next;
-    next = std::max(end, next.value_or(end));
+    // Damaged numbers have no samples; `read` finds that.
+    constexpr std::int64_t kBeyond = std::int64_t{1} << 53;
+    const std::int64_t first = rows.integer(0), count = rows.integer(1);
+    if (first < 0 || first >= kBeyond || count < 1 || count >= kBeyond) continue;
+    ranges.push_back({first, first + count - 1});
   }
-  return missing;
+  return merged(std::move(ranges));
+}
+
+std::int64_t RecordingReader::missing_ticks() const {
+  const std::vector<TickRange> ranges = ticks();
+  if (ranges.empty()) return 0;
+  return num_ticks(missing_in(ranges, {ranges.front().first_tick, ranges.back().last_tick}));
+}
+
+static void require_intact_chunk(const std::string& place, std::string_view bytes,
+                                 const std::string& hash) {
+  if (sha256(bytes.data(), bytes.size()) == hash) return;
+  throw Error(
+      place +
+      ": expected bytes that fit their hash, found them damaged; `jnd verify` tells all "
+      "that is, and a backup may have them whole");
 }
 
 void RecordingReader::read(std::int64_t first_tick, std::int64_t last_tick,
                            const std::function<void(const Sample&)>& visit) const {
   if (is_empty(implementation_->database)) return;
   Statement rows(implementation_->database,
-                 "SELECT first_tick, num_samples, data FROM chunk "
+                 "SELECT first_tick, num_samples, data, sha256 FROM chunk "
                  "WHERE first_tick <= ? AND first_tick + num_samples > ? "
                  "ORDER BY first_tick, segment");
   rows.bind(last_tick).bind(first_tick);
   while (rows.step()) {
     const std::string place = implementation_->database.file().string() + ": chunk at tick " +
                               std::to_string(rows.integer(0));
+    require_intact_chunk(place, rows.bytes(2), rows.text(3));
     for (const Sample& sample :
          decode_samples(rows.bytes(2), rows.integer(0), rows.integer(1), place)) {
       if (sample.tick >= first_tick && sample.tick <= last_tick) visit(sample);
     }
+  }
+}
+
+void RecordingReader::require_intact() const {
+  if (is_empty(implementation_->database)) return;
+  Statement rows(implementation_->database,
+                 "SELECT first_tick, data, sha256 FROM chunk ORDER BY first_tick, segment");
+  while (rows.step()) {
+    require_intact_chunk(implementation_->database.file().string() + ": chunk at tick " +
+                             std::to_string(rows.integer(0)),
+                         rows.bytes(1), rows.text(2));
   }
 }
 

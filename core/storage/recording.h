@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/sample.h"
+#include "core/storage/recorded_ticks.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::core {
@@ -61,9 +62,14 @@ class RecordingReader {
   [[nodiscard]] std::int64_t last_tick() const;
   /// Ticks between the first and the last sample that no chunk holds. Quick: no sample is read.
   [[nodiscard]] std::int64_t missing_ticks() const;
-  /// Calls `visit` for every sample with first_tick <= tick <= last_tick, in order.
+  /// The ticks that its chunks tell, ascending and merged. Quick: no sample is read.
+  [[nodiscard]] std::vector<TickRange> ticks() const;
+  /// Calls `visit` for every sample with first_tick <= tick <= last_tick, in order. Throws
+  /// `Error` naming the chunk whose bytes do not fit their hash, before any sample of it.
   void read(std::int64_t first_tick, std::int64_t last_tick,
             const std::function<void(const Sample&)>& visit) const;
+  /// Throws `Error` as `read` does. Reads everything, decodes nothing.
+  void require_intact() const;
 
  private:
   struct Implementation;

@@ -275,11 +275,13 @@ std::vector<TrialRow> StudyStore::trials(std::int64_t session, bool include_excl
   return all;
 }
 
-std::vector<PresentationRow> StudyStore::presentations(std::int64_t session) const {
+std::vector<PresentationRow> StudyStore::presentations(std::int64_t session,
+                                                       bool include_excluded) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
                  std::string("SELECT ") + kPresentationColumns +
-                     " FROM presentation_in_force WHERE session = ? AND NOT excluded"
+                     " FROM presentation_in_force WHERE session = ?" +
+                     (include_excluded ? "" : " AND NOT excluded") +
                      " ORDER BY trial, attempt, presentation");
   rows.bind(session);
   std::vector<PresentationRow> all;

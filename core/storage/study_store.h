@@ -195,7 +195,9 @@ class StudyStore {
   /// Answered trials that count: not superseded. With `include_excluded`, also those set aside.
   [[nodiscard]] std::vector<TrialRow> trials(std::int64_t session,
                                              bool include_excluded = false) const;
-  [[nodiscard]] std::vector<PresentationRow> presentations(std::int64_t session) const;
+  /// Of the attempts whose answer stands. With `include_excluded`, also of trials set aside.
+  [[nodiscard]] std::vector<PresentationRow> presentations(std::int64_t session,
+                                                           bool include_excluded = false) const;
   /// Answers that count: the last one given to each item.
   [[nodiscard]] std::vector<AnswerRow> answers(std::int64_t session) const;
   /// Whether the session was completed.

@@ -106,6 +106,32 @@ TEST(Recording, TellsADamagedChunkFromAnIntactOne) {
   EXPECT_THROW(reader.read(0, 9000, [](const Sample&) {}), Error);
 }
 
+/// Bytes that decode, but are not those that were written: only the hash knows.
+TEST(Recording, ReadsNoSampleOfAChunkThatDoesNotFitItsHash) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  {
+    RecordingWriter writer(file, 1000.0);
+    for (std::int64_t tick = 0; tick < 9000; ++tick) writer.append(at(tick));
+  }
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(database,
+                   "UPDATE chunk SET data = (SELECT data FROM chunk WHERE first_tick = 0) "
+                   "WHERE first_tick = 4096",
+                   nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(database);
+  const RecordingReader reader(file);
+  std::int64_t last = -1;
+  EXPECT_THROW(reader.read(0, 9000, [&last](const Sample& sample) { last = sample.tick; }),
+               Error);
+  EXPECT_EQ(last, 4095);
+  EXPECT_THROW(reader.require_intact(), Error);
+  EXPECT_NO_THROW(reader.read(8192, 9000, [](const Sample&) {})) << "others are intact";
+}
+
 TEST(Recording, RefusesAMissingFile) {
   EXPECT_THROW(RecordingReader("/nonexistent/0001.sqlite"), Error);
 }
