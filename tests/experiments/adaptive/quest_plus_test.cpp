@@ -263,6 +263,9 @@ TEST(QuestPlusEstimate, HasAnIntervalThatHoldsIt) {
   EXPECT_EQ(coarse.low, 1.0);
   EXPECT_EQ(coarse.high, coarse.mean);
   EXPECT_GT(coarse.mean, 1.0);
+  const auto mirrored = estimate_of(parameter, {0.01, 0.0, 0.0, 0.0, 0.99}, 0.95);
+  EXPECT_EQ(mirrored.low, mirrored.mean);
+  EXPECT_LT(mirrored.mean, 16.0);
 }
 
 TEST(QuestPlus, RefusesARuleThatCannotRun) {

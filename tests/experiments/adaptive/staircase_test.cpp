@@ -142,7 +142,7 @@ TEST(Staircase, TurnsAtItsBoundOnlyWhenItHasMovedThere) {
   EXPECT_EQ(staircase.threshold(turned).num_at_bound, 1);
 }
 
-TEST(Staircase, IsOnItsBoundDespiteRounding) {
+TEST(Staircase, IsOnItsBoundsDespiteRounding) {
   StaircaseRule rule = one_up_two_down();
   rule.scale = LevelScale::kLogarithmic;
   rule.lowest = 0.1;
@@ -150,12 +150,15 @@ TEST(Staircase, IsOnItsBoundDespiteRounding) {
   rule.num_down = 1;
   for (const double ratio : {1.1, 1.3, 1.7}) {
     for (int steps = 1; steps < 8; ++steps) {
-      rule.start = 10.0 / std::pow(ratio, steps);
       rule.step_sizes = {std::log(ratio)};
-      const Staircase staircase(rule);
-      const auto answers = answers_for(staircase, std::string(steps + 1, 'n'));
-      EXPECT_EQ(answers.back().level, 10.0);
-      EXPECT_EQ(staircase.after(answers).num_blocked, 1) << ratio << ' ' << steps;
+      for (const char letter : {'y', 'n'}) {
+        const double bound = letter == 'y' ? rule.lowest : rule.highest;
+        rule.start = bound * std::pow(ratio, letter == 'y' ? steps : -steps);
+        const Staircase staircase(rule);
+        const auto answers = answers_for(staircase, std::string(steps + 1, letter));
+        EXPECT_EQ(answers.back().level, bound);
+        EXPECT_EQ(staircase.after(answers).num_blocked, 1) << ratio << ' ' << steps;
+      }
     }
   }
 }
