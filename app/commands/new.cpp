@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -13,6 +15,7 @@
 #include "app/share.h"
 #include "app/usage_message.h"
 #include "core/error.h"
+#include "experiments/study/schema_writer.h"
 #include "experiments/study/starter_study.h"
 #include "experiments/study/structure_check.h"
 #include "experiments/study/study_reader.h"
@@ -48,6 +51,36 @@ void write_new_file(const fs::path& file, const std::string& text) {
   }
 }
 
+enum class Schema { kWritten, kThereAlready, kAnother };
+
+/// Puts the schema beside a study, where its `$schema` finds it: editors then need no network.
+/// What has that name already is left as it is.
+Schema write_schema_beside(const fs::path& study) {
+  const fs::path file = study.parent_path() / experiments::kSchemaFileName;
+  const std::string schema = experiments::study_schema();
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    write_new_file(file, schema);
+    return Schema::kWritten;
+  }
+  std::ifstream stream(file, std::ios::binary);
+  const std::string found{std::istreambuf_iterator<char>(stream), {}};
+  return found == schema ? Schema::kThereAlready : Schema::kAnother;
+}
+
+void print(const fs::path& file, Schema schema) {
+  const fs::path beside = file.parent_path() / experiments::kSchemaFileName;
+  if (schema == Schema::kWritten) {
+    fmt::print("{}: written; editors complete and explain the study's keys from it\n",
+               beside.string());
+  } else if (schema == Schema::kAnother) {
+    fmt::print("{}: left as it is, though not of this version; `jnd schema > {}` renews it\n",
+               beside.string(), beside.string());
+  }
+  fmt::print("{}: written; `jnd validate {}` tells its problems while you edit it\n",
+             file.string(), file.string());
+}
+
 int run(const Options& options) {
   fs::path file = options.name;
   if (file.extension() != ".json") file += ".json";
@@ -63,12 +96,15 @@ int run(const Options& options) {
                 experiments::read_study(user_or_shipped(options.from, "protocols")).text,
                 options.from, name);
   write_new_file(file, text);
+  const Schema schema = write_schema_beside(file);
   if (options.json) {
     fmt::print("{}\n",
-               json_text(nlohmann::ordered_json{{"file", file.string()}, {"name", name}}));
+               json_text(nlohmann::ordered_json{
+                   {"file", file.string()},
+                   {"name", name},
+                   {"schema", (file.parent_path() / experiments::kSchemaFileName).string()}}));
   } else {
-    fmt::print("{}: written; `jnd validate {}` tells its problems while you edit it\n",
-               file.string(), file.string());
+    print(file, schema);
   }
   return kDone;
 }

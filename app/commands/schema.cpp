@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "experiments/study/reference_writer.h"
 #include "experiments/study/schema_writer.h"
 
 namespace jnd::app {
@@ -12,10 +13,16 @@ void add_schema(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("schema", "Print the JSON Schema (draft 7) of study files");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "The schema is JSON either way");
-  command->callback([&invocation, json] {
-    invocation.run = [] {
-      fmt::print("{}", experiments::study_schema());
+  const auto markdown = std::make_shared<bool>(false);
+  CLI::Option* as_json = command->add_flag("--json", *json, "The schema is JSON either way");
+  command
+      ->add_flag("--markdown", *markdown,
+                 "Print the same as a reference to read: every key, with examples")
+      ->excludes(as_json);
+  command->callback([&invocation, json, markdown] {
+    invocation.run = [markdown] {
+      fmt::print("{}",
+                 *markdown ? experiments::study_reference() : experiments::study_schema());
       return static_cast<int>(kDone);
     };
   });

@@ -60,41 +60,79 @@ std::string token_words(const std::string& token) {
   return found == kWords.end() ? token : found->second;
 }
 
+/// Where a message of the library speaks of a key, its pointer is that of the object.
+bool wants_key(std::string_view what) { return what.ends_with("; expected string literal"); }
+
+/// What an author who wrote this word, which is no JSON, most likely has to know.
+std::string hint_for(std::string_view word, char before) {
+  for (const char* mark : {"//", "/*", "#"}) {
+    if (word.starts_with(mark)) return " (notes go into a key `comment`)";
+  }
+  for (const char* quote : {"\xE2\x80\x9C", "\xE2\x80\x9D", "\xE2\x80\x9E", "\xC2\xAB"}) {
+    if (word.starts_with(quote)) return " (write the straight quotes of the keyboard)";
+  }
+  if (before == '"') return " (does the text before it lack a quote?)";
+  return did_you_mean(word, {"true", "false", "null"});
+}
+
+/// A word that is no JSON at all, for one of the library's words for what belongs there.
+std::string not_a_token(std::string_view what, const std::string& word, std::string hint) {
+  const std::string found = ", found `" + word + '`' + std::move(hint);
+  if (wants_key(what)) return "expected a key in double quotes" + found;
+  if (what.ends_with("; expected ':'")) return "expected `:`" + found;
+  if (what.ends_with("; expected '}'")) return "expected `,` or `}`" + found;
+  if (what.ends_with("; expected ']'")) return "expected `,` or `]`" + found;
+  if (what.ends_with("; expected end of input")) return "expected the end of the file" + found;
+  return "expected a value or a text in double quotes" + found;
+}
+
+/// A token of JSON where another one belongs; both in the library's words.
+std::string wrong_token(const std::string& found, const std::string& expected,
+                        std::string_view word) {
+  std::string wanted = token_words(expected);
+  if (wanted == "a text in quotes") wanted = "a key in quotes";  // It stands nowhere else.
+  const bool is_close = found == "'}'" || found == "']'";
+  const bool is_number = found == "number literal";
+  std::string hint;
+  if (is_close && (wanted == "a value" || wanted == "a key in quotes")) {
+    hint = " (is there a comma too many?)";
+  } else if (is_number && wanted == "a key in quotes") {
+    hint = " (decimals have a point, not a comma)";
+  } else if (is_number && word.size() > 1 && word.starts_with('0')) {
+    hint = " (a number begins with 0 only before a point)";
+  }
+  if (wanted == "`}`" || wanted == "`]`") wanted = "`,` or " + wanted;
+  return "expected " + wanted + ", found " + token_words(found) + hint;
+}
+
 /// What the library says went wrong, in the words of this program. `byte` is moved to where the
 /// author has to look.
-std::string worded(std::string what, std::string_view text, std::size_t& byte) {
-  const std::string_view not_utf8 =
+std::string worded(const std::string& what, std::string_view text, std::size_t& byte) {
+  const std::string not_utf8 =
       "expected UTF-8, found a byte that is not; save the file as UTF-8";
-  what.erase(std::min(what.find("; last read: '"), what.size()));  // The author's own words.
-  if (what.find("ill-formed UTF-8") != std::string::npos) {
-    return std::string(not_utf8);
-  }
-  const std::size_t unexpected = what.find("unexpected ");
-  const std::size_t expected = what.find("; expected ");
+  // Behind this are the author's own words.
+  const std::string said = what.substr(0, what.find("; last read: '"));
+  if (said.find("ill-formed UTF-8") != std::string::npos) return not_utf8;
+  std::size_t word_begin = byte;
+  const std::string_view word = word_at(text, word_begin);
+  const std::size_t unexpected = said.find("unexpected ");
+  const std::size_t expected = said.find("; expected ");
   if (unexpected != std::string::npos && expected != std::string::npos) {
-    const std::string found = what.substr(unexpected + 11, expected - unexpected - 11);
-    std::string wanted = token_words(what.substr(expected + 11));
-    if (wanted == "a text in quotes") wanted = "a key in quotes";  // It stands nowhere else.
-    const bool is_close = found == "'}'" || found == "']'";
-    std::string hint;
-    if (is_close && (wanted == "a value" || wanted == "a key in quotes")) {
-      hint = " (is there a comma too many?)";
-    } else if (wanted == "`}`" || wanted == "`]`") {
-      wanted = "`,` or " + wanted;
-    }
-    return "expected " + wanted + ", found " + token_words(found) + hint;
+    return wrong_token(said.substr(unexpected + 11, expected - unexpected - 11),
+                       said.substr(expected + 11), word);
   }
-  if (what.find("invalid string") != std::string::npos) {
-    const std::size_t reason = what.find("invalid string: ") + 16;
+  if (const std::size_t at = said.find("invalid string: "); at != std::string::npos) {
     return "expected a text in quotes that is whole, found an error in it: " +
-           what.substr(reason);
+           said.substr(at + 16);
   }
-  const std::string word = shown_text(word_at(text, byte), 30);
-  if (what.find(".406]") != std::string::npos) {
-    return "expected a number that fits a double, found " + word;
+  byte = word_begin;
+  const std::string shown = shown_text(word, 30);
+  if (said.find(".406]") != std::string::npos) {
+    return "expected a number that fits a double, found " + shown;
   }
-  if (word.starts_with("\\x")) return std::string(not_utf8);
-  return "expected a value or a text in double quotes, found `" + word + "`";
+  if (shown.starts_with("\\x")) return not_utf8;
+  return not_a_token(what, shown,
+                     hint_for(word, word_begin == 0 ? '\0' : text[word_begin - 1]));
 }
 
 /// The byte of the first bracket or brace that opens one level too many; none: npos.
@@ -139,6 +177,7 @@ class ErrorListener final : public nlohmann::json_sax<json> {
                    const nlohmann::detail::exception& error) override {
     error_byte = num_read == 0 ? 0 : num_read - 1;
     message = worded(error.what(), text_, error_byte);
+    if (wants_key(error.what()) && !levels_.empty()) levels_.back().token.clear();
     return false;
   }
 

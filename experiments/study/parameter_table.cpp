@@ -1,6 +1,7 @@
 #include "experiments/study/parameter_table.h"
 
 #include <charconv>
+#include <cmath>
 
 #include "experiments/study/stage_tables.h"
 
@@ -278,7 +279,12 @@ std::string quantity_of(std::string_view medium) {
 
 std::string plain_number(double value) {
   char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+  const double size = std::abs(value);
+  const bool has_few_zeros = value == 0.0 || (size >= 1e-6 && size < 1e15);
+  const auto end = has_few_zeros ? std::to_chars(digits, digits + sizeof digits, value,
+                                                 std::chars_format::fixed)
+                                 : std::to_chars(digits, digits + sizeof digits, value);
+  return {digits, end.ptr};
 }
 
 std::string one_of_words(const std::vector<std::string>& words) {
@@ -316,7 +322,7 @@ std::string expectation(const Parameter& parameter) {
     case ValueKind::kName:
       return "a name of at most 64 lower-case letters, digits and _";
     case ValueKind::kText:
-      return R"(an object of languages such as {"en": "..."})";
+      return R"(a text by language such as {"en": "..."})";
     case ValueKind::kNumber:
     case ValueKind::kInteger:
       return number_expectation(parameter);
@@ -327,7 +333,7 @@ std::string expectation(const Parameter& parameter) {
     case ValueKind::kStrings:
       return list + "texts in quotes";
     case ValueKind::kTexts:
-      return list + R"(objects of languages such as {"en": "..."})";
+      return list + R"(texts by language such as {"en": "..."})";
     case ValueKind::kObject:
       return "an object";
     case ValueKind::kObjects:

@@ -28,6 +28,10 @@ struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_is_open = false;  ///< x > low instead of x >= low.
+
+  [[nodiscard]] bool contains(double value) const noexcept {
+    return (low_is_open ? value > low : value >= low) && value <= high;
+  }
 };
 
 /// Another key of the same object that has one of these values.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/study/block_examples.h"
 #include "experiments/study/located_json.h"
 #include "experiments/study/parameter_table.h"
 
@@ -17,6 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kNamePattern = "^[a-z0-9_]{1,64}$";
+constexpr const char* kLanguagePattern = "^[a-z]{2,3}$";
+
+/// Words of which at least one character is seen.
+Json words_schema() { return {{"type", "string"}, {"pattern", "\\S"}}; }
 
 Json reference(const std::string& definition) {
   return {{"$ref", "#/definitions/" + definition}};
@@ -44,9 +49,11 @@ Json value_schema(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::kString:
       if (!parameter.allowed.empty()) return {{"enum", parameter.allowed}};
-      return {{"type", "string"}, {"minLength", 1}};
+      return words_schema();
     case ValueKind::kName:
-      return {{"type", "string"}, {"pattern", kNamePattern}};
+      return {{"type", "string"},
+              {"pattern", kNamePattern},
+              {"patternErrorMessage", "Expected " + expectation(parameter) + "."}};
     case ValueKind::kText:
       return reference("text");
     case ValueKind::kNumber:
@@ -57,7 +64,13 @@ Json value_schema(const Parameter& parameter) {
     case ValueKind::kNumbers:
       return list_schema(parameter, number_schema(parameter));
     case ValueKind::kStrings:
-      return list_schema(parameter, {{"type", "string"}, {"minLength", 1}});
+      if (parameter.key == "languages") {
+        Json codes =
+            list_schema(parameter, {{"type", "string"}, {"pattern", kLanguagePattern}});
+        codes["uniqueItems"] = true;
+        return codes;
+      }
+      return list_schema(parameter, words_schema());
     case ValueKind::kTexts:
       return list_schema(parameter, reference("text"));
     case ValueKind::kObject:
@@ -94,11 +107,22 @@ std::string description(const Parameter& parameter) {
   return text;
 }
 
+/// What VS Code shows in place of the description: the same with what the author can do.
+std::string markdown_description(const Parameter& parameter) {
+  std::string text = description(parameter) + "\n\nExpected: " + expectation(parameter);
+  const bool has_range = parameter.kind == ValueKind::kNumbers &&
+                         parameter.range.high < std::numeric_limits<double>::infinity();
+  if (has_range) text += ", each " + number_expectation(parameter);
+  if (!parameter.default_json.empty()) text += ". Default: `" + parameter.default_json + '`';
+  return text + '.';
+}
+
 Json property_schema(const Parameter& parameter) {
   Json schema = value_schema(parameter);
   // Draft 7 ignores what stands beside a $ref.
   if (schema.contains("$ref")) schema = {{"allOf", Json::array({schema})}};
-  Json described = {{"description", description(parameter)}};
+  Json described = {{"description", description(parameter)},
+                    {"markdownDescription", markdown_description(parameter)}};
   described.update(schema);
   if (!parameter.default_json.empty()) {
     described["default"] = Json::parse(parameter.default_json);
@@ -145,9 +169,23 @@ Json conditional_schemas(const ParameterTable& table) {
   return schemas;
 }
 
+Json examples_of(const ParameterTable& table) {
+  Json examples = Json::array();
+  if (table.name == "block") {
+    for (const BlockExample& example : block_examples()) {
+      examples.push_back(Json::parse(example.json));
+    }
+  } else if (!table.example.empty()) {
+    examples.push_back(Json::parse(table.example));
+  }
+  return examples;
+}
+
 Json table_schema(const ParameterTable& table) {
   Json schema = {{"description", table.meaning}, {"type", "object"}};
-  if (!table.example.empty()) schema["examples"] = Json::array({Json::parse(table.example)});
+  if (Json examples = examples_of(table); !examples.empty()) {
+    schema["examples"] = std::move(examples);
+  }
   Json required = Json::array();
   Json properties = Json::object();
   for (const Parameter& parameter : table.parameters) {
@@ -163,12 +201,30 @@ Json table_schema(const ParameterTable& table) {
   return schema;
 }
 
+/// Whole stages that VS Code offers to put in.
+Json stage_snippets() {
+  Json snippets = Json::array();
+  for (const ParameterTable* table : stage_tables()) {
+    for (Json& example : examples_of(*table)) {
+      const std::string label =
+          table->name + (table->name == "block"
+                             ? ": " + example.at("procedure").get<std::string>()
+                             : std::string());
+      snippets.push_back(
+          {{"label", label}, {"description", table->meaning}, {"body", std::move(example)}});
+    }
+  }
+  return snippets;
+}
+
 Json stage_schema() {
   std::string kinds = "One thing that happens in a session. ";
   Json names = Json::array();
+  Json meanings = Json::array();
   Json rules = Json::array();
   for (const ParameterTable* table : stage_tables()) {
     names.push_back(table->name);
+    meanings.push_back(table->meaning);
     kinds += '`' + table->name + "`: " + table->meaning + ' ';
     rules.push_back({{"if",
                       {{"properties", {{"kind", {{"const", table->name}}}}},
@@ -178,7 +234,8 @@ Json stage_schema() {
   kinds.pop_back();
   return {{"description", kinds},
           {"type", "object"},
-          {"properties", {{"kind", {{"enum", names}}}}},
+          {"defaultSnippets", stage_snippets()},
+          {"properties", {{"kind", {{"enum", names}, {"markdownEnumDescriptions", meanings}}}}},
           {"required", Json::array({"kind"})},
           {"allOf", rules}};
 }
@@ -194,8 +251,8 @@ std::string study_schema() {
        {{"description", "Words in every language of the study: language code to words."},
         {"type", "object"},
         {"examples", Json::array({{{"en", "Rest."}, {"de", "Pause."}}})},
-        {"patternProperties",
-         {{"^([a-z]{2,3}|comment)$", {{"type", "string"}, {"minLength", 1}}}}},
+        {"defaultSnippets", Json::array({{{"label", "text"}, {"body", {{"en", "$1"}}}}})},
+        {"patternProperties", {{"^([a-z]{2,3}|comment)$", words_schema()}}},
         {"additionalProperties", false},
         {"minProperties", 1}}},
       {"stage", stage_schema()}};

@@ -9,7 +9,8 @@ namespace jnd::experiments {
 namespace {
 
 constexpr const char* kStarter = R"json({
-  "comment": "Every object may have a `comment`. `jnd validate` tells all problems of this file, `jnd schema` what every key means, `jnd plan` what the participants would get.",
+  "$schema": "./study.schema.json",
+  "comment": "Every object may have a `comment`. `jnd validate` tells all problems of this file, an editor that reads the schema what every key means, `jnd plan` what the participants would get.",
   "format": 1,
   "name": "@NAME@",
   "languages": ["en"],

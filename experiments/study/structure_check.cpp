@@ -68,9 +68,12 @@ bool is_language(std::string_view code) {
          std::all_of(code.begin(), code.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-bool in_range(const Range& range, double value) {
-  const bool above = range.low_is_open ? value > range.low : value >= range.low;
-  return above && value <= range.high;
+/// Somebody who names a file here expects it to be read; a study takes nothing from others.
+std::string file_hint(const json& value) {
+  if (!value.is_string()) return "";
+  const auto text = value.get<std::string>();
+  const bool names_file = text.ends_with(".json") || text.ends_with(".csv");
+  return names_file ? "; a study takes nothing from other files, write it here" : "";
 }
 
 bool is_blank(const std::string& text) {
@@ -137,7 +140,7 @@ void StructureCheck::read_languages() {
 void StructureCheck::check_object(const json& object, const std::string& pointer,
                                   const ParameterTable& table) {
   if (!object.is_object()) {
-    report(pointer, "expected an object, found " + found_words(object));
+    report(pointer, "expected an object, found " + found_words(object) + file_hint(object));
     return;
   }
   check_keys(object, pointer, table);
@@ -172,7 +175,8 @@ void StructureCheck::check_keys(const json& object, const std::string& pointer,
       check_value(value, child, comment_parameter());
     } else if (table.find(key) == nullptr) {
       report_key(child, "expected a key of `" + table.name + "`, found the unknown key `" +
-                            shown_text(key) + "`" + did_you_mean(key, candidates));
+                            shown_text(key) + "`" + did_you_mean(key, candidates) +
+                            file_hint(value));
     }
   }
 }
@@ -181,7 +185,8 @@ void StructureCheck::check_value(const json& value, const std::string& pointer,
                                  const Parameter& parameter) {
   const auto expect = [&](bool holds) {
     if (!holds) {
-      report(pointer, "expected " + expectation(parameter) + ", found " + found_words(value));
+      report(pointer, "expected " + expectation(parameter) + ", found " + found_words(value) +
+                          file_hint(value));
     }
     return holds;
   };
@@ -233,7 +238,7 @@ void StructureCheck::check_number(const json& value, const std::string& pointer,
                                   const Parameter& parameter) {
   const bool whole = parameter.kind == ValueKind::kInteger;
   const bool is_right_kind = whole ? value.is_number_integer() : value.is_number();
-  if (is_right_kind && in_range(parameter.range, value.get<double>())) return;
+  if (is_right_kind && parameter.range.contains(value.get<double>())) return;
   report(pointer,
          "expected " + number_expectation(parameter) + ", found " + found_words(value));
 }
@@ -242,8 +247,8 @@ void StructureCheck::check_text(const json& value, const std::string& pointer) {
   if (!value.is_object()) {
     const std::string language = languages_.empty() ? "en" : languages_.front();
     const std::string shown = value.is_string() ? shown_text(value.get<std::string>()) : "...";
-    report(pointer, "expected an object of languages such as {\"" + language + "\": \"" +
-                        shown + "\"}, found " + found_words(value));
+    report(pointer, "expected a text by language such as {\"" + language + "\": \"" + shown +
+                        "\"}, found " + found_words(value));
     return;
   }
   for (const auto& [language, words] : value.items()) {

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -19,10 +18,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Far more than anybody writes; what is known of each value takes memory.
+constexpr std::size_t kLargestStudy = std::size_t{4} << 20;
+
+/// As much of a stream as a study may have, and a byte more if there is more: also of what has
+/// no end, such as a device or a pipe.
+std::string text_of(std::istream& stream) {
+  std::string text(kLargestStudy + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
 /// The whole file, or a problem in words.
 std::optional<std::string> file_text(const fs::path& file,
                                      std::vector<StudyProblem>& problems) {
-  constexpr std::uintmax_t kLargestStudy = std::uintmax_t{4} << 20;
   const auto refuse = [&](const std::string& found) -> std::optional<std::string> {
     problems.push_back(
         {file.string(), 0, 0, "", "expected a study file that can be read, found " + found});
@@ -32,19 +42,22 @@ std::optional<std::string> file_text(const fs::path& file,
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) return refuse("no such file");
   if (fs::is_directory(status)) return refuse("a folder");
-  if (fs::is_regular_file(status) && fs::file_size(file, error) > kLargestStudy) {
-    return refuse("a file of more than 4 MiB");
-  }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return refuse(errno != 0 ? std::strerror(errno) : "a file that does not open");
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string text = text_of(stream);
   if (stream.bad()) return refuse("an error while reading it");
   return text;
 }
 
 LocatedJson checked(const std::string& text, const std::string& file_name,
                     std::vector<StudyProblem>& problems) {
+  if (text.size() > kLargestStudy) {
+    problems.push_back({file_name, 0, 0, "",
+                        "expected at most 4 MiB of text, found more; is this a study file?"});
+    std::vector<StudyProblem> of_nothing;
+    return {"", file_name, of_nothing};
+  }
   LocatedJson file(text, file_name, problems);
   if (file.usable()) {
     StructureCheck(file, problems).run();

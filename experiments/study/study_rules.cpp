@@ -8,41 +8,16 @@
 
 #include "core/error.h"
 #include "core/media/force_map.h"
+#include "experiments/study/label_rules.h"
 #include "experiments/study/parameter_table.h"
+#include "experiments/study/rule_values.h"
+#include "experiments/study/session_rules.h"
 #include "experiments/study/shown_text.h"
-#include "experiments/study/structure_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
-
-std::string word(const json& object, const std::string& key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-const json* number(const json& object, const std::string& key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? &*found : nullptr;
-}
-
-/// Names as a message lists them: short, and not all of very many.
-std::string names_words(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 4;
-  std::vector<std::string> shown;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) {
-    shown.push_back(shown_text(names[i], 30));
-  }
-  return one_of_words(shown) + (names.size() > kMost ? " ..." : "");
-}
-
-/// The list at `key`, or an empty one.
-const json& list(const json& object, const std::string& key) {
-  static const json kNone = json::array();
-  const auto found = object.find(key);
-  return found != object.end() && found->is_array() ? *found : kNone;
-}
 
 class Rules {
  public:
@@ -56,6 +31,7 @@ class Rules {
     check_stages(stages, "/stages", false);
     check_num_cells();
     check_num_trials();
+    check_wall();
     check_force_map();
   }
 
@@ -105,12 +81,27 @@ class Rules {
     }
   }
 
+  /// A wall stands where the fluid ends, and friction on a wall.
+  void check_wall() {
+    const json& immersion = object_at(object_at(file_.root(), "device"), "immersion");
+    const std::string pointer = "/device/immersion/wall_";
+    const bool has_wall = number(immersion, "wall_stiffness_n_per_m") != nullptr;
+    if (has_wall && !immersion.contains("radius_m") && !immersion.contains("depth_m")) {
+      report(pointer + "stiffness_n_per_m",
+             "expected this key only beside `radius_m` or `depth_m`, which say where the wall "
+             "is, found neither");
+    }
+    if (!immersion.contains("wall_stiffness_n_per_m") &&
+        number_or(immersion, "wall_friction_ratio", 0.0) > 0.0) {
+      report(pointer + "friction_ratio",
+             "expected this key only beside `wall_stiffness_n_per_m`, found no wall");
+    }
+  }
+
   /// What one row alone cannot show: angles and speeds that make a grid, lift that has a side.
   void check_force_map() {
     const std::string pointer = "/device/force_map";
-    const auto device = file_.root().find("device");
-    if (device == file_.root().end() || !device->is_object()) return;
-    const json& listed = list(*device, "force_map");
+    const json& listed = list(object_at(file_.root(), "device"), "force_map");
     if (listed.empty()) return;
     for (const StudyProblem& problem : problems_) {
       if (problem.pointer.starts_with(pointer)) return;
@@ -308,6 +299,8 @@ class Rules {
 
 void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& problems) {
   Rules(file, problems).run();
+  check_session_rules(file, problems);
+  check_label_rules(file, problems);
 }
 
 }  // namespace jnd::experiments

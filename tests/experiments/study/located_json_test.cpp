@@ -70,13 +70,40 @@ TEST(LocatedJson, SaysWhatIsWrongWithTheSyntaxAndWhere) {
   EXPECT_EQ(problems_in("{\"a\": [1,\n]}"),
             "x:2:1: /a/1: expected a value, found `]` (is there a comma too many?)");
   EXPECT_EQ(problems_in("{\"a\": 1,}"),
-            "x:1:9: /a: expected a key in quotes, found `}` (is there a comma too many?)");
+            "x:1:9: /: expected a key in quotes, found `}` (is there a comma too many?)");
   EXPECT_EQ(problems_in("{\"a\": 1 \"b\": 2}"),
             "x:1:11: /a: expected `,` or `}`, found a text in quotes");
   EXPECT_EQ(problems_in("{\"a\": 'x'}"),
             "x:1:7: /a: expected a value or a text in double quotes, found `'x'`");
-  EXPECT_EQ(problems_in("{\"a\": 1} // b"),
-            "x:1:10: /: expected a value or a text in double quotes, found `//`");
+  EXPECT_EQ(
+      problems_in("{\"a\": 1} // b"),
+      "x:1:10: /: expected the end of the file, found `//` (notes go into a key `comment`)");
+}
+
+TEST(LocatedJson, SaysWhatBelongsThereAndGuessesWhatWasMeant) {
+  EXPECT_EQ(problems_in("{a: 1}"), "x:1:2: /: expected a key in double quotes, found `a`");
+  EXPECT_EQ(problems_in("{\"a\": {\"b\": 1,\nc: 2}}"),
+            "x:2:1: /a: expected a key in double quotes, found `c`");
+  EXPECT_EQ(problems_in("{\"a\" b}"), "x:1:6: /a: expected `:`, found `b`");
+  EXPECT_EQ(problems_in("{\"a\": 60 s}"), "x:1:10: /a: expected `,` or `}`, found `s`");
+  EXPECT_EQ(problems_in("[60 s]"), "x:1:5: /1: expected `,` or `]`, found `s`");
+  EXPECT_EQ(
+      problems_in("{\"a\": \"b, \"c\": 1}"),
+      "x:1:12: /a: expected `,` or `}`, found `c` (does the text before it lack a quote?)");
+  EXPECT_EQ(problems_in("{\"a\": 60,5}"),
+            "x:1:10: /: expected a key in quotes, found a number (decimals have a point, not a "
+            "comma)");
+  EXPECT_EQ(
+      problems_in("[007]"),
+      "x:1:3: /1: expected `,` or `]`, found a number (a number begins with 0 only before "
+      "a point)");
+  EXPECT_EQ(
+      problems_in("[True]"),
+      "x:1:2: /0: expected a value or a text in double quotes, found `True`; did you mean "
+      "`true`?");
+  EXPECT_EQ(problems_in("[\xE2\x80\x9Eno\xE2\x80\x9C]"),
+            "x:1:2: /0: expected a value or a text in double quotes, found "
+            "`\xE2\x80\x9Eno\xE2\x80\x9C` (write the straight quotes of the keyboard)");
 }
 
 TEST(LocatedJson, KnowsNoNumbersThatAreNotFinite) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/parameter_table.h"
@@ -88,17 +89,32 @@ TEST(SchemaWriter, ResolvesEveryReference) {
   EXPECT_GT(num_references, 20);
 }
 
+TEST(SchemaWriter, OffersEveryStageKindAndProcedureToBePutIn) {
+  const json snippets =
+      json::parse(study_schema()).at("definitions").at("stage").at("defaultSnippets");
+  std::set<std::string> labels;
+  for (const json& snippet : snippets) labels.insert(snippet.at("label").get<std::string>());
+  for (const ParameterTable* table : stage_tables()) {
+    EXPECT_TRUE(labels.contains(table->name) || table->name == "block") << table->name;
+  }
+  for (const std::string& procedure : stage_table("block")->find("procedure")->allowed) {
+    EXPECT_TRUE(labels.contains("block: " + procedure))
+        << procedure << ": add an example to experiments/study/block_examples.cpp";
+  }
+}
+
 TEST(SchemaWriter, ShowsAnExampleOfEveryStageKindThatTheReaderTakes) {
   for (const ParameterTable* table : stage_tables()) {
-    const json example = schema_of(*table).at("examples").at(0);
-    const json study = {{"format", 1},
-                        {"name", "example"},
-                        {"languages", {"en"}},
-                        {"title", {{"en", "Example"}}},
-                        {"authors", {"A. Author"}},
-                        {"stages", json::array({example})}};
-    for (const StudyProblem& problem : study_text_problems(study.dump(), table->name)) {
-      ADD_FAILURE() << to_string(problem);
+    for (const json& example : schema_of(*table).at("examples")) {
+      const json study = {{"format", 1},
+                          {"name", "example"},
+                          {"languages", {"en"}},
+                          {"title", {{"en", "Example"}}},
+                          {"authors", {"A. Author"}},
+                          {"stages", json::array({example})}};
+      for (const StudyProblem& problem : study_text_problems(study.dump(), table->name)) {
+        ADD_FAILURE() << to_string(problem);
+      }
     }
   }
   for (const StudyProblem& problem :

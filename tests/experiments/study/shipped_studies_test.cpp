@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/order/counterbalance.h"
+#include "experiments/study/schema_writer.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
@@ -33,7 +34,8 @@ TEST(ShippedStudies, HaveNoProblem) {
   int num_studies = 0;
   for (const auto& entry : std::filesystem::directory_iterator(
            std::filesystem::path(JND_SOURCE_DIR) / "protocols")) {
-    if (entry.path().extension() != ".json") continue;
+    const std::filesystem::path name = entry.path().filename();
+    if (name.extension() != ".json" || name == kSchemaFileName) continue;
     ++num_studies;
     for (const StudyProblem& problem : study_problems(entry.path())) {
       ADD_FAILURE() << to_string(problem);
@@ -41,6 +43,15 @@ TEST(ShippedStudies, HaveNoProblem) {
     EXPECT_EQ(read_study(entry.path()).name, entry.path().stem());
   }
   EXPECT_EQ(num_studies, 4);
+}
+
+TEST(ShippedStudies, TellEditorsWhereTheSchemaIs) {
+  for (const char* name : {"magnitude_of_virtual_water", "viscosity_discrimination",
+                           "short_tour", "finger_motion"}) {
+    EXPECT_NE(shipped(name).text.find("\"$schema\": \"./study.schema.json\""),
+              std::string::npos)
+        << name;
+  }
 }
 
 TEST(ShippedStudies, SpeakEnglishAndGerman) {

@@ -120,7 +120,7 @@ TEST(StructureCheck, WantsTextsInEveryLanguageOfTheStudy) {
 
 TEST(StructureCheck, ShowsHowATextIsWrittenWhereItFindsABareOne) {
   EXPECT_EQ(problems_of(broken("{\"en\": \"Say.\", \"de\": \"Sag.\"}", "\"Say.\"")),
-            "x.json:15:21: /stages/1/instruction: expected an object of languages such as "
+            "x.json:15:21: /stages/1/instruction: expected a text by language such as "
             "{\"en\": \"Say.\"}, found the text \"Say.\"");
 }
 

@@ -112,12 +112,32 @@ TEST(StudyRules, WantOnlyForToNameAnArmThatExists) {
 TEST(StudyRules, RefuseMoreTrialsThanAnyoneCanDo) {
   std::string scales = "[0";
   for (int i = 1; i < 51; ++i) scales += ", " + std::to_string(i);
+  // So short that the session is not too long.
   const std::string text =
-      broken("[0, 1, 2], \"repetitions\": 3", scales + "], \"repetitions\": 1000");
+      broken("[0, 1, 2], \"repetitions\": 3", scales + "], \"repetitions\": 1000",
+             broken("\"expected_trial_s\": 20", "\"expected_trial_s\": 0.1"));
   EXPECT_EQ(problems_of(text),
             "x.json:8:13: /stages: expected at most 50000 trials in all blocks together, found "
             "51014");
   EXPECT_EQ(problems_of(broken("1000", "900", text)), "");
+}
+
+TEST(StudyRules, AWallStandsWhereTheFluidEndsAndFrictionOnAWall) {
+  const auto with = [](const std::string& immersion) {
+    return problems_of(
+        broken("\"blinding\": \"none\"", "\"device\": {\"immersion\": {" + immersion + "}}"));
+  };
+  EXPECT_EQ(with("\"wall_stiffness_n_per_m\": 800, \"depth_m\": 0.3"), "");
+  EXPECT_EQ(with("\"wall_stiffness_n_per_m\": 800, \"radius_m\": 0.3, "
+                 "\"wall_friction_ratio\": 0.5"),
+            "");
+  EXPECT_EQ(with("\"wall_friction_ratio\": 0"), "");
+  EXPECT_EQ(with("\"wall_stiffness_n_per_m\": 800"),
+            "x.json:7:54: /device/immersion/wall_stiffness_n_per_m: expected this key only "
+            "beside `radius_m` or `depth_m`, which say where the wall is, found neither");
+  EXPECT_EQ(with("\"depth_m\": 0.3, \"wall_friction_ratio\": 0.5"),
+            "x.json:7:67: /device/immersion/wall_friction_ratio: expected this key only beside "
+            "`wall_stiffness_n_per_m`, found no wall");
 }
 
 TEST(StudyRules, RefuseMoreCellsThanAnyoneCanFill) {

@@ -1,0 +1,92 @@
+#include "experiments/study/label_rules.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "experiments/study/rule_values.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+class LabelRules {
+ public:
+  LabelRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
+      : file_(file), problems_(problems) {}
+
+  void run() {
+    if (file_.root().is_object()) check_stages(list(file_.root(), "stages"), "/stages");
+  }
+
+ private:
+  void check_stages(const json& stages, const std::string& pointer) {
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const std::string here = pointer + '/' + std::to_string(i);
+      const json& stage = stages[i];
+      if (!stage.is_object()) continue;
+      check_pair(stage, here, "yes_label", "no_label");
+      check_items(list(stage, "items"), here + "/items");
+      const json& arms = list(stage, "arms");
+      for (std::size_t arm = 0; arm < arms.size(); ++arm) {
+        if (!arms[arm].is_object()) continue;
+        check_stages(list(arms[arm], "stages"),
+                     here + "/arms/" + std::to_string(arm) + "/stages");
+      }
+      check_stages(list(stage, "between"), here + "/between");
+    }
+  }
+
+  void check_items(const json& items, const std::string& pointer) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!items[i].is_object()) continue;
+      const std::string item = pointer + '/' + std::to_string(i);
+      check_pair(items[i], item, "low_label", "high_label");
+      Labels labels;
+      const json& options = list(items[i], "options");
+      for (std::size_t j = 0; j < options.size(); ++j) {
+        if (!options[j].is_object()) continue;
+        add(labels, object_at(options[j], "label"),
+            item + "/options/" + std::to_string(j) + "/label");
+      }
+    }
+  }
+
+  void check_pair(const json& object, const std::string& pointer, const std::string& first,
+                  const std::string& second) {
+    Labels labels;
+    add(labels, object_at(object, first), pointer + '/' + first);
+    add(labels, object_at(object, second), pointer + '/' + second);
+  }
+
+  /// Language and words to the pointer of the label that has them.
+  using Labels = std::map<std::pair<std::string, std::string>, std::string>;
+
+  void add(Labels& labels, const json& text, const std::string& pointer) {
+    for (const auto& [language, words] : text.items()) {
+      if (language == "comment" || !words.is_string()) continue;
+      const auto [first, is_new] =
+          labels.emplace(std::pair(language, words.get<std::string>()), pointer);
+      if (is_new) continue;
+      const std::string here = pointer + '/' + pointer_token(language);
+      const TextPosition position = file_.value_position(here);
+      add_problem(problems_,
+                  {file_.file(), position.line, position.column, here,
+                   "expected words of its own, so that answers can be told apart, "
+                   "found \"" +
+                       shown_text(words.get<std::string>()) + "\", as in " + first->second});
+    }
+  }
+
+  const LocatedJson& file_;
+  std::vector<StudyProblem>& problems_;
+};
+
+}  // namespace
+
+void check_label_rules(const LocatedJson& file, std::vector<StudyProblem>& problems) {
+  LabelRules(file, problems).run();
+}
+
+}  // namespace jnd::experiments

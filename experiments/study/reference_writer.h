@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace jnd::experiments {
+
+/// Reference of the study format in Markdown, made from the parameter tables: an introduction,
+/// then every key with type, unit, range, default and meaning, an example of every stage kind
+/// and procedure, and the data each of them writes. Written for somebody who designs studies
+/// and does not program. With a line end. Not real time.
+[[nodiscard]] std::string study_reference();
+
+}  // namespace jnd::experiments

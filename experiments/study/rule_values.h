@@ -1,0 +1,60 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/study/parameter_table.h"
+#include "experiments/study/shown_text.h"
+
+namespace jnd::experiments {
+
+// Values as rules look at them: one of the wrong type is as good as none, for `StructureCheck`
+// has told of it already.
+
+/// The text at `key`, or "".
+[[nodiscard]] inline std::string word(const nlohmann::json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// The number at `key`, or null.
+[[nodiscard]] inline const nlohmann::json* number(const nlohmann::json& object,
+                                                  const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? &*found : nullptr;
+}
+
+[[nodiscard]] inline double number_or(const nlohmann::json& object, const std::string& key,
+                                      double otherwise) {
+  const nlohmann::json* found = number(object, key);
+  return found == nullptr ? otherwise : found->get<double>();
+}
+
+/// The list at `key`, or an empty one.
+[[nodiscard]] inline const nlohmann::json& list(const nlohmann::json& object,
+                                                const std::string& key) {
+  static const nlohmann::json kNone = nlohmann::json::array();
+  const auto found = object.find(key);
+  return found != object.end() && found->is_array() ? *found : kNone;
+}
+
+/// The object at `key`, or an empty one.
+[[nodiscard]] inline const nlohmann::json& object_at(const nlohmann::json& object,
+                                                     const std::string& key) {
+  static const nlohmann::json kNone = nlohmann::json::object();
+  const auto found = object.find(key);
+  return found != object.end() && found->is_object() ? *found : kNone;
+}
+
+/// Names as a message lists them: short, and not all of very many.
+[[nodiscard]] inline std::string names_words(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) {
+    shown.push_back(shown_text(names[i], 30));
+  }
+  return one_of_words(shown) + (names.size() > kMost ? " ..." : "");
+}
+
+}  // namespace jnd::experiments
