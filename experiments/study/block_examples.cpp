@@ -17,7 +17,27 @@ const std::vector<BlockExample>& block_examples() {
   "instruction": {"en": "Say stronger or weaker until it feels like the percentage you are told."},
   "question": {"en": "Is this the percentage you were told?"},
   "free_space_between_s": 2, "expected_trial_s": 30})json"},
-      {"constant_stimuli", block_table().example}};
+      {"constant_stimuli", block_table().example},
+      {"limits", R"json({"kind": "block", "name": "least_viscosity",
+  "procedure": "limits", "medium": "viscous", "task": "yes_no",
+  "viscosity_pa_s": [0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2, 3], "num_series": 8,
+  "instruction": {"en": "Tell whenever you feel anything in the way of your hand."},
+  "question": {"en": "Is there anything?"},
+  "free_space_between_s": 2, "expected_trial_s": 8})json"},
+      {"staircase", R"json({"kind": "block", "name": "up_and_down",
+  "procedure": "staircase", "medium": "viscous", "reference_viscosity_pa_s": 8,
+  "start_viscosity_pa_s": [16, 4], "lowest_viscosity_pa_s": 1, "highest_viscosity_pa_s": 30,
+  "step_ratio": [1.5, 1.25, 1.1], "num_down": 2, "max_reversals": 10,
+  "instruction": {"en": "First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"},
+      {"quest_plus", R"json({"kind": "block", "name": "most_telling",
+  "procedure": "quest_plus", "medium": "viscous",
+  "viscosity_pa_s": [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 18, 24], "reference_viscosity_pa_s": 8,
+  "pse_viscosity_pa_s": [4, 16], "weber_fraction": [0.05, 2], "max_trials": 40,
+  "instruction": {"en": "First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"}};
   return kExamples;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "experiments/study/rule_values.h"
+#include "experiments/study/stage_tables.h"
 
 namespace jnd::experiments {
 namespace {
@@ -160,6 +161,9 @@ class SessionRules {
     const double trial_s = sound_number(table, block, "expected_trial_s", 0.0) +
                            sound_number(table, block, "free_space_between_s", 0.0);
     const json& levels = list(block, quantity_of(word(block, "medium")));
+    // A list that is too long is told of as a whole.
+    const Parameter* its = block_table().find(quantity_of(word(block, "medium")));
+    if (its != nullptr && levels.size() > its->max_items) return 0.0;
     const auto num_targets = static_cast<double>(list(block, "target_percent").size());
     return trial_s * static_cast<double>(levels.size()) *
            sound_number(table, block, "repetitions", 1.0) * std::max(1.0, num_targets);

@@ -13,6 +13,7 @@
 #include "experiments/study/rule_values.h"
 #include "experiments/study/session_rules.h"
 #include "experiments/study/shown_text.h"
+#include "experiments/study/stage_tables.h"
 
 namespace jnd::experiments {
 namespace {
@@ -232,6 +233,11 @@ class Rules {
     const std::string at = pointer + '/';
     std::map<double, std::size_t> seen;
     const json& values = list(block, quantity);
+    // A list that is too long is told of as a whole.
+    if (const Parameter* levels = block_table().find(quantity);
+        levels != nullptr && values.size() > levels->max_items) {
+      return;
+    }
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!values[i].is_number()) continue;
       const std::string here = at + quantity + '/' + std::to_string(i);
