@@ -280,9 +280,12 @@ std::vector<PresentationRow> StudyStore::presentations(std::int64_t session,
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
                  std::string("SELECT ") + kPresentationColumns +
-                     " FROM presentation_in_force WHERE session = ?" +
+                     // As in presentation_in_force, but with a table of the trials that is made
+                     // once: the view looks through all of them for each presentation.
+                     " FROM presentation WHERE session = ?1 AND (trial, attempt) IN"
+                     " (SELECT trial, attempt FROM trial_in_force WHERE session = ?1" +
                      (include_excluded ? "" : " AND NOT excluded") +
-                     " ORDER BY trial, attempt, presentation");
+                     ") ORDER BY trial, attempt, presentation");
   rows.bind(session);
   std::vector<PresentationRow> all;
   while (rows.step()) {
