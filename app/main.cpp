@@ -14,7 +14,7 @@
 #include "app/commands/validate.h"
 #include "app/open_window.h"
 #include "app/usage_message.h"
-#include "core/error.h"
+#include "core/missing_right.h"
 #include "device/haptic_device.h"
 
 namespace {
@@ -66,6 +66,8 @@ int invoke(int argc, char** argv) {
   } catch (const app::UsageError& error) {
     return failed(app::kWrongUsage, error.what());
   } catch (const device::DeviceUnreachable& error) {
+    return failed(app::kEnvironmentLacks, error.what());
+  } catch (const core::MissingRight& error) {
     return failed(app::kEnvironmentLacks, error.what());
   } catch (const core::Error& error) {
     if (asks_for_json(argc, argv)) std::puts(app::error_json(error).c_str());

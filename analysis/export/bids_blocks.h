@@ -1,26 +1,40 @@
 #pragma once
 
-#include <map>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "analysis/export/study_tables.h"
+#include "analysis/export/table_rows.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {
 
-/// What a participant did in one block: a task, in the words of BIDS.
-struct BidsBlock {
-  std::string block;  ///< Its name in the study file.
-  std::vector<ExportedTrial> trials;
-  std::vector<core::PresentationRow> presentations;
-  std::int64_t first_tick = 0, last_tick = 0;  ///< From its first trial to the end of its last.
-  std::int64_t time_ns = 0;                    ///< Of `first_tick`.
+/// A medium that was felt outside of trials.
+struct ExploredMedium {
+  std::string medium;
+  std::optional<double> intensity;
+  std::int64_t first_tick = 0, last_tick = 0;
 };
 
-/// The blocks of a session that have an answered trial, in the order of their first ticks.
+/// What a participant did in one block, or in one stage that shows media outside of trials: a
+/// task, in the words of BIDS.
+struct BidsBlock {
+  std::string name;                   ///< Of the block or stage in the study file.
+  std::vector<ExportedTrial> trials;  ///< None in a stage that only shows media.
+  std::vector<ExportedPresentation> presentations;
+  std::vector<ExploredMedium> explored;  ///< None in a block.
+  std::int64_t first_tick = 0,
+               last_tick = 0;  ///< From its first medium to the end of its last.
+  std::int64_t time_ns = 0;    ///< Of `first_tick`.
+};
+
+/// The blocks of a session that have an answered trial and the stages in which media were
+/// explored, in the order of their first ticks. A stage whose name is not known is "stageN",
+/// counted from 1; one that is named as a block is "NAME_explored".
 [[nodiscard]] std::vector<BidsBlock> bids_blocks(const core::StudyStore& store,
-                                                 const core::SessionRow& session);
+                                                 const core::SessionRow& session,
+                                                 const std::vector<std::string>& stage_names);
 
 /// The front of a file's name, "sub-P01_ses-01_task-estimation", and what it stands for.
 struct BidsTask {
@@ -29,13 +43,14 @@ struct BidsTask {
   std::string description;
 };
 
-/// Events of a block: onset and duration, what was presented, what was answered; and the gaps
-/// of its recording as events of their own.
+/// Events of a block: onset and duration, what was presented or explored, what was answered;
+/// and the gaps of its recording as events of their own.
 void write_bids_events(const std::filesystem::path& front, const BidsBlock& block,
-                       double rate_hz, const std::vector<RecordingGap>& gaps);
+                       const core::SessionRow& session,
+                       const std::vector<core::TickRange>& gaps);
 
 /// beh/..._beh.tsv and its sidecar: one row a trial whose answer stands.
 void write_bids_beh(const std::filesystem::path& folder, const BidsTask& task,
-                    const BidsBlock& block);
+                    const BidsBlock& block, const core::SessionRow& session);
 
 }  // namespace jnd::analysis

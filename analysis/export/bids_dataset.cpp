@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/export/bids_text.h"
-#include "analysis/questionnaire_items.h"
 
 namespace jnd::analysis {
 namespace {
@@ -62,17 +61,61 @@ std::vector<std::string> authors_of(const BidsDataset& dataset) {
 }
 
 ordered_json generated_by(const BidsDataset& dataset) {
-  std::vector<std::string> versions;
-  for (const core::SessionRow& row : dataset.sessions) {
-    if (std::ranges::find(versions, row.program_version) == versions.end()) {
-      versions.push_back(row.program_version);
-    }
-  }
-  return ordered_json::array(
-      {{{"Name", "jnd"}, {"Version", joined(versions)}, {"Description", "jnd export bids"}}});
+  ordered_json by = {{"Name", "jnd"}, {"Description", "jnd export bids"}};
+  if (!dataset.program_version.empty()) by["Version"] = dataset.program_version;
+  return ordered_json::array({by});
 }
 
-std::string readme(const BidsDataset& dataset) {
+constexpr char kMotionText[] =
+    "- `sub-*/ses-*/motion`: the samples of the haptic loop from the first medium of a task to "
+    "the end of its last, in the workspace frame (x to the participant's right, y away, z up). "
+    "Those between tasks, in breaks and instructions, are in `sourcedata/` alone. Forces, "
+    "those "
+    "on the hand, are channels of type MISC in N. A sample that was lost is a row of n/a and "
+    "an "
+    "event `missing_samples`; nothing is filled in.\n";
+
+constexpr char kValidatorText[] =
+    "\nThe schema-based validator takes the first row of a motion file for names, and a hand "
+    "at "
+    "rest repeats its values there: tell it to ignore `TSV_COLUMN_HEADER_DUPLICATE`. The older "
+    "one reads whole files into memory: with motion of many gigabytes give it more "
+    "(`NODE_OPTIONS=--max-old-space-size=16384`), or validate a few subjects at a time.\n";
+
+std::string motion_text(const BidsDataset& dataset) {
+  if (dataset.motion) return kMotionText;
+  return std::string("- No `motion`: ") + (dataset.recordings
+                                               ? "the study has no samples of its tasks.\n"
+                                               : "the export was made without recordings.\n");
+}
+
+/// What lies where, of what was written.
+std::string contents(const fs::path& folder, const BidsDataset& dataset) {
+  std::string text;
+  if (dataset.trials) {
+    text +=
+        "- `sub-*/ses-*/beh`: a task is a block of the study. A row is a trial whose answer "
+        "stands. Use those with `excluded` 0.\n";
+  }
+  if (dataset.explored) {
+    text +=
+        "- A stage in which media were explored outside of trials is a task, too, with events "
+        "alone.\n";
+  }
+  text += motion_text(dataset) +
+          "- `participants.tsv` tells pseudonyms, `sub-*/sub-*_sessions.tsv` the visits.\n";
+  if (fs::exists(folder / "phenotype")) text += "- `phenotype/`: questionnaires.\n";
+  text +=
+      "- `sourcedata/`: the study file and the study folder, which `jnd` opens, with the log "
+      "of "
+      "every event.\n";
+  if (fs::exists(folder / "derivatives")) {
+    text += "- `derivatives/jnd/`: what `jnd results --json` says.\n";
+  }
+  return text;
+}
+
+std::string readme(const fs::path& folder, const BidsDataset& dataset) {
   std::string text = "# " + title_of(dataset) + "\n\n";
   if (dataset.simulated) {
     text +=
@@ -85,86 +128,18 @@ std::string readme(const BidsDataset& dataset) {
     if (!about.empty()) text += about + "\n\n";
   }
   text +=
-      "A haptic psychophysics study, recorded by jnd and exported by `jnd export bids`.\n\n"
-      "- `sub-*/ses-*/beh`: a task is a block of the study; a row is a trial whose answer "
-      "stands. Use those with `excluded` 0.\n";
-  text +=
-      dataset.motion
-          ? "- `sub-*/ses-*/motion`: every sample of the haptic loop in the workspace frame "
-            "(x to the participant's right, y away, z up). Forces, those on the hand, are "
-            "channels of type MISC in N. A sample that was lost is a row of n/a and an event "
-            "`missing_samples`; nothing is filled in.\n"
-          : "- No `motion`: the export was made without recordings.\n";
-  text +=
-      "- `participants.tsv` tells pseudonyms; `phenotype/`: questionnaires.\n"
-      "- `sourcedata/`: the study file and the study folder, which `jnd` opens.\n"
-      "- `derivatives/jnd/`: what `jnd results --json` says.\n";
-  if (dataset.motion) {
-    text +=
-        "\nThe schema-based validator takes the first row of a motion file for names, and a "
-        "hand "
-        "at rest repeats its values there: tell it to ignore `TSV_COLUMN_HEADER_DUPLICATE`.\n";
-  }
+      "A haptic psychophysics study, recorded by jnd and exported by `jnd export bids`.\n\n" +
+      contents(folder, dataset);
+  if (!dataset.problems.empty()) text += "\n## What the recordings have lost\n\n";
+  for (const std::string& problem : dataset.problems) text += "- " + problem + "\n";
+  if (dataset.motion) text += kValidatorText;
   return text;
-}
-
-/// An answer given in the visits of a participant, the last one; "" if there is none.
-std::string answer_of(const core::StudyStore& store, const BidsDataset& dataset,
-                      const std::string& participant, const QuestionnaireItem& item) {
-  std::string answer;
-  for (const core::SessionRow& session : dataset.sessions) {
-    if (session.participant != participant) continue;
-    for (const core::AnswerRow& row : store.answers(session.session)) {
-      if (row.stage == item.stage && row.item == item.name) answer = row.answer;
-    }
-  }
-  return answer;
-}
-
-std::string described_item(const QuestionnaireItem& item) {
-  std::string text = item.question.empty() ? item.name : item.question;
-  if (item.num_steps > 0) text += " (scale from 1 to " + std::to_string(item.num_steps) + ")";
-  return text;
-}
-
-void write_phenotype(const fs::path& folder, const std::string& stage, const std::string& label,
-                     const std::vector<QuestionnaireItem>& items, const BidsDataset& dataset,
-                     const core::StudyStore& store) {
-  std::vector<std::string> names = {"participant_id"};
-  ordered_json sidecar = {
-      {"MeasurementToolMetadata", {{"Description", "Questions of the stage " + stage}}}};
-  for (const QuestionnaireItem& item : items) {
-    if (item.stage != stage) continue;
-    names.push_back(item.name);
-    sidecar[item.name]["Description"] = described_item(item);
-    if (!item.unit.empty()) sidecar[item.name]["Units"] = item.unit;
-  }
-  CsvTableWriter table(folder / (label + ".tsv"), names, TableStyle::kBids);
-  for (const auto& [participant, subject] : dataset.subjects) {
-    table.cell("sub-" + subject);
-    for (const QuestionnaireItem& item : items) {
-      if (item.stage == stage) table.cell(answer_of(store, dataset, participant, item));
-    }
-    table.end_row();
-  }
-  table.finish();
-  write_json(folder / (label + ".json"), sidecar);
-}
-
-void write_phenotypes(const fs::path& folder, const std::vector<QuestionnaireItem>& items,
-                      const BidsDataset& dataset, const core::StudyStore& store) {
-  std::vector<std::string> stages;
-  for (const QuestionnaireItem& item : items) stages.push_back(item.stage);
-  for (const auto& [stage, label] : bids_labels(stages)) {
-    fs::create_directories(folder / "phenotype");
-    write_phenotype(folder / "phenotype", stage, label, items, dataset, store);
-  }
 }
 
 }  // namespace
 
 void write_bids_descriptions(const fs::path& folder, const BidsDataset& dataset,
-                             std::int64_t last_time_ns) {
+                             std::optional<std::int64_t> last_time_ns) {
   ordered_json description = {{"Name", title_of(dataset)},
                               {"BIDSVersion", kBidsVersion},
                               {"DatasetType", "raw"},
@@ -172,38 +147,10 @@ void write_bids_descriptions(const fs::path& folder, const BidsDataset& dataset,
                               {"GeneratedBy", generated_by(dataset)},
                               {"Simulated", dataset.simulated}};
   write_json(folder / "dataset_description.json", description);
-  write_text(folder / "README.md", readme(dataset));
-  write_text(folder / "CHANGES", "1.0.0 " + iso_date(last_time_ns) +
-                                     "\n  - Exported by jnd as the study was then.\n");
-}
-
-void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
-                             const core::StudyStore& store) {
-  std::vector<QuestionnaireItem> items;
-  for (const core::ProtocolRow& protocol : dataset.protocols) {
-    merge_items(items,
-                questionnaire_items(nlohmann::json::parse(protocol.text, nullptr, false)));
-  }
-  const std::vector<CsvColumn> columns = {
-      {"participant_id", "", "Label of the participant in this data set"},
-      {"pseudonym", "", "As the study has it"},
-      {"data_origin", "", "SIMULATED: a model in a program; person"},
-      {"num_sessions", "", "Visits in this data set"}};
-  CsvTableWriter table(folder / "participants.tsv", columns, TableStyle::kBids);
-  for (const auto& [participant, subject] : dataset.subjects) {
-    std::int64_t num_sessions = 0;
-    bool simulated = false;
-    for (const core::SessionRow& row : dataset.sessions) {
-      if (row.participant != participant) continue;
-      ++num_sessions;
-      simulated |= row.simulated;
-    }
-    table.cell("sub-" + subject).cell(participant).cell(simulated ? "SIMULATED" : "person");
-    table.cell(num_sessions).end_row();
-  }
-  table.finish();
-  write_json(folder / "participants.json", described(columns));
-  write_phenotypes(folder, items, dataset, store);
+  write_text(folder / "README.md", readme(folder, dataset));
+  const std::string date = last_time_ns ? " " + iso_date(*last_time_ns) : "";
+  write_text(folder / "CHANGES",
+             "1.0.0" + date + "\n  - Exported by jnd as the study was then.\n");
 }
 
 void write_bids_derivatives(const fs::path& folder, const BidsDataset& dataset,

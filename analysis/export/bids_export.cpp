@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "analysis/export/bids_blocks.h"
 #include "analysis/export/bids_dataset.h"
 #include "analysis/export/bids_motion.h"
 #include "analysis/export/bids_sourcedata.h"
 #include "analysis/export/bids_text.h"
+#include "analysis/export/csv_table_writer.h"
+#include "analysis/export/exported_recording.h"
 #include "analysis/export/unfinished_folder.h"
 #include "core/error.h"
 
@@ -18,7 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 BidsDataset dataset_of(const core::StudyStore& store, const ExportOptions& options) {
-  BidsDataset dataset{.sessions = exported_sessions(store, options)};
+  BidsDataset dataset{.sessions = exported_sessions(store, options),
+                      .recordings = options.recordings,
+                      .program_version = options.program_version};
   if (dataset.sessions.empty()) {
     throw core::Error(store.folder().string() + ": expected a session to export, found none" +
                       (store.sessions().empty() ? "" : " but pilots; --pilot exports them"));
@@ -28,7 +35,6 @@ BidsDataset dataset_of(const core::StudyStore& store, const ExportOptions& optio
   for (const core::SessionRow& row : dataset.sessions) {
     participants.push_back(row.participant);
     dataset.simulated |= row.simulated;
-    dataset.motion |= options.recordings && fs::exists(store.recording_file(row.session));
     if (hashes.insert(row.protocol_sha256).second) {
       dataset.protocols.push_back(store.protocol(row.protocol_sha256));
     }
@@ -46,76 +52,118 @@ class Export {
         options_(options),
         dataset_(dataset_of(store, options)) {}
 
-  void run(const std::string& results_json) {
-    std::vector<std::string> names;
+  ExportOutcome run(const std::string& results_json) {
     for (const core::SessionRow& session : dataset_.sessions) {
-      for (const core::DesignRow& row : store_.design(session.session)) {
-        names.push_back(row.block);
-      }
+      sessions_.push_back({session, bids_blocks(store_, session, stage_names(session))});
     }
-    tasks_ = bids_labels(std::move(names));
-    write_bids_descriptions(folder_.path(), dataset_, last_time_ns());
+    label_tasks();
     write_bids_participants(folder_.path(), dataset_, store_);
-    std::map<std::string, int> num_visits;
-    for (const core::SessionRow& session : dataset_.sessions) {
-      write_session(session, ++num_visits[session.participant]);
+    std::map<std::string, std::vector<std::pair<std::string, core::SessionRow>>> visits;
+    for (const auto& [session, blocks] : sessions_) {
+      char number[32];
+      auto& its = visits[session.participant];
+      std::snprintf(number, sizeof number, "ses-%02d", static_cast<int>(its.size()) + 1);
+      its.emplace_back(number, session);
+      write_session_folder(session, blocks, number);
+    }
+    for (const auto& [participant, its] : visits) {
+      const std::string subject = "sub-" + dataset_.subjects.at(participant);
+      write_bids_sessions(folder_.path() / subject, subject, its, store_);
     }
     write_sourcedata();
     write_bids_derivatives(folder_.path(), dataset_, results_json);
+    write_bids_descriptions(folder_.path(), dataset_, last_time_ns());
+    return {.problems = dataset_.problems, .samples = dataset_.motion};
   }
 
  private:
-  [[nodiscard]] std::int64_t last_time_ns() const {
-    std::int64_t last = 0;
+  struct Session {
+    core::SessionRow row;
+    std::vector<BidsBlock> blocks;
+  };
+
+  [[nodiscard]] std::vector<std::string> stage_names(const core::SessionRow& session) const {
+    return options_.stage_names ? options_.stage_names(session) : std::vector<std::string>();
+  }
+
+  void label_tasks() {
+    std::vector<std::string> names;
+    for (const auto& [session, blocks] : sessions_) {
+      for (const BidsBlock& block : blocks) names.push_back(block.name);
+    }
+    tasks_ = bids_labels(std::move(names));
+  }
+
+  [[nodiscard]] std::optional<std::int64_t> last_time_ns() const {
+    std::optional<std::int64_t> last;
+    const std::vector<core::SessionOverview> overview = store_.overview();
     for (const core::SessionRow& session : dataset_.sessions) {
-      for (const core::SessionOverview& one : store_.overview()) {
-        if (one.session == session.session) last = std::max(last, one.last_time_ns.value_or(0));
+      if (session.simulated) continue;
+      for (const core::SessionOverview& one : overview) {
+        if (one.session == session.session && one.last_time_ns) {
+          last = std::max(last.value_or(0), *one.last_time_ns);
+        }
       }
     }
     return last;
   }
 
-  void write_session(const core::SessionRow& session, int visit) {
+  void write_session_folder(const core::SessionRow& session,
+                            const std::vector<BidsBlock>& blocks, const std::string& visit) {
     const std::string subject = "sub-" + dataset_.subjects.at(session.participant);
-    char number[32];
-    std::snprintf(number, sizeof number, "ses-%02d", visit);
-    const fs::path place = fs::path(subject) / number;
-    const std::string front = subject + "_" + number;
+    const fs::path place = fs::path(subject) / visit;
+    const std::string front = subject + "_" + visit;
     const fs::path folder = folder_.make(place);
+    std::optional<ExportedRecording> recording;
+    if (options_.recordings) recording.emplace(store_, session, options_);
+    if (recording && !recording->problem().empty()) {
+      dataset_.problems.push_back(recording->problem());
+    }
     CsvTableWriter scans(folder / (front + "_scans.tsv"),
                          std::vector<std::string>{"filename", "acq_time"}, TableStyle::kBids);
-    for (const BidsBlock& block : bids_blocks(store_, session)) {
-      const BidsTask task{.front = front + "_task-" + tasks_.at(block.block),
-                          .task_name = block.block,
-                          .description = block.trials.front().row.procedure + " in " +
-                                         block.trials.front().row.medium +
-                                         (session.simulated ? ", SIMULATED" : "")};
+    for (const BidsBlock& block : blocks) {
+      if (options_.keep_going) options_.keep_going();
+      const BidsTask task{.front = front + "_task-" + tasks_.at(block.name),
+                          .task_name = block.name,
+                          .description = description_of(block, session)};
       // A simulated session counts its time from 0, which is no date.
       const std::string time = session.simulated ? "" : iso_time(block.time_ns);
-      for (const std::string& file : write_block(place, task, block, session)) {
+      for (const std::string& file : write_block(place, task, block, session, recording)) {
         scans.cell(file).cell(time).end_row();
       }
     }
     scans.finish();
   }
 
+  [[nodiscard]] static std::string description_of(const BidsBlock& block,
+                                                  const core::SessionRow& session) {
+    const std::string what =
+        block.trials.empty()
+            ? "media explored outside of trials"
+            : block.trials.front().row.procedure + " in " + block.trials.front().row.medium;
+    return what + (session.simulated ? ", SIMULATED" : "");
+  }
+
   /// Returns the files that a list of scans names, seen from the session's folder.
   std::vector<std::string> write_block(const fs::path& place, const BidsTask& task,
-                                       const BidsBlock& block,
-                                       const core::SessionRow& session) {
-    const fs::path beh = folder_.make(place / "beh");
-    write_bids_beh(beh, task, block);
-    std::vector<std::string> files = {"beh/" + task.front + "_beh.tsv"};
-    const fs::path recording = store_.recording_file(session.session);
+                                       const BidsBlock& block, const core::SessionRow& session,
+                                       const std::optional<ExportedRecording>& recording) {
+    std::vector<std::string> files;
+    (block.trials.empty() ? dataset_.explored : dataset_.trials) = true;
+    if (!block.trials.empty()) {
+      write_bids_beh(folder_.make(place / "beh"), task, block, session);
+      files.push_back("beh/" + task.front + "_beh.tsv");
+    }
     std::string motion;
-    if (options_.recordings && fs::exists(recording)) {
-      motion = write_bids_motion(folder_.make(place / "motion"), task, block, session,
-                                 core::RecordingReader(recording));
+    if (recording && recording->any()) {
+      motion =
+          write_bids_motion(folder_.make(place / "motion"), task, block, session, *recording);
     }
     if (motion.empty()) {
-      write_bids_events(beh / task.front, block, session.rate_hz, {});
+      write_bids_events(folder_.make(place / "beh") / task.front, block, session, {});
     } else {
       files.push_back("motion/" + motion);
+      dataset_.motion = true;
     }
     return files;
   }
@@ -143,16 +191,19 @@ class Export {
   const UnfinishedFolder& folder_;
   ExportOptions options_;
   BidsDataset dataset_;
-  std::map<std::string, std::string> tasks_;  ///< Label of every block.
+  std::vector<Session> sessions_;
+  std::map<std::string, std::string> tasks_;  ///< Label of every block and stage.
 };
 
 }  // namespace
 
-void export_bids(const core::StudyStore& store, const fs::path& folder,
-                 const ExportOptions& options, const std::string& results_json) {
-  UnfinishedFolder unfinished(folder);
-  Export(store, unfinished, options).run(results_json);
-  unfinished.publish();
+ExportOutcome export_bids(const core::StudyStore& store, const fs::path& folder,
+                          const ExportOptions& options, const std::string& results_json) {
+  ExportOutcome outcome;
+  write_folder(folder, [&](const UnfinishedFolder& unfinished) {
+    outcome = Export(store, unfinished, options).run(results_json);
+  });
+  return outcome;
 }
 
 }  // namespace jnd::analysis

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/export/bids_text.h"
+#include "analysis/export/csv_table_writer.h"
+#include "analysis/export/recording_columns.h"
 #include "core/sample_table.h"
 
 namespace jnd::analysis {
@@ -42,7 +44,7 @@ std::string tracked_point_of(const std::string& name) {
 
 std::vector<BidsChannel> channels_of(const std::vector<RecordingColumn>& columns) {
   std::vector<BidsChannel> channels = {
-      {"latency", "n/a", "LATENCY", "n/a", "s", "Time since the first sample of the block"}};
+      {"latency", "n/a", "LATENCY", "n/a", "s", "Time since the first sample of the task"}};
   for (const RecordingColumn& column : columns) {
     if (column.name == "tick") continue;
     channels.push_back({.name = column.name,
@@ -81,12 +83,12 @@ void write_channels(const fs::path& front, const std::vector<BidsChannel>& chann
 
 struct Written {
   std::int64_t num_rows = 0;
-  std::vector<RecordingGap> gaps;
+  std::vector<core::TickRange> gaps;
 };
 
 /// A row a tick from the block's first to its last, whatever the recording lacks.
 Written write_samples(const fs::path& file, const BidsBlock& block, double rate_hz,
-                      const core::RecordingReader& recording,
+                      const ExportedRecording& recording,
                       const std::vector<RecordingColumn>& columns) {
   std::vector<std::string> names;
   for (const RecordingColumn& column : columns) names.push_back(column.name);
@@ -112,7 +114,7 @@ Written write_samples(const fs::path& file, const BidsBlock& block, double rate_
     latency(sample.tick);
     const std::vector<double> values = core::sample_values(sample, with_joints);
     for (std::size_t i = 1; i < values.size(); ++i) {
-      table.fixed_cell(values[i], columns[i].decimals);
+      table.fixed_cell(values[i], columns[i].decimals, columns[i].tolerance);
     }
     table.end_row();
     next = sample.tick + 1;
@@ -154,21 +156,16 @@ void write_sidecar(const fs::path& front, const BidsTask& task, const core::Sess
   write_json(front.string() + "_motion.json", sidecar);
 }
 
-bool holds_any(const core::RecordingReader& recording, const BidsBlock& block) {
-  bool any = false;
-  recording.read(block.first_tick, block.first_tick,
-                 [&any](const core::Sample&) { any = true; });
-  if (any) return true;
-  recording.read(block.first_tick, block.last_tick,
-                 [&any](const core::Sample&) { any = true; });
-  return any;
+bool holds_any(const ExportedRecording& recording, const BidsBlock& block) {
+  const core::TickRange ticks{block.first_tick, block.last_tick};
+  return core::num_ticks(core::missing_in(recording.ticks(), ticks)) < core::num_ticks({ticks});
 }
 
 }  // namespace
 
 std::string write_bids_motion(const fs::path& folder, const BidsTask& task,
                               const BidsBlock& block, const core::SessionRow& session,
-                              const core::RecordingReader& recording) {
+                              const ExportedRecording& recording) {
   if (!holds_any(recording, block)) return "";
   const fs::path front = folder / (task.front + "_tracksys-haptic");
   const std::vector<RecordingColumn> columns = recording_columns(recording.has_joints());
@@ -178,7 +175,7 @@ std::string write_bids_motion(const fs::path& folder, const BidsTask& task,
       write_samples(folder / name, block, session.rate_hz, recording, columns);
   write_channels(front, channels, session.rate_hz);
   write_sidecar(front, task, session, channels, written.num_rows);
-  write_bids_events(front, block, session.rate_hz, written.gaps);
+  write_bids_events(front, block, session, written.gaps);
   return name;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/export/bids_blocks.h"
-#include "core/storage/recording.h"
+#include "analysis/export/exported_recording.h"
 
 namespace jnd::analysis {
 
@@ -16,6 +16,6 @@ namespace jnd::analysis {
 [[nodiscard]] std::string write_bids_motion(const std::filesystem::path& folder,
                                             const BidsTask& task, const BidsBlock& block,
                                             const core::SessionRow& session,
-                                            const core::RecordingReader& recording);
+                                            const ExportedRecording& recording);
 
 }  // namespace jnd::analysis

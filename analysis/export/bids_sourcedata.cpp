@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/storage/database.h"
+#include "core/storage/recording.h"
 
 namespace jnd::analysis {
 namespace {
@@ -76,6 +77,8 @@ void copy_recording(const core::StudyStore& store, std::int64_t session,
                     const fs::path& folder) {
   const fs::path file = store.recording_file(session);
   if (!fs::exists(file)) return;
+  // Also where no task of the data set has read it.
+  core::RecordingReader(file).require_intact();
   std::error_code error;
   fs::create_directories(folder / "recordings", error);
   if (error) {

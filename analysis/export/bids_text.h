@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/export/csv_table_writer.h"
+#include "analysis/export/table_writer.h"
 
 namespace jnd::analysis {
 

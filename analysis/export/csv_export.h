@@ -14,7 +14,7 @@ namespace jnd::analysis {
 /// LF, "." decimals, the shortest digits that read back as the same number; rows by session, so
 /// the same study gives the same bytes. `folder` must not exist or be empty; it is there as a
 /// whole or not at all. Throws `Error`.
-void export_csv(const core::StudyStore& store, const std::filesystem::path& folder,
-                const ExportOptions& options);
+ExportOutcome export_csv(const core::StudyStore& store, const std::filesystem::path& folder,
+                         const ExportOptions& options);
 
 }  // namespace jnd::analysis

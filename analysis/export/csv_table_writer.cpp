@@ -1,5 +1,6 @@
 #include "analysis/export/csv_table_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -22,13 +23,11 @@ std::vector<std::string> names_of(const std::vector<CsvColumn>& columns) {
   return names;
 }
 
-std::string quoted(std::string_view text) {
-  std::string result = "\"";
+bool needs_quotes(std::string_view text) {
   for (const char letter : text) {
-    if (letter == '"') result += '"';
-    result += letter;
+    if (letter == ',' || letter == '"' || letter == '\n' || letter == '\r') return true;
   }
-  return result + '"';
+  return false;
 }
 
 }  // namespace
@@ -49,45 +48,38 @@ CsvTableWriter::CsvTableWriter(std::filesystem::path file,
   end_row();
 }
 
-CsvTableWriter& CsvTableWriter::cell(std::string_view text) {
+void CsvTableWriter::put_text(std::string_view text) {
   if (style_ == TableStyle::kCsv) {
-    if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
-      put(text);
-    } else {
-      put(quoted(text));
-    }
-    return *this;
+    return needs_quotes(text) ? put_quoted(text) : put(text);
   }
-  if (text.empty()) return nothing();
+  if (text.empty()) return put_nothing();
   std::string plain(text);
   for (char& letter : plain) {
     if (letter == '\t' || letter == '\n' || letter == '\r') letter = ' ';
   }
   put(plain);
-  return *this;
 }
 
-CsvTableWriter& CsvTableWriter::cell(std::int64_t number) {
+void CsvTableWriter::put_count(std::int64_t number) {
   char digits[24];
   char* const end = std::to_chars(digits, digits + sizeof digits, number).ptr;
   put({digits, static_cast<std::size_t>(end - digits)});
-  return *this;
 }
 
-CsvTableWriter& CsvTableWriter::cell(double number) {
-  if (!std::isfinite(number)) return nothing();
+void CsvTableWriter::put_real(double number) {
+  if (!std::isfinite(number)) return put_nothing();
   char digits[32];
   char* const end = std::to_chars(digits, digits + sizeof digits, number).ptr;
   put({digits, static_cast<std::size_t>(end - digits)});
-  return *this;
 }
 
-CsvTableWriter& CsvTableWriter::fixed_cell(double number, int decimals) {
+CsvTableWriter& CsvTableWriter::fixed_cell(double number, int decimals, double tolerance) {
   const std::int64_t unit = kPowerOfTen.at(static_cast<std::size_t>(decimals));
   const double multiple = number * static_cast<double>(unit);
   // Also false for NaN. What lies off the grid by more than rounding is written in full.
-  if (!(std::abs(multiple) < 1e15) || std::abs(multiple - std::round(multiple)) > 1e-3) {
-    return cell(number);
+  if (!(std::abs(multiple) < 1e15) || std::abs(multiple - std::round(multiple)) > tolerance) {
+    put_real(number);
+    return *this;
   }
   const std::int64_t whole = std::llround(multiple);
   const std::int64_t magnitude = whole < 0 ? -whole : whole;
@@ -105,9 +97,17 @@ CsvTableWriter& CsvTableWriter::fixed_cell(double number, int decimals) {
   return *this;
 }
 
-CsvTableWriter& CsvTableWriter::nothing() {
-  put(style_ == TableStyle::kCsv ? "" : "n/a");
-  return *this;
+void CsvTableWriter::put_nothing() { put(style_ == TableStyle::kCsv ? "" : "n/a"); }
+
+void CsvTableWriter::put_quoted(std::string_view text) {
+  put("\"");
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('"', at), text.size() - 1) + 1;
+    buffer_ += text.substr(at, end - at);
+    if (text[end - 1] == '"') buffer_ += '"';
+    at = end;
+  }
+  buffer_ += '"';
 }
 
 void CsvTableWriter::put(std::string_view text) {

@@ -4,19 +4,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace jnd::analysis {
+#include "analysis/export/table_writer.h"
 
-/// One column of a table, as the codebook tells it.
-struct CsvColumn {
-  const char* name;
-  const char* unit;  ///< "" where there is none.
-  const char* meaning;
-};
+namespace jnd::analysis {
 
 /// How a table is written.
 enum class TableStyle {
@@ -28,27 +22,17 @@ enum class TableStyle {
 /// Writes one table, independent of the locale: "." decimals, the shortest digits that read
 /// back as the same number. Throws `Error` naming the file if it cannot be written. Not real
 /// time.
-class CsvTableWriter {
+class CsvTableWriter final : public TableWriter {
  public:
   CsvTableWriter(std::filesystem::path file, const std::vector<CsvColumn>& columns,
                  TableStyle style = TableStyle::kCsv);
   CsvTableWriter(std::filesystem::path file, const std::vector<std::string>& names,
                  TableStyle style);
 
-  CsvTableWriter& cell(std::string_view text);
-  CsvTableWriter& cell(const std::string& text) { return cell(std::string_view(text)); }
-  CsvTableWriter& cell(const char* text) { return cell(std::string_view(text)); }
-  CsvTableWriter& cell(std::int64_t number);
-  CsvTableWriter& cell(double number);  ///< Not finite: as what there is not.
-  /// A number that was stored as a multiple of 10^-decimals, as that decimal fraction.
-  CsvTableWriter& fixed_cell(double number, int decimals);
-  template <typename T>
-  CsvTableWriter& cell(const std::optional<T>& value) {
-    return value ? cell(*value) : nothing();
-  }
-  CsvTableWriter& nothing();  ///< What there is not.
-  /// Throws `Error` if the row has not one cell a column, which would be our own fault.
-  void end_row();
+  /// A number that was stored as a multiple of 10^-decimals, as that decimal fraction. One that
+  /// is off by more than `tolerance` of a step is written in full.
+  CsvTableWriter& fixed_cell(double number, int decimals, double tolerance = 1e-3);
+  void end_row() override;
   /// Everything is in the file. Throws `Error` if it is not.
   void finish();
 
@@ -57,7 +41,12 @@ class CsvTableWriter {
     void operator()(std::FILE* file) const noexcept { (void)std::fclose(file); }
   };
 
+  void put_text(std::string_view text) override;
+  void put_count(std::int64_t number) override;
+  void put_real(double number) override;
+  void put_nothing() override;
   void put(std::string_view text);
+  void put_quoted(std::string_view text);
   void flush();
   [[noreturn]] void fail(int reason) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
@@ -42,10 +43,15 @@ hid_t create_file(const std::string& file) {
   return H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-Hdf5Handle text_type(std::size_t num_bytes, const std::string& place) {
+bool is_ascii(std::string_view bytes) {
+  return std::ranges::all_of(bytes, [](char byte) { return (byte & 0x80) == 0; });
+}
+
+/// Octave reads no text that is called UTF-8, whatever is in it.
+Hdf5Handle text_type(std::size_t num_bytes, std::string_view bytes, const std::string& place) {
   Hdf5Handle type = handle(H5Tcopy(H5T_C_S1), H5Tclose, place);
   check(H5Tset_size(type.get(), std::max<std::size_t>(num_bytes, 1)), place);
-  check(H5Tset_cset(type.get(), H5T_CSET_UTF8), place);
+  check(H5Tset_cset(type.get(), is_ascii(bytes) ? H5T_CSET_ASCII : H5T_CSET_UTF8), place);
   check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), place);
   return type;
 }
@@ -61,7 +67,7 @@ void write_attribute(const Hdf5Handle& object, const std::string& name, hid_t ty
 
 void write_text(const Hdf5Handle& object, const std::string& name, const std::string& text,
                 const std::string& place) {
-  const Hdf5Handle type = text_type(text.size(), place);
+  const Hdf5Handle type = text_type(text.size(), text, place);
   write_attribute(object, name, type.get(), type.get(), text.c_str(), place);
 }
 
@@ -84,6 +90,16 @@ Hdf5Handle dataset_settings(const std::string& place) {
   return settings;
 }
 
+/// Padding is most of a column with one long text.
+void compress_texts(const Hdf5Handle& settings, hsize_t count, std::size_t num_bytes,
+                    const std::string& place) {
+  constexpr hsize_t kChunkBytes = hsize_t{1} << 20U;
+  if (count < 2) return;
+  const hsize_t chunk = std::clamp<hsize_t>(kChunkBytes / num_bytes, 1, count);
+  check(H5Pset_chunk(settings.get(), 1, &chunk), place);
+  check(H5Pset_deflate(settings.get(), kDeflateLevel), place);
+}
+
 }  // namespace
 
 Hdf5Handle::~Hdf5Handle() { (void)close(); }
@@ -97,9 +113,18 @@ bool Hdf5Handle::close() noexcept {
 }
 
 void Hdf5Column::append(const std::vector<double>& numbers) {
-  if (numbers.empty()) return;
+  append(numbers.data(), numbers.size(), H5T_NATIVE_DOUBLE);
+}
+
+void Hdf5Column::append(const std::vector<std::int64_t>& numbers) {
+  append(numbers.data(), numbers.size(), H5T_NATIVE_INT64);
+}
+
+void Hdf5Column::append(const void* numbers, std::size_t num_numbers,
+                        std::int64_t memory_type) {
+  if (num_numbers == 0) return;
   errno = 0;
-  const hsize_t first = num_rows_, count = numbers.size();
+  const hsize_t first = num_rows_, count = num_numbers;
   num_rows_ += count;
   const hsize_t total = num_rows_;
   check(H5Dset_extent(dataset_.get(), &total), place_);
@@ -107,8 +132,8 @@ void Hdf5Column::append(const std::vector<double>& numbers) {
   check(H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, &first, nullptr, &count, nullptr),
         place_);
   const Hdf5Handle in_memory = handle(H5Screate_simple(1, &count, nullptr), H5Sclose, place_);
-  check(H5Dwrite(dataset_.get(), H5T_NATIVE_DOUBLE, in_memory.get(), in_file.get(), H5P_DEFAULT,
-                 numbers.data()),
+  check(H5Dwrite(dataset_.get(), memory_type, in_memory.get(), in_file.get(), H5P_DEFAULT,
+                 numbers),
         place_);
 }
 
@@ -163,10 +188,11 @@ void Hdf5Group::texts(const std::string& name, const std::vector<std::string>& t
     bytes += text;
     bytes.append(longest - text.size(), '\0');
   }
-  const Hdf5Handle type = text_type(longest, place);
+  const Hdf5Handle type = text_type(longest, bytes, place);
   const hsize_t count = texts.size();
   const Hdf5Handle space = handle(H5Screate_simple(1, &count, nullptr), H5Sclose, place);
   const Hdf5Handle settings = dataset_settings(place);
+  compress_texts(settings, count, longest, place);
   const Hdf5Handle dataset =
       handle(H5Dcreate2(handle_.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
                         settings.get(), H5P_DEFAULT),

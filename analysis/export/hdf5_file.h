@@ -34,11 +34,14 @@ class Hdf5Column {
 
   /// Missing values are NaN. Throws `Error`.
   void append(const std::vector<double>& numbers);
+  void append(const std::vector<std::int64_t>& numbers);
 
  private:
   friend class Hdf5Group;
   Hdf5Column(std::string place, Hdf5Handle dataset)
       : place_(std::move(place)), dataset_(std::move(dataset)) {}
+
+  void append(const void* numbers, std::size_t count, std::int64_t memory_type);
 
   std::string place_;
   Hdf5Handle dataset_;
@@ -57,7 +60,8 @@ class Hdf5Group {
   /// With the attributes `unit`, if it has one, and `meaning`.
   [[nodiscard]] Hdf5Column column(const std::string& name, Hdf5Number type,
                                   const std::string& unit, const std::string& meaning) const;
-  /// A whole column of texts, UTF-8 of one length, padded with zeros.
+  /// A whole column of texts of one length, padded with zeros: ASCII, which every program
+  /// reads, or UTF-8 where a text has more. With the attribute `meaning`.
   void texts(const std::string& name, const std::vector<std::string>& texts,
              const std::string& meaning) const;
 

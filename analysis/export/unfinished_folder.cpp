@@ -4,31 +4,34 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <string>
+#include <vector>
 
-#include "core/error.h"
+#include "core/missing_right.h"
 
 namespace jnd::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 
-void require_free(const fs::path& folder) {
+constexpr char kNothingWritten[] = "; nothing was written";
+
+/// Whether there is an empty folder already.
+bool is_there(const fs::path& folder) {
   std::error_code error;
-  const fs::file_status status = fs::symlink_status(folder, error);
-  if (status.type() == fs::file_type::not_found) return;
-  if (fs::is_directory(folder, error)) {
-    const bool empty = fs::is_empty(folder, error);
-    if (error) {
-      throw core::Error(folder.string() +
-                        ": expected to look into this folder, found: " + error.message());
-    }
-    if (empty) return;
+  const fs::file_status link = fs::symlink_status(folder, error);
+  if (link.type() == fs::file_type::not_found) return false;
+  const std::string expected = folder.string() + ": expected a new or empty folder, found ";
+  if (!fs::is_directory(folder, error)) {
+    throw core::Error(expected + "something else of this name; nothing is overwritten");
   }
-  throw core::Error(
-      folder.string() +
-      ": expected a new or empty folder, found files in it; nothing is overwritten");
+  const bool empty = fs::is_empty(folder, error);
+  if (error) {
+    throw core::MissingRight(folder.string() +
+                             ": expected to look into this folder, found: " + error.message());
+  }
+  if (!empty) throw core::Error(expected + "files in it; nothing is overwritten");
+  return true;
 }
 
 /// Without a slash at the end, and where a link points to, so that it can be renamed to.
@@ -39,18 +42,34 @@ fs::path place_of(const fs::path& folder) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
+[[noreturn]] void refuse_to_make(const fs::path& folder, const std::error_code& error) {
+  const std::string sentence =
+      folder.string() + ": expected to make this folder, found: " + error.message();
+  if (error == std::errc::permission_denied || error == std::errc::operation_not_permitted) {
+    throw core::MissingRight(sentence);
+  }
+  throw core::Error(sentence);
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at)) {
+    text.replace(at, part.size(), by);
+    at += by.size();
+  }
+  return text;
+}
+
 }  // namespace
 
-UnfinishedFolder::UnfinishedFolder(const fs::path& folder) : folder_(folder) {
-  require_free(folder);
-  const fs::path place = place_of(folder);
+UnfinishedFolder::UnfinishedFolder(const fs::path& folder)
+    : folder_(folder), place_(place_of(folder)), inside_(is_there(folder)) {
   std::error_code error;
-  fs::create_directories(place.parent_path(), error);
-  std::string pattern = place.string() + ".unfinished-XXXXXX";
-  const bool made = !error && ::mkdtemp(pattern.data()) != nullptr;
-  if (!made) {
-    throw core::Error(folder.string() + ": expected to make this folder, found: " +
-                      (error ? error.message() : std::strerror(errno)));
+  if (!inside_) fs::create_directories(place_.parent_path(), error);
+  if (error) refuse_to_make(folder, error);
+  std::string pattern = inside_ ? (place_ / "unfinished-XXXXXX").string()
+                                : place_.string() + ".unfinished-XXXXXX";
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    refuse_to_make(folder, std::error_code(errno, std::generic_category()));
   }
   path_ = pattern;
   // As any folder of this user; mkdtemp makes it for its owner alone.
@@ -67,22 +86,63 @@ UnfinishedFolder::~UnfinishedFolder() {
 fs::path UnfinishedFolder::make(const fs::path& relative) const {
   std::error_code error;
   fs::create_directories(path_ / relative, error);
-  if (error) {
-    throw core::Error((folder_ / relative).string() +
-                      ": expected to make this folder, found: " + error.message());
-  }
+  if (error) refuse_to_make(folder_ / relative, error);
   return path_ / relative;
 }
 
-void UnfinishedFolder::publish() {
+void UnfinishedFolder::refuse(const std::string& reason) const {
+  throw core::Error(folder_.string() +
+                    ": expected to give the finished folder this name, found: " + reason +
+                    kNothingWritten);
+}
+
+/// Everything one folder up, or back down again.
+void UnfinishedFolder::publish_inside() {
   std::error_code error;
-  fs::rename(path_, place_of(folder_), error);
-  if (error) {
-    throw core::Error(folder_.string() +
-                      ": expected to give the finished folder this name, found: " +
-                      error.message() + "; nothing was written");
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    names.push_back(entry.path().filename());
+  }
+  for (const auto& entry : fs::directory_iterator(place_, error)) {
+    if (entry.path() != path_) refuse("files in it");
+  }
+  std::size_t num_moved = 0;
+  while (!error && num_moved < names.size()) {
+    fs::rename(path_ / names[num_moved], place_ / names[num_moved], error);
+    if (!error) ++num_moved;
+  }
+  if (!error) {
+    fs::remove(path_, error);
+    return;
+  }
+  std::error_code ignored;
+  for (std::size_t i = 0; i < num_moved; ++i) {
+    fs::rename(place_ / names[i], path_ / names[i], ignored);
+  }
+  refuse(error.message());
+}
+
+void UnfinishedFolder::publish() {
+  if (inside_) {
+    publish_inside();
+  } else {
+    std::error_code error;
+    fs::rename(path_, place_, error);
+    if (error) refuse(error.message());
   }
   published_ = true;
+}
+
+void write_folder(const fs::path& folder,
+                  const std::function<void(const UnfinishedFolder&)>& fill) {
+  UnfinishedFolder unfinished(folder);
+  try {
+    fill(unfinished);
+  } catch (const core::Error& error) {
+    throw core::Error(replaced(error.what(), unfinished.path().string(), folder.string()) +
+                      kNothingWritten);
+  }
+  unfinished.publish();
 }
 
 }  // namespace jnd::analysis

@@ -10,6 +10,8 @@
 #include "app/json_text.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
+#include "app/stop_signals.h"
+#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -29,37 +31,66 @@ std::string results_text(const core::StudyStore& store) {
   return any ? json_text(to_json(results_of_data(analysis::load_study(store)))) : "";
 }
 
-bool lacks_recordings(const core::StudyStore& store, const analysis::ExportOptions& options) {
-  const std::vector<core::SessionRow> sessions = analysis::exported_sessions(store, options);
-  return std::none_of(sessions.begin(), sessions.end(), [&store](const auto& row) {
-    return std::filesystem::exists(store.recording_file(row.session));
-  });
+std::vector<std::string> stage_names_of(const core::StudyStore& store,
+                                        const core::SessionRow& session) {
+  std::vector<std::string> names;
+  const experiments::Study study = stored_study(store, session.session);
+  for (const experiments::Stage* stage : stages_of_session(study, session.cells)) {
+    names.push_back(stage->name);
+  }
+  return names;
 }
 
-/// What the data set consists of, for a person.
-std::string export_as(const Options& options, const core::StudyStore& store) {
-  const bool unrecorded = lacks_recordings(store, options.data);
-  const std::string none = unrecorded ? "; the study has no recordings" : "";
+struct Written {
+  std::string what;  ///< What the data set consists of, for a person.
+  std::vector<std::string> problems;
+};
+
+/// What is to be said of samples.
+std::string samples_text(const analysis::ExportOutcome& outcome, bool asked) {
+  if (outcome.samples) return " with samples";
+  return asked ? "; the study has no samples to write" : "";
+}
+
+Written export_as(const Options& options, const core::StudyStore& store) {
+  const bool asked = options.data.recordings;
   if (options.format == "bids") {
-    analysis::export_bids(store, options.out, options.data, results_text(store));
-    if (options.data.recordings && !unrecorded) return "a BIDS data set with motion";
-    return "a BIDS data set without motion" + (unrecorded ? none : "; --recordings adds it");
+    const analysis::ExportOutcome outcome =
+        analysis::export_bids(store, options.out, options.data, results_text(store));
+    if (outcome.samples) return {"a BIDS data set with motion", outcome.problems};
+    return {std::string("a BIDS data set without motion") +
+                (asked ? "; the study has no samples of its tasks" : "; --recordings adds it"),
+            outcome.problems};
   }
   if (options.format == "hdf5") {
-    analysis::export_hdf5(store, options.out, options.data);
-    return "study.h5" + none;
+    const analysis::ExportOutcome outcome =
+        analysis::export_hdf5(store, options.out, options.data);
+    return {"study.h5" + samples_text(outcome, true), outcome.problems};
   }
-  analysis::export_csv(store, options.out, options.data);
-  return "tables and codebook.csv" + (options.data.recordings ? none : "");
+  const analysis::ExportOutcome outcome =
+      analysis::export_csv(store, options.out, options.data);
+  return {"tables and codebook.csv" + samples_text(outcome, asked), outcome.problems};
 }
 
-int run(const Options& options) {
+int run(Options options) {
+  stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  const std::string what = export_as(options, store);
+  options.data.program_version = JND_VERSION;
+  options.data.stage_names = [&store](const core::SessionRow& session) {
+    return stage_names_of(store, session);
+  };
+  options.data.keep_going = [&options] {
+    if (!stop_requested()) return;
+    throw core::Error(options.out + ": expected time to finish, found a signal to stop");
+  };
+  const Written written = export_as(options, store);
   std::printf("%s: written to %s: %s\n", options.folder.c_str(), options.out.c_str(),
-              what.c_str());
-  return kDone;
+              written.what.c_str());
+  for (const std::string& problem : written.problems) {
+    std::fprintf(stderr, "jnd: %s\n", problem.c_str());
+  }
+  return written.problems.empty() ? kDone : kHasProblems;
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
   require_unblinded(store);
   control.progress(0.1);
   control.stop_if_cancelled();
-  analysis::export_csv(store, target, {});
+  analysis::export_csv(store, target,
+                       {.keep_going = [&control] { control.stop_if_cancelled(); }});
   std::int64_t answers = 0;
   for (const core::SessionOverview& one : store.overview()) answers += one.num_answers;
   control.progress(1.0);

@@ -20,7 +20,8 @@ class HandMadeStudy {
   [[nodiscard]] const core::StudyStore& store() const { return store_; }
 
   std::int64_t add(const std::string& participant, bool pilot = false,
-                   const std::string& laboratory = "", const std::string& cells = "") {
+                   const std::string& laboratory = "", const std::string& cells = "",
+                   bool recorded = false) {
     trial_ = 0;
     sequence_ = 0;
     session_ = store_.add_session({.participant = participant,
@@ -30,7 +31,7 @@ class HandMadeStudy {
                                    .simulated = !laboratory.empty(),
                                    .laboratory = laboratory,
                                    .rate_hz = 1000.0,
-                                   .recorded = false});
+                                   .recorded = recorded});
     return session_;
   }
 
@@ -81,6 +82,18 @@ class HandMadeStudy {
     row.sequence = sequence_;
     ended.presentation = std::move(row);
     store_.append(ended);
+  }
+
+  /// A medium felt outside of trials.
+  void explore(std::int64_t stage, const std::string& medium, double intensity,
+               std::int64_t first_tick, std::int64_t last_tick) {
+    core::Commit explored = event("medium_explored");
+    explored.event.stage = stage;
+    explored.event.first_tick = first_tick;
+    explored.event.last_tick = last_tick;
+    explored.event.intensity = intensity;
+    explored.event.data = R"({"medium":")" + medium + "\"}";
+    store_.append(explored);
   }
 
   /// An answer outside of any trial.

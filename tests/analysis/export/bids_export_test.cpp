@@ -42,9 +42,9 @@ class BidsExportTest : public ::testing::Test {
   }
 
   /// Ticks 90 to 119 but for 103 and 106 to 107.
-  void record() {
-    core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
-                                 core::Durability::kAtClose);
+  void record() { record(study_.store()); }
+  static void record(const core::StudyStore& store) {
+    core::RecordingWriter writer(store.recording_file(1), 1000.0, core::Durability::kAtClose);
     for (std::int64_t tick = 90; tick < 120; ++tick) {
       if (tick == 103 || tick == 106 || tick == 107) continue;
       core::Sample sample{.tick = tick};
@@ -52,8 +52,8 @@ class BidsExportTest : public ::testing::Test {
       writer.append(sample);
     }
   }
-  void write(const ExportOptions& options, const char* name = "out") {
-    export_bids(study_.store(), temporary_.path() / name, options, R"({"study": "x"})");
+  ExportOutcome write(const ExportOptions& options, const char* name = "out") {
+    return export_bids(study_.store(), temporary_.path() / name, options, R"({"study": "x"})");
   }
   [[nodiscard]] fs::path out(const std::string& name) const {
     return temporary_.path() / "out" / name;
@@ -73,6 +73,12 @@ class BidsExportTest : public ::testing::Test {
     }
     return rows;
   }
+  [[nodiscard]] static std::string value(const std::vector<std::vector<std::string>>& rows,
+                                         std::size_t row, const std::string& column) {
+    const auto found = std::find(rows[0].begin(), rows[0].end(), column);
+    EXPECT_NE(found, rows[0].end()) << column;
+    return rows.at(row).at(static_cast<std::size_t>(found - rows[0].begin()));
+  }
   [[nodiscard]] static nlohmann::json json(const fs::path& file) {
     return nlohmann::json::parse(bytes(file));
   }
@@ -87,23 +93,24 @@ class BidsExportTest : public ::testing::Test {
 };
 
 TEST_F(BidsExportTest, SaysWhatItIsAndThatItIsSimulated) {
-  write({});
+  (void)write({});
   const nlohmann::json description = json(out("dataset_description.json"));
   EXPECT_EQ(description["Name"], "SIMULATED: By hand");
   EXPECT_EQ(description["BIDSVersion"], "1.9.0");
   EXPECT_EQ(description["Authors"], (nlohmann::json{"A", "B"}));
   EXPECT_EQ(description["Simulated"], true);
   EXPECT_NE(bytes(out("README.md")).find("SIMULATED"), std::string::npos);
-  EXPECT_EQ(
-      bytes(out("participants.tsv")),
-      "participant_id\tpseudonym\tdata_origin\tnum_sessions\nsub-P01\tP_01\tSIMULATED\t1\n");
-  EXPECT_EQ(bytes(out("phenotype/aboutyou.tsv")), "participant_id\tage_years\nsub-P01\tn/a\n");
+  EXPECT_EQ(bytes(out("participants.tsv")),
+            "participant_id\tpseudonym\tdata_origin\tnum_sessions\tage\n"
+            "sub-P01\tP_01\tSIMULATED\t1\tn/a\n");
+  EXPECT_EQ(bytes(out("phenotype/aboutyou.tsv")),
+            "participant_id\tsimulated\tage_years\nsub-P01\t1\tn/a\n");
   EXPECT_EQ(bytes(out("derivatives/jnd/results.json")), "{\"study\": \"x\"}\n");
   EXPECT_EQ(json(out("derivatives/jnd/dataset_description.json"))["DatasetType"], "derivative");
 }
 
 TEST_F(BidsExportTest, BehHasARowATrialAndASidecarOfEveryColumn) {
-  write({});
+  (void)write({});
   const auto rows = cells(out(std::string(kBeh) + "_beh.tsv"));
   ASSERT_EQ(rows.size(), 2U);
   const nlohmann::json sidecar = json(out(std::string(kBeh) + "_beh.json"));
@@ -111,17 +118,21 @@ TEST_F(BidsExportTest, BehHasARowATrialAndASidecarOfEveryColumn) {
   for (const std::string& column : rows[0]) {
     EXPECT_TRUE(sidecar[column].contains("Description")) << column;
   }
-  EXPECT_EQ(rows[0][8], "intensity");
-  EXPECT_EQ(rows[1][8], "4");
-  EXPECT_EQ(rows[1][10], "n/a") << "no starting value";
-  EXPECT_EQ(
-      cells(out(std::string(kBeh) + "_events.tsv"))[1],
-      (std::vector<std::string>{"0", "0.005", "test", "1", "1", "1", "4", "0", "1.5", "0"}));
+  EXPECT_EQ(value(rows, 1, "intensity"), "4");
+  EXPECT_EQ(value(rows, 1, "starting_intensity"), "n/a");
+  EXPECT_EQ(value(rows, 1, "simulated"), "1");
+  EXPECT_EQ(value(rows, 1, "series"), "n/a");
+  EXPECT_EQ(value(rows, 1, "is_catch"), "0");
+  EXPECT_EQ(sidecar["FirstTick"], 100) << "from which first_tick counts to a row of motion";
+  EXPECT_EQ(sidecar.dump().find(".csv"), std::string::npos) << "there is none";
+  EXPECT_EQ(cells(out(std::string(kBeh) + "_events.tsv"))[1],
+            (std::vector<std::string>{"0", "0.005", "test", "1", "1", "1", "viscous", "4", "0",
+                                      "1.5", "0", "0", "1"}));
 }
 
 TEST_F(BidsExportTest, MotionHasARowATickAndAChannelAColumn) {
   record();
-  write({.recordings = true});
+  (void)write({.recordings = true});
   const auto rows = cells(out(std::string(kMotion) + "_motion.tsv"));
   const auto channels = cells(out(std::string(kMotion) + "_channels.tsv"));
   const nlohmann::json sidecar = json(out(std::string(kMotion) + "_motion.json"));
@@ -153,7 +164,7 @@ TEST_F(BidsExportTest, MotionHasARowATickAndAChannelAColumn) {
 
 TEST_F(BidsExportTest, LostSamplesAreRowsOfNothingAndEvents) {
   record();
-  write({.recordings = true});
+  (void)write({.recordings = true});
   const auto rows = cells(out(std::string(kMotion) + "_motion.tsv"));
   for (const std::size_t lost : {3U, 6U, 7U}) {
     EXPECT_NE(rows[lost][0], "n/a") << "its time is known";
@@ -170,9 +181,120 @@ TEST_F(BidsExportTest, LostSamplesAreRowsOfNothingAndEvents) {
   EXPECT_EQ(events[3][1], "0.002");
 }
 
+TEST_F(BidsExportTest, PresentationsOfExcludedTrialsAreEventsAndMarked) {
+  HandMadeStudy study;
+  study.add("P01");
+  for (const bool excluded : {false, true}) {
+    const std::int64_t trial = study.answer({.block = "b", .response = 1.0});
+    study.move({.presentation = 1, .interval = "test", .intensity = 4.0});
+    if (excluded) study.exclude(trial);
+  }
+  export_bids(study.store(), out(""), {}, "");
+  const auto rows = cells(out("sub-P01/ses-01/beh/sub-P01_ses-01_task-b_events.tsv"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(value(rows, 1, "excluded"), "0");
+  EXPECT_EQ(value(rows, 2, "trial"), "2");
+  EXPECT_EQ(value(rows, 2, "excluded"), "1");
+}
+
+/// Of a study that only shows media, too: its samples are tasks named by their stages.
+TEST_F(BidsExportTest, StagesInWhichMediaAreExploredAreTasks) {
+  HandMadeStudy study;
+  study.add("P01");
+  study.explore(1, "free_space", 0.0, 92, 95);
+  study.explore(1, "viscous", 2.5, 100, 104);
+  study.explore(7, "solid", 900.0, 110, 111);
+  record(study.store());
+  const auto names = [](const core::SessionRow&) {
+    return std::vector<std::string>{"consent", "first_look"};
+  };
+  const ExportOutcome outcome =
+      export_bids(study.store(), out(""), {.recordings = true, .stage_names = names}, "");
+  EXPECT_TRUE(outcome.samples);
+  const std::string front = "sub-P01/ses-01/motion/sub-P01_ses-01_task-";
+  EXPECT_EQ(cells(out(front + "firstlook_tracksys-haptic_motion.tsv")).size(), 13U);
+  EXPECT_EQ(cells(out(front + "stage8_tracksys-haptic_motion.tsv")).size(), 2U);
+  const auto events = cells(out(front + "firstlook_tracksys-haptic_events.tsv"));
+  ASSERT_EQ(events.size(), 4U) << "one of them for the tick that is lost";
+  EXPECT_EQ(value(events, 1, "trial_type"), "medium_explored");
+  EXPECT_EQ(value(events, 1, "medium"), "free_space");
+  EXPECT_EQ(value(events, 1, "duration"), "0.004");
+  EXPECT_EQ(value(events, 2, "onset"), "0.008");
+  EXPECT_EQ(value(events, 2, "medium"), "viscous");
+  EXPECT_EQ(value(events, 2, "intensity"), "2.5");
+  EXPECT_EQ(value(events, 2, "trial"), "n/a");
+  EXPECT_EQ(value(events, 3, "trial_type"), "missing_samples");
+  EXPECT_FALSE(fs::exists(out("sub-P01/ses-01/beh"))) << "no trial, no behaviour";
+  EXPECT_EQ(cells(out("sub-P01/ses-01/sub-P01_ses-01_scans.tsv")).size(), 3U);
+}
+
+TEST_F(BidsExportTest, TheReadmeSpeaksOfMotionOnlyIfThereIsSome) {
+  record();
+  EXPECT_TRUE(write({.recordings = true}).samples);
+  EXPECT_NE(bytes(out("README.md")).find("`sub-*/ses-*/motion`"), std::string::npos);
+  EXPECT_NE(bytes(out("README.md")).find("max-old-space-size"), std::string::npos)
+      << "the official validator reads whole files into memory";
+  EXPECT_FALSE(write({}, "plain").samples);
+  EXPECT_NE(bytes(temporary_.path() / "plain/README.md").find("without recordings"),
+            std::string::npos);
+  HandMadeStudy other;
+  other.add("P01");
+  record(other.store());
+  const ExportOutcome outcome =
+      export_bids(other.store(), temporary_.path() / "other", {.recordings = true}, "");
+  EXPECT_FALSE(outcome.samples) << "all of them are between tasks";
+  EXPECT_NE(bytes(temporary_.path() / "other/README.md").find("No `motion`"),
+            std::string::npos);
+}
+
+TEST_F(BidsExportTest, SessionsTellWhatTheStudyKnowsOfAVisit) {
+  (void)write({});
+  const auto rows = cells(out("sub-P01/sub-P01_sessions.tsv"));
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(value(rows, 1, "session_id"), "ses-01");
+  EXPECT_EQ(value(rows, 1, "simulated"), "1");
+  EXPECT_EQ(value(rows, 1, "laboratory"), R"({"name":"made"})");
+  for (const char* column : {"cells", "seed", "realtime"}) (void)value(rows, 1, column);
+  const nlohmann::json sidecar = json(out("sub-P01/sub-P01_sessions.json"));
+  for (const std::string& column : rows[0]) {
+    EXPECT_TRUE(sidecar[column].contains("Description")) << column;
+  }
+}
+
+TEST_F(BidsExportTest, ItIsGeneratedByTheProgramThatExports) {
+  (void)write({.program_version = "9.8.7"});
+  EXPECT_EQ(json(out("dataset_description.json"))["GeneratedBy"][0]["Version"], "9.8.7");
+}
+
+TEST_F(BidsExportTest, ASimulatedStudyHasNoDate) {
+  (void)write({});
+  EXPECT_EQ(bytes(out("CHANGES")).find("1970"), std::string::npos);
+  EXPECT_TRUE(bytes(out("CHANGES")).starts_with("1.0.0\n"));
+}
+
+TEST_F(BidsExportTest, ParticipantsHaveTheAgeGenderAndHandednessThatWereAsked) {
+  HandMadeStudy study(R"({"name": "asked", "stages": [
+      {"kind": "questionnaire", "name": "about_you", "items": [
+        {"name": "handedness", "kind": "choice", "question": {"en": "Which hand?"}},
+        {"name": "age_years", "kind": "number", "unit": "years", "question": {"en": "Age?"}},
+        {"name": "gender", "kind": "choice", "question": {"en": "Gender?"}}]}]})");
+  study.add("P01");
+  study.say("about_you", "handedness", "left");
+  study.say("about_you", "age_years", "44");
+  export_bids(study.store(), out(""), {}, "");
+  const auto rows = cells(out("participants.tsv"));
+  EXPECT_EQ(value(rows, 1, "age"), "44");
+  EXPECT_EQ(value(rows, 1, "gender"), "n/a");
+  EXPECT_EQ(value(rows, 1, "handedness"), "left");
+  const nlohmann::json sidecar = json(out("participants.json"));
+  EXPECT_EQ(sidecar["age"]["Units"], "years");
+  EXPECT_EQ(sidecar["handedness"]["Description"],
+            "Which hand?, as answered in the stage about_you");
+}
+
 TEST_F(BidsExportTest, ScansNameFilesThatAreThere) {
   record();
-  write({.recordings = true});
+  (void)write({.recordings = true});
   const auto rows = cells(out("sub-P01/ses-01/sub-P01_ses-01_scans.tsv"));
   ASSERT_EQ(rows.size(), 3U);
   for (std::size_t row = 1; row < rows.size(); ++row) {
@@ -182,12 +304,12 @@ TEST_F(BidsExportTest, ScansNameFilesThatAreThere) {
 }
 
 TEST_F(BidsExportTest, PilotsStayOutOfEverythingUnlessAskedFor) {
-  write({});
+  (void)write({});
   for (const auto& entry : fs::recursive_directory_iterator(out(""))) {
     if (!entry.is_regular_file()) continue;
     EXPECT_EQ(bytes(entry.path()).find("PILOT"), std::string::npos) << entry.path();
   }
-  write({.pilot = true}, "with");
+  (void)write({.pilot = true}, "with");
   EXPECT_TRUE(fs::exists(temporary_.path() / "with" / "sub-PILOT"));
   const core::StudyStore source(temporary_.path() / "with" / "sourcedata" / "jnd.study",
                                 core::StudyStore::Mode::kReadOnly);
@@ -196,7 +318,7 @@ TEST_F(BidsExportTest, PilotsStayOutOfEverythingUnlessAskedFor) {
 
 TEST_F(BidsExportTest, TheSourceIsAStudyThatOpensAndIsStillAppendOnly) {
   record();
-  write({.recordings = true});
+  (void)write({.recordings = true});
   const fs::path study = out("sourcedata/jnd.study");
   for (const char* ending : {"-wal", "-shm", "-journal"}) {
     EXPECT_FALSE(fs::exists(study / (std::string("study.sqlite") + ending)));
@@ -211,8 +333,8 @@ TEST_F(BidsExportTest, TheSourceIsAStudyThatOpensAndIsStillAppendOnly) {
 
 TEST_F(BidsExportTest, TheSameStudyGivesTheSameBytes) {
   record();
-  write({.recordings = true});
-  write({.recordings = true}, "again");
+  (void)write({.recordings = true});
+  (void)write({.recordings = true}, "again");
   int num_files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(out(""))) {
     if (!entry.is_regular_file()) continue;

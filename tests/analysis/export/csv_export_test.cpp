@@ -70,7 +70,8 @@ class CsvExportTest : public ::testing::Test {
 constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.csv",
                                    "events.csv", "answers.csv"};
 // Worked out of several tables, or of the study file.
-constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv"};
+constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv",
+                                       "codebook.csv"};
 
 TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
   export_csv(study_.store(), out(), {});
@@ -189,6 +190,63 @@ TEST_F(CsvExportTest, QuestionnairesAreThereWithTheirQuestionsAlsoThoseNotAnswer
   EXPECT_EQ(cell(asked, 1, "num_steps"), "10");
 }
 
+TEST_F(CsvExportTest, PresentationsOfExcludedTrialsAreThereAndMarked) {
+  study_.add("P02");
+  const std::int64_t trial = study_.answer({.block = "group_d", .response = 0.0});
+  study_.move({.presentation = 1, .interval = "test", .intensity = 2.0});
+  study_.exclude(trial);
+  export_csv(study_.store(), out(), {});
+  const CsvTable presentations = table("presentations.csv");
+  ASSERT_EQ(presentations.num_rows(), 2U);
+  EXPECT_EQ(cell(presentations, 0, "excluded"), "0");
+  EXPECT_EQ(cell(presentations, 1, "participant"), "P02");
+  EXPECT_EQ(cell(presentations, 1, "intensity"), "2");
+  EXPECT_EQ(cell(presentations, 1, "excluded"), "1");
+}
+
+TEST_F(CsvExportTest, EveryTableOfASimulatedStudySaysSoAndWhose) {
+  HandMadeStudy study(R"({"name": "asked", "stages": [
+      {"kind": "questionnaire", "name": "about_you", "items": [
+        {"name": "safety", "kind": "scale", "question": {"en": "Safe?"}}]}]})");
+  study.add("P01", /*pilot=*/false, "{\n  \"name\": \"made\"\n}");
+  study.estimate(1.0, 100.0);
+  study.move({.presentation = 1, .interval = "test", .intensity = 1.0});
+  study.say("about_you", "safety", "3");
+  core::RecordingWriter writer(study.store().recording_file(1), 1000.0,
+                               core::Durability::kAtClose);
+  for (const std::int64_t tick : {0, 5}) writer.append({.tick = tick});
+  writer.flush();
+  export_csv(study.store(), out(), {.recordings = true});
+  for (const char* name :
+       {"sessions.csv", "participants.csv", "trials.csv", "presentations.csv", "events.csv",
+        "answers.csv", "questionnaires.csv", "recordings/gaps.csv"}) {
+    const CsvTable rows = table(name);
+    ASSERT_GT(rows.num_rows(), 0U) << name;
+    for (std::size_t row = 0; row < rows.num_rows(); ++row) {
+      EXPECT_EQ(cell(rows, row, "simulated"), "1") << name;
+      EXPECT_EQ(cell(rows, row, "participant"), "P01") << name;
+    }
+  }
+  EXPECT_EQ(cell(table("sessions.csv"), 0, "laboratory"), R"({"name":"made"})") << "on a line";
+  EXPECT_EQ(cell(table("events.csv"), 0, "version"), "1");
+}
+
+TEST_F(CsvExportTest, SeriesIntervalAndCatchOfATrialAreThere) {
+  study_.add("P02");
+  (void)study_.answer({.block = "staircases",
+                       .response = 1.0,
+                       .series = 2,
+                       .test_interval = 1,
+                       .is_catch = true});
+  export_csv(study_.store(), out(), {});
+  const CsvTable trials = table("trials.csv");
+  EXPECT_EQ(cell(trials, 0, "series"), "") << "there is one";
+  EXPECT_EQ(cell(trials, 0, "is_catch"), "0");
+  EXPECT_EQ(cell(trials, 2, "series"), "2");
+  EXPECT_EQ(cell(trials, 2, "test_interval"), "1");
+  EXPECT_EQ(cell(trials, 2, "is_catch"), "1");
+}
+
 TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
   {
     core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
@@ -197,7 +255,8 @@ TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
   }
   export_csv(study_.store(), out(), {.recordings = true});
   EXPECT_EQ(table("recordings/0001.csv").num_rows(), 4U);
-  EXPECT_EQ(bytes(out() / "recordings/gaps.csv"), "session,first_tick,last_tick\n1,2,4\n");
+  EXPECT_EQ(bytes(out() / "recordings/gaps.csv"),
+            "session,participant,simulated,first_tick,last_tick\n1,P01,0,2,4\n");
 }
 
 TEST_F(CsvExportTest, WhatFailsHalfWayLeavesNothing) {
@@ -251,7 +310,8 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
       core::Sample sample;
       sample.tick = tick;
       sample.tip_position_m[0][0] = 1e-3F * static_cast<float>(tick);
-      if (GetParam()) sample.joint_position_rad[21] = 0.5F;
+      if (GetParam()) sample.joint_position_rad[21] = 1.5708F;
+      if (GetParam()) sample.joint_torque_n_m[21] = 0.3F;
       writer.append(sample);
     }
   }
@@ -260,7 +320,10 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   ASSERT_EQ(samples.num_rows(), 100U);
   EXPECT_EQ(cell(samples, 99, "tick"), "99");
   if (GetParam()) {
-    EXPECT_EQ(cell(samples, 99, "middle_proximal_position_rad"), "0.5");
+    // Of single precision, whose own digits would be 1.5707999467849731 and
+    // 0.30000001192092896.
+    EXPECT_EQ(cell(samples, 99, "middle_proximal_position_rad"), "1.5708");
+    EXPECT_EQ(cell(samples, 99, "middle_proximal_torque_n_m"), "0.3");
   }
   std::set<std::string> told;
   const CsvTable codebook = table("codebook.csv");

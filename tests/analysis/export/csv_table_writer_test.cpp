@@ -75,10 +75,12 @@ TEST_F(CsvTableWriterTest, WritesStoredStepsAsTheDecimalFractionTheyAre) {
   table.fixed_cell(1e300, 7).end_row();
   table.fixed_cell(NAN, 7).end_row();
   table.fixed_cell(31.0, 0).end_row();
+  table.fixed_cell(1.5708F, 6).end_row();
+  table.fixed_cell(1.5708F, 6, 0.5).end_row();
   table.finish();
   EXPECT_EQ(written(),
             "number\n0\n0\n0.0000003\n-0.1234567\n12\n-0.0000001\n0.3333333333333333\n"
-            "1e+300\n\n31\n");
+            "1e+300\n\n31\n1.5707999467849731\n1.5708\n");
 }
 
 TEST_F(CsvTableWriterTest, WritesTabsAndWhatThereIsNotAsBidsWantsIt) {

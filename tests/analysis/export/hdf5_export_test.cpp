@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -63,6 +64,49 @@ class Hdf5ExportTest : public ::testing::Test {
     return value;
   }
 
+  [[nodiscard]] std::vector<std::int64_t> counts(const std::string& name) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
+    const hid_t space = H5Dget_space(dataset);
+    std::vector<std::int64_t> values(
+        static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Dread(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Sclose(space);
+    H5Dclose(dataset);
+    H5Fclose(opened);
+    return values;
+  }
+  [[nodiscard]] std::vector<std::string> texts(const std::string& name) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
+    EXPECT_GE(dataset, 0) << name;
+    const hid_t space = H5Dget_space(dataset);
+    const hid_t type = H5Dget_type(dataset);
+    const std::size_t length = H5Tget_size(type);
+    const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+    std::string bytes(count * length, '\0');
+    if (count > 0) H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+    H5Tclose(type);
+    H5Sclose(space);
+    H5Dclose(dataset);
+    H5Fclose(opened);
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      all.emplace_back(bytes.substr(i * length, length).c_str());
+    }
+    return all;
+  }
+  [[nodiscard]] H5T_cset_t letters_of(const std::string& name) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
+    const hid_t type = H5Dget_type(dataset);
+    const H5T_cset_t letters = H5Tget_cset(type);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    H5Fclose(opened);
+    return letters;
+  }
+
   static constexpr std::int64_t kNumTicks = 40000;  // More than two chunks.
   HandMadeStudy study_;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
@@ -102,6 +146,81 @@ TEST_F(Hdf5ExportTest, TellsGapsTrialsAndWhatThereIsNot) {
   EXPECT_EQ(numbers("/session_0001/trials/intensity"), std::vector<double>{0.1 + 0.2});
   EXPECT_EQ(numbers("/session_0001/trials/first_tick"), std::vector<double>{2.0});
   EXPECT_TRUE(std::isnan(numbers("/session_0001/trials/starting_intensity").at(0)));
+}
+
+TEST_F(Hdf5ExportTest, HasTheTablesOfTheCsvWithWholeNumbersExact) {
+  study_.say("about_you", "handedness", "left");
+  study_.explore(4, "viscous", 2.5, 10, 19);
+  export_hdf5(study_.store(), temporary_.path() / "out", {.pilot = true});
+  const std::string events = "/session_0002/events/";
+  EXPECT_EQ(numbers(events + "stage").back(), 4.0);
+  EXPECT_EQ(numbers(events + "last_tick").back(), 19.0);
+  EXPECT_TRUE(std::isnan(numbers(events + "trial").back()));
+  EXPECT_EQ(texts(events + "kind").back(), "medium_explored");
+  EXPECT_EQ(texts(events + "data").back(), R"({"medium":"viscous"})");
+  EXPECT_EQ(texts("/session_0002/answers/answer"), std::vector<std::string>{"left"});
+  EXPECT_EQ(texts("/session_0001/trials/participant"), std::vector<std::string>{"P01"});
+  EXPECT_EQ(texts("/sessions/participant"), (std::vector<std::string>{"P01", "PILOT"}));
+  EXPECT_EQ(numbers("/sessions/simulated"), (std::vector<double>{1.0, 0.0}));
+  EXPECT_EQ(texts("/codebook/column").front(), "session");
+  EXPECT_EQ(numbers("/session_0001/trials/is_catch"), std::vector<double>{0.0});
+  EXPECT_EQ(texts("/session_0001/questionnaires/item"), std::vector<std::string>{});
+}
+
+TEST_F(Hdf5ExportTest, TimesInNanosecondsKeepEveryDigit) {
+  core::StudyStore other(temporary_.path() / "t.study", core::StudyStore::Mode::kCreate,
+                         core::Durability::kAtClose);
+  const std::string hash = other.add_protocol("t.json", "{}");
+  constexpr std::int64_t kTimeNs = 1'709'210'096'123'456'789;
+  other.add_session({.participant = "P01",
+                     .protocol_sha256 = hash,
+                     .rate_hz = 1000.0,
+                     .recorded = false,
+                     .started_time_ns = kTimeNs});
+  export_hdf5(other, temporary_.path() / "out", {});
+  EXPECT_EQ(counts("/sessions/started_time_ns"), std::vector<std::int64_t>{kTimeNs});
+}
+
+TEST_F(Hdf5ExportTest, TextIsAsciiUnlessALetterIsNot) {
+  study_.add("P02");
+  study_.say("about_you", "remarks", "none");
+  study_.add("P03");
+  study_.say("about_you", "remarks", "zäh");
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  EXPECT_EQ(letters_of("/session_0001/trials/block"), H5T_CSET_ASCII);
+  EXPECT_EQ(letters_of("/session_0003/answers/answer"), H5T_CSET_ASCII);
+  EXPECT_EQ(letters_of("/session_0004/answers/answer"), H5T_CSET_UTF8);
+  EXPECT_EQ(texts("/session_0004/answers/answer"), std::vector<std::string>{"zäh"});
+}
+
+TEST_F(Hdf5ExportTest, JointsAreTheStepsThatWereStored) {
+  fs::remove(study_.store().recording_file(1));
+  core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                               core::Durability::kAtClose);
+  core::Sample sample{.tick = 0};
+  sample.joint_position_rad[21] = 1.5708F;
+  writer.append(sample);
+  writer.flush();
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  EXPECT_EQ(numbers("/session_0001/middle_proximal_position_rad"), std::vector<double>{1.5708});
+}
+
+TEST_F(Hdf5ExportTest, OctaveLoadsIt) {
+  if (std::system("octave --version >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "octave is not there";
+  }
+  study_.move({.presentation = 1, .interval = "test", .intensity = 1.0});
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  const fs::path said = temporary_.path() / "said";
+  const std::string script = "s = load('" + file().string() +
+                             "'); one = s.session_0001; disp(one.tick(8)); "
+                             "disp(one.trials.participant(:)'); disp(s.sessions.simulated); "
+                             "disp(one.trials.block(:)');";
+  (void)std::system(
+      ("octave --no-gui --quiet --norc --eval \"" + script + "\" >'" + said.string() + "' 2>/dev/null")
+          .c_str());
+  std::ifstream stream(said);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "9\nP01\n1\nestimation\n");
 }
 
 TEST_F(Hdf5ExportTest, PilotsAreThereOnlyWhenAskedForAndTheSameStudyGivesTheSameBytes) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -97,8 +98,8 @@ TEST(ExportCommand, TheFitsOfABidsDataSetAreThoseOfResults) {
 
 TEST(ExportCommand, TheSourceOfABidsDataSetIsAWholeStudy) {
   const RecordedStudy study;
-  ASSERT_EQ(
-      study.jnd({"export", "bids", "a.study", "--out", "bids", "--recordings"}).exit_code, 0);
+  ASSERT_EQ(study.jnd({"export", "bids", "a.study", "--out", "bids", "--recordings"}).exit_code,
+            0);
   const ProgramOutcome verified = study.jnd({"verify", "bids/sourcedata/jnd.study"});
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
@@ -130,9 +131,70 @@ TEST(ExportCommand, AFullDiskIsOneSentenceAndLeavesNothing) {
           study.jnd({"export", format, "a.study", "--out", "disk/out", "--recordings"});
       EXPECT_EQ(outcome.exit_code, 1) << format << size_kib << outcome.err;
       EXPECT_EQ(sentence_flaw(outcome.err, {"disk/out", "expected"}), "") << format << size_kib;
+      EXPECT_EQ(outcome.err.find("unfinished"), std::string::npos) << outcome.err;
       EXPECT_TRUE(fs::is_empty(study.path("disk"))) << format << size_kib;
     }
   }
+}
+
+/// The parent of such a folder is of another disk: nothing can be renamed from there.
+TEST(ExportCommand, AnEmptyMountPointIsFilledOnItsOwnDisk) {
+  const RecordedStudy study;
+  fs::create_directory(study.path("disk"));
+  const test_support::SmallDisk disk(study.path("disk"), 20000);
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a disk is not allowed here";
+  const std::set<std::string> before = study.names();
+  const ProgramOutcome outcome = study.jnd({"export", "csv", "a.study", "--out", "disk"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(study.path("disk/trials.csv")));
+  EXPECT_EQ(study.names(), before);
+}
+
+TEST(ExportCommand, ARightThatLacksIsExitThree) {
+  std::error_code error;
+  if (fs::create_directory("/sys/jnd", error) || error == std::errc::read_only_file_system) {
+    GTEST_SKIP() << "/sys is another one here";
+  }
+  const RecordedStudy study;
+  const ProgramOutcome outcome = study.jnd({"export", "csv", "a.study", "--out", "/sys/jnd"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(sentence_flaw(outcome.err, {"/sys/jnd", "expected"}), "");
+}
+
+TEST(ExportCommand, AMissingRecordingIsOneSentenceAndExitOneAndTheRestIsWritten) {
+  const RecordedStudy study;
+  fs::remove(study.path("a.study/recordings/0002.sqlite"));
+  for (const char* format : {"csv", "bids", "hdf5"}) {
+    const ProgramOutcome outcome =
+        study.jnd({"export", format, "a.study", "--out", format, "--recordings"});
+    EXPECT_EQ(outcome.exit_code, 1) << format;
+    EXPECT_EQ(sentence_flaw(outcome.err, {"recordings/0002.sqlite", "session 2"}), "")
+        << format;
+    EXPECT_NE(outcome.out.find("written to"), std::string::npos) << format;
+    EXPECT_TRUE(fs::exists(study.path(format))) << format;
+  }
+  EXPECT_EQ(study.jnd({"export", "csv", "a.study", "--out", "tables"}).exit_code, 0)
+      << "tables need no recording";
+}
+
+TEST(ExportCommand, ASignalEndsItInOneSentenceAndLeavesNothing) {
+  const RecordedStudy study;
+  const std::set<std::string> before = study.names();
+  ProgramOutcome outcome;
+  // It may have finished before the signal came.
+  for (int attempt = 0; attempt < 20 && outcome.exit_code != 1; ++attempt) {
+    fs::remove_all(study.path("out"));
+    test_support::RunningProgram program(
+        {"export", "csv", "a.study", "--out", "out", "--recordings"},
+        {.folder = study.path(""), .environment = {}});
+    while (study.names() == before && !program.has_ended()) {
+    }
+    program.send_signal(SIGINT);
+    outcome = program.wait();
+  }
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(sentence_flaw(outcome.err, {"out", "signal", "nothing was written"}), "");
+  EXPECT_EQ(study.names(), before);
 }
 
 TEST(ExportCommand, AFolderThatCannotBeWrittenIsOneSentence) {
@@ -155,8 +217,8 @@ std::string bids_validator() {
   const std::string in_module = "/bids-validator/bin/bids-validator";
   const std::string local =
       std::string(JND_SOURCE_DIR) + "/build/bids-validator/node_modules" + in_module;
-  for (const std::string& file :
-       {local, "/usr/local/lib/node_modules" + in_module, "/usr/lib/node_modules" + in_module}) {
+  for (const std::string& file : {local, "/usr/local/lib/node_modules" + in_module,
+                                  "/usr/lib/node_modules" + in_module}) {
     if (fs::exists(file)) return file;
   }
   return "";
@@ -174,13 +236,14 @@ TEST(ExportCommand, TheOfficialValidatorFindsNoErrorInABidsDataSet) {
     words.insert(words.end(), more.begin(), more.end());
     ASSERT_EQ(study.jnd(words).exit_code, 0);
     const fs::path said = study.path(out + ".json");
-    (void)std::system(("node '" + validator + "' --json '" + study.path(out).string() +
-                       "' >'" + said.string() + "' 2>/dev/null")
+    (void)std::system(("node '" + validator + "' --json '" + study.path(out).string() + "' >'" +
+                       said.string() + "' 2>/dev/null")
                           .c_str());
     const nlohmann::json verdict = nlohmann::json::parse(read_file(said));
     EXPECT_TRUE(verdict["issues"]["errors"].empty()) << verdict["issues"]["errors"].dump(2);
     EXPECT_EQ(verdict["summary"]["subjects"].size(), 2U);
-    EXPECT_EQ(verdict["summary"]["tasks"].size(), 3U);
+    EXPECT_EQ(verdict["summary"]["tasks"].size(), more.empty() ? 3U : 4U)
+        << "the fourth is of explored media, of which there is motion alone";
   }
 }
 

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "analysis/export/bids_blocks.h"
+#include "analysis/export/bids_text.h"
+#include "analysis/export/csv_table_writer.h"
+#include "analysis/export/study_tables.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<CsvColumn>& bids_event_columns() {
+  static const std::vector<CsvColumn> kColumns = {
+      {"onset", "s", "From the first sample of the task"},
+      {"duration", "s", "Until the stimulus ended or samples came again"},
+      {"trial_type", "",
+       "test, reference or free_space: what was presented in a trial; medium_explored: felt "
+       "outside of trials; missing_samples: a gap in the recording, in which nothing is filled "
+       "in"},
+      {"trial", "", "Running number in the session, from 1"},
+      {"attempt", "", "1, or more if the trial was repeated"},
+      {"presentation", "", "Within the attempt, from 1"},
+      {"medium", "", "What was rendered"},
+      {"intensity", "unit of quantity", "What was presented; its quantity is told in beh"},
+      {"response", "", "Of the trial: percent; 1 yes, 0 no; in production the value set"},
+      {"response_time", "s", "Of the trial: from the start of its last stimulus to the answer"},
+      {"sample", "", "Ticks since the first of the task: the row in its motion file, from 0"},
+      {"excluded", "", "1: the trial is set aside"},
+      {"simulated", "", "1: SIMULATED participant and apparatus"},
+  };
+  return kColumns;
+}
+
+struct BidsEvent {
+  std::int64_t first_tick = 0, last_tick = 0;
+  // Neither: samples are missing.
+  const ExportedPresentation* presentation = nullptr;
+  const ExploredMedium* explored = nullptr;
+};
+
+std::vector<BidsEvent> events_of(const BidsBlock& block,
+                                 const std::vector<core::TickRange>& gaps) {
+  std::vector<BidsEvent> events;
+  for (const ExportedPresentation& one : block.presentations) {
+    events.push_back({one.row.first_tick, one.row.last_tick, &one});
+  }
+  for (const ExploredMedium& one : block.explored) {
+    events.push_back({one.first_tick, one.last_tick, nullptr, &one});
+  }
+  for (const core::TickRange& gap : gaps) events.push_back({gap.first_tick, gap.last_tick});
+  std::ranges::stable_sort(events, {}, &BidsEvent::first_tick);
+  return events;
+}
+
+void write_presented(TableWriter& table, const core::PresentationRow& row,
+                     const core::TrialRow& trial) {
+  table.cell(row.interval).cell(row.trial).cell(row.attempt).cell(row.presentation);
+  table.cell(row.interval == "free_space" ? row.interval : trial.medium).cell(row.intensity);
+  table.cell(trial.response).cell(trial.response_time_s);
+}
+
+void write_explored(TableWriter& table, const ExploredMedium& one) {
+  table.cell("medium_explored").nothing().nothing().nothing().cell(one.medium);
+  table.cell(one.intensity).nothing().nothing();
+}
+
+void write_missing(TableWriter& table) {
+  table.cell("missing_samples").nothing().nothing().nothing().nothing();
+  table.nothing().nothing().nothing();
+}
+
+}  // namespace
+
+void write_bids_events(const fs::path& front, const BidsBlock& block,
+                       const core::SessionRow& session,
+                       const std::vector<core::TickRange>& gaps) {
+  std::map<std::int64_t, const core::TrialRow*> trials;
+  for (const ExportedTrial& trial : block.trials) trials[trial.row.trial] = &trial.row;
+  CsvTableWriter table(front.string() + "_events.tsv", bids_event_columns(), TableStyle::kBids);
+  for (const BidsEvent& event : events_of(block, gaps)) {
+    const std::int64_t sample = event.first_tick - block.first_tick;
+    table.cell(static_cast<double>(sample) / session.rate_hz);
+    table.cell(static_cast<double>(event.last_tick - event.first_tick + 1) / session.rate_hz);
+    if (event.presentation != nullptr) {
+      const core::PresentationRow& row = event.presentation->row;
+      write_presented(table, row, *trials.at(row.trial));
+    } else if (event.explored != nullptr) {
+      write_explored(table, *event.explored);
+    } else {
+      write_missing(table);
+    }
+    table.cell(sample);
+    if (event.presentation != nullptr) {
+      table.cell(event.presentation->excluded);
+    } else {
+      table.nothing();
+    }
+    table.cell(session.simulated).end_row();
+  }
+  table.finish();
+  write_json(front.string() + "_events.json", described(bids_event_columns()));
+}
+
+void write_bids_beh(const fs::path& folder, const BidsTask& task, const BidsBlock& block,
+                    const core::SessionRow& session) {
+  const std::vector<CsvColumn>& all = trial_columns();
+  const std::vector<CsvColumn> columns(all.begin() + kNumTrialOwners, all.end());
+  CsvTableWriter table(folder / (task.front + "_beh.tsv"), columns, TableStyle::kBids);
+  for (const ExportedTrial& trial : block.trials) {
+    write_trial_cells(table, session, trial);
+    table.end_row();
+  }
+  table.finish();
+  nlohmann::ordered_json sidecar = {{"TaskName", task.task_name},
+                                    {"TaskDescription", task.description},
+                                    {"FirstTick", block.first_tick}};
+  sidecar.update(described(columns));
+  for (const char* tick : {"first_tick", "last_tick"}) {
+    sidecar[tick]["Description"] = sidecar[tick]["Description"].get<std::string>() +
+                                   ", counted in the session; less FirstTick it is the row in "
+                                   "the motion file, if there is "
+                                   "one, from 0";
+  }
+  sidecar["excluded"]["Description"] =
+      "1: set aside with a reason, which the study in sourcedata has";
+  write_json(folder / (task.front + "_beh.json"), sidecar);
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "analysis/export/bids_dataset.h"
+#include "analysis/export/bids_text.h"
+#include "analysis/export/csv_table_writer.h"
+#include "analysis/export/study_tables.h"
+#include "analysis/export/table_rows.h"
+#include "analysis/questionnaire_items.h"
+
+namespace jnd::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr char kSimulatedMeaning[] = "1: SIMULATED participant and apparatus";
+
+bool is_simulated(const BidsDataset& dataset, const std::string& participant) {
+  return std::ranges::any_of(dataset.sessions, [&](const core::SessionRow& row) {
+    return row.participant == participant && row.simulated;
+  });
+}
+
+/// An answer given in the visits of a participant, the last one; "" if there is none.
+std::string answer_of(const core::StudyStore& store, const BidsDataset& dataset,
+                      const std::string& participant, const QuestionnaireItem& item) {
+  std::string answer;
+  for (const core::SessionRow& session : dataset.sessions) {
+    if (session.participant != participant) continue;
+    for (const core::AnswerRow& row : store.answers(session.session)) {
+      if (row.stage == item.stage && row.item == item.name) answer = row.answer;
+    }
+  }
+  return answer;
+}
+
+std::string described_item(const QuestionnaireItem& item) {
+  std::string text = item.question.empty() ? item.name : item.question;
+  if (item.num_steps > 0) text += " (scale from 1 to " + std::to_string(item.num_steps) + ")";
+  return text;
+}
+
+void write_phenotype(const fs::path& folder, const std::string& stage, const std::string& label,
+                     const std::vector<QuestionnaireItem>& items, const BidsDataset& dataset,
+                     const core::StudyStore& store) {
+  std::vector<std::string> names = {"participant_id", "simulated"};
+  ordered_json sidecar = {
+      {"MeasurementToolMetadata", {{"Description", "Questions of the stage " + stage}}},
+      {"simulated", {{"Description", kSimulatedMeaning}}}};
+  for (const QuestionnaireItem& item : items) {
+    if (item.stage != stage) continue;
+    names.push_back(item.name);
+    sidecar[item.name]["Description"] = described_item(item);
+    if (!item.unit.empty()) sidecar[item.name]["Units"] = item.unit;
+  }
+  CsvTableWriter table(folder / (label + ".tsv"), names, TableStyle::kBids);
+  for (const auto& [participant, subject] : dataset.subjects) {
+    table.cell("sub-" + subject).cell(is_simulated(dataset, participant));
+    for (const QuestionnaireItem& item : items) {
+      if (item.stage == stage) table.cell(answer_of(store, dataset, participant, item));
+    }
+    table.end_row();
+  }
+  table.finish();
+  write_json(folder / (label + ".json"), sidecar);
+}
+
+void write_phenotypes(const fs::path& folder, const std::vector<QuestionnaireItem>& items,
+                      const BidsDataset& dataset, const core::StudyStore& store) {
+  std::vector<std::string> stages;
+  for (const QuestionnaireItem& item : items) stages.push_back(item.stage);
+  for (const auto& [stage, label] : bids_labels(stages)) {
+    fs::create_directories(folder / "phenotype");
+    write_phenotype(folder / "phenotype", stage, label, items, dataset, store);
+  }
+}
+
+/// What BIDS looks for in the list of participants, if a questionnaire asks it.
+struct PersonColumn {
+  const char* name;
+  QuestionnaireItem item;
+};
+
+std::vector<PersonColumn> person_columns(const std::vector<QuestionnaireItem>& items) {
+  constexpr std::pair<const char*, const char*> kItems[] = {{"age", "age"},
+                                                            {"age_years", "age"},
+                                                            {"sex", "sex"},
+                                                            {"gender", "gender"},
+                                                            {"handedness", "handedness"}};
+  std::vector<PersonColumn> columns;
+  for (const auto& [item_name, column_name] : kItems) {
+    const auto is_taken = [name = column_name](const PersonColumn& column) {
+      return std::string_view(column.name) == name;
+    };
+    const auto item = std::ranges::find(items, item_name, &QuestionnaireItem::name);
+    if (item == items.end() || std::ranges::any_of(columns, is_taken)) continue;
+    columns.push_back({column_name, *item});
+  }
+  return columns;
+}
+
+}  // namespace
+
+void write_bids_sessions(const fs::path& folder, const std::string& subject,
+                         const std::vector<std::pair<std::string, core::SessionRow>>& sessions,
+                         const core::StudyStore& store) {
+  std::vector<CsvColumn> columns = {{"session_id", "", "Label of the visit"}};
+  columns.insert(columns.end(), session_columns().begin(), session_columns().end());
+  const fs::path front = folder / (subject + "_sessions");
+  CsvTableWriter table(front.string() + ".tsv", columns, TableStyle::kBids);
+  for (const auto& [label, session] : sessions) {
+    table.cell(label);
+    write_session(table, store, session);
+  }
+  table.finish();
+  write_json(front.string() + ".json", described(columns));
+}
+
+void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
+                             const core::StudyStore& store) {
+  std::vector<QuestionnaireItem> items;
+  for (const core::ProtocolRow& protocol : dataset.protocols) {
+    merge_items(items,
+                questionnaire_items(nlohmann::json::parse(protocol.text, nullptr, false)));
+  }
+  const std::vector<PersonColumn> asked = person_columns(items);
+  std::vector<std::string> names = {"participant_id", "pseudonym", "data_origin",
+                                    "num_sessions"};
+  for (const PersonColumn& column : asked) names.emplace_back(column.name);
+  CsvTableWriter table(folder / "participants.tsv", names, TableStyle::kBids);
+  for (const auto& [participant, subject] : dataset.subjects) {
+    const std::int64_t num_sessions =
+        std::ranges::count(dataset.sessions, participant, &core::SessionRow::participant);
+    const bool simulated = is_simulated(dataset, participant);
+    table.cell("sub-" + subject).cell(participant).cell(simulated ? "SIMULATED" : "person");
+    table.cell(num_sessions);
+    for (const PersonColumn& column : asked) {
+      table.cell(answer_of(store, dataset, participant, column.item));
+    }
+    table.end_row();
+  }
+  table.finish();
+  ordered_json sidecar =
+      described({{"participant_id", "", "Label of the participant in this data set"},
+                 {"pseudonym", "", "As the study has it"},
+                 {"data_origin", "", "SIMULATED: a model in a program; person"},
+                 {"num_sessions", "", "Visits in this data set"}});
+  for (const PersonColumn& column : asked) {
+    sidecar[column.name]["Description"] =
+        described_item(column.item) + ", as answered in the stage " + column.item.stage;
+    if (!column.item.unit.empty()) sidecar[column.name]["Units"] = column.item.unit;
+  }
+  write_json(folder / "participants.json", sidecar);
+  write_phenotypes(folder, items, dataset, store);
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,70 @@
+#include "analysis/export/recording_columns.h"
+
+#include <cmath>
+#include <string_view>
+
+#include "core/sample_table.h"
+
+namespace jnd::analysis {
+namespace {
+
+std::string meaning_of(std::string_view name) {
+  if (name == "tick") return "Counted from 0 in the session";
+  if (name == "attached_bits") return "Bit i: point i holds the hand";
+  if (name == "immersed_bits") return "Bit i: point i is in the medium";
+  if (name == "limited") return "1: the force limiter changed the force";
+  if (name == "fault") return "0: none";
+  if (name.ends_with("_rad")) return "Only from a device with joints; by its encoder";
+  if (name.ends_with("_n_m")) return "Only from a device with joints; by its torque sensor";
+  if (name.starts_with("end_effector")) {
+    return "Of the arm that carries the fingers; workspace frame: x right, y away, z up";
+  }
+  return "Workspace frame: x right, y away, z up; force on the hand after every limit";
+}
+
+struct Unit {
+  const char* ending;
+  const char* unit;
+  int decimals;
+  bool of_joints = false;
+};
+
+/// The decimals are those of the units in core/storage/sample_codec.h. "_n_m" stands before
+/// "_m", for the first that fits counts.
+constexpr Unit kUnits[] = {{"_n_m", "N m", 4, true}, {"_rad", "rad", 6, true},
+                           {"_m_per_s", "m/s", 4},   {"_m", "m", 7},
+                           {"_n", "N", 3},           {"tick", "tick", 0}};
+
+}  // namespace
+
+std::vector<RecordingColumn> recording_columns(bool with_joints) {
+  std::vector<RecordingColumn> columns;
+  for (std::string& name : core::sample_column_names(with_joints)) {
+    RecordingColumn column{.name = std::move(name)};
+    column.meaning = meaning_of(column.name);
+    for (const Unit& unit : kUnits) {
+      if (!column.name.ends_with(unit.ending)) continue;
+      column.unit = unit.unit;
+      column.decimals = unit.decimals;
+      // Single precision is coarser than the step from 8 rad on, so any value is rounded.
+      if (unit.of_joints) column.tolerance = 0.5;
+      break;
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+double on_grid(double value, const RecordingColumn& column) {
+  if (column.decimals == 0) return value;
+  static constexpr double kSteps[] = {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7};
+  const double steps_per_unit = kSteps[column.decimals];
+  const double steps = value * steps_per_unit;
+  // Also false for NaN.
+  if (!(std::abs(steps) < 1e15) || std::abs(steps - std::round(steps)) > column.tolerance) {
+    return value;
+  }
+  return std::round(steps) / steps_per_unit;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace jnd::analysis {
+
+enum class ColumnType {
+  kText,
+  kCount,  ///< Whole numbers, one in every row.
+  kReal,   ///< Numbers, also whole ones of which some rows have none.
+};
+
+/// One column of a table, as the codebook tells it.
+struct CsvColumn {
+  const char* name;
+  const char* unit;  ///< "" where there is none.
+  const char* meaning;
+  ColumnType type = ColumnType::kText;
+};
+
+/// Takes a table cell by cell, row by row. Throws `Error` where it writes to. Not real time.
+class TableWriter {
+ public:
+  virtual ~TableWriter() = default;
+
+  TableWriter& cell(std::string_view text) { return put_text(text), *this; }
+  TableWriter& cell(const std::string& text) { return cell(std::string_view(text)); }
+  TableWriter& cell(const char* text) { return cell(std::string_view(text)); }
+  TableWriter& cell(std::int64_t number) { return put_count(number), *this; }
+  TableWriter& cell(double number) { return put_real(number), *this; }  ///< NaN: nothing.
+  TableWriter& cell(bool flag) { return cell(std::int64_t{flag}); }     ///< 1 or 0.
+  template <typename T>
+  TableWriter& cell(const std::optional<T>& value) {
+    return value ? cell(*value) : nothing();
+  }
+  TableWriter& nothing() { return put_nothing(), *this; }  ///< What there is not.
+  /// Throws `Error` if the row has not one cell a column, which would be our own fault.
+  virtual void end_row() = 0;
+
+ private:
+  virtual void put_text(std::string_view text) = 0;
+  virtual void put_count(std::int64_t number) = 0;
+  virtual void put_real(double number) = 0;
+  virtual void put_nothing() = 0;
+};
+
+}  // namespace jnd::analysis
