@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/random_stream.h"
+#include "experiments/procedures/adjustment.h"
 #include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::experiments {
@@ -206,12 +207,8 @@ double Session::adjusted(Direction direction, StepSize size) const {
   const TrialState& trial = state_.trial(open_trial("adjust the intensity"));
   if (!current_form().adjustable) cannot("adjust the intensity", "a production");
   const double step = size == StepSize::kCoarse ? block.coarse_step : block.fine_step;
-  double target = trial.set_intensity + (direction == Direction::kRaise ? step : -step);
-  // Whole multiples of the fine step keep 0.1 + 0.2 from drifting; a start between two stays
-  // so.
-  const double start = trial.planned.starting_intensity.value_or(0.0);
-  target = start + std::round((target - start) / block.fine_step) * block.fine_step;
-  return std::clamp(target, 0.0, block.max_intensity.value_or(target < 0.0 ? 0.0 : target));
+  return stepped_intensity(block, trial.planned.starting_intensity.value_or(0.0),
+                           trial.set_intensity, direction == Direction::kRaise ? step : -step);
 }
 
 bool Session::can_adjust(Direction direction, StepSize size) const {

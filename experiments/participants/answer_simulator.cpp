@@ -1,0 +1,203 @@
+#include "experiments/participants/answer_simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.h"
+#include "core/random_stream.h"
+#include "experiments/participants/calculated_stroke.h"
+#include "experiments/procedures/adjustment.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/session/stimulus.h"
+
+namespace jnd::experiments {
+namespace {
+
+/// One participant in one block.
+class BlockPlayer {
+ public:
+  BlockPlayer(const Laboratory& laboratory, const core::ForceMap* map,
+              const SimulatedParticipant& participant, std::uint64_t session_seed,
+              const Block& block)
+      : laboratory_(laboratory),
+        map_(map),
+        participant_(participant),
+        seed_(session_seed),
+        block_(block),
+        form_(procedure_named(block.procedure).form()),
+        strokes_(participant.strokes(block.procedure)) {}
+
+  /// The response to a trial. `answered`: those before it in the block.
+  double respond(const PlannedTrial& planned, std::int64_t trial,
+                 const std::vector<AnsweredTrial>& answered) {
+    moment_ = {.trial = trial,
+               .presentation = 0,
+               .trial_in_block = static_cast<std::int64_t>(answered.size()) + 1};
+    if (form_.adjustable) return produce(planned);
+    if (form_.answer == AnswerKind::kYesNo) return compare(planned);
+    return estimate(planned, answered);
+  }
+
+ private:
+  /// What the next presentation feels like, in ln(N s/m).
+  double present(double intensity) {
+    ++moment_.presentation;
+    const core::MediumAmounts medium = amounts_of(setting_of(block_, "test", intensity));
+    double delivered = medium.damping_n_s_per_m;
+    if (!medium.is_plain_damping()) {
+      delivered = calculated_stroke(laboratory_, strokes_.amplitude_m, drawn_speed_m_per_s(),
+                                    medium, map_)
+                      .delivered_damping_n_s_per_m;
+    }
+    felt_ = delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
+    return participant_.perceiver().reading_ln(felt_, moment_);
+  }
+
+  /// Mean of this presentation's strokes, each a little faster or slower.
+  [[nodiscard]] double drawn_speed_m_per_s() const {
+    core::RandomStream random(seed_, "calculated stroke",
+                              {moment_.trial, moment_.attempt, moment_.presentation});
+    double sum = 0.0;
+    for (int stroke = 0; stroke < strokes_.num_strokes; ++stroke) {
+      sum += 1.0 + laboratory_.movement.stroke_speed_sd_ratio *
+                       std::clamp(random.normal(), -2.5, 2.5);
+    }
+    return strokes_.max_speed_m_per_s * sum / strokes_.num_strokes;
+  }
+
+  [[nodiscard]] bool looks_again() const {
+    return participant_.perceiver().looks_again(moment_);
+  }
+
+  double estimate(const PlannedTrial& planned, const std::vector<AnsweredTrial>& answered) {
+    double sum_ln = 0.0;
+    int looks = 0;
+    do {
+      sum_ln += present(planned.intensity.value());
+      ++looks;
+    } while (looks_again());
+    std::optional<double> previous;
+    if (!answered.empty()) previous = answered.back().response;
+    return participant_.perceiver().estimate_percent(sum_ln / looks, moment_, previous);
+  }
+
+  double compare(const PlannedTrial& planned) {
+    double reference_ln = 0.0, test_ln = 0.0;
+    int looks = 0;
+    do {
+      reference_ln += present(planned.reference_intensity.value());
+      test_ln += present(planned.intensity.value());
+      ++looks;
+    } while (looks_again());
+    return participant_.perceiver().says_thicker(test_ln / looks, reference_ln / looks, moment_)
+               ? 1.0
+               : 0.0;
+  }
+
+  double produce(const PlannedTrial& planned) {
+    using Wish = Perceiver::Wish;
+    constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
+    const double start = planned.starting_intensity.value();
+    double set = start, noise_ln = 0.0;
+    int looks = 0;
+    // The noise of all looks at this trial averaged, as in a session.
+    const auto look = [&] {
+      const double reading_ln = present(set);
+      const double felt_ln = std::log(std::max(felt_, 1e-6));
+      noise_ln += reading_ln - felt_ln;
+      return felt_ln + noise_ln / ++looks;
+    };
+    double reading_ln = look();
+    const double first_ln = reading_ln;
+    Wish last_wish = Wish::kMatches;
+    for (int step = 0; step < kMaxSteps; ++step) {
+      const Wish wish = participant_.perceiver().wish(reading_ln, first_ln,
+                                                      planned.target_percent.value(), moment_);
+      if (wish == Wish::kMatches) break;
+      // Back and forth over the target by the smallest step: it does not get closer.
+      if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
+          (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
+        break;
+      }
+      last_wish = wish;
+      const bool raise = wish == Wish::kRaiseFine || wish == Wish::kRaiseCoarse;
+      const bool coarse = wish == Wish::kRaiseCoarse || wish == Wish::kLowerCoarse;
+      const double size = coarse ? block_.coarse_step : block_.fine_step;
+      const double target = stepped_intensity(block_, start, set, raise ? size : -size);
+      if (target == set) break;
+      set = target;
+      reading_ln = look();
+    }
+    return set;
+  }
+
+  const Laboratory& laboratory_;
+  const core::ForceMap* map_;
+  const SimulatedParticipant& participant_;
+  std::uint64_t seed_;
+  const Block& block_;
+  TrialForm form_;
+  StrokeIntent strokes_;
+  Moment moment_;
+  double felt_ = 0.0;
+};
+
+/// A form of answer that no simulated person knows is refused before any is asked.
+void require_answerable(const std::vector<Stage>& stages) {
+  for (const Stage& stage : stages) {
+    if (const auto* several = std::get_if<Counterbalance>(&stage.content)) {
+      for (const Counterbalance::Arm& arm : several->arms) require_answerable(arm.stages);
+      require_answerable(several->between);
+    }
+    const auto* block = std::get_if<Block>(&stage.content);
+    if (block == nullptr) continue;
+    const TrialForm form = procedure_named(block->procedure).form();
+    const bool known = form.adjustable ? form.answer == AnswerKind::kMatch
+                       : form.answer == AnswerKind::kYesNo
+                           ? form.has_reference
+                           : form.answer == AnswerKind::kPercent && !form.has_reference;
+    if (!known) {
+      throw core::Error("block " + stage.name +
+                        ": expected a procedure that simulated participants answer without a "
+                        "device, found " +
+                        block->procedure);
+    }
+  }
+}
+
+}  // namespace
+
+AnswerSimulator::AnswerSimulator(const Study& study, const Laboratory& laboratory)
+    : laboratory_(laboratory), map_(force_map_of(study.device)) {
+  require_answerable(study.stages);
+}
+
+std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInstance>& stages,
+                                                    std::uint64_t session_seed) const {
+  const SimulatedParticipant participant(laboratory_, session_seed);
+  std::vector<AnsweredBlock> blocks;
+  std::int64_t trial = 0;  // Running number in the session.
+  for (std::size_t index = 0; index < stages.size(); ++index) {
+    const auto* block = std::get_if<Block>(&stages[index].stage->content);
+    if (block == nullptr) continue;
+    const Procedure& procedure = procedure_named(block->procedure);
+    BlockPlayer player(laboratory_, map_.get(), participant, session_seed, *block);
+    std::vector<AnsweredTrial> answered;
+    while (true) {
+      // The key of a session's draw.
+      core::RandomStream stream(
+          session_seed, "order",
+          {static_cast<std::int64_t>(index), static_cast<std::int64_t>(answered.size())});
+      const std::vector<PlannedTrial> drawn = procedure.draw_next(*block, answered, stream);
+      if (drawn.empty()) break;
+      for (const PlannedTrial& planned : drawn) {
+        answered.push_back({planned, player.respond(planned, ++trial, answered)});
+      }
+    }
+    blocks.push_back({stages[index].stage, std::move(answered)});
+  }
+  return blocks;
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/media/force_map.h"
+#include "experiments/participants/laboratory.h"
+#include "experiments/study/study.h"
+
+namespace jnd::experiments {
+
+// What estimates from a simulated laboratory should come to, if they had no noise.
+
+/// The laboratory with its median person alone, who reads without noise and never lapses,
+/// learns, tires or looks twice. What is systematic stays: shrinking toward the range's centre,
+/// round numbers, the pull of the starting value and of the answer before.
+[[nodiscard]] Laboratory without_noise(Laboratory laboratory);
+
+/// The Weber fraction of the median person in a block with a reference, in its varied quantity:
+/// the relative step that is felt as a factor 1 + w0 of the total damping,
+///
+///     felt(reference (1 + w)) = (1 + w0) felt(reference),
+///
+/// which for a viscous fluid of damping c x on a device of viscosity b is w0 (1 + b / (c
+/// reference)). Lapses, learning and fatigue, which make answers coarser, are not in it. Throws
+/// `Error` for a block without a reference > 0.
+[[nodiscard]] double median_weber_fraction(const Laboratory& laboratory, const Block& block,
+                                           const core::ForceMap* map = nullptr);
+
+}  // namespace jnd::experiments
