@@ -47,16 +47,18 @@ std::vector<DiscriminationAnswers> discrimination_answers(
   return all;
 }
 
+std::vector<AnswerCount> with_half_an_answer(std::vector<AnswerCount> rows) {
+  const auto factor = 2 * static_cast<std::int64_t>(rows.size());
+  for (AnswerCount& row : rows) {
+    row.num_yes = factor * row.num_yes + 1;
+    row.num_trials = factor * row.num_trials + 2;
+  }
+  return rows;
+}
+
 PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOptions& options) {
   std::vector<AnswerCount> rows = answers.rows();
-  if (options.corrected) {
-    // Counts are multiplied to stay whole, which leaves the estimate as it is.
-    const auto factor = 2 * static_cast<std::int64_t>(rows.size());
-    for (AnswerCount& row : rows) {
-      row.num_yes = factor * row.num_yes + 1;
-      row.num_trials = factor * row.num_trials + 2;
-    }
-  }
+  if (options.corrected) rows = with_half_an_answer(std::move(rows));
   return fit_psychometric(rows, {.reference = answers.reference,
                                  .free_pse = options.free_pse,
                                  .diagnostics = options.num_goodness > 0,

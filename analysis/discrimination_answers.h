@@ -25,10 +25,14 @@ struct DiscriminationAnswers {
     const StudyData& data, const BlockDesign& block, bool with_excluded,
     std::vector<ExcludedParticipant>& excluded);
 
-/// One participant's fit. `corrected` adds half a "yes" and half a "no" to the participant, in
-/// equal shares of 1 / (2 levels) at every level, so that answers that separate the stimuli
-/// perfectly have a fraction too (after the log-linear correction of Hautus 1995). It moves
-/// every fraction, so it is for those alone who have none.
+/// The answers with half a "yes" and half a "no" in all added, in equal shares of 1 / (2 levels)
+/// at every level (after the log-linear correction of Hautus 1995), and multiplied to stay
+/// whole, which leaves the estimate as it is. One row a level.
+[[nodiscard]] std::vector<AnswerCount> with_half_an_answer(std::vector<AnswerCount> rows);
+
+/// One participant's fit. `corrected`: `with_half_an_answer`, so that answers that separate the
+/// stimuli perfectly have a fraction too. It moves every fraction, so it is for those alone who
+/// have none.
 struct OwnFitOptions {
   bool corrected = false;
   bool free_pse = false;

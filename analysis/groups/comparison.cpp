@@ -80,7 +80,7 @@ void fill_t(Comparison& result, double standard_error, double degrees_of_freedom
 /// Student's t of differences whose unit is 2^exponent; nothing but the mean where a reason
 /// stands already. `largest` is that of the values they were made of.
 void test_differences(Comparison& result, const std::vector<double>& differences, int exponent,
-                      double largest) {
+                      double largest, EffectSizes effects = EffectSizes::kComputed) {
   const Summary summary = summary_of(differences);
   result.estimate = grown(summary.mean, exponent);
   if (!result.reason.empty()) return;
@@ -94,7 +94,9 @@ void test_differences(Comparison& result, const std::vector<double>& differences
   const double n = static_cast<double>(differences.size());
   result.estimate = summary.mean;
   fill_t(result, deviation / std::sqrt(n), n - 1.0);
-  add_effect_of_differences(result, *summary.mean / deviation, summary.num_values);
+  if (effects == EffectSizes::kComputed) {
+    add_effect_of_differences(result, *summary.mean / deviation, summary.num_values);
+  }
   result.estimate = grown(result.estimate, exponent);
   result.ci95 = grown(result.ci95, exponent);
 }
@@ -132,13 +134,14 @@ Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
   return result;
 }
 
-Comparison paired_t_test(const std::vector<double>& a, const std::vector<double>& b) {
+Comparison paired_t_test(const std::vector<double>& a, const std::vector<double>& b,
+                         EffectSizes effects) {
   require_pairs(a, b);
   Comparison result = started(Comparison::Kind::kPaired, "paired t", a.size(), b.size());
   const double largest = largest_magnitude(a, b);
   const int exponent = exponent_of(largest);
   if (a.size() < 2) result.reason = "too few pairs: a t test needs two";
-  test_differences(result, shrunk_differences(a, b, exponent), exponent, largest);
+  test_differences(result, shrunk_differences(a, b, exponent), exponent, largest, effects);
   return result;
 }
 
@@ -153,7 +156,8 @@ Comparison one_sample_t_test(const std::vector<double>& values) {
   return result;
 }
 
-Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>& b) {
+Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>& b,
+                        EffectSizes effects) {
   require_finite(a, "a");
   require_finite(b, "b");
   Comparison result = started(Comparison::Kind::kWelch, "Welch's t", a.size(), b.size());
@@ -176,7 +180,7 @@ Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>&
   const PublishedGroup group_a{*of_a.mean, *of_a.standard_deviation, result.num_a};
   const PublishedGroup group_b{*of_b.mean, *of_b.standard_deviation, result.num_b};
   fill_welch(result, group_a, group_b);
-  add_effect_of_groups(result, group_a, group_b);
+  if (effects == EffectSizes::kComputed) add_effect_of_groups(result, group_a, group_b);
   result.estimate = grown(result.estimate, exponent);
   result.ci95 = grown(result.ci95, exponent);
   return result;

@@ -50,14 +50,19 @@ struct Comparison {
   int num_a = 0, num_b = 0;  ///< Values used.
 };
 
+/// Effect sizes have intervals that take nearly all of a test's time.
+enum class EffectSizes { kComputed, kLeftOut };
+
 /// Student's t of the differences a[i] - b[i]. Throws `core::Error` if the lengths differ or a
 /// value is not finite, as do all of these.
 [[nodiscard]] Comparison paired_t_test(const std::vector<double>& a,
-                                       const std::vector<double>& b);
+                                       const std::vector<double>& b,
+                                       EffectSizes effects = EffectSizes::kComputed);
 
 /// Welch's t (1947), unequal variances, degrees of freedom by Welch and Satterthwaite.
 [[nodiscard]] Comparison welch_t_test(const std::vector<double>& a,
-                                      const std::vector<double>& b);
+                                      const std::vector<double>& b,
+                                      EffectSizes effects = EffectSizes::kComputed);
 
 /// Pearson's correlation; p by t with n - 2 degrees of freedom, interval by Fisher's z (1921).
 [[nodiscard]] Comparison pearson_correlation(const std::vector<double>& a,

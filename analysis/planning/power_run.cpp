@@ -1,0 +1,220 @@
+#include "analysis/planning/power_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/discrimination_answers.h"
+#include "analysis/groups/comparison.h"
+#include "analysis/groups/hierarchical_fit.h"
+#include "analysis/groups/summary.h"
+#include "analysis/magnitude_fits.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// A participant's own number in a block, where it is normally distributed over people:
+/// ln ln(1 + w), or the exponent.
+struct OwnNumber {
+  bool answered = false;
+  std::optional<double> plain;      ///< None of a degenerate participant.
+  std::optional<double> corrected;  ///< With half an answer added, for Weber fractions.
+};
+
+std::optional<double> log_log(const std::optional<double>& weber_fraction) {
+  if (!weber_fraction) return std::nullopt;
+  const double value = std::log(std::log1p(*weber_fraction));
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
+                     const PlannedAnswers& answers) {
+  OwnNumber own{.answered = !answers.counts.empty() || !answers.magnitudes.empty()};
+  if (!own.answered) return own;
+  if (block.quantity == PlannedQuantity::kWeberFraction) {
+    const auto fit = [&](bool corrected) {
+      return log_log(
+          fit_psychometric(corrected ? with_half_an_answer(answers.counts) : answers.counts,
+                           {.reference = block.reference,
+                            .free_pse = analysis.free_pse,
+                            .intervals = false,
+                            .solver = Solver::kNewton})
+              .weber_fraction);
+    };
+    own.plain = fit(false);
+    own.corrected = fit(true);
+    return own;
+  }
+  const Means logs = means_of(log_answers(answers.magnitudes, ZeroRule::kHalfSmallest).logs);
+  own.plain =
+      (block.quantity == PlannedQuantity::kEstimationExponent ? fit_log_estimation(logs)
+                                                              : fit_log_production(logs))
+          .a;
+  return own;
+}
+
+double weber_fraction_at(double log_log_number) { return std::expm1(std::exp(log_log_number)); }
+
+PlannedEstimate mean_of(const std::vector<double>& numbers, PlannedQuantity quantity) {
+  const Summary summary = summary_of(numbers);
+  PlannedEstimate estimate{.value = summary.mean, .ci95 = summary.mean_ci95};
+  if (quantity != PlannedQuantity::kWeberFraction) return estimate;
+  for (std::optional<double>* end :
+       {&estimate.value, &estimate.ci95.low, &estimate.ci95.high}) {
+    if (!*end) continue;
+    const double fraction = weber_fraction_at(**end);
+    *end = std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
+  }
+  return estimate;
+}
+
+/// One study of a size, out of everybody's numbers.
+class SizeAnalysis {
+ public:
+  SizeAnalysis(const PlannedAnalysis& analysis, const std::vector<PlannedPerson>& people,
+               const std::vector<std::vector<OwnNumber>>& numbers, int size)
+      : analysis_(analysis),
+        people_(people),
+        numbers_(numbers),
+        size_(static_cast<std::size_t>(size)) {}
+
+  [[nodiscard]] PlannedSize result() const {
+    PlannedSize result;
+    for (std::size_t block = 0; block < analysis_.blocks.size(); ++block) {
+      add_block(result, block);
+    }
+    if (!analysis_.compared) return result;
+    result.tests.push_back(test(&OwnNumber::plain));
+    result.tests.push_back(test(&OwnNumber::corrected));
+    if (analysis_.hierarchical) result.tests.push_back(hierarchical_test());
+    return result;
+  }
+
+ private:
+  void add_block(PlannedSize& result, std::size_t block) const {
+    std::vector<double> numbers;
+    int num_with_answers = 0, num_degenerate = 0;
+    for (std::size_t person = 0; person < size_; ++person) {
+      const OwnNumber& own = numbers_[person][block];
+      if (!own.answered) continue;
+      ++num_with_answers;
+      num_degenerate += own.plain ? 0 : 1;
+      if (own.plain) numbers.push_back(*own.plain);
+    }
+    const PlannedQuantity quantity = analysis_.blocks[block].quantity;
+    result.estimates.push_back(mean_of(numbers, quantity));
+    if (analysis_.hierarchical && quantity == PlannedQuantity::kWeberFraction) {
+      const HierarchicalFit fit = hierarchical({block});
+      PlannedEstimate estimate;
+      if (fit.status == FitStatus::kOk) {
+        estimate = {fit.conditions.front().weber_fraction,
+                    fit.conditions.front().weber_fraction_ci95};
+      }
+      result.estimates.push_back(estimate);
+    }
+    result.num_with_answers.push_back(num_with_answers);
+    result.num_degenerate.push_back(num_degenerate);
+  }
+
+  [[nodiscard]] PlannedTest test(std::optional<double> OwnNumber::*number) const {
+    std::vector<double> first, second;
+    for (std::size_t person = 0; person < size_; ++person) {
+      const std::optional<double>& a = numbers_[person][analysis_.compared->first].*number;
+      const std::optional<double>& b = numbers_[person][analysis_.compared->second].*number;
+      if (analysis_.paired && !(a && b)) continue;
+      if (a) first.push_back(*a);
+      if (b) second.push_back(*b);
+    }
+    const Comparison comparison = analysis_.paired
+                                      ? paired_t_test(first, second, EffectSizes::kLeftOut)
+                                      : welch_t_test(first, second, EffectSizes::kLeftOut);
+    return {comparison.estimate, comparison.p_value};
+  }
+
+  [[nodiscard]] HierarchicalFit hierarchical(const std::vector<std::size_t>& blocks) const {
+    std::vector<ParticipantAnswers> answers;
+    for (const std::size_t block : blocks) {
+      for (std::size_t person = 0; person < size_; ++person) {
+        const std::vector<AnswerCount>& counts = people_[person][block].counts;
+        if (counts.empty()) continue;
+        answers.push_back({std::to_string(person), analysis_.blocks[block].name,
+                           analysis_.blocks[block].reference, counts});
+      }
+    }
+    if (answers.empty()) return {};
+    return fit_hierarchical(answers, {.pse = analysis_.free_pse ? HierarchicalPse::kPersonal
+                                                                : HierarchicalPse::kReference});
+  }
+
+  [[nodiscard]] PlannedTest hierarchical_test() const {
+    const HierarchicalFit fit =
+        hierarchical({analysis_.compared->first, analysis_.compared->second});
+    if (fit.status != FitStatus::kOk || fit.differences.empty()) return {};
+    // The fit has the second condition minus the first.
+    return {-fit.differences.front().estimate, fit.differences.front().p_value};
+  }
+
+  const PlannedAnalysis& analysis_;
+  const std::vector<PlannedPerson>& people_;
+  const std::vector<std::vector<OwnNumber>>& numbers_;
+  std::size_t size_;
+};
+
+}  // namespace
+
+std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
+  std::vector<PlannedName> names;
+  const std::string pse = analysis.free_pse ? "pse free" : "pse at the reference";
+  for (std::size_t place = 0; place < analysis.blocks.size(); ++place) {
+    const PlannedBlock& block = analysis.blocks[place];
+    if (block.quantity != PlannedQuantity::kWeberFraction) {
+      names.push_back({block.name + ".a",
+                       "mean of the participants' own exponents, lines through the logarithms",
+                       place});
+      continue;
+    }
+    names.push_back({block.name + ".weber_fraction",
+                     "median person's w by the fast route: mean of individual ln ln(1 + w), " +
+                         pse + ", without degenerate participants, transformed back",
+                     place});
+    if (!analysis.hierarchical) continue;
+    names.push_back({block.name + ".weber_fraction_hierarchical",
+                     "median person's w: hierarchical probit, " + pse, place});
+  }
+  return names;
+}
+
+std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
+  if (!analysis.compared) return {};
+  const std::string pair = analysis.blocks[analysis.compared->first].name + " - " +
+                           analysis.blocks[analysis.compared->second].name;
+  const std::string what = pair + ": ln ln(1 + w)";
+  const std::string how = what + (analysis.paired ? ", paired" : ", unpaired, Welch") +
+                          (analysis.free_pse ? ", pse free" : ", pse at the reference");
+  std::vector<PlannedName> names = {
+      {how + ", without degenerate participants", "primary"},
+      {how + ", with degenerate participants (half an answer added)", ""}};
+  if (analysis.hierarchical) {
+    names.push_back({what + " of the median person, hierarchical" +
+                         (analysis.free_pse ? ", pse free" : ", pse at the reference"),
+                     ""});
+  }
+  return names;
+}
+
+PlannedRun analyse_run(const PlannedAnalysis& analysis,
+                       const std::vector<PlannedPerson>& people) {
+  std::vector<std::vector<OwnNumber>> numbers;
+  for (const PlannedPerson& person : people) {
+    std::vector<OwnNumber>& own = numbers.emplace_back();
+    for (std::size_t block = 0; block < analysis.blocks.size(); ++block) {
+      own.push_back(own_number(analysis, analysis.blocks[block], person[block]));
+    }
+  }
+  PlannedRun run;
+  for (const int size : analysis.sizes) {
+    run.push_back(SizeAnalysis(analysis, people, numbers, size).result());
+  }
+  return run;
+}
+
+}  // namespace jnd::analysis

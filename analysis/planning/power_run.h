@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/fits/fit_status.h"
+#include "analysis/fits/psychometric_fit.h"
+#include "analysis/magnitude_means.h"
+
+namespace jnd::analysis {
+
+/// What a block is there to estimate.
+enum class PlannedQuantity { kWeberFraction, kEstimationExponent, kProductionExponent };
+
+struct PlannedBlock {
+  std::string name;  ///< "group_d"
+  PlannedQuantity quantity = PlannedQuantity::kWeberFraction;
+  double reference = 0.0;            ///< Of a discrimination, > 0.
+  std::optional<double> true_value;  ///< In the simulated laboratory, of the median person.
+};
+
+/// What simulated studies are analysed for.
+struct PlannedAnalysis {
+  std::vector<PlannedBlock> blocks;
+  std::optional<std::pair<std::size_t, std::size_t>> compared;  ///< Places of discriminations.
+  bool paired = true;         ///< Some participants get both of these blocks.
+  std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
+  bool free_pse = true;       ///< Else the pse is at the reference.
+  bool hierarchical = false;  ///< Also the hierarchical fit: a thousand times slower.
+};
+
+/// What the numbers of a `PlannedSize` are, in its order.
+struct PlannedName {
+  std::string name;
+  std::string meaning;
+  std::size_t block = 0;  ///< Of an estimate: its place in `blocks`.
+};
+[[nodiscard]] std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis);
+/// The first is the primary one.
+[[nodiscard]] std::vector<PlannedName> test_names(const PlannedAnalysis& analysis);
+
+/// One participant's answers in one block, without any if the block was not for them.
+struct PlannedAnswers {
+  std::vector<AnswerCount> counts;  ///< Discrimination.
+  MagnitudeAnswers magnitudes;      ///< Ratios at intensities, or intensities at targets.
+};
+/// In the order of the blocks.
+using PlannedPerson = std::vector<PlannedAnswers>;
+
+struct PlannedEstimate {
+  std::optional<double> value;
+  Interval ci95;
+};
+struct PlannedTest {
+  std::optional<double> difference;  ///< In ln ln(1 + w), first minus second.
+  std::optional<double> p_value;     ///< Two-sided; none where the test is undefined.
+};
+
+/// How a study with that many participants came out.
+struct PlannedSize {
+  std::vector<PlannedEstimate> estimates;
+  std::vector<PlannedTest> tests;
+  std::vector<int> num_with_answers;  ///< By block: participants who got it.
+  std::vector<int> num_degenerate;    ///< By block: of these, without a fit of their own.
+};
+/// One simulated study, at each of its sizes.
+using PlannedRun = std::vector<PlannedSize>;
+
+/// Analyses a study at every size: of the same people always the first so many. Each is fitted
+/// once, by maximum likelihood (lines through the logarithms for exponents).
+///
+/// The fast route to the median person's Weber fraction: the mean of the individual
+/// ln ln(1 + w) with Student's interval, transformed back, of participants with a fit of their
+/// own. The primary test is Student's t on the same numbers (Welch's where nobody gets both
+/// blocks), as in `discrimination_comparison`; the second one adds half an answer to everybody
+/// (`with_half_an_answer`), so that nobody is left out: more power, but where levels lie
+/// differently about two references that half moves their fractions differently.
+/// `people` are as many as the largest size. Not real time.
+[[nodiscard]] PlannedRun analyse_run(const PlannedAnalysis& analysis,
+                                     const std::vector<PlannedPerson>& people);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,103 @@
+#include "analysis/planning/power_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "analysis/groups/summary.h"
+#include "analysis/groups/wilson_interval.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+PlannedPower power_of(const std::vector<PlannedRun>& runs, std::size_t size, std::size_t test) {
+  PlannedPower power{.num_runs = static_cast<std::int64_t>(runs.size())};
+  double sum = 0.0;
+  std::int64_t num_differences = 0;
+  for (const PlannedRun& run : runs) {
+    const PlannedTest& one = run[size].tests[test];
+    power.num_undefined += one.p_value ? 0 : 1;
+    power.num_significant += one.p_value && *one.p_value < kPlannedLevel ? 1 : 0;
+    if (!one.difference) continue;
+    sum += *one.difference;
+    ++num_differences;
+  }
+  if (num_differences > 0) power.mean_difference = sum / static_cast<double>(num_differences);
+  power.power =
+      static_cast<double>(power.num_significant) / static_cast<double>(power.num_runs);
+  std::tie(power.power_low, power.power_high) =
+      wilson_interval(power.num_significant, power.num_runs);
+  return power;
+}
+
+std::optional<double> quantile(std::vector<double> values, double probability) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const double value = percentile(values, probability);
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+PlannedPrecision precision_of(const std::vector<PlannedRun>& runs, std::size_t size,
+                              std::size_t estimate, const PlannedBlock& block,
+                              std::size_t place) {
+  PlannedPrecision precision;
+  std::vector<double> values, half_widths;
+  std::int64_t num_intervals = 0, num_holding = 0, num_people = 0, num_degenerate = 0;
+  for (const PlannedRun& run : runs) {
+    const PlannedEstimate& one = run[size].estimates[estimate];
+    num_people += run[size].num_with_answers[place];
+    num_degenerate += run[size].num_degenerate[place];
+    if (!one.value) {
+      ++precision.num_undefined;
+      continue;
+    }
+    values.push_back(*one.value);
+    const bool closed = one.ci95.low && one.ci95.high;
+    half_widths.push_back(closed ? 0.5 * (*one.ci95.high - *one.ci95.low)
+                                 : std::numeric_limits<double>::infinity());
+    if (!closed || !block.true_value) continue;
+    ++num_intervals;
+    num_holding += *one.ci95.low <= *block.true_value && *block.true_value <= *one.ci95.high;
+  }
+  precision.median = quantile(values, 0.5);
+  if (precision.median && block.true_value) {
+    precision.bias = *precision.median - *block.true_value;
+  }
+  precision.half_width_median = quantile(half_widths, 0.5);
+  precision.half_width_90 = quantile(half_widths, 0.9);
+  if (num_intervals > 0) {
+    precision.coverage = static_cast<double>(num_holding) / static_cast<double>(num_intervals);
+  }
+  if (num_people > 0) {
+    precision.degenerate =
+        static_cast<double>(num_degenerate) / static_cast<double>(num_people);
+  }
+  return precision;
+}
+
+}  // namespace
+
+std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
+                                            const std::vector<PlannedRun>& runs) {
+  core::require(!runs.empty(), "runs", "a number >= 1", 0.0);
+  const std::size_t num_tests = test_names(analysis).size();
+  const std::vector<PlannedName> estimates = estimate_names(analysis);
+  std::vector<PlannedSummary> summaries;
+  for (std::size_t size = 0; size < analysis.sizes.size(); ++size) {
+    PlannedSummary& summary = summaries.emplace_back();
+    summary.num_participants = analysis.sizes[size];
+    for (std::size_t test = 0; test < num_tests; ++test) {
+      summary.tests.push_back(power_of(runs, size, test));
+    }
+    for (std::size_t estimate = 0; estimate < estimates.size(); ++estimate) {
+      const std::size_t place = estimates[estimate].block;
+      summary.estimates.push_back(
+          precision_of(runs, size, estimate, analysis.blocks[place], place));
+    }
+  }
+  return summaries;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "analysis/planning/power_run.h"
+
+namespace jnd::analysis {
+
+/// Level of the tests.
+inline constexpr double kPlannedLevel = 0.05;
+
+/// Over all runs, of one test at one size.
+struct PlannedPower {
+  std::int64_t num_runs = 0, num_significant = 0;
+  std::int64_t num_undefined = 0;            ///< Without a p value: counted as not significant.
+  double power = 0.0;                        ///< Share of runs with p < 0.05.
+  double power_low = 0.0, power_high = 1.0;  ///< 95 %, Wilson: how well so many runs tell it.
+  std::optional<double> mean_difference;     ///< In ln ln(1 + w).
+};
+
+/// Over all runs, of one estimate at one size.
+struct PlannedPrecision {
+  std::int64_t num_undefined = 0;  ///< Runs without a value.
+  std::optional<double> median;    ///< Of the estimates.
+  std::optional<double> bias;      ///< That median minus the laboratory's true value.
+  /// Half width of the 95 % interval over participants: in the median run, and what nine runs
+  /// in ten stay below; none where that many intervals are open.
+  std::optional<double> half_width_median, half_width_90;
+  std::optional<double> coverage;    ///< Share of intervals that hold the true value.
+  std::optional<double> degenerate;  ///< Share of participants without a fit of their own.
+};
+
+struct PlannedSummary {
+  int num_participants = 0;
+  std::vector<PlannedPower> tests;          ///< As `test_names`.
+  std::vector<PlannedPrecision> estimates;  ///< As `estimate_names`.
+};
+
+/// One summary a size; sums go in the order of the runs, so that the same runs give the same
+/// numbers to the last bit. Throws `core::Error` without runs. Not real time.
+[[nodiscard]] std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
+                                                          const std::vector<PlannedRun>& runs);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analysis/planning/power_summary.h"
+#include "analysis/report/figure.h"
+
+namespace jnd::analysis {
+
+/// What the titles of power figures name.
+struct PowerFigureWords {
+  std::string study, laboratory;
+  std::int64_t num_runs = 0;
+  bool null_hypothesis = false;
+};
+
+/// Power over the number of participants, where something is compared; and the half width of
+/// every estimate's interval.
+[[nodiscard]] std::vector<Figure> power_figures(const PlannedAnalysis& analysis,
+                                                const std::vector<PlannedSummary>& summaries,
+                                                const PowerFigureWords& words);
+
+}  // namespace jnd::analysis

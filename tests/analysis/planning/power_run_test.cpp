@@ -1,0 +1,155 @@
+#include "analysis/planning/power_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/groups/comparison.h"
+#include "core/psychometric_function.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace {
+
+PlannedAnswers answers(double weber_fraction, double pse, core::RandomStream& random) {
+  PlannedAnswers one;
+  const core::PsychometricFunction curve{.pse = pse, .weber_fraction = weber_fraction};
+  for (const double x : {0.6, 0.7, 0.85, 0.95, 1.05, 1.2, 1.45, 1.8}) {
+    AnswerCount count{.intensity = x, .num_trials = 5};
+    for (int trial = 0; trial < 5; ++trial) {
+      count.num_yes += random.with_probability(curve.probability(x)) ? 1 : 0;
+    }
+    one.counts.push_back(count);
+  }
+  return one;
+}
+
+PlannedAnalysis two_blocks() {
+  return {.blocks = {{.name = "a", .reference = 1.0, .true_value = 0.25},
+                     {.name = "b", .reference = 1.0, .true_value = 0.25}},
+          .compared = std::pair(0, 1),
+          .sizes = {3, 6}};
+}
+
+std::vector<PlannedPerson> people(int count, double first_w, double second_w,
+                                  std::uint64_t seed) {
+  core::RandomStream random(seed, "people");
+  std::vector<PlannedPerson> all;
+  for (int i = 0; i < count; ++i) {
+    const double own = std::exp(0.2 * random.normal());
+    all.push_back({answers(own * first_w, 1.0, random), answers(own * second_w, 1.0, random)});
+  }
+  return all;
+}
+
+double own_log_log(const PlannedAnswers& one) {
+  const auto fit = fit_psychometric(one.counts, {.reference = 1.0, .free_pse = true});
+  return std::log(std::log1p(fit.weber_fraction.value()));
+}
+
+TEST(PowerRun, IsTheTestOfTheIndividualFitsThatTheResultsPrint) {
+  const std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 2);
+  const PlannedRun run = analyse_run(two_blocks(), everybody);
+  ASSERT_EQ(run.size(), 2U);
+  for (const auto& [size, count] : {std::pair(0, 3), std::pair(1, 6)}) {
+    std::vector<double> a, b;
+    for (int person = 0; person < count; ++person) {
+      a.push_back(own_log_log(everybody[static_cast<std::size_t>(person)][0]));
+      b.push_back(own_log_log(everybody[static_cast<std::size_t>(person)][1]));
+    }
+    const Comparison expected = paired_t_test(a, b);
+    const PlannedSize& found = run[static_cast<std::size_t>(size)];
+    EXPECT_NEAR(*found.tests[0].p_value, *expected.p_value, 1e-9);
+    EXPECT_NEAR(*found.tests[0].difference, *expected.estimate, 1e-9);
+    double mean = 0.0;
+    for (const double value : a) mean += value / count;
+    EXPECT_NEAR(*found.estimates[0].value, std::expm1(std::exp(mean)), 1e-9);
+    EXPECT_LT(*found.estimates[0].ci95.low, *found.estimates[0].value);
+    EXPECT_GT(*found.estimates[0].ci95.high, *found.estimates[0].value);
+  }
+}
+
+TEST(PowerRun, AStudyOfFewIsTheFirstOfMany) {
+  std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 3);
+  const PlannedRun both = analyse_run(two_blocks(), everybody);
+  PlannedAnalysis few = two_blocks();
+  few.sizes = {3};
+  everybody.resize(3);
+  const PlannedRun alone = analyse_run(few, everybody);
+  EXPECT_EQ(*alone[0].tests[0].p_value, *both[0].tests[0].p_value);
+  EXPECT_EQ(*alone[0].estimates[1].value, *both[0].estimates[1].value);
+}
+
+TEST(PowerRun, WhoSeparatesTheStimuliPerfectlyIsLeftOutOrGivenHalfAnAnswer) {
+  std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 2);
+  for (AnswerCount& count : everybody[1][0].counts) {
+    count.num_yes = count.intensity > 1.0 ? count.num_trials : 0;
+  }
+  const PlannedRun run = analyse_run(two_blocks(), everybody);
+  EXPECT_EQ(run[1].num_degenerate, (std::vector<int>{1, 0}));
+  EXPECT_EQ(run[1].num_with_answers, (std::vector<int>{6, 6}));
+  // Left out as a pair, from the first test alone.
+  std::vector<PlannedPerson> without = everybody;
+  without.erase(without.begin() + 1);
+  PlannedAnalysis five = two_blocks();
+  five.sizes = {5};
+  const PlannedRun others = analyse_run(five, without);
+  EXPECT_EQ(*run[1].tests[0].p_value, *others[0].tests[0].p_value);
+  EXPECT_NE(*run[1].tests[1].p_value, *others[0].tests[1].p_value);
+}
+
+TEST(PowerRun, FalsePositivesAreFivePercentWhereBothBlocksAreAlike) {
+  constexpr int kRuns = 1000;
+  int num_significant = 0, num_corrected = 0;
+  PlannedAnalysis planned = two_blocks();
+  planned.sizes = {13};
+  for (int run = 0; run < kRuns; ++run) {
+    const PlannedRun outcome =
+        analyse_run(planned, people(13, 0.25, 0.25, static_cast<std::uint64_t>(1000 + run)));
+    num_significant += *outcome[0].tests[0].p_value < 0.05 ? 1 : 0;
+    num_corrected += *outcome[0].tests[1].p_value < 0.05 ? 1 : 0;
+  }
+  // 5 % of 1000 with three standard deviations, 20.7.
+  EXPECT_NEAR(num_significant, 50, 20);
+  EXPECT_NEAR(num_corrected, 50, 20);
+}
+
+TEST(PowerRun, ExponentsAreMeansOfLinesThroughLogarithms) {
+  const PlannedAnalysis planned{
+      .blocks = {{.name = "me", .quantity = PlannedQuantity::kEstimationExponent},
+                 {.name = "mp", .quantity = PlannedQuantity::kProductionExponent}},
+      .sizes = {2}};
+  // S = I^0.5 and I^0.7; production: I set for S as I^2 = S, so a = 2.
+  std::vector<PlannedPerson> everybody(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    everybody[i].resize(2);
+    for (const double x : {1.0, 2.0, 4.0}) {
+      everybody[i][0].magnitudes[x] = {std::pow(x, i == 0 ? 0.5 : 0.7)};
+      everybody[i][1].magnitudes[100.0 * x] = {std::sqrt(x)};
+    }
+  }
+  const PlannedRun run = analyse_run(planned, everybody);
+  EXPECT_NEAR(*run[0].estimates[0].value, 0.6, 1e-12);
+  EXPECT_NEAR(*run[0].estimates[1].value, 2.0, 1e-12);
+  // Student's t with one degree of freedom, 12.7062, of sd 0.1414 / sqrt 2 = 0.1.
+  EXPECT_NEAR(*run[0].estimates[0].ci95.high, 0.6 + 1.27062, 1e-5);
+  EXPECT_TRUE(run[0].tests.empty());
+}
+
+TEST(PowerRun, WhereNobodyGetsBothBlocksTheTestIsUnpaired) {
+  std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 2);
+  for (std::size_t i = 0; i < 6; ++i) everybody[i][i % 2].counts.clear();
+  PlannedAnalysis planned = two_blocks();
+  planned.paired = false;
+  const PlannedRun run = analyse_run(planned, everybody);
+  EXPECT_EQ(run[1].num_with_answers, (std::vector<int>{3, 3}));
+  const Comparison expected =
+      welch_t_test({own_log_log(everybody[1][0]), own_log_log(everybody[3][0]),
+                    own_log_log(everybody[5][0])},
+                   {own_log_log(everybody[0][1]), own_log_log(everybody[2][1]),
+                    own_log_log(everybody[4][1])});
+  EXPECT_NEAR(*run[1].tests[0].p_value, *expected.p_value, 1e-9);
+}
+
+}  // namespace
+}  // namespace jnd::analysis

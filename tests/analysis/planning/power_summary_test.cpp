@@ -1,0 +1,52 @@
+#include "analysis/planning/power_summary.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+PlannedAnalysis small() {
+  return {.blocks = {{.name = "a", .reference = 1.0, .true_value = 0.3},
+                     {.name = "b", .reference = 1.0}},
+          .compared = std::pair(0, 1),
+          .sizes = {4}};
+}
+
+PlannedRun run_of(std::optional<double> p_value, double value, Interval ci95) {
+  return {{.estimates = {{value, ci95}, {}},
+           .tests = {{0.5, p_value}, {{}, 0.5}},
+           .num_with_answers = {4, 4},
+           .num_degenerate = {1, 0}}};
+}
+
+TEST(PowerSummary, CountsByHand) {
+  const std::vector<PlannedRun> runs = {run_of(0.01, 0.2, {0.1, 0.4}),
+                                        run_of(0.06, 0.4, {0.35, 0.55}),
+                                        run_of({}, 0.5, {0.2, {}})};
+  const auto summary = summary_of_runs(small(), runs);
+  ASSERT_EQ(summary.size(), 1U);
+  const PlannedPower& power = summary[0].tests[0];
+  EXPECT_EQ(power.num_significant, 1);
+  EXPECT_EQ(power.num_undefined, 1) << "an undefined test has found nothing";
+  EXPECT_DOUBLE_EQ(power.power, 1.0 / 3.0);
+  // Wilson (1927) for 1 of 3.
+  EXPECT_NEAR(power.power_low, 0.0615, 1e-4);
+  EXPECT_NEAR(power.power_high, 0.7923, 1e-4);
+  EXPECT_DOUBLE_EQ(*power.mean_difference, 0.5);
+  const PlannedPrecision& a = summary[0].estimates[0];
+  EXPECT_DOUBLE_EQ(*a.median, 0.4);
+  EXPECT_NEAR(*a.bias, 0.1, 1e-15);
+  EXPECT_DOUBLE_EQ(*a.half_width_median, 0.15);
+  EXPECT_FALSE(a.half_width_90) << "one interval in three is open";
+  EXPECT_DOUBLE_EQ(*a.coverage, 0.5);
+  EXPECT_DOUBLE_EQ(*a.degenerate, 0.25);
+  const PlannedPrecision& b = summary[0].estimates[1];
+  EXPECT_EQ(b.num_undefined, 3);
+  EXPECT_FALSE(b.median || b.bias || b.half_width_median || b.coverage);
+  EXPECT_THROW((void)summary_of_runs(small(), {}), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::analysis
