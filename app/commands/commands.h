@@ -8,6 +8,8 @@ void add_validate(CLI::App& program, Invocation& invocation);
 void add_schema(CLI::App& program, Invocation& invocation);
 void add_new(CLI::App& program, Invocation& invocation);
 void add_plan(CLI::App& program, Invocation& invocation);
+void add_power(CLI::App& program, Invocation& invocation);
+void add_power_merge(CLI::App& program, Invocation& invocation);
 void add_fit(CLI::App& program, Invocation& invocation);
 void add_compare(CLI::App& program, Invocation& invocation);
 void add_force(CLI::App& program, Invocation& invocation);

@@ -1,0 +1,40 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/report/report.h"
+#include "app/commands/commands.h"
+#include "app/power_files.h"
+
+namespace jnd::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string out;
+  bool json = false;
+};
+
+int run(const Options& options) {
+  if (!options.out.empty()) analysis::require_free_folder(options.out);
+  const MergedPower merged = merge_power_shards({options.files.begin(), options.files.end()});
+  tell_power(merged.design, merged.runs, {.out = options.out, .json = options.json});
+  return kDone;
+}
+
+}  // namespace
+
+void add_power_merge(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "power-merge", "The result of `jnd power` from the shards of several machines");
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILES", options->files, "Every shard-I-of-N.json")->required();
+  command->add_option("--out", options->out, "New folder for power.json and the figure");
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+}  // namespace jnd::app
