@@ -35,7 +35,7 @@ constexpr double kRatioPerPercent = 0.01;
 
 /// The one place that says what a block's answers are analysed for.
 PlannedQuantity quantity_of(const Block& block) {
-  switch (procedure_named(block.procedure).form().answer) {
+  switch (procedure_named(block.procedure).form(block).answer) {
     case AnswerKind::kYesNo:
       return PlannedQuantity::kWeberFraction;
     case AnswerKind::kMatch:

@@ -25,7 +25,7 @@ class BlockPlayer {
         participant_(participant),
         seed_(session_seed),
         block_(block),
-        form_(procedure_named(block.procedure).form()),
+        form_(procedure_named(block.procedure).form(block)),
         strokes_(participant.strokes(block.procedure)) {}
 
   /// The response to a trial. `answered`: those before it in the block.
@@ -152,7 +152,7 @@ void require_answerable(const std::vector<Stage>& stages) {
     }
     const auto* block = std::get_if<Block>(&stage.content);
     if (block == nullptr) continue;
-    const TrialForm form = procedure_named(block->procedure).form();
+    const TrialForm form = procedure_named(block->procedure).form(*block);
     const bool known = form.adjustable ? form.answer == AnswerKind::kMatch
                        : form.answer == AnswerKind::kYesNo
                            ? form.has_reference
