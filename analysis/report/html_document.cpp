@@ -8,7 +8,7 @@ constexpr char kStyle[] = R"css(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
 html { background: #fff; color: #1b1b1b; }
-body { font: 15px/1.5 Inter, "Helvetica Neue", Arial, sans-serif; max-width: 47rem;
+body { font: 15px/1.5 Inter, "Helvetica Neue", Arial, sans-serif; max-width: 52rem;
   margin: 2rem auto; padding: 0 1.2rem; overflow-wrap: break-word; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .4rem; }
 h2 { font-size: 1.25rem; margin: 2.2rem 0 .6rem; padding-top: .5rem;
