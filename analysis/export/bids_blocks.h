@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 
 /// A medium that was felt outside of trials.
-struct ExploredMedium {
+struct BidsExploration {
   std::string medium;
   std::optional<double> intensity;
   std::int64_t first_tick = 0, last_tick = 0;
@@ -23,7 +23,7 @@ struct BidsBlock {
   std::string name;                   ///< Of the block or stage in the study file.
   std::vector<ExportedTrial> trials;  ///< None in a stage that only shows media.
   std::vector<ExportedPresentation> presentations;
-  std::vector<ExploredMedium> explored;  ///< None in a block.
+  std::vector<BidsExploration> explored;  ///< None in a block.
   std::int64_t first_tick = 0,
                last_tick = 0;  ///< From its first medium to the end of its last.
   std::int64_t time_ns = 0;    ///< Of `first_tick`.

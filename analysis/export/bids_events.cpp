@@ -38,7 +38,7 @@ struct BidsEvent {
   std::int64_t first_tick = 0, last_tick = 0;
   // Neither: samples are missing.
   const ExportedPresentation* presentation = nullptr;
-  const ExploredMedium* explored = nullptr;
+  const BidsExploration* explored = nullptr;
 };
 
 std::vector<BidsEvent> events_of(const BidsBlock& block,
@@ -47,7 +47,7 @@ std::vector<BidsEvent> events_of(const BidsBlock& block,
   for (const ExportedPresentation& one : block.presentations) {
     events.push_back({one.row.first_tick, one.row.last_tick, &one});
   }
-  for (const ExploredMedium& one : block.explored) {
+  for (const BidsExploration& one : block.explored) {
     events.push_back({one.first_tick, one.last_tick, nullptr, &one});
   }
   for (const core::TickRange& gap : gaps) events.push_back({gap.first_tick, gap.last_tick});
@@ -62,7 +62,7 @@ void write_presented(TableWriter& table, const core::PresentationRow& row,
   table.cell(trial.response).cell(trial.response_time_s);
 }
 
-void write_explored(TableWriter& table, const ExploredMedium& one) {
+void write_explored(TableWriter& table, const BidsExploration& one) {
   table.cell("medium_explored").nothing().nothing().nothing().cell(one.medium);
   table.cell(one.intensity).nothing().nothing();
 }
