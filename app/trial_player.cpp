@@ -124,6 +124,15 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent) {
   }
   apparatus_.run_for(0.2 + 0.1 * intent.period_s);
   stop_if_loose();
+  // The arm is done; in a thick fluid the hand trails behind it.
+  constexpr double kLongestTrailS = 1.5;
+  for (double trail_s = 0.0;
+       apparatus_.num_metered_strokes() < intent.num_strokes && trail_s < kLongestTrailS;
+       trail_s += kGlanceS) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(kGlanceS);
+    stop_if_loose();
+  }
 }
 
 TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {

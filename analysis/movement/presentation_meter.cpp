@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/movement/strokes.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -11,6 +13,10 @@ namespace {
 constexpr double kLongestStrokeS = 30.0;
 /// Of a stroke whose end may be joined to its beginning: their distance to its width.
 constexpr double kMostOpenRatio = 0.2;
+
+double open_m(const HalfStroke& there, const HalfStroke& back) noexcept {
+  return std::hypot(back.to_x_m - there.from_x_m, back.to_y_m - there.from_y_m);
+}
 
 }  // namespace
 
@@ -115,7 +121,7 @@ bool PresentationMeter::goes_forward(const HalfStroke& half) const noexcept {
 
 void PresentationMeter::take_half(const HalfStroke& half) {
   if (!half.whole) return;
-  if (there_) {
+  if (there_ && is_closed(open_m(*there_, half), std::max(there_->width_m, half.width_m))) {
     if (there_->sound && half.sound) {
       result_.sums.strokes.add(*there_, half, parameters_.strokes.period_s);
     }
@@ -137,8 +143,7 @@ void PresentationMeter::lay_over(const HalfStroke& half) {
   if (second_last && !goes_forward(*second_last) && !goes_forward(half)) {
     has_continuous_ |= result_.sums.curves.add_continuous(buffer_, *second_last, *last, half);
   }
-  const double open_m = std::hypot(half.to_x_m - last->from_x_m, half.to_y_m - last->from_y_m);
-  const double open_ratio = open_m / std::max(last->width_m, half.width_m);
+  const double open_ratio = open_m(*last, half) / std::max(last->width_m, half.width_m);
   if (open_ratio < std::min(kMostOpenRatio, alone_ ? alone_->open_ratio : 1.0)) {
     alone_ = {*last, half, open_ratio};
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/require.h"
 
@@ -51,20 +52,26 @@ void StrokeMeter::feed(const Eigen::Vector3d& position_m,
 }
 
 void StrokeMeter::turn() noexcept {
-  ++progress_.num_turns;
-  const double width_m = std::sqrt(progress_.width_squared_m2);
-  if (progress_.num_turns > 1 && progress_.num_turns % 2 == 0) {
-    progress_.half_width_m = width_m;
-    progress_.half_peak = progress_.peak_to_farthest;
-  } else if (progress_.num_turns > 1) {
-    progress_.sum_width_m += progress_.half_width_m + width_m;
-    progress_.sum_peak_m_per_s +=
-        std::sqrt(std::max(progress_.half_peak, progress_.peak_to_farthest));
+  Progress& my = progress_;
+  const Half half = {.from_x_m = my.from_x_m,
+                     .from_y_m = my.from_y_m,
+                     .width_m = std::sqrt(my.width_squared_m2),
+                     .peak = my.peak_to_farthest};
+  const double open_m =
+      std::hypot(my.farthest_x_m - my.there.from_x_m, my.farthest_y_m - my.there.from_y_m);
+  if (my.is_back && is_closed(open_m, std::max(my.there.width_m, half.width_m))) {
+    ++my.num_strokes;
+    my.sum_width_m += my.there.width_m + half.width_m;
+    my.sum_peak_m_per_s += std::sqrt(std::max(my.there.peak, half.peak));
+    my.is_back = false;
+  } else if (my.turned) {
+    my.there = half;
+    my.is_back = true;
   }
-  progress_.from_x_m = progress_.farthest_x_m;
-  progress_.from_y_m = progress_.farthest_y_m;
-  progress_.peak_to_farthest = progress_.peak_since_farthest;
-  progress_.peak_since_farthest = 0.0;
+  my.turned = true;
+  my.from_x_m = my.farthest_x_m;
+  my.from_y_m = my.farthest_y_m;
+  my.peak_to_farthest = std::exchange(my.peak_since_farthest, 0.0);
 }
 
 StrokeSummary StrokeMeter::finish() noexcept {

@@ -280,7 +280,8 @@ void Writer::write_movement() {
       "A stroke is a full cycle, from a turning point to the other side and back. The hand is "
       "the mean of its contact points, seen from above. The farthest point from the last "
       "turning point becomes one once the hand has come back from it by 3 cm (hysteresis); the "
-      "way to the first turning point is left out, and so is a stroke that is not finished. "
+      "way to the first turning point is left out, and so is a stroke that is not finished, or "
+      "that ends farther from its beginning than 0.4 of its width. "
       "Width: mean distance between the turning points of whole strokes; highest speed: mean "
       "over strokes of the highest speed in each.";
   if (presented) {

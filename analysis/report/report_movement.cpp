@@ -33,18 +33,7 @@ std::vector<PresentationUse> by_interval(const std::vector<PresentationUse>& use
   return wholes;
 }
 
-bool has_successive_presentations(const StudyData& data) {
-  return std::ranges::any_of(data.participants, [](const ParticipantData& participant) {
-    return std::ranges::any_of(participant.presentations, [](const auto& block) {
-      return std::ranges::any_of(block.second, [](const core::PresentationRow& row) {
-        return row.presentation > 1 && row.interval != "free_space";
-      });
-    });
-  });
-}
-
-void add_cautions(HtmlTable& table, const StudyData& data,
-                  const std::vector<PresentationUse>& uses) {
+void add_cautions(HtmlTable& table, const std::vector<PresentationUse>& uses) {
   std::string where;
   for (const PresentationUse& whole : by_interval(uses)) {
     if (!(whole.missing_ratio() > kManyMissing)) continue;
@@ -59,14 +48,6 @@ void add_cautions(HtmlTable& table, const StudyData& data,
         "comparisons of these rest on a selection. “References and tests weighed equally” "
         "keeps "
         "the missing from shifting the weights of the two, not from selecting.");
-  }
-  if (has_successive_presentations(data)) {
-    table.notes.emplace_back(
-        "A presentation that follows another without a rest begins beside a turning point. A "
-        "way "
-        "of more than 3 cm from there back to the turning point counts as half of the first "
-        "stroke, so widths after the first presentation of a trial may come out too small: "
-        "compare only those that come at the same place in their trials.");
   }
 }
 
@@ -95,7 +76,7 @@ void write_uses(HtmlText& html, const StudyData& data) {
   table.notes.emplace_back(
       "Participants: with at least one that is used. Width and speed: means over the "
       "presentations that are used.");
-  add_cautions(table, data, uses);
+  add_cautions(table, uses);
   html.table(table);
 }
 

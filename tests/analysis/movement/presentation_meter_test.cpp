@@ -127,6 +127,26 @@ TEST(PresentationMeter, LaysStrokesFromTheMiddleOfTheWayBackOverTheTurnAndForwar
   EXPECT_TRUE(curves.joint_position_rad[0].mean.empty());
 }
 
+TEST(PresentationMeter, AShortWayBackToTheUsualEndIsNoHalfOfAStroke) {
+  // Found 8 cm from the near end, on the way out, the hand turns and strokes once.
+  const auto near_end_first = [](core::Sample& sample) {
+    double x_m = 0.0;
+    const auto tick = static_cast<double>(sample.tick);
+    if (sample.tick < 100) {
+      x_m = -0.16 + 0.0008 * tick;
+    } else if (sample.tick < 300) {
+      x_m = -0.08 - 0.0006 * (tick - 100.0);
+    } else {
+      x_m = -0.2 * std::cos(2.0 * std::numbers::pi * (tick - 300.0) / 1000.0);
+    }
+    for (auto& position : sample.tip_position_m) position = {x_m, 0.0, -0.1};
+    return true;
+  };
+  const PresentationMeter::Result found = metered_evenly(0, 1500, near_end_first);
+  ASSERT_EQ(found.movement.strokes.num_strokes, 1);
+  EXPECT_NEAR(*found.movement.strokes.stroke_width_m, 0.4, 1e-6);
+}
+
 TEST(PresentationMeter, JoinsTheEndOfASingleStrokeToItsBeginning) {
   // Forward from 750 to 1250, back to 1750; the same with the way back first.
   for (const std::int64_t first_tick : {std::int64_t{600}, std::int64_t{1100}}) {

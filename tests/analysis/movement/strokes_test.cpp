@@ -89,6 +89,25 @@ TEST(StrokeMeter, APauseOnTheWayIsNoTurningPoint) {
   EXPECT_NEAR(*found.max_speed_m_per_s, 1.2, 1e-9);
 }
 
+TEST(StrokeMeter, AShortWayBackToTheUsualEndIsNoHalfOfAStroke) {
+  StrokeMeter meter({});
+  const auto sweep = [&](double from_m, double to_m) {
+    for (int tick = 0; tick <= 100; ++tick) {
+      meter.feed({from_m + (to_m - from_m) * tick / 100.0, 0, 0}, {1.0, 0, 0}, kTickS);
+    }
+  };
+  sweep(-0.2, -0.1);  // On its way to rest when the presentation began,
+  sweep(-0.1, -0.3);  // called back,
+  sweep(-0.3, 0.3);   // and only now in strokes.
+  sweep(0.3, -0.28);
+  EXPECT_EQ(meter.num_strokes(), 0);
+  sweep(-0.28, -0.2);
+  EXPECT_EQ(meter.num_strokes(), 1);
+  const StrokeSummary found = meter.finish();
+  ASSERT_EQ(found.num_strokes, 1);
+  EXPECT_NEAR(*found.stroke_width_m, 0.5 * (0.6 + 0.58), 1e-12);
+}
+
 TEST(StrokeMeter, PeakSpeedIsTheMeanOverStrokesNotTheHighestOfAll) {
   StrokeMeter meter({});
   const auto sweep = [&](double from_m, double to_m, double speed_m_per_s) {
