@@ -1,5 +1,6 @@
 #include "analysis/export/csv_export.h"
 
+#include <future>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,6 +23,16 @@ namespace fs = std::filesystem;
 struct Participant {
   bool simulated = false;
   std::int64_t num_sessions = 0, num_completed = 0, num_trials = 0, num_excluded = 0;
+};
+
+/// What a session has in the tables.
+struct SessionRows {
+  bool completed = false;
+  std::vector<ExportedTrial> trials;
+  std::vector<ExportedPresentation> presentations;
+  std::vector<core::EventRow> events;
+  std::vector<core::AnswerRow> answers;
+  std::vector<QuestionnaireItem> questions;
 };
 
 class Export {
@@ -51,18 +62,25 @@ class Export {
     CsvTableWriter answers = table("answers.csv", answer_columns());
     CsvTableWriter questionnaires = table("questionnaires.csv", questionnaire_columns());
     StudyQuestions questions(store_);
-    for (const core::SessionRow& session : sessions_) {
+    const auto read_ahead = [&](std::size_t i) {
+      return std::async(std::launch::async, [this, &questions, i] {
+        return i < sessions_.size() ? read(sessions_[i], questions) : SessionRows{};
+      });
+    };
+    // The next session is read while this one is written.
+    std::future<SessionRows> next = read_ahead(0);
+    for (std::size_t i = 0; i < sessions_.size(); ++i) {
       if (options_.keep_going) options_.keep_going();
-      const std::vector<ExportedTrial> its_trials = exported_trials(store_, session.session);
-      const std::vector<core::AnswerRow> its_answers = store_.answers(session.session);
-      write_session(sessions, store_, session);
-      write_trials(trials, session, its_trials);
-      write_presentations(presentations, session,
-                          exported_presentations(store_, session.session, its_trials));
-      write_events(events, store_, session);
-      write_answers(answers, session, its_answers);
-      write_questionnaire(questionnaires, session, its_answers, questions.of(session));
-      count(session, its_trials);
+      const SessionRows rows = next.get();
+      next = read_ahead(i + 1);
+      const core::SessionRow& session = sessions_[i];
+      write_session(sessions, session, rows.completed);
+      write_trials(trials, session, rows.trials);
+      write_presentations(presentations, session, rows.presentations);
+      write_events(events, session, rows.events);
+      write_answers(answers, session, rows.answers);
+      write_questionnaire(questionnaires, session, rows.answers, rows.questions);
+      count(session, rows);
     }
     for (CsvTableWriter* one :
          {&sessions, &trials, &presentations, &events, &answers, &questionnaires}) {
@@ -70,13 +88,24 @@ class Export {
     }
   }
 
-  void count(const core::SessionRow& session, const std::vector<ExportedTrial>& trials) {
+  [[nodiscard]] SessionRows read(const core::SessionRow& session,
+                                 StudyQuestions& questions) const {
+    SessionRows rows{.completed = store_.completed(session.session),
+                     .trials = exported_trials(store_, session.session),
+                     .events = store_.events(session.session),
+                     .answers = store_.answers(session.session),
+                     .questions = questions.of(session)};
+    rows.presentations = exported_presentations(store_, session.session, rows.trials);
+    return rows;
+  }
+
+  void count(const core::SessionRow& session, const SessionRows& rows) {
     Participant& participant = participants_[session.participant];
     participant.simulated |= session.simulated;
     ++participant.num_sessions;
-    participant.num_completed += std::int64_t{store_.completed(session.session)};
-    participant.num_trials += std::ssize(trials);
-    for (const ExportedTrial& trial : trials) {
+    participant.num_completed += std::int64_t{rows.completed};
+    participant.num_trials += std::ssize(rows.trials);
+    for (const ExportedTrial& trial : rows.trials) {
       participant.num_excluded += std::int64_t{trial.excluded};
     }
   }

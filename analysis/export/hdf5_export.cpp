@@ -67,7 +67,7 @@ class Export {
     describe();
     write_table(root_, "sessions", session_columns(), [this](TableWriter& table) {
       for (const core::SessionRow& session : sessions_) {
-        write_session(table, store_, session);
+        write_session(table, session, store_.completed(session.session));
       }
     });
     for (const core::SessionRow& session : sessions_) {
@@ -125,8 +125,9 @@ class Export {
       write_presentations(table, session,
                           exported_presentations(store_, session.session, trials));
     });
-    write_table(group, "events", event_columns(),
-                [&](TableWriter& table) { write_events(table, store_, session); });
+    write_table(group, "events", event_columns(), [&](TableWriter& table) {
+      write_events(table, session, store_.events(session.session));
+    });
     write_table(group, "answers", answer_columns(),
                 [&](TableWriter& table) { write_answers(table, session, answers); });
     write_table(group, "questionnaires", questionnaire_columns(), [&](TableWriter& table) {

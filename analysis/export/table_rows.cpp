@@ -56,10 +56,9 @@ const std::vector<QuestionnaireItem>& StudyQuestions::of(const core::SessionRow&
   return found->second;
 }
 
-void write_session(TableWriter& table, const core::StudyStore& store,
-                   const core::SessionRow& session) {
+void write_session(TableWriter& table, const core::SessionRow& session, bool completed) {
   begin_row(table, session).cell(session.cells).cell(std::to_string(session.seed));
-  table.cell(session.pilot).cell(store.completed(session.session)).cell(session.device);
+  table.cell(session.pilot).cell(completed).cell(session.device);
   table.cell(session.rate_hz).cell(session.realtime).cell(session.recorded);
   table.cell(session.program_version).cell(session.protocol_sha256);
   table.cell(session.started_time_ns).cell(on_one_line(session.laboratory)).end_row();
@@ -98,9 +97,9 @@ void write_presentations(TableWriter& table, const core::SessionRow& session,
   }
 }
 
-void write_events(TableWriter& table, const core::StudyStore& store,
-                  const core::SessionRow& session) {
-  for (const core::EventRow& row : store.events(session.session)) {
+void write_events(TableWriter& table, const core::SessionRow& session,
+                  const std::vector<core::EventRow>& events) {
+  for (const core::EventRow& row : events) {
     begin_row(table, session).cell(row.sequence).cell(row.kind);
     table.cell(std::int64_t{row.version}).cell(row.time_ns).cell(row.stage).cell(row.trial);
     table.cell(row.attempt).cell(row.first_tick).cell(row.last_tick).cell(row.intensity);

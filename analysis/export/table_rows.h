@@ -43,14 +43,13 @@ struct ExportedPresentation {
 
 // A session's rows of each table, in the columns of study_tables.h.
 
-void write_session(TableWriter& table, const core::StudyStore& store,
-                   const core::SessionRow& session);
+void write_session(TableWriter& table, const core::SessionRow& session, bool completed);
 void write_trials(TableWriter& table, const core::SessionRow& session,
                   const std::vector<ExportedTrial>& trials);
 void write_presentations(TableWriter& table, const core::SessionRow& session,
                          const std::vector<ExportedPresentation>& presentations);
-void write_events(TableWriter& table, const core::StudyStore& store,
-                  const core::SessionRow& session);
+void write_events(TableWriter& table, const core::SessionRow& session,
+                  const std::vector<core::EventRow>& events);
 void write_answers(TableWriter& table, const core::SessionRow& session,
                    const std::vector<core::AnswerRow>& answers);
 /// The questions of the session's study file, with what of the answers belongs to each.
