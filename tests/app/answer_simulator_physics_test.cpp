@@ -9,6 +9,7 @@
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
+#include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -101,6 +102,7 @@ double exponent(const std::vector<std::pair<PlannedTrial, double>>& answers) {
 }
 
 TEST(AnswerSimulatorPhysics, TheSamePersonsDiscriminateAlikeWithAndWithoutADevice) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   for (const auto& [block, both] : answers_of("viscosity_discrimination", 5)) {
     SCOPED_TRACE(block);
     ASSERT_EQ(both.simulated.size(), 200U);
@@ -117,6 +119,7 @@ TEST(AnswerSimulatorPhysics, TheSamePersonsDiscriminateAlikeWithAndWithoutADevic
 }
 
 TEST(AnswerSimulatorPhysics, TheSamePersonsEstimateAndProduceAlikeWithAndWithoutADevice) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   for (const auto& [block, both] : answers_of("magnitude_of_virtual_water", 4)) {
     SCOPED_TRACE(block);
     ASSERT_EQ(both.simulated.size(), 4U * 27U);

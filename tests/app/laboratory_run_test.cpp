@@ -14,6 +14,7 @@
 #include "core/storage/integrity.h"
 #include "core/storage/recording.h"
 #include "experiments/study/study_reader.h"
+#include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -216,11 +217,7 @@ TEST_F(LaboratoryRunTest, KilledAfterAnyEventItResumesToTheSameOrderAndStimuli) 
   const std::string design = design_text(*whole, 1);
   const std::string stimuli = stimuli_text(*whole, 1);
   const auto num_events = static_cast<std::int64_t>(whole->events(1).size());
-#if defined(JND_SANITIZED)
-  constexpr std::int64_t kStride = 5;  // Everything is ten times slower there, and the same.
-#else
-  constexpr std::int64_t kStride = 1;
-#endif
+  constexpr std::int64_t kStride = test_support::kIsSanitized ? 20 : 1;
   for (std::int64_t killed_after = 1; killed_after <= num_events; killed_after += kStride) {
     const std::string name = "killed" + std::to_string(killed_after);
     store_with_session(name).reset();

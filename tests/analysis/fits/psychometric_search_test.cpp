@@ -9,6 +9,7 @@
 
 #include "analysis/fits/psychometric_limits.h"
 #include "core/random_stream.h"
+#include "support/sanitizer.h"
 
 namespace jnd::analysis {
 namespace {
@@ -65,6 +66,7 @@ double lowest_of_dense_grid(const PsychometricLevels& levels, const Case& how) {
 }
 
 TEST(PsychometricSearch, NoCurveOfADenseGridIsBetterThanTheOptimumOrTheLimit) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   core::RandomStream random(1, "search test");
   int num_attained = 0, num_limits = 0;
   for (int set = 0; set < 150; ++set) {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/psychometric_function.h"
+#include "support/sanitizer.h"
 
 namespace jnd::analysis {
 namespace {
@@ -160,6 +161,7 @@ TEST(HierarchicalFit, APersonMayBeBiasedInOneConditionAndNotInTheOther) {
 }
 
 TEST(HierarchicalFit, TheUsualNumberOfNodesIsEnough) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   std::vector<ParticipantAnswers> answers = people_with_a_bias_in_one_condition(5);
   const HierarchicalFit usual = fit_hierarchical(answers, {});
   const HierarchicalFit many = fit_hierarchical(answers, {.num_nodes = 9});

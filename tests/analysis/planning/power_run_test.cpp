@@ -7,6 +7,7 @@
 #include "analysis/groups/comparison.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
+#include "support/sanitizer.h"
 
 namespace jnd::analysis {
 namespace {
@@ -99,6 +100,7 @@ TEST(PowerRun, WhoSeparatesTheStimuliPerfectlyIsLeftOutOrGivenHalfAnAnswer) {
 }
 
 TEST(PowerRun, FalsePositivesAreFivePercentWhereBothBlocksAreAlike) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   constexpr int kRuns = 1000;
   int num_significant = 0, num_corrected = 0;
   PlannedAnalysis planned = two_blocks();

@@ -10,6 +10,7 @@
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
+#include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -31,9 +32,7 @@ std::string shortened(const fs::path& file) {
 }
 
 TEST(ExoskeletonStudy, TheThickFluidIsSlowerThePalmLeadsAndTheFingersFollow) {
-#ifdef JND_SANITIZED
-  GTEST_SKIP() << "minutes of physics; device_test steps through the same code";
-#endif
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   const test_support::TemporaryFolder temporary{test_support::memory_folder()};
   write_file(temporary.path() / "short.json",
              shortened(fs::path(JND_SOURCE_DIR) / "protocols/viscosity_discrimination.json"));

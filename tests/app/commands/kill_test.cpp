@@ -10,6 +10,7 @@
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
+#include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -20,11 +21,7 @@ using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 using Clock = std::chrono::steady_clock;
 
-#if defined(JND_SANITIZED)
-constexpr int kFewer = 5;  // Everything is ten times slower there, and the same.
-#else
-constexpr int kFewer = 1;
-#endif
+constexpr int kFewer = test_support::kIsSanitized ? 5 : 1;
 
 /// When a program is killed: after so many lines, or after so long.
 struct Moment {

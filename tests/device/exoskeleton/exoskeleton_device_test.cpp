@@ -14,6 +14,7 @@
 #include "device/exoskeleton/mujoco_fixture.h"
 #include "device/haptic_loop.h"
 #include "support/allocation_counter.h"
+#include "support/sanitizer.h"
 
 namespace jnd::device {
 namespace {
@@ -200,6 +201,7 @@ double free_space_viscosity_n_s_per_m(double* friction_n) {
 }
 
 TEST(ExoskeletonDevice, FreeSpaceFeelsLikeAThinFluid) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   double friction_n = 0.0;
   const double viscosity_n_s_per_m = free_space_viscosity_n_s_per_m(&friction_n);
   std::printf("free space: %.2f N s/m, %.2f N\n", viscosity_n_s_per_m, friction_n);

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "device/drawn_mass.h"
 #include "device/haptic_loop.h"
+#include "support/sanitizer.h"
 
 namespace jnd::device {
 namespace {
@@ -32,6 +33,7 @@ TEST(SimulatedBench, RecoversTheFrictionOfTheModelInEveryPose) {
 }
 
 TEST(SimulatedBench, RecoversTheMeansOfAllPosesAndTheSensorsErrors) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   SimulatedBench bench({});
   const FingerCharacter character = characterize_finger(bench, 2);
   EXPECT_NEAR(character.extension_n.mean, kExtension_n, 0.05 * kExtension_n);
@@ -55,6 +57,7 @@ TEST(SimulatedBench, AFingerThatIsNotThereIsRefused) {
 }
 
 TEST(SimulatedBench, FreeSpaceFeelsAsViscousAsItTrulyIsToTenPercent) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   // The same line through what the magnets truly do to the hand and how it truly moves.
   double num = 0.0, sum_v = 0.0, sum_vv = 0.0, sum_f = 0.0, sum_vf = 0.0;
   for (const double max_m_per_s : {0.2, 0.4, 0.6}) {

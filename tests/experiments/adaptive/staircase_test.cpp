@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
+#include "support/sanitizer.h"
 
 namespace jnd::experiments {
 namespace {
@@ -260,6 +261,7 @@ double reached_probability(StaircaseRule rule) {
 }
 
 TEST(Staircase, ComesToItsTargetProbabilityWithASimulatedObserver) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   StaircaseRule rule = one_up_two_down();
   rule.step_sizes = {1.0, 0.25};
   rule.max_trials = 400;

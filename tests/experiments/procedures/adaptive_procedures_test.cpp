@@ -11,6 +11,7 @@
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
 #include "experiments/study/study_reader.h"
+#include "support/sanitizer.h"
 
 namespace jnd::experiments {
 namespace {
@@ -90,6 +91,7 @@ TEST_P(EveryAdaptiveProcedure, GoesOnFromTheAnswersAloneAlsoAfterOneWasTakenBack
 }
 
 TEST_P(EveryAdaptiveProcedure, LastsAboutAsLongAsIsExpected) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   const Block block = block_with(GetParam());
   const auto expected =
       static_cast<double>(procedure_named(block.procedure).expected_trials(block));
@@ -175,6 +177,7 @@ TEST(LimitsProcedure, SeriesRiseAndFallInTurnFromDrawnStarts) {
 }
 
 TEST(QuestPlusProcedure, FindsPseAndWeberFractionOfTheObserver) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   const Block block = block_with(kQuestPlus);
   const QuestPlus quest(quest_plus_rule_of(block));
   const auto estimate = [&](std::size_t parameter) {
