@@ -39,16 +39,21 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   StudyData data;
   const std::string place = store.folder().string();
   std::map<std::string, BlockDesign> blocks;
-  std::set<std::string> known_protocols;
+  std::map<std::string, std::map<std::string, ProtocolBlock>> protocols;  // By SHA-256.
   for (const core::SessionRow& session : store.sessions()) {
     if (session.pilot && !with_pilots) continue;
     data.protocol_sha256 = session.protocol_sha256;
     data.simulated = data.simulated || session.simulated;
-    if (known_protocols.insert(session.protocol_sha256).second) {
-      merge_items(data.items,
-                  questionnaire_items(parsed(store.protocol(session.protocol_sha256).text,
-                                             place + ": protocol")));
+    const auto [its_protocol, is_new] = protocols.try_emplace(session.protocol_sha256);
+    if (is_new) {
+      const json protocol =
+          parsed(store.protocol(session.protocol_sha256).text, place + ": protocol");
+      merge_items(data.items, questionnaire_items(protocol));
+      its_protocol->second = protocol_blocks(protocol);
     }
+    const auto is_practice = [&blocks = its_protocol->second](const std::string& block) {
+      return blocks[block].is_practice;
+    };
     if (!session.laboratory.empty()) {
       const json laboratory = parsed(session.laboratory, place + ": laboratory");
       data.laboratory_text = session.laboratory;
@@ -59,13 +64,15 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
     std::map<std::int64_t, std::string> block_of_trial;
     std::map<std::string, std::int64_t> num_trials;
     for (const core::DesignRow& row : store.design(session.session)) {
+      if (is_practice(row.block)) continue;
       block_of_trial[row.trial] = row.block;
       BlockDesign& block = blocks[row.block];
       block = {.block = row.block,
                .procedure = row.procedure,
                .quantity = row.quantity,
                .num_trials = std::max(block.num_trials, ++num_trials[row.block]),
-               .reference_intensity = block.reference_intensity};
+               .reference_intensity = block.reference_intensity,
+               .protocol = its_protocol->second[row.block]};
     }
     ParticipantData& participant = of(data.participants, session.participant);
     if (!session.cells.empty()) participant.cells = session.cells;
@@ -75,18 +82,22 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
     std::set<std::int64_t> standing;
     for (core::TrialRow& trial : store.trials(session.session)) {
       standing.insert(trial.trial);
+      if (is_practice(trial.block)) continue;
       if (trial.reference_intensity) {
         blocks[trial.block].reference_intensity = trial.reference_intensity;
       }
-      participant.trials.push_back(std::move(trial));
+      auto& trials = trial.is_catch ? participant.catch_trials : participant.trials;
+      trials.push_back(std::move(trial));
     }
     for (core::TrialRow& trial : store.trials(session.session, /*include_excluded=*/true)) {
-      if (!standing.contains(trial.trial)) {
+      if (!standing.contains(trial.trial) && !trial.is_catch && !is_practice(trial.block)) {
         participant.excluded_trials.push_back(std::move(trial));
       }
     }
     for (core::PresentationRow& row : store.presentations(session.session)) {
-      participant.presentations[block_of_trial[row.trial]].push_back(std::move(row));
+      const auto block = block_of_trial.find(row.trial);
+      if (block == block_of_trial.end()) continue;
+      participant.presentations[block->second].push_back(std::move(row));
     }
   }
   if (data.participants.empty()) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/adaptive_run.h"
+#include "analysis/protocol_blocks.h"
 #include "analysis/questionnaire_items.h"
 #include "core/storage/study_store.h"
 
@@ -14,7 +16,8 @@ namespace jnd::analysis {
 /// What one participant left in a study: answers that stand, and how the hand moved.
 struct ParticipantData {
   std::string participant;
-  std::vector<core::TrialRow> trials;
+  std::vector<core::TrialRow> trials;           ///< Catch trials and practice left out.
+  std::vector<core::TrialRow> catch_trials;     ///< For how often "yes" is said without cause.
   std::vector<core::TrialRow> excluded_trials;  ///< Set aside by hand, otherwise complete.
   std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
   std::string cells;                     ///< Counterbalancing, as a session keeps it.
@@ -30,16 +33,22 @@ struct BlockDesign {
   std::string quantity;
   std::int64_t num_trials = 0;  ///< For one participant; the most of any, where they differ.
   std::optional<double> reference_intensity;
+  ProtocolBlock protocol{};
 
-  /// Every test stimulus is compared with a reference, by yes or no: its answers have a
+  /// Of every test stimulus it is asked whether it is more than a reference: its answers have a
   /// psychometric function, whatever procedure chose the stimuli.
   [[nodiscard]] bool compares() const {
-    return reference_intensity && procedure != "magnitude_estimation" &&
+    return reference_intensity && protocol.task != "same_different" &&
+           protocol.task != "yes_no" && procedure != "magnitude_estimation" &&
            procedure != "magnitude_production";
   }
+  /// The test alone, and whether it is felt.
+  [[nodiscard]] bool detects() const { return protocol.task == "yes_no"; }
+  /// "Same" or "different" of two stimuli.
+  [[nodiscard]] bool tells_apart() const { return protocol.task == "same_different"; }
 };
 
-/// A whole study, ready for analysis. Pilot sessions are left out.
+/// A whole study, ready for analysis. Pilot sessions and practice blocks are left out.
 struct StudyData {
   std::string study;  ///< Name in its file.
   std::string protocol_sha256;
@@ -50,6 +59,9 @@ struct StudyData {
   std::vector<ParticipantData> participants;        ///< By pseudonym.
   std::vector<BlockDesign> blocks;                  ///< By name.
   std::vector<QuestionnaireItem> items;             ///< In the order of the study file.
+  /// Of blocks whose procedure has a rule of its own; by whoever reads that from the study
+  /// file.
+  std::vector<AdaptiveRun> runs;
 };
 
 /// Reads the folder's database; nothing is computed yet. Throws `Error` for a damaged study.

@@ -6,6 +6,7 @@
 #include "analysis/exploratory_results.h"
 #include "analysis/questionnaire_results.h"
 #include "analysis/test_families.h"
+#include "analysis/threshold_results.h"
 
 namespace jnd::analysis {
 namespace {
@@ -16,6 +17,17 @@ std::vector<BlockDesign> blocks_of(const StudyData& data, const std::string& pro
     if (block.procedure == procedure) found.push_back(block);
   }
   return found;
+}
+
+/// What a block has beside a psychometric function over comparisons.
+void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyData& data,
+                            const BlockDesign& block, const ResultsOptions& options) {
+  if (block.detects()) sections.push_back(detection_results(data, block, options));
+  if (block.tells_apart()) sections.push_back(same_different_results(data, block));
+  if (is_adaptive(block)) sections.push_back(adaptive_results(data, block));
+  if (block.compares() && has_intervals(data, block)) {
+    sections.push_back(interval_results(data, block));
+  }
 }
 
 /// The laboratory names an estimate alone, or with its study before a slash where two studies
@@ -61,6 +73,9 @@ StudyResults results_of(const StudyData& data, const Published& published,
   }
   for (const BlockDesign& block : discriminations) {
     results.sections.push_back(discrimination_results(data, block, options));
+  }
+  for (const BlockDesign& block : data.blocks) {
+    add_threshold_sections(results.sections, data, block, options);
   }
   for (std::size_t i = 0; i + 1 < discriminations.size(); ++i) {
     results.sections.push_back(

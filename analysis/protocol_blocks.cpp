@@ -1,0 +1,43 @@
+#include "analysis/protocol_blocks.h"
+
+#include <nlohmann/json.hpp>
+
+namespace jnd::analysis {
+namespace {
+
+using nlohmann::json;
+
+std::string word_at(const json& object, const char* key, const std::string& otherwise) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+ProtocolBlock block_of(const json& stage) {
+  ProtocolBlock block;
+  block.task = word_at(stage, "task", block.task);
+  block.is_practice = stage.contains("practice");
+  return block;
+}
+
+void add_blocks(const json& object, const char* key,
+                std::map<std::string, ProtocolBlock>& blocks) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array()) return;
+  for (const json& stage : *found) {
+    if (!stage.is_object()) continue;
+    if (word_at(stage, "kind", "") == "block") {
+      blocks[word_at(stage, "name", "")] = block_of(stage);
+    }
+    for (const char* nested : {"arms", "stages", "between"}) add_blocks(stage, nested, blocks);
+  }
+}
+
+}  // namespace
+
+std::map<std::string, ProtocolBlock> protocol_blocks(const json& protocol) {
+  std::map<std::string, ProtocolBlock> blocks;
+  add_blocks(protocol, "stages", blocks);
+  return blocks;
+}
+
+}  // namespace jnd::analysis

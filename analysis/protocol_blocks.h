@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace jnd::analysis {
+
+/// What a study file says of a block and no row of its trials does.
+struct ProtocolBlock {
+  /// "reminder", "yes_no", "two_interval" or "same_different"; where none stands in the file, a
+  /// reminder, which magnitudes are not asked by.
+  std::string task = "reminder";
+  bool is_practice = false;  ///< Its trials are no data.
+};
+
+/// The blocks of a study file by their names, those of every arm among them. What does not look
+/// like a block is passed over: the reader of study files has checked it.
+[[nodiscard]] std::map<std::string, ProtocolBlock> protocol_blocks(
+    const nlohmann::json& protocol);
+
+}  // namespace jnd::analysis
