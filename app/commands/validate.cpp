@@ -8,7 +8,10 @@
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/device_check.h"
 #include "app/json_text.h"
+#include "app/option_checks.h"
+#include "app/session_setup.h"
 #include "app/share.h"
 #include "experiments/study/study_reader.h"
 
@@ -17,14 +20,24 @@ namespace {
 
 struct Options {
   std::vector<std::string> files;
+  std::string device;  ///< "": a study by itself.
+  double speed_m_per_s = 0.5;
   bool json = false;
 };
 
+std::vector<experiments::StudyProblem> problems_of(const std::filesystem::path& file,
+                                                   const Options& options) {
+  std::vector<experiments::StudyProblem> found = experiments::study_problems(file);
+  if (!found.empty() || options.device.empty()) return found;
+  return device_problems(file, options.device, options.speed_m_per_s);
+}
+
 int run(const Options& options) {
+  if (!options.device.empty()) require_device(options.device);
   std::vector<experiments::StudyProblem> problems;
   for (const std::string& name : options.files) {
     std::vector<experiments::StudyProblem> found =
-        experiments::study_problems(user_or_shipped(name, "protocols"));
+        problems_of(user_or_shipped(name, "protocols"), options);
     if (!options.json && found.empty()) fmt::print("{}: no problem\n", name);
     problems.insert(problems.end(), std::make_move_iterator(found.begin()),
                     std::make_move_iterator(found.end()));
@@ -68,6 +81,14 @@ void add_validate(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->files, "Study files, or names of shipped studies")
       ->required();
+  command->add_option(
+      "--device", options->device,
+      "Also whether it can render every stimulus, and stably; see `jnd devices`");
+  command
+      ->add_option("--speed-m-per-s", options->speed_m_per_s,
+                   "Speed of the hand that forces are expected at, with --device")
+      ->check(number_between(0.001, 10.0))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

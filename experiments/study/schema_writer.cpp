@@ -139,8 +139,8 @@ bool holds_by_default(const ParameterTable& table, const Condition& condition) {
          condition.values.end();
 }
 
-/// One if/then/else for each set of conditions: its keys are required where it holds and
-/// forbidden where it does not.
+/// One if/then/else for each set of conditions: its keys are described and required where it
+/// holds and forbidden where it does not. So an editor offers only those that belong there.
 Json conditional_schemas(const ParameterTable& table) {
   std::vector<std::pair<std::string, Json>> rules;
   for (const Parameter& parameter : table.parameters) {
@@ -156,11 +156,13 @@ Json conditional_schemas(const ParameterTable& table) {
         condition["properties"][one.key] = {{"enum", one.values}};
         if (!holds_by_default(table, one)) condition["required"].push_back(one.key);
       }
-      rules.emplace_back(words, Json{{"if", condition},
-                                     {"then", {{"required", Json::array()}}},
-                                     {"else", {{"properties", Json::object()}}}});
+      rules.emplace_back(
+          words, Json{{"if", condition},
+                      {"then", {{"properties", Json::object()}, {"required", Json::array()}}},
+                      {"else", {{"properties", Json::object()}}}});
       rule = &rules.back().second;
     }
+    (*rule)["then"]["properties"][parameter.key] = property_schema(parameter);
     if (parameter.required) (*rule)["then"]["required"].push_back(parameter.key);
     (*rule)["else"]["properties"][parameter.key] = false;
   }
@@ -189,7 +191,9 @@ Json table_schema(const ParameterTable& table) {
   Json required = Json::array();
   Json properties = Json::object();
   for (const Parameter& parameter : table.parameters) {
-    properties[parameter.key] = property_schema(parameter);
+    // What belongs here only sometimes is described where it does; see below.
+    properties[parameter.key] =
+        parameter.only_where.empty() ? property_schema(parameter) : Json(true);
     if (parameter.required && parameter.only_where.empty()) required.push_back(parameter.key);
   }
   properties[comment_parameter().key] = property_schema(comment_parameter());

@@ -76,6 +76,17 @@ std::string file_hint(const json& value) {
   return names_file ? "; a study takes nothing from other files, write it here" : "";
 }
 
+/// A single one of what a list should hold: the author may not know how lists are written.
+std::string list_hint(const json& value, const Parameter& parameter) {
+  const ValueKind kind = parameter.kind;
+  const bool is_one = (kind == ValueKind::kNumbers && value.is_number()) ||
+                      (kind == ValueKind::kStrings && value.is_string()) ||
+                      ((kind == ValueKind::kTexts || kind == ValueKind::kObjects ||
+                        kind == ValueKind::kStages) &&
+                       value.is_object() && !value.empty());
+  return is_one ? "; put it in brackets: [...]" : "";
+}
+
 bool is_blank(const std::string& text) {
   return text.find_first_not_of(" \t\r\n") == std::string::npos;
 }
@@ -186,7 +197,7 @@ void StructureCheck::check_value(const json& value, const std::string& pointer,
   const auto expect = [&](bool holds) {
     if (!holds) {
       report(pointer, "expected " + expectation(parameter) + ", found " + found_words(value) +
-                          file_hint(value));
+                          list_hint(value, parameter) + file_hint(value));
     }
     return holds;
   };

@@ -35,6 +35,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
+/// The shortest candidate of which only the end is left out: `viscosity` of `viscosity_pa_s`.
+std::string begun_word(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string found;
+  for (const std::string& candidate : candidates) {
+    const bool begins = word.size() >= 3 && candidate.size() > word.size() &&
+                        candidate.starts_with(word) && candidate[word.size()] == '_';
+    if (begins && (found.empty() || candidate.size() < found.size())) found = candidate;
+  }
+  return found;
+}
+
 }  // namespace
 
 void add_problem(std::vector<StudyProblem>& problems, StudyProblem problem) {
@@ -68,7 +79,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
       found = candidate;
     }
   }
-  return found;
+  return found.empty() ? begun_word(word, candidates) : found;
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {

@@ -40,7 +40,7 @@ class ProtocolError : public core::Error {
 };
 
 /// The candidate that `word` most likely was meant to be, by edit distance (a swap of
-/// neighbours counts as one edit); "" if none is near.
+/// neighbours counts as one edit), or the one whose unit was left out; "" if none is near.
 [[nodiscard]] std::string nearest_word(std::string_view word,
                                        const std::vector<std::string>& candidates);
 

@@ -67,6 +67,74 @@ TEST_F(StudyFileCommandsTest, ValidateTellsTheProblemsOfAllFiles) {
   EXPECT_EQ(files, (std::set<std::string>{"a.json", "b.json"}));
 }
 
+TEST_F(StudyFileCommandsTest, ValidateHoldsStimuliAgainstADeviceAtTheirPlaces) {
+  write_file(file("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
+  EXPECT_EQ(jnd({"validate", "strong.json"}).exit_code, 0) << "no device, no limits";
+  const ProgramOutcome outcome =
+      jnd({"validate", "strong.json", "--device", "lumped", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["problems"].size(), 1U);
+  const std::string pointer = json["problems"][0]["pointer"];
+  EXPECT_TRUE(pointer.ends_with("/viscosity_pa_s/1")) << pointer;
+  EXPECT_GT(json["problems"][0]["line"], 1);
+  const std::string message = json["problems"][0]["message"];
+  EXPECT_TRUE(message.starts_with("expected a stimulus that `lumped` can render at 0.5 m/s"))
+      << message;
+  EXPECT_NE(message.find("; it fits up to 0.0"), std::string::npos) << message;
+  EXPECT_EQ(jnd({"validate", "strong.json", "--device", "lumped", "--speed-m-per-s", "0.01"})
+                .exit_code,
+            0);
+  EXPECT_EQ(jnd({"validate", "short_tour", "magnitude_of_virtual_water", "finger_motion",
+                 "viscosity_discrimination", "--device", "exoskeleton"})
+                .exit_code,
+            0);
+}
+
+TEST_F(StudyFileCommandsTest, ValidateTellsWhatADeviceCannotRenderStably) {
+  write_file(file("stiff.json"), replaced(kTinyStudy, "\"stages\": [",
+                                          R"("stages": [{"kind": "explore", "name": "wall",
+  "instruction": {"en": "Touch it."},
+  "media": [{"medium": "solid", "stiffness_n_per_m": 100000, "duration_s": 5}]},)"));
+  const ProgramOutcome outcome =
+      jnd({"validate", "stiff.json", "--device", "exoskeleton", "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  bool found = false;
+  const auto json = document(outcome.out);
+  for (const auto& problem : json["problems"]) {
+    EXPECT_EQ(problem["pointer"], "/stages/0/media/0/stiffness_n_per_m");
+    found = found || problem["message"].get<std::string>().find("renders stably at") !=
+                         std::string::npos;
+  }
+  EXPECT_TRUE(found) << outcome.out;
+}
+
+TEST_F(StudyFileCommandsTest, SchemaIsAlsoAReferenceToRead) {
+  const ProgramOutcome outcome = jnd({"schema", "--markdown"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(outcome.out.starts_with("# Studies\n"));
+  EXPECT_EQ(jnd({"schema", "--markdown", "--json"}).exit_code, 2);
+}
+
+TEST_F(StudyFileCommandsTest, ANewStudyHasTheSchemaBesideItForEditors) {
+  const ProgramOutcome outcome = jnd({"new", "honey"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("study.schema.json: written"), std::string::npos) << outcome.out;
+  EXPECT_EQ(document(read_file(file("honey.json")))["$schema"], "./study.schema.json");
+  EXPECT_EQ(read_file(file("study.schema.json")), jnd({"schema"}).out);
+  const ProgramOutcome second = jnd({"new", "oil"});
+  EXPECT_EQ(second.exit_code, 0);
+  EXPECT_EQ(second.out.find("study.schema.json: "), std::string::npos) << second.out;
+}
+
+TEST_F(StudyFileCommandsTest, ASchemaOfAnotherVersionIsLeftAsItIs) {
+  write_file(file("study.schema.json"), "{}");
+  const ProgramOutcome outcome = jnd({"new", "honey"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("left as it is"), std::string::npos) << outcome.out;
+  EXPECT_EQ(read_file(file("study.schema.json")), "{}");
+}
+
 TEST_F(StudyFileCommandsTest, SchemaIsOneDraft7Document) {
   const ProgramOutcome outcome = jnd({"schema"});
   EXPECT_EQ(outcome.exit_code, 0);

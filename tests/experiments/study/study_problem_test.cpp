@@ -35,6 +35,15 @@ TEST(NearestWord, FindsTheKeyThatWasMeant) {
   EXPECT_EQ(nearest_word("brake", {"block", "break"}), "break");
 }
 
+TEST(NearestWord, FindsTheKeyWhoseUnitWasLeftOut) {
+  const std::vector<std::string> keys = {"reference_viscosity_pa_s", "viscosity_pa_s",
+                                         "duration_s"};
+  EXPECT_EQ(nearest_word("viscosity", keys), "viscosity_pa_s");
+  EXPECT_EQ(nearest_word("reference", keys), "reference_viscosity_pa_s");
+  EXPECT_EQ(nearest_word("duration", keys), "duration_s");
+  EXPECT_EQ(nearest_word("visc", keys), "") << "no whole word of it";
+}
+
 TEST(NearestWord, FindsNothingWhereNothingIsNear) {
   EXPECT_EQ(nearest_word("colour", {"viscosity_pa_s", "scale"}), "");
   EXPECT_EQ(nearest_word("x", {"y"}), "");

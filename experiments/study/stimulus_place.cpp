@@ -1,0 +1,67 @@
+#include "experiments/study/stimulus_place.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/study/located_json.h"
+#include "experiments/study/rule_values.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+/// Pointer of the stage of this name in a list of stages, or in what is in it; "" for none.
+std::string stage_pointer(const json& stages, const std::string& pointer,
+                          const std::string& name) {
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const json& stage = stages[i];
+    const std::string here = pointer + '/' + std::to_string(i);
+    if (word(stage, "name") == name) return here;
+    const json& arms = list(stage, "arms");
+    for (std::size_t arm = 0; arm < arms.size(); ++arm) {
+      const std::string found = stage_pointer(
+          list(arms[arm], "stages"), here + "/arms/" + std::to_string(arm) + "/stages", name);
+      if (!found.empty()) return found;
+    }
+    const std::string found = stage_pointer(list(stage, "between"), here + "/between", name);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+/// Pointer of a number of this value at a key that names the quantity; "" for none.
+std::string number_pointer(const json& value, const std::string& pointer,
+                           const MediumSetting& setting) {
+  if (!value.is_structured()) return "";
+  const bool is_other_medium =
+      value.is_object() && value.contains("medium") && word(value, "medium") != setting.medium;
+  if (is_other_medium) return "";
+  for (const auto& [key, inner] : value.items()) {
+    const std::string here = pointer + '/' + pointer_token(key);
+    // `viscosity_pa_s`, `reference_viscosity_pa_s`, `max_viscosity_pa_s`; a step is no
+    // stimulus.
+    if (key.ends_with(setting.quantity) && key.find("_step_") == std::string::npos) {
+      if (inner.is_number() && inner.get<double>() == setting.intensity) return here;
+      for (std::size_t i = 0; inner.is_array() && i < inner.size(); ++i) {
+        if (inner[i].is_number() && inner[i].get<double>() == setting.intensity) {
+          return here + '/' + std::to_string(i);
+        }
+      }
+    }
+    const std::string found = number_pointer(inner, here, setting);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string stimulus_pointer(const json& root, const std::string& stage_name,
+                             const MediumSetting& setting) {
+  const std::string stage = stage_pointer(list(root, "stages"), "/stages", stage_name);
+  if (stage.empty() || setting.quantity.empty()) return stage;
+  const std::string found = number_pointer(root.at(json::json_pointer(stage)), stage, setting);
+  return found.empty() ? stage : found;
+}
+
+}  // namespace jnd::experiments
