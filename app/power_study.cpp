@@ -17,6 +17,7 @@
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/task.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
 #include "experiments/session/stimulus.h"
@@ -37,6 +38,7 @@ constexpr double kRatioPerPercent = 0.01;
 PlannedQuantity quantity_of(const Block& block) {
   switch (procedure_named(block.procedure).form(block).answer) {
     case AnswerKind::kYesNo:
+    case AnswerKind::kInterval:
       return PlannedQuantity::kWeberFraction;
     case AnswerKind::kMatch:
       return PlannedQuantity::kProductionExponent;
@@ -50,6 +52,7 @@ PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuant
   PlannedAnswers answers;
   std::map<double, analysis::AnswerCount> counts;
   for (const auto& [planned, response] : trials) {
+    if (planned.is_catch) continue;
     if (quantity == PlannedQuantity::kWeberFraction) {
       analysis::AnswerCount& count = counts[planned.intensity.value()];
       count.intensity = *planned.intensity;
@@ -78,12 +81,21 @@ PlannedPerson person_of(const PlannedAnalysis& analysis,
   return person;
 }
 
+/// Magnitudes and comparisons; no practice, and none of those that ask whether anything is
+/// there or different.
+bool is_planned_for(const Block& block) {
+  if (block.practice) return false;
+  return !block.settings.has("task") || task_of(block) == Task::kReminder ||
+         task_of(block) == Task::kTwoInterval;
+}
+
 /// Blocks that any participant gets, each once, in the order of the study's cells.
 std::vector<const Stage*> blocks_of(const Study& study) {
   std::vector<const Stage*> blocks;
   for (const Cell& cell : cells_of(study)) {
     for (const StageInstance& instance : stages_of(study, cell)) {
-      if (!std::holds_alternative<Block>(instance.stage->content)) continue;
+      const auto* block = std::get_if<Block>(&instance.stage->content);
+      if (block == nullptr || !is_planned_for(*block)) continue;
       const bool known = std::any_of(blocks.begin(), blocks.end(), [&](const Stage* other) {
         return other->name == instance.stage->name;
       });
@@ -228,8 +240,10 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
     : study_(study), laboratory_(laboratory) {
   const std::vector<const Stage*> blocks = blocks_of(study);
   if (blocks.empty()) {
-    throw UsageError("FILE: expected a study with a block to answer, found none in " +
-                     study.name);
+    throw UsageError(
+        "FILE: expected a study with a block of magnitudes or comparisons, "
+        "found none in " +
+        study.name);
   }
   const std::unique_ptr<const core::ForceMap> map = force_map_of(study.device);
   PlannedAnalysis planned{.sizes = request.sizes,

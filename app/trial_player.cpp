@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/task.h"
 #include "experiments/session/stimulus.h"
 
 namespace jnd::app {
@@ -169,7 +170,8 @@ Moment TrialPlayer::moment(const Block& block) const {
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
   // Adaptive procedures have one repetition, as long as it takes.
-  const auto per_repetition = static_cast<std::int64_t>(block.intensities.size());
+  const auto per_repetition =
+      static_cast<std::int64_t>(block.intensities.size()) + num_catch_trials(block);
   return {.trial = number,
           .attempt = trial.attempt,
           .presentation = static_cast<std::int64_t>(trial.presentations.size()),
@@ -196,7 +198,9 @@ void TrialPlayer::run_trial(const Block& block) {
 void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
   const TrialForm form = procedure_named(block.procedure).form(block);
   if (form.adjustable) return produce(block, trial);
-  if (form.answer == AnswerKind::kYesNo) return compare(block, form.has_reference);
+  if (form.order_is_drawn) return compare_intervals(block, form.answer);
+  if (form.answer == AnswerKind::kYesNo && !form.has_reference) return detect(block);
+  if (form.answer == AnswerKind::kYesNo) return compare(block);
   estimate(block, trial);
 }
 
@@ -219,17 +223,30 @@ void TrialPlayer::estimate(const Block& block, std::int64_t trial) {
       felt.duration_s, felt.last_tick);
 }
 
-/// Without a reference it is free space, as it is remembered, that the test is compared with.
-void TrialPlayer::compare(const Block& block, bool has_reference) {
+/// Whether anything is there, against free space as it is remembered.
+void TrialPlayer::detect(const Block& block) {
   const double remembered_ln =
       std::log(std::max(run_.laboratory.device.mechanical_viscosity_n_s_per_m, 1e-6));
+  double test_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    felt = present(block, "test");
+    test_ln += read(felt, block);
+    ++looks;
+  } while (participant_.perceiver().looks_again(moment(block)));
+  const bool there =
+      participant_.perceiver().says_present(test_ln / looks, remembered_ln, moment(block));
+  session_.answer(there ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+}
+
+void TrialPlayer::compare(const Block& block) {
   double reference_ln = 0.0;
   double test_ln = 0.0;
   int looks = 0;
   Felt felt;
   do {
-    reference_ln +=
-        has_reference ? read(felt = present(block, "reference"), block) : remembered_ln;
+    reference_ln += read(present(block, "reference"), block);
     felt = present(block, "test");
     test_ln += read(felt, block);
     ++looks;
@@ -237,6 +254,27 @@ void TrialPlayer::compare(const Block& block, bool has_reference) {
   const bool thicker = participant_.perceiver().says_thicker(
       test_ln / looks, reference_ln / looks, moment(block));
   session_.answer(thicker ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+}
+
+void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
+  const Perceiver& person = participant_.perceiver();
+  double first_ln = 0.0;
+  double second_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    first_ln += read(present(block, "first"), block);
+    felt = present(block, "second");
+    second_ln += read(felt, block);
+    ++looks;
+  } while (person.looks_again(moment(block)));
+  first_ln /= looks;
+  second_ln /= looks;
+  const double answer =
+      asked == AnswerKind::kInterval
+          ? (person.says_thicker(second_ln, first_ln, moment(block)) ? 2.0 : 1.0)
+          : (person.says_different(first_ln, second_ln, moment(block)) ? 1.0 : 0.0);
+  session_.answer(answer, felt.duration_s, felt.last_tick);
 }
 
 void TrialPlayer::produce(const Block& block, std::int64_t trial) {

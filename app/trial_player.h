@@ -61,7 +61,9 @@ class TrialPlayer {
   [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
   [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;
   void estimate(const experiments::Block& block, std::int64_t trial);
-  void compare(const experiments::Block& block, bool has_reference);
+  void detect(const experiments::Block& block);
+  void compare(const experiments::Block& block);
+  void compare_intervals(const experiments::Block& block, experiments::AnswerKind asked);
   void produce(const experiments::Block& block, std::int64_t trial);
 
   const LaboratoryRun& run_;

@@ -8,7 +8,9 @@
 #include "core/random_stream.h"
 #include "experiments/participants/calculated_stroke.h"
 #include "experiments/procedures/adjustment.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/task.h"
 #include "experiments/session/stimulus.h"
 
 namespace jnd::experiments {
@@ -35,6 +37,8 @@ class BlockPlayer {
                .presentation = 0,
                .trial_in_block = static_cast<std::int64_t>(answered.size()) + 1};
     if (form_.adjustable) return produce(planned);
+    if (form_.order_is_drawn) return compare_intervals(planned);
+    if (form_.answer == AnswerKind::kYesNo && !form_.has_reference) return detect(planned);
     if (form_.answer == AnswerKind::kYesNo) return compare(planned);
     return estimate(planned, answered);
   }
@@ -82,6 +86,20 @@ class BlockPlayer {
     return participant_.perceiver().estimate_percent(sum_ln / looks, moment_, previous);
   }
 
+  /// Whether anything is there, against free space as it is remembered.
+  double detect(const PlannedTrial& planned) {
+    const double remembered_ln =
+        std::log(std::max(laboratory_.device.mechanical_viscosity_n_s_per_m, 1e-6));
+    double test_ln = 0.0;
+    int looks = 0;
+    do {
+      test_ln += present(planned.intensity.value());
+      ++looks;
+    } while (looks_again());
+    return participant_.perceiver().says_present(test_ln / looks, remembered_ln, moment_) ? 1.0
+                                                                                          : 0.0;
+  }
+
   double compare(const PlannedTrial& planned) {
     double reference_ln = 0.0, test_ln = 0.0;
     int looks = 0;
@@ -93,6 +111,25 @@ class BlockPlayer {
     return participant_.perceiver().says_thicker(test_ln / looks, reference_ln / looks, moment_)
                ? 1.0
                : 0.0;
+  }
+
+  double compare_intervals(const PlannedTrial& planned) {
+    const double test = planned.intensity.value();
+    const double reference = planned.reference_intensity.value();
+    const bool test_first = planned.test_interval.value() == 1;
+    double first_ln = 0.0, second_ln = 0.0;
+    int looks = 0;
+    do {
+      first_ln += present(test_first ? test : reference);
+      second_ln += present(test_first ? reference : test);
+      ++looks;
+    } while (looks_again());
+    const Perceiver& person = participant_.perceiver();
+    if (form_.answer != AnswerKind::kInterval) {
+      return person.says_different(first_ln / looks, second_ln / looks, moment_) ? 1.0 : 0.0;
+    }
+    const bool second = person.says_thicker(second_ln / looks, first_ln / looks, moment_);
+    return response_of(form_.answer, planned, second ? 2.0 : 1.0);
   }
 
   double produce(const PlannedTrial& planned) {
@@ -154,9 +191,9 @@ void require_answerable(const std::vector<Stage>& stages) {
     if (block == nullptr) continue;
     const TrialForm form = procedure_named(block->procedure).form(*block);
     const bool known = form.adjustable ? form.answer == AnswerKind::kMatch
-                       : form.answer == AnswerKind::kYesNo
-                           ? form.has_reference
-                           : form.answer == AnswerKind::kPercent && !form.has_reference;
+                       : form.answer == AnswerKind::kPercent
+                           ? !form.has_reference
+                           : form.answer == AnswerKind::kYesNo || form.order_is_drawn;
     if (!known) {
       throw core::Error("block " + stage.name +
                         ": expected a procedure that simulated participants answer without a "
@@ -181,7 +218,6 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
   for (std::size_t index = 0; index < stages.size(); ++index) {
     const auto* block = std::get_if<Block>(&stages[index].stage->content);
     if (block == nullptr) continue;
-    const Procedure& procedure = procedure_named(block->procedure);
     BlockPlayer player(laboratory_, map_.get(), participant, session_seed, *block);
     std::vector<AnsweredTrial> answered;
     while (true) {
@@ -189,7 +225,7 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
       core::RandomStream stream(
           session_seed, "order",
           {static_cast<std::int64_t>(index), static_cast<std::int64_t>(answered.size())});
-      const std::vector<PlannedTrial> drawn = procedure.draw_next(*block, answered, stream);
+      const std::vector<PlannedTrial> drawn = next_trials(*block, answered, stream);
       if (drawn.empty()) break;
       for (const PlannedTrial& planned : drawn) {
         answered.push_back({planned, player.respond(planned, ++trial, answered)});

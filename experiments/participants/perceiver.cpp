@@ -78,15 +78,27 @@ bool Perceiver::lapses(const Moment& moment) const {
       .with_probability(2.0 * laboratory_.perceiver.lapse_rate);
 }
 
+bool Perceiver::guesses_yes(const Moment& moment) const {
+  return RandomStream(seed_, "guess", {moment.trial, moment.attempt}).with_probability(0.5);
+}
+
+double Perceiver::criterion_ln(const Moment& moment) const {
+  return person_.criterion_ln +
+         person_.criterion_drift_per_trial_ln * static_cast<double>(moment.trial_in_block - 1);
+}
+
 bool Perceiver::says_thicker(double test_ln, double reference_ln, const Moment& moment) const {
   // A lapse is a guess, so half of them happen to be right: the curve ends at lapse_rate.
-  if (lapses(moment)) {
-    return RandomStream(seed_, "guess", {moment.trial, moment.attempt}).with_probability(0.5);
-  }
-  const double criterion =
-      person_.criterion_ln +
-      person_.criterion_drift_per_trial_ln * static_cast<double>(moment.trial_in_block - 1);
-  return test_ln - reference_ln > criterion;
+  if (lapses(moment)) return guesses_yes(moment);
+  return test_ln - reference_ln > criterion_ln(moment);
+}
+
+bool Perceiver::says_present(double test_ln, double free_space_ln, const Moment& moment) const {
+  return says_thicker(test_ln, free_space_ln + std::log1p(person_.weber_fraction), moment);
+}
+
+bool Perceiver::says_different(double first_ln, double second_ln, const Moment& moment) const {
+  return says_present(std::abs(second_ln - first_ln), 0.0, moment);
 }
 
 double Perceiver::magnitude_ln(double reading_ln) const {

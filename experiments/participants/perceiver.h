@@ -41,7 +41,12 @@ struct Moment {
 /// A presentation is read as ln(felt total damping) with noise of sd ln(1 + w0) / sqrt 2; felt
 /// is what the hand was put through: rendered force and mechanical viscosity. "Thicker" is said
 /// where test minus reference exceeds the person's criterion, so that two total dampings that
-/// differ by the factor 1 + w0 are told apart with 84 %. A magnitude is
+/// differ by the factor 1 + w0 are told apart with 84 %. Of two intervals the second is chosen
+/// where it exceeds the first by the criterion, which is then a bias for an interval. Two are
+/// called different where they differ by more than ln(1 + w) + criterion either way (the
+/// differencing rule, Macmillan and Creelman 2005), and something is said to be there where it
+/// exceeds what is remembered of free space by as much: that people ask for one just noticeable
+/// difference is an assumption. A magnitude is
 ///     unit ((felt - free space) / standard)^exponent,  clipped at 0,
 /// shrunk in ln toward that of the range's centre: answers in estimation, targets in
 /// production.
@@ -55,6 +60,14 @@ class Perceiver {
   /// Answer to "is the test thicker", from the mean readings of all looks.
   [[nodiscard]] bool says_thicker(double test_ln, double reference_ln,
                                   const Moment& moment) const;
+
+  /// Answer to "is anything there"; free space is remembered without noise.
+  [[nodiscard]] bool says_present(double test_ln, double free_space_ln,
+                                  const Moment& moment) const;
+
+  /// Answer to "do the two differ", likewise.
+  [[nodiscard]] bool says_different(double first_ln, double second_ln,
+                                    const Moment& moment) const;
 
   /// Percent of water, in the round numbers people use. `previous_percent` is the answer
   /// before.
@@ -73,6 +86,8 @@ class Perceiver {
   [[nodiscard]] double magnitude_ln(double reading_ln) const;
   [[nodiscard]] double centre_ln() const;
   [[nodiscard]] bool lapses(const Moment& moment) const;
+  [[nodiscard]] bool guesses_yes(const Moment& moment) const;
+  [[nodiscard]] double criterion_ln(const Moment& moment) const;
 
   const Laboratory& laboratory_;
   Person person_;

@@ -1,20 +1,27 @@
 #include "experiments/procedures/adaptive_trial.h"
 
+#include <cmath>
 #include <utility>
 
 namespace jnd::experiments {
 
-TrialForm adaptive_form(const Block& block) {
-  return {.answer = AnswerKind::kYesNo, .has_reference = block.reference_intensity.has_value()};
-}
-
-PlannedTrial adaptive_trial(const Block& block, std::size_t num_answered, double level,
-                            int series) {
-  PlannedTrial trial{.position = static_cast<int>(num_answered) + 1,
+PlannedTrial adaptive_trial(const Block& block, const std::vector<AnsweredTrial>& answered,
+                            double level, int series, core::RandomStream& stream) {
+  PlannedTrial trial{.position = static_cast<int>(answered.size()) + 1,
                      .intensity = level,
                      .reference_intensity = block.reference_intensity};
   if (series > 0) trial.series = series;
+  const double catch_probability = block.settings.number("catch_probability", 0.0);
+  if (catch_probability > 0.0 && stream.with_probability(catch_probability)) {
+    make_catch_trial(trial, task_of(block));
+  }
+  trial.test_interval = next_test_interval(block, answered, stream);
   return trial;
+}
+
+int with_catch_trials(const Block& block, int num_trials) noexcept {
+  const double share = 1.0 - block.settings.number("catch_probability", 0.0);
+  return static_cast<int>(std::lround(num_trials / share));
 }
 
 std::vector<LevelAnswer> level_answers(const std::vector<AnsweredTrial>& answered, int series) {
@@ -28,7 +35,9 @@ std::vector<LevelAnswer> level_answers(const std::vector<AnsweredTrial>& answere
 }
 
 std::vector<BlockKey> adaptive_keys() {
-  std::vector<BlockKey> keys = {task_key(), reference_key()};
+  std::vector<BlockKey> keys = {task_key(), reference_key(), interval_order_key(),
+                                catch_probability_key()};
+  for (BlockKey& key : right_answer_keys()) keys.push_back(std::move(key));
   for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));
   return keys;
 }

@@ -1,5 +1,7 @@
 #include "experiments/procedures/block_key.h"
 
+#include <utility>
+
 namespace jnd::experiments {
 namespace {
 
@@ -12,9 +14,35 @@ BlockKey amount(const char* name, const char* meaning, bool required) {
           .is_positive = true};
 }
 
-BlockKey answer_label(const char* key, const char* meaning) {
-  return {.parameter = {
-              .key = key, .kind = ValueKind::kText, .meaning = meaning, .required = false}};
+BlockKey answer_label(const char* key, const char* meaning, std::vector<std::string> tasks) {
+  return {.parameter = {.key = key,
+                        .kind = ValueKind::kText,
+                        .meaning = meaning,
+                        .required = false,
+                        .only_where = {{"task", std::move(tasks)}}}};
+}
+
+const ParameterTable& practice_table() {
+  static const ParameterTable kTable = {
+      .name = "practice",
+      .meaning =
+          "When a block that is practice ends: its trials are run and stored like any, "
+          "and left out of results.",
+      .parameters = {
+          {.key = "min_correct_ratio",
+           .kind = ValueKind::kNumber,
+           .meaning = "Of the answers judged, so many have to be right: 0.8 is 8 of 10.",
+           .range = {0.0, 1.0, true}},
+          {.key = "num_trials_judged",
+           .kind = ValueKind::kInteger,
+           .meaning = "How many answers are judged: the last ones that could be right.",
+           .range = {1, 1000}},
+          {.key = "max_trials",
+           .kind = ValueKind::kInteger,
+           .meaning = "The block ends after so many trials though they were not; at least "
+                      "`num_trials_judged`.",
+           .range = {1, 1000}}}};
+  return kTable;
 }
 
 }  // namespace
@@ -41,19 +69,76 @@ BlockKey task_key() {
                         .meaning =
                             "`reminder`: the reference first, then the test, and a question "
                             "that compares them. `yes_no`: the test alone, and whether it is "
-                            "felt, for absolute thresholds.",
+                            "felt, for absolute thresholds. `two_interval`: reference and "
+                            "test in drawn order, and in which interval there was more. "
+                            "`same_different`: likewise, or the reference twice, and whether "
+                            "they differed.",
                         .required = false,
                         .default_json = R"("reminder")",
-                        .allowed = {"reminder", "yes_no"}}};
+                        .allowed = {"reminder", "yes_no", "two_interval", "same_different"}}};
 }
 
 BlockKey reference_key() {
   BlockKey key = amount("reference",
                         "The stimulus that every test stimulus is compared with; between the "
-                        "smallest and the largest of them.",
+                        "smallest and the largest of them, in `same_different` none of them.",
                         true);
-  key.parameter.only_where = {{"task", {"reminder"}}};
+  key.parameter.only_where = {{"task", {"reminder", "two_interval", "same_different"}}};
   return key;
+}
+
+BlockKey interval_order_key() {
+  return {.parameter = {.key = "interval_order",
+                        .kind = ValueKind::kString,
+                        .meaning = "Which interval holds the test. `random`: drawn in every "
+                                   "trial by itself. `balanced`: over the repetitions each "
+                                   "stimulus is in the first as often as in the second, or "
+                                   "once more; where the next trial follows from the answers, "
+                                   "in one of every two trials.",
+                        .required = false,
+                        .default_json = R"("random")",
+                        .allowed = {"random", "balanced"},
+                        .only_where = {{"task", {"two_interval", "same_different"}}}}};
+}
+
+BlockKey catch_trials_key() {
+  return {.parameter = {.key = "catch_trials",
+                        .kind = ValueKind::kInteger,
+                        .meaning =
+                            "Catch trials in each repetition, at random places: in `yes_no` "
+                            "nothing is there, otherwise the test equals the reference. They "
+                            "tell how often \"yes\" is said without cause. Absent: none; in "
+                            "`same_different` as many as there are test stimuli, so that half "
+                            "of the trials are the same.",
+                        .required = false,
+                        .range = {0, 100}}};
+}
+
+BlockKey catch_probability_key() {
+  return {.parameter = {.key = "catch_probability",
+                        .kind = ValueKind::kNumber,
+                        .meaning = "Every trial is a catch trial with this probability, so "
+                                   "that none can be foreseen: in `yes_no` nothing is there, "
+                                   "otherwise the test equals the reference. It moves no "
+                                   "level and counts for no end of the block.",
+                        .required = false,
+                        .default_json = "0.0",
+                        .range = {0.0, 0.5}}};
+}
+
+std::vector<BlockKey> right_answer_keys() {
+  return {{.parameter = {.key = "feedback",
+                         .kind = ValueKind::kBoolean,
+                         .meaning = "Whether participant and experimenter are told after each "
+                                    "answer if it was right. Not in a double-blind study.",
+                         .required = false,
+                         .default_json = "false"}},
+          {.parameter = {.key = "practice",
+                         .kind = ValueKind::kObject,
+                         .meaning = "The block is practice, until enough answers are right; "
+                                    "its trials are no data.",
+                         .required = false,
+                         .nested = &practice_table()}}};
 }
 
 BlockKey repetitions_key() {
@@ -64,10 +149,16 @@ BlockKey repetitions_key() {
 }
 
 std::vector<BlockKey> answer_label_keys() {
+  const std::vector<std::string> one_question = {"reminder", "yes_no", "same_different"};
+  const std::vector<std::string> choice = {"two_interval"};
   return {
-      answer_label("yes_label", "What the answer that is stored as 1 is called: \"Thicker\"."),
+      answer_label("yes_label", "What the answer that is stored as 1 is called: \"Thicker\".",
+                   one_question),
       answer_label("no_label",
-                   "What the answer that is stored as 0 is called: \"Not thicker\".")};
+                   "What the answer that is stored as 0 is called: \"Not thicker\".",
+                   one_question),
+      answer_label("first_label", "What the first interval is called as an answer.", choice),
+      answer_label("second_label", "What the second interval is called as an answer.", choice)};
 }
 
 std::vector<BlockKey> step_keys() {

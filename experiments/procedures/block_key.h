@@ -22,10 +22,17 @@ struct BlockKey {
 
 /// The stimuli: tests of a comparison, or what an adjustment starts from.
 [[nodiscard]] BlockKey stimuli_key();
-/// How a test stimulus is asked about: "reminder" or "yes_no".
+/// How a test stimulus is asked about: "reminder", "yes_no", "two_interval", "same_different".
 [[nodiscard]] BlockKey task_key();
-/// What every test stimulus is compared with in a reminder task.
+/// What every test stimulus is compared with, in any task but yes-no.
 [[nodiscard]] BlockKey reference_key();
+/// How the interval of the test is drawn, where it is.
+[[nodiscard]] BlockKey interval_order_key();
+/// Trials without a difference, or without anything: of a repetition, or one by one.
+[[nodiscard]] BlockKey catch_trials_key();
+[[nodiscard]] BlockKey catch_probability_key();
+/// What a block can have whose trials have right answers: feedback and practice.
+[[nodiscard]] std::vector<BlockKey> right_answer_keys();
 /// How often every test stimulus is shown.
 [[nodiscard]] BlockKey repetitions_key();
 /// What the two answers are called.

@@ -1,37 +1,139 @@
 #include "experiments/procedures/constant_stimuli.h"
 
+#include <algorithm>
+#include <map>
+
 #include "experiments/procedures/repetitions.h"
+#include "experiments/procedures/task.h"
 
 namespace jnd::experiments {
+namespace {
+
+PlannedTrial test_trial(const Block& block, double intensity) {
+  return {.intensity = intensity, .reference_intensity = block.reference_intensity};
+}
+
+PlannedTrial catch_trial(const Block& block) {
+  PlannedTrial trial{.reference_intensity = block.reference_intensity};
+  make_catch_trial(trial, task_of(block));
+  return trial;
+}
+
+/// The catch trials of every repetition at random places of it.
+std::vector<PlannedTrial> with_catch_trials(const Block& block, std::vector<PlannedTrial> tests,
+                                            core::RandomStream& stream) {
+  const int num_catch = num_catch_trials(block);
+  if (num_catch == 0) return tests;
+  std::vector<PlannedTrial> trials;
+  for (auto begin = tests.begin(); begin != tests.end();) {
+    const int repetition = begin->repetition;
+    const auto end = std::find_if(begin, tests.end(), [&](const PlannedTrial& trial) {
+      return trial.repetition != repetition;
+    });
+    std::vector<PlannedTrial> one(begin, end);
+    for (int i = 0; i < num_catch; ++i) {
+      const auto place = static_cast<std::ptrdiff_t>(stream.below(one.size() + 1));
+      one.insert(one.begin() + place, catch_trial(block));
+    }
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      one[i].repetition = repetition;
+      one[i].position = static_cast<int>(i) + 1;
+    }
+    trials.insert(trials.end(), one.begin(), one.end());
+    begin = end;
+  }
+  return trials;
+}
+
+/// Balanced: every stimulus, and the catch trials, have the test first as often as second.
+void draw_test_intervals(const Block& block, std::vector<PlannedTrial>& trials,
+                         core::RandomStream& stream) {
+  if (!form_of(task_of(block)).order_is_drawn) return;
+  if (block.settings.word("interval_order") != "balanced") {
+    for (PlannedTrial& trial : trials)
+      trial.test_interval = stream.with_probability(0.5) ? 1 : 2;
+    return;
+  }
+  std::map<std::pair<bool, double>, std::vector<PlannedTrial*>> by_stimulus;
+  for (PlannedTrial& trial : trials) {
+    by_stimulus[{trial.is_catch, trial.intensity.value_or(0.0)}].push_back(&trial);
+  }
+  for (auto& [stimulus, same] : by_stimulus) {
+    stream.shuffle(same);
+    int interval = stream.with_probability(0.5) ? 1 : 2;
+    for (PlannedTrial* trial : same) {
+      trial->test_interval = interval;
+      interval = 3 - interval;
+    }
+  }
+}
+
+/// One trial of those that the repetition under way has not had: nobody knows which will be
+/// the last.
+std::vector<PlannedTrial> practice_trial(const Block& block,
+                                         const std::vector<AnsweredTrial>& answered,
+                                         core::RandomStream& stream) {
+  std::vector<PlannedTrial> left;
+  for (const double intensity : block.intensities) left.push_back(test_trial(block, intensity));
+  left.insert(left.end(), static_cast<std::size_t>(num_catch_trials(block)),
+              catch_trial(block));
+  const std::size_t num_done = answered.size() % left.size();
+  const auto repetition = static_cast<int>(answered.size() / left.size()) + 1;
+  if (repetition > block.repetitions) return {};
+  for (auto done = answered.end() - static_cast<std::ptrdiff_t>(num_done);
+       done != answered.end(); ++done) {
+    const auto same = std::ranges::find_if(left, [&](const PlannedTrial& trial) {
+      return trial.is_catch == done->planned.is_catch &&
+             trial.intensity == done->planned.intensity;
+    });
+    if (same != left.end()) left.erase(same);
+  }
+  PlannedTrial next = left[stream.below(left.size())];
+  next.repetition = repetition;
+  next.position = static_cast<int>(num_done) + 1;
+  next.test_interval = next_test_interval(block, answered, stream);
+  return {next};
+}
+
+}  // namespace
 
 std::string ConstantStimuli::meaning() const {
-  return "A fixed set of test stimuli in random order, each with a question answered yes or "
-         "no.";
+  return "A fixed set of test stimuli in random order, each with a question that has two "
+         "answers.";
 }
 
 std::vector<BlockKey> ConstantStimuli::keys() const {
-  std::vector<BlockKey> keys = {stimuli_key(), task_key(), reference_key(), repetitions_key()};
+  std::vector<BlockKey> keys = {stimuli_key(),        task_key(),         reference_key(),
+                                interval_order_key(), catch_trials_key(), repetitions_key()};
+  for (BlockKey& key : right_answer_keys()) keys.push_back(std::move(key));
   for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));
   return keys;
 }
 
-TrialForm ConstantStimuli::form(const Block& block) const {
-  return {.answer = AnswerKind::kYesNo, .has_reference = block.reference_intensity.has_value()};
+TrialForm ConstantStimuli::form(const Block& block) const { return form_of(task_of(block)); }
+
+std::optional<double> ConstantStimuli::right_response(const Block& block,
+                                                      const PlannedTrial& trial) const {
+  return experiments::right_response(task_of(block), trial);
 }
 
 std::vector<PlannedTrial> ConstantStimuli::draw_next(const Block& block,
                                                      const std::vector<AnsweredTrial>& answered,
                                                      core::RandomStream& stream) const {
+  if (block.practice) return practice_trial(block, answered, stream);
   if (!answered.empty()) return {};
-  return shuffled_repetitions(
-      block.intensities, block.repetitions, stream, [&](int, double intensity) {
-        return PlannedTrial{.intensity = intensity,
-                            .reference_intensity = block.reference_intensity};
-      });
+  std::vector<PlannedTrial> trials = with_catch_trials(
+      block,
+      shuffled_repetitions(block.intensities, block.repetitions, stream,
+                           [&](int, double intensity) { return test_trial(block, intensity); }),
+      stream);
+  draw_test_intervals(block, trials, stream);
+  return trials;
 }
 
 int ConstantStimuli::expected_trials(const Block& block) const noexcept {
-  return block.repetitions * static_cast<int>(block.intensities.size());
+  return block.repetitions *
+         (static_cast<int>(block.intensities.size()) + num_catch_trials(block));
 }
 
 }  // namespace jnd::experiments

@@ -4,10 +4,10 @@
 
 namespace jnd::experiments {
 
-/// Method of constant stimuli with a reminder: the reference first, then the test, with free
-/// switching back, and a yes/no question about the test. (With the reference always first this
-/// is a reminder task, not 2AFC.) In a yes-no task the test stands alone. Each repetition shows
-/// every test once in random order.
+/// Method of constant stimuli, with free switching between the stimuli of a trial. In a
+/// reminder task the reference comes first, then the test, with a yes/no question about it
+/// (which is no 2AFC, as the order is fixed); see `Task` for the others. Each repetition shows
+/// every test once in random order, and its catch trials anywhere among them.
 class ConstantStimuli final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }
@@ -17,6 +17,8 @@ class ConstantStimuli final : public Procedure {
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
+  [[nodiscard]] std::optional<double> right_response(const Block& block,
+                                                     const PlannedTrial& trial) const override;
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

@@ -91,7 +91,12 @@ std::vector<BlockKey> LimitsProcedure::keys() const {
   return keys;
 }
 
-TrialForm LimitsProcedure::form(const Block& block) const { return adaptive_form(block); }
+TrialForm LimitsProcedure::form(const Block& block) const { return form_of(task_of(block)); }
+
+std::optional<double> LimitsProcedure::right_response(const Block& block,
+                                                      const PlannedTrial& trial) const {
+  return experiments::right_response(task_of(block), trial);
+}
 
 LimitsRule limits_rule_of(const Block& block) {
   const Settings& given = block.settings;
@@ -116,13 +121,14 @@ std::vector<PlannedTrial> LimitsProcedure::draw_next(const Block& block,
   if (!state.next_level) return {};
   const bool goes_on = !state.series.empty() && state.series.back().end == SeriesEnd::kRunning;
   const auto number = static_cast<int>(state.series.size()) + (goes_on ? 0 : 1);
-  return {adaptive_trial(block, answered.size(), *state.next_level, number)};
+  return {adaptive_trial(block, answered, *state.next_level, number, stream)};
 }
 
 int LimitsProcedure::expected_trials(const Block& block) const noexcept {
   // The answer changes about half way.
-  return block.settings.integer("num_series") *
-         std::max<int>(1, static_cast<int>(block.intensities.size()) / 2);
+  return with_catch_trials(
+      block, block.settings.integer("num_series") *
+                 std::max<int>(1, static_cast<int>(block.intensities.size()) / 2));
 }
 
 }  // namespace jnd::experiments

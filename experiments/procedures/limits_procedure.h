@@ -16,6 +16,8 @@ class LimitsProcedure final : public Procedure {
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
+  [[nodiscard]] std::optional<double> right_response(const Block& block,
+                                                     const PlannedTrial& trial) const override;
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

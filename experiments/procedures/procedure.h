@@ -31,9 +31,10 @@ struct AnsweredTrial {
 };
 
 enum class AnswerKind {
-  kPercent,  ///< A number >= 0, water being 100.
-  kYesNo,    ///< 1 is yes, 0 is no.
-  kMatch,    ///< "It matches"; the answer is the intensity that was set.
+  kPercent,   ///< A number >= 0, water being 100.
+  kYesNo,     ///< 1 is yes, or different; 0 is no, or the same.
+  kInterval,  ///< In which interval there was more, 1 or 2; stored is 1 for the test's, else 0.
+  kMatch,     ///< "It matches"; the answer is the intensity that was set.
 };
 
 /// What the experimenter can do in a trial of this procedure.
@@ -41,6 +42,8 @@ struct TrialForm {
   AnswerKind answer = AnswerKind::kPercent;
   bool has_reference = false;  ///< The reference comes first; free switching back and forth.
   bool adjustable = false;     ///< The intensity moves by steps until it matches.
+  /// Two intervals instead, "first" and "second"; the trial's `test_interval` holds the test.
+  bool order_is_drawn = false;
 };
 
 /// How a block asks: which trials, in which order, answered how. Stateless: what was drawn and
@@ -63,6 +66,12 @@ class Procedure {
   /// adjustment, which goes where the participant wants.
   [[nodiscard]] virtual std::vector<double> possible_intensities(const Block& block) const {
     return block.intensities;
+  }
+  /// The response, as stored, that is right for a trial; none where no answer is, as to the
+  /// question which of two equal stimuli is more.
+  [[nodiscard]] virtual std::optional<double> right_response(const Block&,
+                                                             const PlannedTrial&) const {
+    return std::nullopt;
   }
   /// How many trials to expect, for progress and planning.
   [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;

@@ -8,12 +8,14 @@
 namespace jnd::experiments {
 namespace {
 
-constexpr char kReminder[] = "reminder";
-constexpr char kYesNo[] = "yes_no";
+/// Of which the curve is a comparison's.
+std::vector<std::string> comparisons() { return {"reminder", "two_interval"}; }
+/// Of which it is that of an absolute threshold.
+std::vector<std::string> detections() { return {"yes_no"}; }
 
 /// The values that a parameter of the curve may have: the ends of a grid, evenly in ln.
-BlockKey grid(const char* key, const char* meaning, const char* task, bool of_quantity,
-              const std::string& default_json) {
+BlockKey grid(const char* key, const char* meaning, const std::vector<std::string>& tasks,
+              bool of_quantity, const std::string& default_json) {
   BlockKey made{.parameter = {.key = key,
                               .kind = ValueKind::kNumbers,
                               .meaning = meaning,
@@ -22,7 +24,7 @@ BlockKey grid(const char* key, const char* meaning, const char* task, bool of_qu
                               .range = {0.0, 1000.0, true},
                               .min_items = 2,
                               .max_items = 2,
-                              .only_where = {{"task", {task}}}},
+                              .only_where = {{"task", tasks}}},
                 .of_quantity = of_quantity,
                 .is_positive = true};
   return made;
@@ -66,13 +68,13 @@ std::vector<BlockKey> QuestPlusProcedure::keys() const {
   std::vector<BlockKey> keys = {
       stimuli_key(),
       grid("pse", "Least and largest point of subjective equality that is thought possible.",
-           kReminder, true, ""),
+           comparisons(), true, ""),
       grid("weber_fraction", "Least and largest Weber fraction that is thought possible.",
-           kReminder, false, "[0.05, 2.0]"),
-      grid("threshold", "Least and largest threshold that is thought possible.", kYesNo, true,
-           ""),
+           comparisons(), false, "[0.05, 2.0]"),
+      grid("threshold", "Least and largest threshold that is thought possible.", detections(),
+           true, ""),
       grid("slope", "Least and largest slope at the threshold, per ln, thought possible.",
-           kYesNo, false, "[0.5, 10.0]"),
+           detections(), false, "[0.5, 10.0]"),
       whole("grid_values", "Values of each of them, evenly in ln.", {2, 200}, "30"),
       {.parameter = {.key = "lapse_rate",
                      .kind = ValueKind::kNumber,
@@ -95,12 +97,17 @@ std::vector<BlockKey> QuestPlusProcedure::keys() const {
   return keys;
 }
 
-TrialForm QuestPlusProcedure::form(const Block& block) const { return adaptive_form(block); }
+TrialForm QuestPlusProcedure::form(const Block& block) const { return form_of(task_of(block)); }
+
+std::optional<double> QuestPlusProcedure::right_response(const Block& block,
+                                                         const PlannedTrial& trial) const {
+  return experiments::right_response(task_of(block), trial);
+}
 
 QuestPlusRule quest_plus_rule_of(const Block& block) {
   const Settings& given = block.settings;
   const ParameterGrid lapse{{given.number("lapse_rate")}};
-  const bool compares = given.word("task") == kReminder;
+  const bool compares = task_of(block) != Task::kYesNo;
   QuestPlusRule rule{
       .model = compares ? weber_model({.pse = grid_of(block, "pse"),
                                        .weber_fraction = grid_of(block, "weber_fraction"),
@@ -128,11 +135,11 @@ std::vector<PlannedTrial> QuestPlusProcedure::draw_next(
   const QuestPlus quest(quest_plus_rule_of(block));
   const QuestPlusPosterior posterior = quest.posterior(level_answers(answered));
   if (quest.end(posterior) != QuestPlusEnd::kNotFinished) return {};
-  return {adaptive_trial(block, answered.size(), quest.next_intensity(posterior, stream))};
+  return {adaptive_trial(block, answered, quest.next_intensity(posterior, stream), 0, stream)};
 }
 
 int QuestPlusProcedure::expected_trials(const Block& block) const noexcept {
-  return block.settings.integer("max_trials");
+  return with_catch_trials(block, block.settings.integer("max_trials"));
 }
 
 }  // namespace jnd::experiments

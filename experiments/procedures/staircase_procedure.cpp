@@ -86,7 +86,12 @@ std::vector<BlockKey> StaircaseProcedure::keys() const {
   return keys;
 }
 
-TrialForm StaircaseProcedure::form(const Block& block) const { return adaptive_form(block); }
+TrialForm StaircaseProcedure::form(const Block& block) const { return form_of(task_of(block)); }
+
+std::optional<double> StaircaseProcedure::right_response(const Block& block,
+                                                         const PlannedTrial& trial) const {
+  return experiments::right_response(task_of(block), trial);
+}
 
 StaircaseRule staircase_rule_of(const Block& block, int series) {
   const Settings& given = block.settings;
@@ -122,8 +127,8 @@ std::vector<PlannedTrial> StaircaseProcedure::draw_next(
   }
   const std::optional<std::size_t> next = next_track(tracks, kMaxLeadTrials, stream);
   if (!next) return {};
-  return {adaptive_trial(block, answered.size(), states[*next].next_level,
-                         static_cast<int>(*next) + 1)};
+  return {adaptive_trial(block, answered, states[*next].next_level, static_cast<int>(*next) + 1,
+                         stream)};
 }
 
 std::vector<double> StaircaseProcedure::possible_intensities(const Block& block) const {
@@ -135,7 +140,7 @@ int StaircaseProcedure::expected_trials(const Block& block) const noexcept {
   constexpr int kTrialsPerReversal = 4;
   const int each = std::min(block.settings.integer("max_trials"),
                             kTrialsPerReversal * block.settings.integer("max_reversals"));
-  return num_series(block) * each;
+  return with_catch_trials(block, num_series(block) * each);
 }
 
 }  // namespace jnd::experiments

@@ -17,6 +17,8 @@ class StaircaseProcedure final : public Procedure {
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
   [[nodiscard]] std::vector<double> possible_intensities(const Block& block) const override;
+  [[nodiscard]] std::optional<double> right_response(const Block& block,
+                                                     const PlannedTrial& trial) const override;
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

@@ -175,6 +175,7 @@ struct Writer {
     place(e.trial, e.attempt);
     row.last_tick = e.last_tick;
     data = {{"response", e.response}, {"response_time_s", e.response_time_s}};
+    if (e.feedback_right) data["feedback_right"] = *e.feedback_right;
   }
   void operator()(const AnswerUndone& e) const {
     place(e.trial, e.attempt);
@@ -296,6 +297,9 @@ struct Reader {
     e.last_tick = column(row.last_tick, "last_tick");
     data.at("response").get_to(e.response);
     data.at("response_time_s").get_to(e.response_time_s);
+    if (const auto told = data.find("feedback_right"); told != data.end()) {
+      e.feedback_right = told->get<bool>();
+    }
   }
   void operator()(AnswerUndone& e) const {
     place(e);

@@ -90,6 +90,7 @@ struct TrialAnswered {
   double response = 0.0;  ///< Percent; 1 or 0; the intensity set.
   double response_time_s = 0.0;
   std::int64_t last_tick = 0;
+  std::optional<bool> feedback_right;  ///< What was told of it; none where nothing is.
 };
 
 /// An answer taken back; the trial is run again as a new attempt. Trials drawn since and not

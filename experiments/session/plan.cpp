@@ -8,6 +8,7 @@
 
 #include "core/hand.h"
 #include "core/random_stream.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/event.h"
 #include "experiments/session/session.h"
@@ -135,7 +136,7 @@ double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
           return total_duration_s(content.examples);
         } else if constexpr (std::is_same_v<Content, Block>) {
           return (content.free_space_between_s + content.expected_trial_s) *
-                 procedure_named(content.procedure).expected_trials(content);
+                 expected_trials(content);
         } else if constexpr (std::is_same_v<Content, Break>) {
           return content.duration_s;
         } else if constexpr (std::is_same_v<Content, PostExperiment>) {
@@ -168,9 +169,8 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
       const auto stage_index = static_cast<std::int64_t>(index);
       // The key of the draw that a session makes on entering a block: 0 trials answered.
       core::RandomStream stream(seed, "order", {stage_index, 0});
-      const Procedure& procedure = procedure_named(block->procedure);
-      plan.blocks.push_back({&stage, stage_index, procedure.expected_trials(*block),
-                             procedure.draw_next(*block, {}, stream)});
+      plan.blocks.push_back(
+          {&stage, stage_index, expected_trials(*block), next_trials(*block, {}, stream)});
     }
     plans.push_back(std::move(plan));
   }

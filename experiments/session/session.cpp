@@ -6,7 +6,9 @@
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "experiments/procedures/adjustment.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/task.h"
 
 namespace jnd::experiments {
 namespace {
@@ -16,11 +18,20 @@ namespace {
                     ", found none; nothing was stored");
 }
 
-constexpr char kWhatAnAnswerIs[] = "a number >= 0, or 1 or 0 for yes or no,";
+constexpr char kWhatAnAnswerIs[] =
+    "a number >= 0, 1 or 0 for yes or no, or 1 or 2 for an interval,";
 
-bool is_answer(AnswerKind kind, double response) {
-  if (kind == AnswerKind::kYesNo) return response == 0.0 || response == 1.0;
-  return std::isfinite(response) && response >= 0.0;
+bool is_answer(AnswerKind kind, double value) {
+  if (kind == AnswerKind::kYesNo) return value == 0.0 || value == 1.0;
+  if (kind == AnswerKind::kInterval) return value == 1.0 || value == 2.0;
+  return std::isfinite(value) && value >= 0.0;
+}
+
+/// What an interval of the trial holds: "test" or "reference" for "first" and "second", where
+/// their order is drawn.
+std::string stimulus_in(const std::string& interval, const PlannedTrial& trial) {
+  if (!trial.test_interval || (interval != "first" && interval != "second")) return interval;
+  return (interval == "first") == (*trial.test_interval == 1) ? "test" : "reference";
 }
 
 }  // namespace
@@ -70,8 +81,7 @@ void Session::draw_trials() {
   const std::vector<AnsweredTrial> answered = state_.answered_in(state_.stage);
   core::RandomStream stream(parameters_.seed, "order",
                             {state_.stage, static_cast<std::int64_t>(answered.size())});
-  const std::vector<PlannedTrial> trials =
-      procedure_named(block.procedure).draw_next(block, answered, stream);
+  const std::vector<PlannedTrial> trials = next_trials(block, answered, stream);
   if (trials.empty()) return;
   TrialsDrawn drawn{.stage = state_.stage,
                     .first_trial = static_cast<std::int64_t>(state_.trials.size()) + 1,
@@ -122,6 +132,10 @@ void Session::explored(const std::string& medium, double intensity, std::int64_t
 void Session::finish_stage() {
   if (!state_.stage_open) cannot("finish the stage", "a stage under way");
   if (state_.current_trial()) cannot("finish the block", "an answer to every trial");
+  const auto* block = std::get_if<Block>(&current_stage()->content);
+  if (block != nullptr && block->practice) {
+    note(practice_words(*block, practice_state(*block, state_.answered_in(state_.stage))));
+  }
   commit(StageFinished{state_.stage});
 }
 
@@ -145,14 +159,17 @@ double Session::intensity_of(const TrialState& trial, const std::string& interva
     if (!trial.planned.reference_intensity) cannot("present the reference", "a reference");
     return *trial.planned.reference_intensity;
   }
-  if (interval != "test") cannot("present " + interval, "test, reference or free_space");
+  if (interval != "test") {
+    cannot("present " + interval, "test, reference, free_space or an interval of the trial");
+  }
   return trial.planned.intensity.value_or(trial.set_intensity);
 }
 
 void Session::require_interval(const std::string& interval) const {
   const std::optional<std::int64_t> trial = state_.current_trial();
   if (!trial) cannot("present " + interval, "a trial that waits");
-  (void)intensity_of(state_.trial(*trial), interval);
+  const TrialState& state = state_.trial(*trial);
+  (void)intensity_of(state, stimulus_in(interval, state.planned));
 }
 
 void Session::begin_presentation(const std::string& interval, std::int64_t tick) {
@@ -161,12 +178,13 @@ void Session::begin_presentation(const std::string& interval, std::int64_t tick)
   if (!trial.presentations.empty() && !trial.presentations.back().last_tick) {
     cannot("present another stimulus", "an end of the presentation under way");
   }
+  const std::string stimulus = stimulus_in(interval, trial.planned);
   commit(PresentationStarted{
       .trial = number,
       .attempt = trial.attempt,
       .presentation = static_cast<std::int64_t>(trial.presentations.size()) + 1,
-      .interval = interval,
-      .intensity = intensity_of(trial, interval),
+      .interval = stimulus,
+      .intensity = intensity_of(trial, stimulus),
       .first_tick = tick});
 }
 
@@ -228,7 +246,8 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
   const TrialState& trial = state_.trial(number);
   const Stage& stage = *parameters_.stages.at(static_cast<std::size_t>(trial.stage));
   const Block& block = std::get<Block>(stage.content);
-  const bool is_match = procedure_named(block.procedure).form(block).answer == AnswerKind::kMatch;
+  const bool is_match =
+      procedure_named(block.procedure).form(block).answer == AnswerKind::kMatch;
   return {.session = parameters_.session,
           .trial = number,
           .attempt = trial.attempt,
@@ -258,9 +277,18 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
 double Session::response_for(double value) const {
   const TrialState& trial = state_.trial(open_trial("take an answer"));
   const AnswerKind kind = current_form().answer;
-  const double response = kind == AnswerKind::kMatch ? trial.set_intensity : value;
-  if (!is_answer(kind, response)) cannot("take an answer", kWhatAnAnswerIs);
-  return response;
+  const double answer = kind == AnswerKind::kMatch ? trial.set_intensity : value;
+  if (!is_answer(kind, answer)) cannot("take an answer", kWhatAnAnswerIs);
+  return response_of(kind, trial.planned, answer);
+}
+
+/// What is told of a response in this block.
+std::optional<bool> Session::feedback(const PlannedTrial& trial, double response) const {
+  const Block& block = current_block();
+  if (!block.feedback) return std::nullopt;
+  const std::optional<double> right =
+      procedure_named(block.procedure).right_response(block, trial);
+  return right ? std::optional(response == *right) : std::nullopt;
 }
 
 void Session::require_answer(double value) const { (void)response_for(value); }
@@ -279,7 +307,12 @@ void Session::answer(double value, double response_time_s, std::int64_t last_tic
   rows.trial = answered_row(number, response);
   rows.trial->response_time_s = response_time_s;
   rows.trial->last_tick = last_tick;
-  commit(TrialAnswered{number, trial.attempt, response, response_time_s, last_tick},
+  commit(TrialAnswered{.trial = number,
+                       .attempt = trial.attempt,
+                       .response = response,
+                       .response_time_s = response_time_s,
+                       .last_tick = last_tick,
+                       .feedback_right = feedback(trial.planned, response)},
          std::move(rows));
   if (!state_.current_trial()) draw_trials();
 }
@@ -306,7 +339,7 @@ void Session::undo(const std::string& reason) {
   commit(AnswerUndone{last, trial.attempt, trial.answer_sequence, reason});
 }
 
-void Session::correct(std::int64_t number, double response, const std::string& reason) {
+void Session::correct(std::int64_t number, double value, const std::string& reason) {
   if (number < 1 || number > static_cast<std::int64_t>(state_.trials.size()) ||
       !state_.trial(number).response) {
     cannot("correct an answer", "an answered trial");
@@ -314,10 +347,10 @@ void Session::correct(std::int64_t number, double response, const std::string& r
   const Stage& stage =
       *parameters_.stages.at(static_cast<std::size_t>(state_.trial(number).stage));
   const Block& block = std::get<Block>(stage.content);
-  if (!is_answer(procedure_named(block.procedure).form(block).answer, response)) {
-    cannot("correct an answer", kWhatAnAnswerIs);
-  }
+  const AnswerKind kind = procedure_named(block.procedure).form(block).answer;
+  if (!is_answer(kind, value)) cannot("correct an answer", kWhatAnAnswerIs);
   const TrialState& trial = state_.trial(number);
+  const double response = response_of(kind, trial.planned, value);
   core::Commit rows;
   rows.trial = answered_row(number, response);
   commit(AnswerCorrected{number, trial.attempt, trial.answer_sequence, response, reason},

@@ -68,8 +68,9 @@ class Session {
   /// Of the current trial, under way or not: throws as `begin_presentation` would for an
   /// interval that it has not.
   void require_interval(const std::string& interval) const;
-  /// `interval`: "test", "reference" or "free_space". The presentation under way, if any, must
-  /// have been ended before.
+  /// `interval`: "test", "reference" or "free_space"; or "first" or "second" of a trial whose
+  /// order is drawn, stored as what it holds. The presentation under way, if any, must have
+  /// been ended before.
   void begin_presentation(const std::string& interval, std::int64_t tick);
   void end_presentation(std::int64_t last_tick, const PresentationSummary& summary);
   /// Production: one step, beyond the range of starting values if need be, never below 0.
@@ -78,7 +79,8 @@ class Session {
   [[nodiscard]] bool can_adjust(Direction direction, StepSize size) const;
   /// Throws as `answer` would for this value, so that nothing need be ended for it in vain.
   void require_answer(double value) const;
-  /// Percent, or 1 and 0; in production the set intensity is the answer and `value` is ignored.
+  /// The answer as it was given: percent, 1 and 0, or the interval that was chosen; in
+  /// production the set intensity is the answer and `value` is ignored.
   void answer(double value, double response_time_s, std::int64_t last_tick);
   void discard_attempt(const std::string& reason);
 
@@ -86,8 +88,9 @@ class Session {
   void require_undo() const;
   /// Takes the last answer of the current block back; its trial is run again.
   void undo(const std::string& reason);
-  /// Sets an earlier answer right, its presentations untouched.
-  void correct(std::int64_t number, double response, const std::string& reason);
+  /// Sets an earlier answer right, its presentations untouched; `value` as in `answer`, in
+  /// production the intensity.
+  void correct(std::int64_t number, double value, const std::string& reason);
   /// All answers of the current block are taken back; the order stays.
   void restart_block(const std::string& reason);
   void exclude(std::int64_t trial, const std::string& reason);
@@ -112,6 +115,7 @@ class Session {
   void commit(EventData data, core::Commit rows);
   void draw_trials();
   [[nodiscard]] std::int64_t open_trial(const char* act) const;
+  [[nodiscard]] std::optional<bool> feedback(const PlannedTrial& trial, double response) const;
   [[nodiscard]] double intensity_of(const TrialState& trial, const std::string& interval) const;
   [[nodiscard]] double response_for(double value) const;
   [[nodiscard]] double adjusted(Direction direction, StepSize size) const;

@@ -28,6 +28,7 @@ struct Fold {
   void operator()(const StageFinished& e) const {
     state.stage = e.stage + 1;
     state.stage_open = false;
+    state.feedback_right.reset();
   }
   void operator()(const TrialsDrawn& e) const {
     if (e.first_trial != static_cast<std::int64_t>(state.trials.size()) + 1) {
@@ -48,6 +49,7 @@ struct Fold {
     trial.set_intensity = trial.planned.starting_intensity.value_or(0.0);
     trial.num_steps = 0;
     trial.response.reset();
+    state.feedback_right.reset();
     saw_tick(e.first_tick - 1);  // The first is still to come.
   }
   void operator()(const PresentationStarted& e) const {
@@ -76,9 +78,11 @@ struct Fold {
     trial.response_time_s = e.response_time_s;
     trial.answer_sequence = event.sequence;
     trial.last_tick = e.last_tick;
+    state.feedback_right = e.feedback_right;
     saw_tick(e.last_tick);
   }
   void operator()(const AnswerUndone& e) const {
+    state.feedback_right.reset();
     TrialState& undone = of(e.trial);
     undone.response.reset();
     undone.under_way = false;

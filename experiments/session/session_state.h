@@ -49,6 +49,8 @@ struct SessionState {
   std::vector<TrialState> trials;  ///< Trial number n is at n - 1.
   /// Last answer to (stage, item).
   std::map<std::pair<std::int64_t, std::string>, std::string> answers;
+  /// What was told of the last answer, until the next trial begins.
+  std::optional<bool> feedback_right;
   std::vector<std::string> notes;
   std::int64_t last_sequence = 0;
   std::int64_t last_time_ns = 0;

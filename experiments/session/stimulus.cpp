@@ -1,6 +1,7 @@
 #include "experiments/session/stimulus.h"
 
 #include "core/error.h"
+#include "experiments/procedures/task.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
@@ -45,7 +46,10 @@ core::MediumAmounts amounts_of(const MediumSetting& setting) {
 }
 
 MediumSetting setting_of(const Block& block, const std::string& interval, double intensity) {
-  if (interval == "free_space")
+  // In a catch trial of a yes-no task nothing is there.
+  const bool is_nothing =
+      intensity == 0.0 && block.settings.has("task") && task_of(block) == Task::kYesNo;
+  if (interval == "free_space" || is_nothing)
     return {.medium = "free_space", .quantity = "", .intensity = 0.0};
   return {.medium = block.medium,
           .quantity = block.quantity,

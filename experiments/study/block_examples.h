@@ -11,7 +11,8 @@ struct BlockExample {
   std::string json;
 };
 
-/// One for each procedure: schema, snippets of editors and reference documentation show them.
+/// One or more for each procedure: schema, snippets of editors and reference documentation show
+/// them.
 [[nodiscard]] const std::vector<BlockExample>& block_examples();
 
 }  // namespace jnd::experiments

@@ -27,6 +27,7 @@ class LabelRules {
       const json& stage = stages[i];
       if (!stage.is_object()) continue;
       check_pair(stage, here, "yes_label", "no_label");
+      check_pair(stage, here, "first_label", "second_label");
       check_items(list(stage, "items"), here + "/items");
       const json& arms = list(stage, "arms");
       for (std::size_t arm = 0; arm < arms.size(); ++arm) {

@@ -9,6 +9,7 @@
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_tables.h"
+#include "experiments/study/task_rules.h"
 
 namespace jnd::experiments {
 namespace {
@@ -165,7 +166,8 @@ class SessionRules {
     const Parameter* its = block_table().find(quantity_of(word(block, "medium")));
     if (its != nullptr && levels.size() > its->max_items) return 0.0;
     const auto num_targets = static_cast<double>(list(block, "target_percent").size());
-    return trial_s * static_cast<double>(levels.size()) *
+    return trial_s *
+           (static_cast<double>(levels.size()) + num_catch_trials(block, levels.size())) *
            sound_number(table, block, "repetitions", 1.0) * std::max(1.0, num_targets);
   }
 

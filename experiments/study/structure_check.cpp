@@ -44,13 +44,14 @@ Holds belongs(const Parameter& parameter, const json& object, const ParameterTab
   return all;
 }
 
-std::string misplaced(const Parameter& parameter, const json& object) {
+std::string misplaced(const Parameter& parameter, const json& object,
+                      const ParameterTable& table) {
   std::string wanted, found;
   for (const Condition& condition : parameter.only_where) {
-    const auto value = object.find(condition.key);
-    if (value == object.end() || !value->is_string()) continue;
-    if (std::find(condition.values.begin(), condition.values.end(),
-                  value->get<std::string>()) != condition.values.end()) {
+    const std::optional<std::string> value =
+        decided(object, condition.key, table.find(condition.key));
+    if (!value || std::find(condition.values.begin(), condition.values.end(), *value) !=
+                      condition.values.end()) {
       continue;
     }
     if (!wanted.empty()) {
@@ -58,7 +59,7 @@ std::string misplaced(const Parameter& parameter, const json& object) {
       found += " and ";
     }
     wanted += '`' + condition.key + "` is " + one_of_words(condition.values);
-    found += '`' + condition.key + "` is `" + shown_text(value->get<std::string>()) + '`';
+    found += '`' + condition.key + "` is `" + shown_text(*value) + '`';
   }
   return "expected this key only where " + wanted + ", found it where " + found;
 }
@@ -164,7 +165,7 @@ void StructureCheck::check_object(const json& object, const std::string& pointer
         report(child, "expected " + expectation(parameter) + ", found nothing");
       }
     } else if (holds == Holds::kNo) {
-      report_key(child, misplaced(parameter, object));
+      report_key(child, misplaced(parameter, object, table));
     } else {
       check_value(*found, child, parameter);
     }

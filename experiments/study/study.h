@@ -57,6 +57,13 @@ struct Training {
   std::vector<Exploration> examples;
 };
 
+/// Trials until somebody can do a task; they are run and stored as any, and are no data.
+struct Practice {
+  double min_correct_ratio = 0.0;  ///< Of the answers judged that have to be right, (0, 1].
+  int num_trials_judged = 0;       ///< The last ones, >= 1.
+  int max_trials = 0;              ///< The block ends after so many in any case.
+};
+
 /// One procedure over one varied quantity: the part of a study that gives data.
 struct Block {
   std::string
@@ -67,6 +74,7 @@ struct Block {
   Text instruction;
   Text question;                    ///< What the participant is asked in every trial.
   Text yes_label, no_label;         ///< What the two answers are called; may be empty.
+  Text first_label, second_label;   ///< Likewise, of a choice between two intervals.
   std::vector<double> intensities;  ///< Test stimuli, or starting values in production.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::vector<double> target_percent;         ///< Production: one repetition a target.
@@ -76,6 +84,8 @@ struct Block {
   std::optional<double> max_intensity;  ///< Production: no step goes beyond; none by default.
   double free_space_between_s = 0.0;    ///< Free space before each trial, >= 0.
   double expected_trial_s = 0.0;        ///< For planning the length of a session, > 0.
+  bool feedback = false;                ///< Right or wrong is told after each answer.
+  std::optional<Practice> practice;     ///< The block is practice, and no data.
   Settings settings;                    ///< The procedure's own keys, all of them.
 };
 

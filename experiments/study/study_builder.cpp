@@ -140,6 +140,12 @@ Consent consent(const ObjectReader& in) {
   return consent;
 }
 
+Practice practice(const ObjectReader& in) {
+  return {.min_correct_ratio = in.number("min_correct_ratio"),
+          .num_trials_judged = in.integer("num_trials_judged"),
+          .max_trials = in.integer("max_trials")};
+}
+
 Block block(const ObjectReader& in) {
   Block block;
   block.procedure = in.string("procedure");
@@ -148,10 +154,10 @@ Block block(const ObjectReader& in) {
   block.buoyancy_n = in.number("buoyancy_n");
   block.instruction = in.text("instruction");
   block.question = in.text("question");
-  if (block.procedure == "constant_stimuli") {
-    block.yes_label = in.text("yes_label");
-    block.no_label = in.text("no_label");
-  }
+  block.yes_label = in.text("yes_label");
+  block.no_label = in.text("no_label");
+  block.first_label = in.text("first_label");
+  block.second_label = in.text("second_label");
   for (const BlockKey& key : procedure_named(block.procedure).keys()) {
     if (auto value = in.setting(key.name_for(block.quantity))) {
       block.settings.set(key.parameter.key, std::move(*value));
@@ -168,6 +174,8 @@ Block block(const ObjectReader& in) {
     block.max_intensity = in.optional_number("max_" + block.quantity);
   }
   block.reference_intensity = block.settings.optional_number("reference");
+  block.feedback = in.boolean("feedback");
+  if (in.has("practice")) block.practice = practice(in.object("practice"));
   return block;
 }
 

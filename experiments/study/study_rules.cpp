@@ -14,6 +14,7 @@
 #include "experiments/study/session_rules.h"
 #include "experiments/study/shown_text.h"
 #include "experiments/study/stage_tables.h"
+#include "experiments/study/task_rules.h"
 
 namespace jnd::experiments {
 namespace {
@@ -253,9 +254,10 @@ class Rules {
       }
     }
     const json* repetitions = number(block, "repetitions");
-    num_trials_ += static_cast<double>(values.size()) *
-                   (repetitions == nullptr ? 1.0 : std::max(1.0, repetitions->get<double>())) *
-                   std::max(1.0, static_cast<double>(list(block, "target_percent").size()));
+    num_trials_ +=
+        (static_cast<double>(values.size()) + num_catch_trials(block, values.size())) *
+        (repetitions == nullptr ? 1.0 : std::max(1.0, repetitions->get<double>())) *
+        std::max(1.0, static_cast<double>(list(block, "target_percent").size()));
     if (seen.empty()) return;
     if (procedure == "constant_stimuli") check_reference(block, at, quantity, seen);
     if (procedure == "magnitude_production") check_steps(block, at, quantity, seen);
@@ -265,7 +267,7 @@ class Rules {
                        const std::map<double, std::size_t>& seen) {
     const std::string key = "reference_" + quantity;
     const json* reference = number(block, key);
-    if (reference == nullptr) return;
+    if (reference == nullptr || word(block, "task") == "same_different") return;
     const double value = reference->get<double>();
     if (!(value > seen.begin()->first && value < seen.rbegin()->first)) {
       report(at + key,
@@ -307,6 +309,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   Rules(file, problems).run();
   check_session_rules(file, problems);
   check_label_rules(file, problems);
+  check_task_rules(file, problems);
 }
 
 }  // namespace jnd::experiments

@@ -24,6 +24,8 @@ Columns of_blocks() {
   const auto only = [](const char* procedure) {
     return std::vector<Condition>{{"procedure", {procedure}}};
   };
+  const std::vector<Condition> asked = {
+      {"procedure", {"constant_stimuli", "limits", "staircase", "quest_plus"}}};
   const std::string unit = "unit of the quantity";
   return {
       {"trials.csv", "trial", "", "Running number in the session, from 1"},
@@ -35,8 +37,13 @@ Columns of_blocks() {
       {"trials.csv", "repetition", "", "From 1"},
       {"trials.csv", "position", "", "Within the repetition, from 1"},
       {"trials.csv", "intensity", unit, "The test stimulus; in a production the value set"},
-      {"trials.csv", "reference_intensity", unit, "The reference stimulus",
-       only("constant_stimuli")},
+      {"trials.csv", "reference_intensity", unit, "The reference stimulus", asked},
+      {"trials.csv", "test_interval", "",
+       "Where the order is drawn: the interval of the test, 1 or 2. In `two_interval` the one "
+       "chosen is `test_interval` where `response` is 1, else 3 - `test_interval`",
+       asked},
+      {"trials.csv", "is_catch", "", "1: a catch trial", asked},
+      {"trials.csv", "is_practice", "", "1: the block has `practice`; not for analysis", asked},
       {"trials.csv", "starting_intensity", unit, "Where the adjustment began",
        only("magnitude_production")},
       {"trials.csv", "target_percent", "%", "What it should feel like",
@@ -44,7 +51,9 @@ Columns of_blocks() {
       {"trials.csv", "num_steps", "", "Steps of the adjustment", only("magnitude_production")},
       {"trials.csv", "response", "%", "How strong it felt", only("magnitude_estimation")},
       {"trials.csv", "response", unit, "The value that was set", only("magnitude_production")},
-      {"trials.csv", "response", "", "1: yes, 0: no", only("constant_stimuli")},
+      {"trials.csv", "response", "",
+       "1: yes, different, or the interval of the test; 0: no, the same, or the other interval",
+       asked},
       {"trials.csv", "response_time_s", "s",
        "From the start of the last stimulus to the answer"},
       {"trials.csv", "num_presentations", "", "Stimuli felt in this attempt"},

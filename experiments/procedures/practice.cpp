@@ -1,0 +1,57 @@
+#include "experiments/procedures/practice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/procedures/procedure_registry.h"
+
+namespace jnd::experiments {
+namespace {
+
+int num_correct_needed(const Practice& practice) {
+  constexpr double kRounding = 1e-9;  // 0.7 of 10 is 7, whatever the product's last digit.
+  return static_cast<int>(
+      std::ceil(practice.min_correct_ratio * practice.num_trials_judged - kRounding));
+}
+
+}  // namespace
+
+PracticeState practice_state(const Block& block, const std::vector<AnsweredTrial>& answered) {
+  const Practice& practice = block.practice.value();
+  const Procedure& procedure = procedure_named(block.procedure);
+  PracticeState state{.num_trials = static_cast<int>(answered.size())};
+  for (auto trial = answered.rbegin(); trial != answered.rend(); ++trial) {
+    if (state.num_judged == practice.num_trials_judged) break;
+    const std::optional<double> right = procedure.right_response(block, trial->planned);
+    if (!right) continue;
+    ++state.num_judged;
+    state.num_correct += trial->response == *right ? 1 : 0;
+  }
+  state.criterion_is_met = state.num_judged == practice.num_trials_judged &&
+                           state.num_correct >= num_correct_needed(practice);
+  state.is_over = state.criterion_is_met || state.num_trials >= practice.max_trials;
+  return state;
+}
+
+std::string practice_words(const Block& block, const PracticeState& state) {
+  const Practice& practice = block.practice.value();
+  return "practice over after " + std::to_string(state.num_trials) +
+         " trials: " + std::to_string(state.num_correct) + " of the last " +
+         std::to_string(state.num_judged) + " answers were right, " +
+         std::to_string(num_correct_needed(practice)) + " of " +
+         std::to_string(practice.num_trials_judged) + " were to be";
+}
+
+std::vector<PlannedTrial> next_trials(const Block& block,
+                                      const std::vector<AnsweredTrial>& answered,
+                                      core::RandomStream& stream) {
+  if (block.practice && practice_state(block, answered).is_over) return {};
+  return procedure_named(block.procedure).draw_next(block, answered, stream);
+}
+
+int expected_trials(const Block& block) {
+  const int expected = procedure_named(block.procedure).expected_trials(block);
+  return block.practice ? std::min(expected, block.practice->max_trials) : expected;
+}
+
+}  // namespace jnd::experiments
