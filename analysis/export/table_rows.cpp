@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/protocol_blocks.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -24,10 +26,14 @@ std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
   std::vector<std::int64_t> standing;
   for (const core::TrialRow& row : store.trials(session)) standing.push_back(row.sequence);
   std::sort(standing.begin(), standing.end());
+  const std::string protocol = store.protocol(store.session(session).protocol_sha256).text;
+  std::map<std::string, ProtocolBlock> blocks =
+      protocol_blocks(nlohmann::json::parse(protocol, nullptr, false));
   std::vector<ExportedTrial> trials;
   for (core::TrialRow& row : store.trials(session, true)) {
     const bool stands = std::binary_search(standing.begin(), standing.end(), row.sequence);
-    trials.push_back({.row = std::move(row), .excluded = !stands});
+    const bool is_practice = blocks[row.block].is_practice;
+    trials.push_back({.row = std::move(row), .excluded = !stands, .is_practice = is_practice});
   }
   return trials;
 }
@@ -70,7 +76,10 @@ void write_trial_cells(TableWriter& table, const core::SessionRow& session,
   table.cell(session.simulated).cell(row.trial).cell(row.attempt).cell(row.block);
   table.cell(row.procedure).cell(row.medium).cell(row.quantity).cell(row.repetition);
   table.cell(row.position).cell(row.series).cell(row.test_interval);
-  table.cell(row.is_catch).cell(row.intensity).cell(row.reference_intensity);
+  table.cell(row.is_catch)
+      .cell(trial.is_practice)
+      .cell(row.intensity)
+      .cell(row.reference_intensity);
   table.cell(row.starting_intensity).cell(row.target_percent).cell(row.response);
   table.cell(row.response_time_s).cell(row.num_presentations).cell(row.num_steps);
   table.cell(row.first_tick).cell(row.last_tick).cell(trial.excluded);

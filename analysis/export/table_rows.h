@@ -15,7 +15,8 @@ namespace jnd::analysis {
 /// A trial whose answer stands.
 struct ExportedTrial {
   core::TrialRow row;
-  bool excluded = false;  ///< Set aside with a reason.
+  bool excluded = false;     ///< Set aside with a reason.
+  bool is_practice = false;  ///< Of a block that is practice.
 };
 /// In the order of the trials.
 [[nodiscard]] std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/protocol_blocks.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -23,7 +25,11 @@ std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
                                            std::int64_t session) {
   std::map<std::int64_t, TrialPlan> plans;
   std::map<std::string, std::set<double>> levels;
+  const std::string protocol = store.protocol(store.session(session).protocol_sha256).text;
+  std::map<std::string, ProtocolBlock> blocks =
+      protocol_blocks(json::parse(protocol, nullptr, /*allow_exceptions=*/false));
   for (core::DesignRow& row : store.design(session)) {
+    if (blocks[row.block].is_practice) continue;
     for (const std::optional<double>& level : {row.intensity, row.reference_intensity}) {
       if (level) levels[row.block].insert(*level);
     }
@@ -34,7 +40,9 @@ std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
 }
 
 PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& plan) {
-  const bool is_free = row.interval == "free_space";
+  // A catch trial of a yes-no task is free space, too.
+  const bool is_free = row.interval == "free_space" ||
+                       (plan.design.is_catch && !plan.design.reference_intensity);
   const std::string medium = is_free ? "free_space" : plan.design.medium;
   return {.movement = {.session = row.session,
                        .trial = row.trial,

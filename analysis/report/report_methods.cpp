@@ -42,7 +42,8 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
     }
   }
   const std::string unit = quantity_unit(block.quantity);
-  std::string words = procedure_words(block.procedure) + "; " + quantity_words(block.quantity);
+  std::string words = procedure_words(block.procedure, block.protocol.task) + "; " +
+                      quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
   if (!intensities.empty()) words += "; levels " + joined(intensities, unit);
   if (!references.empty()) words += "; reference " + joined(references, unit);

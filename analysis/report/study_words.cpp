@@ -96,13 +96,16 @@ std::string quantity_axis(const std::string& quantity) {
   return unit.empty() ? words : words + " [" + unit + "]";
 }
 
-std::string procedure_words(const std::string& procedure) {
-  if (procedure == "constant_stimuli") {
-    return "method of constant stimuli as a reminder task (reference first, yes or no)";
-  }
-  if (procedure == "limits") return "method of limits";
-  if (procedure == "quest_plus") return "QUEST+ (Watson 2017)";
-  return in_words(procedure);
+std::string procedure_words(const std::string& procedure, const std::string& task) {
+  std::string words = in_words(procedure);
+  if (procedure == "constant_stimuli") words = "method of constant stimuli";
+  if (procedure == "limits") words = "method of limits";
+  if (procedure == "quest_plus") words = "QUEST+ (Watson 2017)";
+  if (task == "yes_no") return words + " as a yes-no task";
+  if (task == "two_interval") return words + " as a two-interval task (order drawn)";
+  if (task == "same_different") return words + " as a same-different task (order drawn)";
+  if (procedure != "constant_stimuli") return words;
+  return words + " as a reminder task (reference first, yes or no)";
 }
 
 }  // namespace jnd::analysis

@@ -30,6 +30,7 @@ struct StudyWords {
 /// "Viscosity [Pa s]", for an axis.
 [[nodiscard]] std::string quantity_axis(const std::string& quantity);
 /// "constant stimuli": a procedure in words.
-[[nodiscard]] std::string procedure_words(const std::string& procedure);
+[[nodiscard]] std::string procedure_words(const std::string& procedure,
+                                          const std::string& task = "reminder");
 
 }  // namespace jnd::analysis
