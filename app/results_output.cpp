@@ -8,6 +8,7 @@
 #include "app/results_basis.h"
 #include "app/session_setup.h"
 #include "app/share.h"
+#include "app/study_data.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::app {
@@ -38,7 +39,7 @@ analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  return results_of_data(analysis::load_study(store), options);
+  return results_of_data(load_study_data(store), options);
 }
 
 analysis::StudyResults results_of_data(const analysis::StudyData& data,

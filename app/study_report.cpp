@@ -2,6 +2,7 @@
 
 #include "app/results_output.h"
 #include "app/session_setup.h"
+#include "app/study_data.h"
 
 namespace jnd::app {
 namespace {
@@ -21,7 +22,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   require_unblinded(store);
   analysis::require_free_folder(request.out);
   reading(0.0);
-  const analysis::StudyData data = analysis::load_study(store, request.pilot);
+  const analysis::StudyData data = load_study_data(store, request.pilot);
   reading(0.2);
   StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};
   reading(1.0);

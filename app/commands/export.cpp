@@ -11,6 +11,7 @@
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/stop_signals.h"
+#include "app/study_data.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -28,7 +29,7 @@ std::string results_text(const core::StudyStore& store) {
   const std::vector<core::SessionRow> sessions = store.sessions();
   const bool any = std::any_of(sessions.begin(), sessions.end(),
                                [](const core::SessionRow& row) { return !row.pilot; });
-  return any ? json_text(to_json(results_of_data(analysis::load_study(store)))) : "";
+  return any ? json_text(to_json(results_of_data(load_study_data(store)))) : "";
 }
 
 std::vector<std::string> stage_names_of(const core::StudyStore& store,

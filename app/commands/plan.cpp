@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "app/block_words.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/operator/study_words.h"
 #include "app/option_checks.h"
 #include "app/session_setup.h"
 #include "app/share.h"
@@ -121,6 +123,7 @@ ordered_json to_json(const experiments::ParticipantPlan& plan) {
                      {"medium", content.medium},
                      {"quantity", content.quantity},
                      {"num_trials", block.num_trials},
+                     {"num_trials_is_expected", length_is_expected(content)},
                      {"trials", std::move(trials)}});
   }
   return {{"id", plan.participant},
@@ -188,7 +191,14 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
 
 /// "1: 0.5 4 2", one line a repetition; production starts with its target.
 void print_order(const experiments::PlannedBlock& block) {
-  fmt::print("    {}: {} trials\n", block.stage->name, block.num_trials);
+  const auto& content = std::get<experiments::Block>(block.stage->content);
+  fmt::print("    {}: {} trials\n", block.stage->name,
+             trials_to_expect(content, block.num_trials));
+  if (length_is_expected(content)) {
+    fmt::print("      {}; {}\n", adaptive_words(content),
+               fmt::join(adaptive_level_words(content, quantity_unit(content.quantity)), "; "));
+    return;
+  }
   int repetition = 0;
   for (const experiments::PlannedTrial& trial : block.trials) {
     if (trial.repetition != repetition) {

@@ -11,6 +11,7 @@
 #include "app/option_checks.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
+#include "app/study_data.h"
 
 namespace jnd::app {
 namespace {
@@ -33,7 +34,7 @@ nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
 int run(const Options& options) {
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  analysis::DeliveredStudy study{.data = analysis::load_study(store)};
+  analysis::DeliveredStudy study{.data = load_study_data(store)};
   if (options.delivered) study = analysis::with_delivered(std::move(study.data), store);
   analysis::StudyResults results = results_of_data(study.data, options.results);
   if (options.movement) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/block_words.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/session_words.h"
 #include "app/operator/study_outline.h"
@@ -220,6 +221,11 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
     ++view.num_in_block;
     view.num_repetitions = std::max(view.num_repetitions, state().trials[i].planned.repetition);
     if (static_cast<std::int64_t>(i) + 1 == number) view.in_block = view.num_in_block;
+  }
+  if (length_is_expected(*block())) {
+    view.num_is_expected = true;
+    view.num_in_block = std::max(view.num_in_block,
+                                 procedure_named(block()->procedure).expected_trials(*block()));
   }
   if (presenter_.under_way()) {
     view.interval = trial.presentations.back().interval;

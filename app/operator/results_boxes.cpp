@@ -63,9 +63,17 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
       source.data.blocks.begin(), source.data.blocks.end(),
       [&](const BlockDesign& other) { return other.procedure == block.procedure; });
   const std::string title = short_title(source.title(block.block));
+  if (block.detects()) return title;
   if (!is_magnitude(block)) return "w " + title;
   if (same > 1) return "a " + title;
   return block.procedure == "magnitude_estimation" ? "a estimation" : "a production";
+}
+
+/// The estimate that a column of the block holds, within its section; "" for no column.
+std::string column_estimate(const BlockDesign& block) {
+  if (block.compares() || block.tells_apart()) return ".weber_fraction";
+  if (block.detects()) return ".threshold";
+  return is_magnitude(block) ? ".a" : "";
 }
 
 /// What was left out of this person's data, each thing once.
@@ -112,7 +120,7 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
   BoxFigure speed{.name = "max_speed_m_per_s", .title = "Largest speed", .unit = "m/s"};
   for (const BlockDesign& block : source.data.blocks) {
     const std::string label = short_title(source.title(block.block));
-    if (block.compares()) {
+    if (block.compares() || block.tells_apart()) {
       add_box(weber, label, own_values(source, block.block, block.block + ".weber_fraction"));
     }
     if (is_magnitude(block)) {
@@ -132,20 +140,19 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
 
 void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.compares() || is_magnitude(block)) {
-      model.columns.push_back({column_title(source, block), ""});
-    }
+    if (column_estimate(block).empty()) continue;
+    model.columns.push_back(
+        {column_title(source, block), block.detects() ? quantity_unit(block.quantity) : ""});
   }
   model.columns.push_back({"Stroke", "m"});
   model.columns.push_back({"Speed", "m/s"});
   for (const ParticipantData& participant : source.data.participants) {
     TableRow row{.participant = participant.participant};
     for (const BlockDesign& block : source.data.blocks) {
-      const bool compares = block.compares();
-      if (!compares && !is_magnitude(block)) continue;
+      const std::string estimate = column_estimate(block);
+      if (estimate.empty()) continue;
       const analysis::ParticipantEstimate* own =
-          source.own(block.block, participant.participant,
-                     block.block + (compares ? ".weber_fraction" : ".a"));
+          source.own(block.block, participant.participant, block.block + estimate);
       row.values.push_back(own != nullptr ? own->value : std::nullopt);
     }
     row.values.push_back(whole_movement(participant, &core::PresentationRow::stroke_width_m));

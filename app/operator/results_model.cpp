@@ -5,13 +5,16 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "analysis/fits/bounded_interval.h"
+#include "app/block_words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
+#include "app/study_data.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"
@@ -125,12 +128,21 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-/// Trials that the sessions of a study should have answers to, whether drawn yet or not.
-std::int64_t expected_trials(const experiments::Study& study, const core::SessionRow& row) {
+/// Trials that the sessions of a study should have answers to, whether drawn yet or not. Where
+/// the answers decide how many there are, a session that came to its end has drawn them all.
+std::int64_t expected_trials(const experiments::Study& study, const core::StudyStore& store,
+                             const core::SessionRow& row) {
+  std::map<std::string, std::int64_t> drawn;
+  for (const core::DesignRow& trial : store.design(row.session)) ++drawn[trial.block];
+  const bool is_over = store.completed(row.session);
   std::int64_t expected = 0;
   for (const experiments::Stage* stage : stages_of_session(study, row.cells)) {
     const auto* block = std::get_if<experiments::Block>(&stage->content);
     if (block == nullptr) continue;
+    if (is_over && length_is_expected(*block)) {
+      expected += drawn[stage->name];
+      continue;
+    }
     expected += experiments::procedure_named(block->procedure).expected_trials(*block);
   }
   return expected;
@@ -145,7 +157,7 @@ class Quality {
         ++num_pilots_;
         continue;
       }
-      expected_ += expected_trials(study, row);
+      expected_ += expected_trials(study, store, row);
       const auto all = store.trials(row.session, /*include_excluded=*/true).size();
       answers_ += static_cast<std::int64_t>(all);
       excluded_ += static_cast<std::int64_t>(all - store.trials(row.session).size());
@@ -279,7 +291,7 @@ const analysis::ParticipantEstimate* ResultsSource::own(const std::string& secti
 ResultsModel results_model(const std::filesystem::path& folder, WorkControl& control) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  const analysis::StudyData data = analysis::load_study(store);
+  const analysis::StudyData data = load_study_data(store);
   const experiments::Study study = study_in(store);
   control.progress(0.1);
   control.stop_if_cancelled();
@@ -293,6 +305,7 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
                      .citation = results.citation,
                      .num_participants = results.num_participants,
                      .discriminations = discriminations_of(source),
+                     .thresholds = thresholds_of(source),
                      .magnitudes = magnitudes_of(source),
                      .boxes = boxes_of(source)};
   add_table(source, model);

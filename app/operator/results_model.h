@@ -68,6 +68,34 @@ struct Discrimination {
   std::optional<double> published, published_sd;
 };
 
+/// Levels over the trials of one staircase or series; unit of the quantity.
+struct Track {
+  std::vector<Point> levels, reversals;  ///< x: the trial within the block, from 1.
+};
+
+/// A participant's answers in a block that asks for a threshold, or everybody's.
+struct ThresholdFigure {
+  std::string who;
+  std::vector<Proportion> points;  ///< Of `Threshold::answer`; none where there are tracks.
+  std::vector<Point> curve;        ///< Through them.
+  std::vector<Track> tracks;
+  std::optional<double> line;  ///< The threshold, unit of the quantity.
+  std::string value, detail;   ///< "0.21 Pa s", "95 % 0.18 to 0.26"; "" without.
+  std::string reason;          ///< Why there is no value; "" if there is one.
+};
+
+/// A block that asks for a threshold otherwise than by comparisons, or its tracks.
+struct Threshold {
+  std::string block, title;
+  std::string quantity, unit;  ///< "viscosity", "Pa s".
+  std::string answer;          ///< "yes", "different".
+  bool has_tracks = false;     ///< Levels over trials, not answers over levels.
+  bool is_logarithmic = true;  ///< The axis of levels.
+  std::optional<double> reference;
+  ThresholdFigure pooled;
+  std::vector<ThresholdFigure> participants;  ///< By pseudonym.
+};
+
 /// A mean with its spread, over the participants or one participant's answers.
 struct Mean {
   double at = 0.0;  ///< Estimation: the intensity. Production: the target's ratio.
@@ -164,6 +192,7 @@ struct ResultsModel {
   std::string citation;  ///< Of the published values; "" without any.
   int num_participants = 0;
   std::vector<results::Discrimination> discriminations;
+  std::vector<results::Threshold> thresholds;
   std::vector<results::Magnitude> magnitudes;
   std::vector<results::BoxFigure> boxes;
   std::vector<results::TableColumn> columns;
@@ -199,6 +228,8 @@ struct ResultsSource {
 
 [[nodiscard]] std::vector<results::Discrimination> discriminations_of(
     const ResultsSource& source);
+/// Yes-no and same-different blocks with their answers, and adaptive ones with their tracks.
+[[nodiscard]] std::vector<results::Threshold> thresholds_of(const ResultsSource& source);
 [[nodiscard]] std::vector<results::Magnitude> magnitudes_of(const ResultsSource& source);
 [[nodiscard]] std::vector<results::BoxFigure> boxes_of(const ResultsSource& source);
 /// `values`: participant and number, at least one.

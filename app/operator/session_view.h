@@ -75,6 +75,7 @@ struct TrialView {
   std::int64_t trial = 0;  ///< In the session, as in requests.
   std::int64_t attempt = 1;
   int in_block = 1, num_in_block = 1;  ///< "trial 23 of 40"
+  bool num_is_expected = false;        ///< "of about 40": the answers decide.
   int repetition = 1, num_repetitions = 1;
   experiments::AnswerKind answer = experiments::AnswerKind::kYesNo;
   bool has_reference = false;

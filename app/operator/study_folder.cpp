@@ -9,12 +9,14 @@
 #include <map>
 #include <set>
 
+#include "app/block_words.h"
 #include "app/operator/study_words.h"
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
 #include "core/storage/recording.h"
 #include "experiments/order/counterbalance.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/session_state.h"
 #include "experiments/study/study_reader.h"
 
@@ -72,6 +74,7 @@ class Interruption {
         ++session.num_trials;
         if (static_cast<std::int64_t>(i) < *current) session.trial = session.num_trials;
       }
+      expect_trials(*stages_of_session(study_, row.cells).at(stage), session);
     }
     const fs::path file = store_.recording_file(row.session);
     std::error_code ignored;
@@ -82,6 +85,16 @@ class Interruption {
   }
 
  private:
+  /// Where answers decide, those drawn so far are not all there will be.
+  static void expect_trials(const experiments::Stage& stage, InterruptedSession& session) {
+    const auto* block = std::get_if<experiments::Block>(&stage.content);
+    if (block == nullptr || !length_is_expected(*block)) return;
+    session.num_is_expected = true;
+    session.num_trials =
+        std::max(session.num_trials,
+                 experiments::procedure_named(block->procedure).expected_trials(*block));
+  }
+
   const core::StudyStore& store_;
   const experiments::Study& study_;
   bool hides_levels_;
@@ -135,7 +148,8 @@ std::string InterruptedSession::sentence() const {
   std::string begin = participant + " was interrupted";
   if (stage.empty()) return begin;
   if (num_trials == 0) return begin + " in " + stage;
-  return fmt::format("{} in {}, trial {} of {}", begin, stage, trial, num_trials);
+  return fmt::format("{} in {}, trial {} of {}{}", begin, stage, trial,
+                     num_is_expected ? "about " : "", num_trials);
 }
 
 std::string InterruptedSession::safe() const {

@@ -19,6 +19,7 @@ struct InterruptedSession {
   std::string stage;   ///< Title; "Block 1" where it could tell the level.
   int trial = 0;       ///< The one to be repeated, within its block; 0 outside of one.
   int num_trials = 0;  ///< Of the block; 0 outside of one.
+  bool num_is_expected = false;  ///< The answers decide how many they are.
   std::int64_t num_answers = 0;  ///< On disk.
   double recorded_min = 0.0;     ///< On disk.
   std::string when;              ///< "today"; "" for a simulated session, which has no date.

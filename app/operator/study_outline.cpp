@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "app/block_words.h"
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
@@ -133,9 +134,12 @@ class Outliner {
   void describe(const Block& block, OutlineStage& line) const {
     line.kind = name_words(block.procedure, /*as_title=*/true);
     const int num_trials = procedure_named(block.procedure).expected_trials(block);
-    const std::string trials = counted(static_cast<std::size_t>(num_trials), "trial");
+    const std::string trials =
+        trials_to_expect(block, num_trials) + (num_trials == 1 ? " trial" : " trials");
     const std::size_t count = block.intensities.size();
-    if (block.target_percent.empty()) {
+    if (length_is_expected(block)) {
+      line.what = adaptive_words(block) + ": " + trials;
+    } else if (block.target_percent.empty()) {
       line.what = fmt::format(
           "{} {}, {}: {}", count, count == 1 ? "stimulus" : "stimuli",
           block.repetitions == 1 ? "once" : fmt::format("{} times", block.repetitions), trials);
@@ -149,8 +153,14 @@ class Outliner {
     }
     const std::string unit = quantity_unit(block.quantity);
     const std::string name = unit.empty() ? quantity_words(block.quantity) + " " : "";
-    line.details.push_back(name_words(block.medium, false) + ", " + name +
-                           list_of(block.intensities, unit));
+    if (length_is_expected(block)) {
+      for (const std::string& words : adaptive_level_words(block, unit)) {
+        line.details.push_back(name_words(block.medium, false) + ", " + name + words);
+      }
+    } else {
+      line.details.push_back(name_words(block.medium, false) + ", " + name +
+                             list_of(block.intensities, unit));
+    }
     if (block.reference_intensity) {
       line.details.push_back("reference " + name + list_of({*block.reference_intensity}, unit));
     }

@@ -9,6 +9,8 @@ namespace jnd::app::gui {
 
 [[nodiscard]] PlotModel psychometric_plot(const results::Discrimination& block,
                                           const results::PsychometricFigure& figure);
+[[nodiscard]] PlotModel threshold_plot(const results::Threshold& block,
+                                       const results::ThresholdFigure& figure);
 [[nodiscard]] PlotModel magnitude_plot(const results::Magnitude& magnitude,
                                        const results::MagnitudeFigure& figure);
 [[nodiscard]] PlotModel box_plot(const results::BoxFigure& figure);

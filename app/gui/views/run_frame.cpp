@@ -239,8 +239,8 @@ void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view) {
   double ratio = view.done_ratio;
   if (view.trial) {
     const TrialView& trial = *view.trial;
-    left =
-        "Trial " + std::to_string(trial.in_block) + " of " + std::to_string(trial.num_in_block);
+    left = "Trial " + std::to_string(trial.in_block) +
+           (trial.num_is_expected ? " of about " : " of ") + std::to_string(trial.num_in_block);
     const auto now = static_cast<std::size_t>(view.stage);
     right = now < view.stages.size() ? view.stages[now].title : "";
     if (trial.num_repetitions > 1) {

@@ -1,0 +1,78 @@
+#include "app/block_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiments/procedures/procedure_registry.h"
+
+namespace jnd::app {
+namespace {
+
+using experiments::Block;
+using experiments::Settings;
+
+std::string counted(int count, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string list_of(const std::vector<double>& values, const std::string& unit) {
+  std::string list;
+  for (const double value : values) {
+    list += (list.empty() ? "" : ", ") + fmt::format("{:g}", value);
+  }
+  return list + (unit.empty() ? "" : " " + unit);
+}
+
+std::string staircase_words(const Settings& given) {
+  const auto count = static_cast<int>(given.numbers("start").size());
+  const double ratio = given.number("down_per_up_ratio");
+  return fmt::format("{}, {} up {} down{}, {}to {} reversals or {} trials",
+                     counted(count, "staircase", "staircases"), given.integer("num_up"),
+                     given.integer("num_down"),
+                     ratio == 1.0 ? "" : fmt::format(", steps down {:g} times those up", ratio),
+                     count == 1 ? "" : "each ", given.integer("max_reversals"),
+                     given.integer("max_trials"));
+}
+
+}  // namespace
+
+bool length_is_expected(const Block& block) {
+  return block.procedure == "staircase" || block.procedure == "limits" ||
+         block.procedure == "quest_plus";
+}
+
+std::string trials_to_expect(const Block& block, int num_trials) {
+  return (length_is_expected(block) ? "about " : "") + std::to_string(num_trials);
+}
+
+std::string adaptive_words(const Block& block) {
+  const auto num_levels = static_cast<int>(block.intensities.size());
+  if (block.procedure == "staircase") return staircase_words(block.settings);
+  if (block.procedure == "limits") {
+    return fmt::format("{} over {}",
+                       counted(block.settings.integer("num_series"), "series", "series"),
+                       counted(num_levels, "level", "levels"));
+  }
+  return fmt::format("QUEST+ over {}", counted(num_levels, "level", "levels"));
+}
+
+std::vector<std::string> adaptive_level_words(const Block& block, const std::string& unit) {
+  const std::vector<double> possible =
+      experiments::procedure_named(block.procedure).possible_intensities(block);
+  const auto [lowest, highest] = std::ranges::minmax(possible);
+  std::vector<std::string> lines = {
+      fmt::format("from {:g} to {:g}{}", lowest, highest, unit.empty() ? "" : " " + unit)};
+  if (block.procedure != "staircase") {
+    lines.push_back("levels " + list_of(block.intensities, unit));
+    return lines;
+  }
+  lines.push_back("starting at " + list_of(block.settings.numbers("start"), unit));
+  const bool is_ratio = block.settings.word("level_scale") == "logarithmic";
+  lines.push_back(is_ratio ? "steps by the factors " +
+                                 list_of(block.settings.numbers("step_ratio"), "")
+                           : "steps of " + list_of(block.settings.numbers("step"), unit));
+  return lines;
+}
+
+}  // namespace jnd::app

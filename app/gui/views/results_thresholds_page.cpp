@@ -1,0 +1,133 @@
+// Yes-no and same-different answers with their curves, and the levels of adaptive blocks.
+
+#include <algorithm>
+
+#include "app/gui/views/layout.h"
+#include "app/gui/views/results_parts.h"
+#include "app/gui/views/results_plots.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using namespace results;
+
+constexpr double kPercent = 100.0;
+
+const ThresholdFigure* figure_of(const Threshold& block, const std::string& who) {
+  if (who == kEveryone) return &block.pooled;
+  const auto found = std::ranges::find(block.participants, who, &ThresholdFigure::who);
+  return found == block.participants.end() ? nullptr : &*found;
+}
+
+void draw_threshold(Ui& ui, const Rect& place, const Threshold& block, const std::string& who) {
+  ui.card(place);
+  Rect inside = place.inset(kPadding);
+  const ThresholdFigure* const figure = figure_of(block, who);
+  if (figure == nullptr) {
+    return draw_notice(ui, inside, who + " has no answers in " + block.title + ".");
+  }
+  if (figure->value.empty()) {
+    const TextStyle amber{.colour = Colour::kAmber, .wrap = true};
+    const std::string words = "No value: " + figure->reason + ".";
+    const Rect why = inside.take_bottom(ui.text_height(inside.width, words, amber), 8);
+    (void)draw_plot(ui, inside, threshold_plot(block, *figure));
+    return ui.text(why, words, amber);
+  }
+  Rect line = inside.take_bottom(30, 4);
+  (void)draw_plot(ui, inside, threshold_plot(block, *figure));
+  const float width = ui.text_width(figure->value, Font::kLarge) + 2;
+  ui.text(line.take_left(width, 12), figure->value, {.font = Font::kLarge});
+  ui.text(line, figure->detail, {.font = Font::kSmall, .colour = Colour::kSoft});
+}
+
+void add_points(PlotModel& plot, const std::vector<Point>& points, PlotSeries look,
+                double y_unit) {
+  if (points.empty()) return;
+  for (const Point& point : points) {
+    look.x.push_back(point.x);
+    look.y.push_back(y_unit * point.y);
+  }
+  plot.series.push_back(std::move(look));
+}
+
+PlotModel answers_plot(const Threshold& block, const ThresholdFigure& figure) {
+  PlotModel plot{.title = block.title, .unit = "“" + block.answer + "” in percent"};
+  plot.x = {.label = "test " + block.quantity, .unit = block.unit, .logarithmic = true};
+  plot.y = {.minimum = 0.0, .maximum = kPercent};
+  for (const int percent : {0, 25, 50, 75, 100}) {
+    plot.y.ticks.push_back({static_cast<double>(percent), std::to_string(percent)});
+  }
+  plot.legend = false;
+  add_points(plot, figure.curve, {.style = PlotSeries::Style::kLine, .thickness = 2.5f},
+             kPercent);
+  PlotSeries points{.style = PlotSeries::Style::kPoints, .colour = Colour::kInk};
+  for (const Proportion& one : figure.points) {
+    points.x.push_back(one.intensity);
+    points.y.push_back(kPercent * one.ratio);
+    points.low.push_back(kPercent * one.low);
+    points.high.push_back(kPercent * one.high);
+    points.names.push_back(std::to_string(one.num_yes) + " of " +
+                           std::to_string(one.num_trials));
+  }
+  plot.series.push_back(std::move(points));
+  if (block.reference) plot.marks.push_back({.at = *block.reference});
+  if (figure.line) {
+    plot.marks.push_back({.at = *figure.line,
+                          .label = "threshold",
+                          .colour = Colour::kAmber,
+                          .dashed = false,
+                          .until = 0.5 * kPercent});
+  }
+  return plot;
+}
+
+PlotModel tracks_plot(const Threshold& block, const ThresholdFigure& figure) {
+  PlotModel plot{.title = block.title, .unit = block.unit};
+  plot.x = {.label = "trial"};
+  plot.y = {.unit = block.unit, .logarithmic = block.is_logarithmic};
+  plot.legend = false;
+  constexpr Colour kColours[] = {Colour::kBlue, Colour::kAmber, Colour::kGreen};
+  std::size_t number = 0;
+  for (const Track& track : figure.tracks) {
+    const Colour colour = kColours[number++ % std::size(kColours)];
+    add_points(plot, track.levels,
+               {.style = PlotSeries::Style::kLine, .colour = colour, .thickness = 1.5f}, 1.0);
+    add_points(plot, track.reversals, {.style = PlotSeries::Style::kPoints, .colour = colour},
+               1.0);
+  }
+  if (block.reference) plot.marks.push_back({.at = *block.reference, .vertical = false});
+  if (figure.line) {
+    plot.marks.push_back({.at = *figure.line,
+                          .vertical = false,
+                          .label = "threshold",
+                          .colour = Colour::kInk,
+                          .dashed = false});
+  }
+  return plot;
+}
+
+}  // namespace
+
+PlotModel threshold_plot(const Threshold& block, const ThresholdFigure& figure) {
+  return block.has_tracks ? tracks_plot(block, figure) : answers_plot(block, figure);
+}
+
+void draw_thresholds_page(Ui& ui, const Rect& place, const ResultsModel& results,
+                          ResultsViewState& state) {
+  constexpr float kLeastWidth = 340;
+  constexpr float kLeastHeight = 270;
+  const std::string who = shown_participant(results, state);
+  const auto count = static_cast<int>(results.thresholds.size());
+  const int most = std::max(1, static_cast<int>((place.width + kGap) / (kLeastWidth + kGap)));
+  const int columns = std::min(count, most);
+  const auto rows = static_cast<float>((count + columns - 1) / columns);
+  const float height = std::max(kLeastHeight, (place.height - kGap * (rows - 1)) / rows);
+  const Rect inside = ui.begin_scroll("thresholds", place, rows * (height + kGap) - kGap);
+  const std::vector<Rect> cards = grid_of(inside, count, columns, height);
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    draw_threshold(ui, cards[i], results.thresholds[i], who);
+  }
+  ui.end_scroll();
+}
+
+}  // namespace jnd::app::gui

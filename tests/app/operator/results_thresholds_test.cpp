@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include "analysis/hand_made_study.h"
+#include "app/operator/results_model.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace results;
+
+const char* const kProtocol = R"json({"name": "by_hand", "stages": [
+  {"kind": "block", "name": "felt", "task": "yes_no"}]})json";
+
+/// P01 felt 2, 5 and 8 of 10 at 0.1, 0.2 and 0.4 Pa s; P02 is degenerate.
+class ResultsThresholdsTest : public ::testing::Test {
+ protected:
+  ResultsThresholdsTest() : study_(kProtocol) {
+    const int felt[2][3] = {{2, 5, 8}, {0, 0, 10}};
+    for (int person = 0; person < 2; ++person) {
+      study_.add("P0" + std::to_string(person + 1));
+      for (int level = 0; level < 3; ++level) {
+        for (int i = 0; i < 10; ++i) {
+          (void)study_.answer({.block = "felt",
+                               .procedure = "staircase",
+                               .quantity = "viscosity_pa_s",
+                               .repetition = 1,
+                               .intensity = 0.1 * (1 << level),
+                               .response = i < felt[person][level] ? 1.0 : 0.0});
+        }
+      }
+    }
+    data_ = analysis::load_study(study_.store());
+    data_.runs.push_back({.participant = "P01",
+                          .block = "felt",
+                          .procedure = "staircase",
+                          .is_logarithmic = true,
+                          .rule = "1 up, 2 down; Levitt 1971",
+                          .target_probability = 0.70711,
+                          .tracks = {{.series = 1,
+                                      .points = {{1, 0.4, true}, {2, 0.2, false, true, true}},
+                                      .threshold = 0.25,
+                                      .num_reversals = 2}},
+                          .threshold = 0.25});
+    results_ = analysis::results_of(data_, {}, {.num_resamples = 50});
+  }
+  [[nodiscard]] ResultsSource source() const { return {data_, results_, {{"felt", "Felt"}}}; }
+
+  analysis::HandMadeStudy study_;
+  analysis::StudyData data_;
+  analysis::StudyResults results_;
+};
+
+TEST_F(ResultsThresholdsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
+  const std::vector<Threshold> figures = thresholds_of(source());
+  ASSERT_EQ(figures.size(), 2U) << "answers, and tracks";
+  const Threshold& answers = figures[0];
+  EXPECT_EQ(answers.title, "Felt");
+  EXPECT_EQ(answers.unit, "Pa s");
+  EXPECT_FALSE(answers.has_tracks);
+  ASSERT_EQ(answers.participants.size(), 2U);
+  const ThresholdFigure& own = answers.participants[0];
+  EXPECT_EQ(own.value, "0.2 Pa s");
+  EXPECT_NEAR(own.line.value(), 0.2, 1e-9);
+  EXPECT_FALSE(own.detail.empty());
+  ASSERT_EQ(own.points.size(), 3U);
+  EXPECT_NEAR(own.points[2].ratio, 0.8, 1e-12);
+  EXPECT_FALSE(own.curve.empty());
+  EXPECT_TRUE(answers.participants[1].curve.empty());
+  EXPECT_NE(answers.participants[1].reason, "");
+  EXPECT_EQ(answers.pooled.points[0].num_trials, 20);
+}
+
+TEST_F(ResultsThresholdsTest, TracksHaveTheirReversals) {
+  const Threshold& tracks = thresholds_of(source())[1];
+  EXPECT_TRUE(tracks.has_tracks);
+  ASSERT_EQ(tracks.participants.size(), 1U);
+  const ThresholdFigure& own = tracks.participants[0];
+  EXPECT_EQ(own.value, "0.25 Pa s");
+  ASSERT_EQ(own.tracks.size(), 1U);
+  EXPECT_EQ(own.tracks[0].levels.size(), 2U);
+  ASSERT_EQ(own.tracks[0].reversals.size(), 1U);
+  EXPECT_EQ(own.tracks[0].reversals[0].x, 2.0);
+  EXPECT_EQ(tracks.pooled.value, "0.25 Pa s");
+}
+
+TEST_F(ResultsThresholdsTest, TheTableHasAColumnOfThresholds) {
+  ResultsModel model;
+  add_table(source(), model);
+  EXPECT_EQ(model.columns.front().title, "Felt");
+  EXPECT_EQ(model.columns.front().unit, "Pa s");
+  EXPECT_NEAR(model.rows[0].values[0].value(), 0.2, 1e-9);
+  EXPECT_FALSE(model.rows[1].values[0].has_value());
+}
+
+}  // namespace
+}  // namespace jnd::app
