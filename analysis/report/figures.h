@@ -33,6 +33,11 @@ struct FigureSource {
 /// Weber fractions (D.21) and difference thresholds (D.22: absolute ones) of every block.
 [[nodiscard]] std::vector<Figure> weber_figures(const FigureSource& source);
 
+/// Answers of yes-no and same-different blocks with their curves.
+[[nodiscard]] std::vector<Figure> threshold_figures(const FigureSource& source);
+/// Levels of adaptive blocks over the trials, reversals marked.
+[[nodiscard]] std::vector<Figure> adaptive_figures(const FigureSource& source);
+
 /// Curves of estimation and production (fig. 4a and b, D.3, D.9, D.12, D.14), repetitions
 /// (D.8), boxes (D.1, D.2, D.10, D.11), ratios of productions (D.13).
 [[nodiscard]] std::vector<Figure> magnitude_figures(const FigureSource& source);

@@ -13,6 +13,9 @@ struct Work {
 };
 
 constexpr Work kWorks[] = {
+    {"Abbott 1925",
+     "Abbott, W. S. (1925). A method of computing the effectiveness of an insecticide. Journal "
+     "of Economic Entomology 18, 265-267."},
     {"Bergmann Tiest et al. 2013",
      "Bergmann Tiest, W. M., Vrijling, A. C. L., Kappers, A. M. L. (2013). Haptic "
      "discrimination "
@@ -24,6 +27,13 @@ constexpr Work kWorks[] = {
      "Fisher, R. A. (1921). On the “probable error” of a coefficient of correlation deduced "
      "from "
      "a small sample. Metron 1, 3-32."},
+    {"Gescheider 1997",
+     "Gescheider, G. A. (1997). Psychophysics: the fundamentals (3rd ed.). Erlbaum."},
+    {"Green and Swets 1966",
+     "Green, D. M., Swets, J. A. (1966). Signal detection theory and psychophysics. Wiley."},
+    {"Hautus 1995",
+     "Hautus, M. J. (1995). Corrections for extreme proportions and their biasing effects on "
+     "estimated values of d′. Behavior Research Methods, Instruments, & Computers 27, 46-51."},
     {"Hedges 1981",
      "Hedges, L. V. (1981). Distribution theory for Glass’s estimator of effect size and "
      "related "
@@ -39,6 +49,9 @@ constexpr Work kWorks[] = {
     {"Holm 1979",
      "Holm, S. (1979). A simple sequentially rejective multiple test procedure. Scandinavian "
      "Journal of Statistics 6, 65-70."},
+    {"Kaernbach 1991",
+     "Kaernbach, C. (1991). Simple adaptive testing with the weighted up-down method. "
+     "Perception & Psychophysics 49, 227-229."},
     {"Kerby 2014",
      "Kerby, D. S. (2014). The simple difference formula: an approach to teaching "
      "nonparametric "
@@ -48,6 +61,12 @@ constexpr Work kWorks[] = {
      "perceived loudness, and effects of sidetone. Journal of the Acoustical Society of "
      "America "
      "33, 160-167."},
+    {"Levitt 1971",
+     "Levitt, H. (1971). Transformed up-down methods in psychoacoustics. Journal of the "
+     "Acoustical Society of America 49, 467-477."},
+    {"Macmillan and Creelman 2005",
+     "Macmillan, N. A., Creelman, C. D. (2005). Detection theory: a user’s guide (2nd ed.). "
+     "Erlbaum."},
     {"Mann and Whitney 1947",
      "Mann, H. B., Whitney, D. R. (1947). On a test of whether one of two random variables is "
      "stochastically larger than the other. Annals of Mathematical Statistics 18, 50-60."},
@@ -63,6 +82,9 @@ constexpr Work kWorks[] = {
      "What if there were no significance tests? Erlbaum, 221-257."},
     {"Stevens 1957",
      "Stevens, S. S. (1957). On the psychophysical law. Psychological Review 64, 153-181."},
+    {"Watson 2017",
+     "Watson, A. B. (2017). QUEST+: a general multidimensional Bayesian adaptive psychometric "
+     "method. Journal of Vision 17(3), 10."},
     {"Welch 1947",
      "Welch, B. L. (1947). The generalization of “Student’s” problem when several different "
      "population variances are involved. Biometrika 34, 28-35."},

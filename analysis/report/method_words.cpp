@@ -5,6 +5,7 @@
 
 #include "analysis/presentation_use.h"
 #include "analysis/report/literature.h"
+#include "analysis/report/threshold_methods.h"
 
 namespace jnd::analysis {
 namespace {
@@ -26,6 +27,7 @@ class Writer {
 
   void write_analysis();
   void write_psychometric();
+  void write_thresholds();
   void write_hierarchical();
   void write_power_laws();
   void write_groups();
@@ -115,6 +117,12 @@ void Writer::write_psychometric() {
           "(" +
           cite("Wichmann and Hill 2001") +
           "). Error bars of single proportions are Wilson’s (" + cite("Wilson 1927") + ").");
+}
+
+void Writer::write_thresholds() {
+  add_threshold_methods(
+      source_.data, [this](const std::string& work) { return cite(work); },
+      [this](const std::string& topic, const std::string& text) { add(topic, text); });
 }
 
 void Writer::write_hierarchical() {
@@ -314,6 +322,7 @@ MethodWords method_words(const ReportSource& source) {
   Writer writer(source);
   writer.write_analysis();
   writer.write_psychometric();
+  writer.write_thresholds();
   writer.write_hierarchical();
   writer.write_power_laws();
   writer.write_groups();

@@ -101,6 +101,8 @@ std::vector<Figure> figures_of(const ReportSource& source) {
   add(magnitude_figures(from));
   add(combined_figures(from));
   add(discrimination_figures(from));
+  add(threshold_figures(from));
+  add(adaptive_figures(from));
   add(weber_figures(from));
   add(stroke_figures(from));
   add(explored_figures(from, source.movement));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include "analysis/report/report_words.h"
 
@@ -259,6 +261,15 @@ std::string published_statistic(const Estimate& estimate) {
 }
 
 std::string section_title(const StudyWords& words, const std::string& name) {
+  constexpr std::pair<std::string_view, const char*> kEndings[] = {
+      {"_staircase", ": staircases"},
+      {"_limits", ": method of limits"},
+      {"_quest_plus", ": QUEST+"},
+      {"_intervals", ": order of the intervals"}};
+  for (const auto& [ending, title] : kEndings) {
+    if (words.titles.contains(name) || !name.ends_with(ending)) continue;
+    return section_title(words, name.substr(0, name.size() - ending.size())) + title;
+  }
   const std::string between = "_against_";
   const std::size_t at = name.find(between);
   if (at != std::string::npos) {

@@ -1,0 +1,114 @@
+#include "analysis/report/threshold_methods.h"
+
+#include <algorithm>
+
+#include "analysis/threshold_results.h"
+
+namespace jnd::analysis {
+namespace {
+
+bool any(const StudyData& data, const std::function<bool(const BlockDesign&)>& holds) {
+  return std::ranges::any_of(data.blocks, holds);
+}
+
+bool has_catch_trials(const StudyData& data, const std::string& block) {
+  return std::ranges::any_of(data.participants, [&](const ParticipantData& one) {
+    return std::ranges::any_of(
+        one.catch_trials, [&](const core::TrialRow& trial) { return trial.block == block; });
+  });
+}
+
+}  // namespace
+
+void add_threshold_methods(
+    const StudyData& data, const std::function<std::string(const std::string&)>& cite,
+    const std::function<void(const std::string&, const std::string&)>& add) {
+  const auto has = [&](const std::string& procedure) {
+    return any(data, [&](const BlockDesign& block) { return block.procedure == procedure; });
+  };
+  if (any(data, &BlockDesign::detects)) {
+    std::string text =
+        "The test was presented alone and “is it felt?” was asked. P(yes) = Φ(ln(x / "
+        "threshold) "
+        "/ s) was fitted to each participant’s answers by maximum likelihood: the threshold is "
+        "felt in 50 %. Intervals are those of the likelihood ratio.";
+    if (any(data, [&](const BlockDesign& block) {
+          return block.detects() && has_catch_trials(data, block.block);
+        })) {
+      text +=
+          " Corrected thresholds are of P(yes) = g + (1 − g) Φ(ln(x / threshold) / s), g being "
+          "the rate of “yes” in catch trials, estimated with the others: false alarms count as "
+          "guesses that a stimulus does not prevent (" +
+          cite("Abbott 1925") +
+          "). Sensitivity d′ = z(H) − z(F) and criterion c = −(z(H) + z(F)) / 2 (" +
+          cite("Green and Swets 1966") +
+          ") take all stimuli of the block together; half an answer is added to every count "
+          "and one trial to every number (" +
+          cite("Hautus 1995") + ").";
+    }
+    add("Absolute thresholds", text);
+  }
+  if (any(data, &BlockDesign::tells_apart)) {
+    add("Same or different",
+        "P(different) = Φ((−k + d) / s) + Φ((−k − d) / s) with d = ln(x / reference), the "
+        "differencing model (" +
+            cite("Macmillan and Creelman 2005") +
+            "), by maximum likelihood; k is the criterion, and ln(1 + w) = s, so that w is the "
+            "Weber fraction of a comparison with the point of subjective equality at the "
+            "reference. Pairs that were the same take part with d = 0.");
+  }
+  if (has("staircase")) {
+    add("Staircases",
+        "The level fell after “yes” and rose after “no” by the rule given with each estimate "
+        "(transformed up-down, " +
+            cite("Levitt 1971") + "; weighted, " + cite("Kaernbach 1991") +
+            "). The threshold is the mean of the last reversals, an even number of them, in "
+            "the "
+            "scale of the steps; interleaved staircases are averaged. It estimates the level "
+            "answered “yes” with the probability p at which steps up and down balance. Where "
+            "there is a reference, w = (threshold / reference)^(1 / Φ⁻¹(p)) − 1, which takes "
+            "the point of subjective equality to be at the reference: the same definition of w "
+            "as that of the psychometric function.");
+  }
+  if (has("limits")) {
+    add("Method of limits",
+        "Levels rose or fell until the answer changed; a transition lies half way, in the "
+        "scale "
+        "of the levels, between the last level before and the first one after (" +
+            cite("Gescheider 1997") +
+            "). Thresholds are means of transitions. Rising less falling series: above 0 "
+            "people stay with their answer (habituation), below 0 they change it early "
+            "(expectation).");
+  }
+  if (has("quest_plus")) {
+    add("QUEST+",
+        "Each stimulus was the one whose answer was expected to tell the most (" +
+            cite("Watson 2017") +
+            "). Values are means of the posterior after the last answer, of ratios in ln, with "
+            "its central 95 %; the prior is even over a grid in ln, given in the study file.");
+  }
+  if (any(data, is_adaptive) && any(data, &BlockDesign::compares)) {
+    add("Raw answers of adaptive blocks",
+        "Psychometric functions are fitted to them as to constant stimuli; levels that follow "
+        "from answers make such fits slightly steep.");
+  }
+  if (any(data, [&](const BlockDesign& block) { return has_intervals(data, block); })) {
+    add("Order of the intervals",
+        "Interval bias: the share of answers that choose the second interval, both orders "
+        "weighed equally, less one half. Order effect: P(test chosen) = Φ(b₀ ln(x / reference) "
+        "+ b₁ + b₂ o), o = ±1/2 for the test second or first; the points of subjective "
+        "equality "
+        "of the orders lie −b₂ / b₀ apart in ln. Tests of both are t tests against 0.");
+  }
+  if (any(data, [](const BlockDesign& block) {
+        return block.detects() || block.tells_apart() || is_adaptive(block);
+      })) {
+    add("Thresholds of the group",
+        "Geometric means over participants with Student’s t intervals in ln, and the standard "
+        "deviation of ln between people; Weber fractions likewise in ln ln(1 + w). Who has no "
+        "value of their own is named, and where half an answer of either kind, spread evenly "
+        "over the levels, gives them one, everybody is shown besides.");
+  }
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/hand_made_study.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/report_results.h"
+#include "analysis/report/threshold_methods.h"
+
+namespace jnd::analysis {
+namespace {
+
+const char* const kProtocol = R"json({"name": "by_hand", "stages": [
+  {"kind": "block", "name": "felt", "task": "yes_no"}]})json";
+
+/// Two people who felt three levels, one of them nothing below the last; and their staircases.
+class ThresholdReportTest : public ::testing::Test {
+ protected:
+  ThresholdReportTest() : study_(kProtocol) {
+    const int felt[2][3] = {{2, 5, 8}, {0, 0, 10}};
+    for (int person = 0; person < 2; ++person) {
+      study_.add("P0" + std::to_string(person + 1));
+      for (int level = 0; level < 3; ++level) {
+        for (int i = 0; i < 10; ++i) {
+          (void)study_.answer({.block = "felt",
+                               .procedure = "staircase",
+                               .quantity = "viscosity_pa_s",
+                               .repetition = 1,
+                               .intensity = 0.1 * (1 << level),
+                               .response = i < felt[person][level] ? 1.0 : 0.0});
+        }
+      }
+    }
+    data_ = load_study(study_.store());
+    for (const char* name : {"P01", "P02"}) {
+      data_.runs.push_back(
+          {.participant = name,
+           .block = "felt",
+           .procedure = "staircase",
+           .is_logarithmic = true,
+           .rule = "1 up, 2 down; Levitt 1971",
+           .target_probability = 0.70711,
+           .tracks = {{.series = 1,
+                       .points = {{1, 0.4, true}, {2, 0.2, false, true, true}, {3, 0.4, true}},
+                       .threshold = 0.2,
+                       .num_reversals = 2}},
+           .threshold = 0.2});
+    }
+    results_ = results_of(data_, {}, {.num_resamples = 50});
+  }
+  [[nodiscard]] FigureSource source() const {
+    return {.data = data_, .results = results_, .words = words_};
+  }
+
+  HandMadeStudy study_;
+  StudyData data_;
+  StudyResults results_;
+  StudyWords words_;
+};
+
+TEST_F(ThresholdReportTest, DrawsEveryonesAnswersAndTheCurvesThatExist) {
+  const std::vector<Figure> figures = threshold_figures(source());
+  ASSERT_EQ(figures.size(), 1U);
+  const Figure& figure = figures.front();
+  EXPECT_EQ(figure.name, "felt_participants");
+  EXPECT_EQ(figure.section, "felt");
+  ASSERT_EQ(figure.tables.size(), 2U);
+  EXPECT_EQ(figure.tables[0].rows.size(), 6U);
+  EXPECT_NE(figure.plot.find("P01   0.200 Pa s"), std::string::npos) << figure.plot;
+  EXPECT_NE(figure.plot.find("P02   no fit"), std::string::npos);
+  for (const auto& row : figure.tables[1].rows) EXPECT_EQ(row[1].text, "P01");
+}
+
+TEST_F(ThresholdReportTest, DrawsStaircasesWithTheirReversals) {
+  const std::vector<Figure> figures = adaptive_figures(source());
+  ASSERT_EQ(figures.size(), 1U);
+  const Figure& figure = figures.front();
+  EXPECT_EQ(figure.name, "felt_tracks");
+  EXPECT_EQ(figure.section, "felt_staircase");
+  EXPECT_NE(figure.caption.find("1 up, 2 down"), std::string::npos);
+  const FigureTable& table = figure.tables.front();
+  ASSERT_EQ(table.rows.size(), 6U);
+  const std::size_t reversal = 6;
+  EXPECT_EQ(table.columns[reversal], "reversal");
+  EXPECT_FALSE(table.rows[0][reversal].number.has_value());
+  EXPECT_EQ(table.rows[1][reversal].number, 0.2);
+  EXPECT_EQ(table.rows[3][0].number, 2.0) << "a series a track, over all participants";
+}
+
+TEST_F(ThresholdReportTest, SectionsOfAProcedureAreTitledByIt) {
+  StudyWords words;
+  words.titles["felt"] = "Least viscosity";
+  EXPECT_EQ(section_title(words, "felt_staircase"), "Least viscosity: staircases");
+  EXPECT_EQ(section_title(words, "felt_intervals"), "Least viscosity: order of the intervals");
+  words.titles["felt_limits"] = "A block of its own";
+  EXPECT_EQ(section_title(words, "felt_limits"), "A block of its own");
+}
+
+TEST_F(ThresholdReportTest, MethodsTellWhatTheStudyHasAndNothingElse) {
+  std::string all;
+  add_threshold_methods(
+      data_, [](const std::string& work) { return work; },
+      [&](const std::string& topic, const std::string& text) { all += topic + text; });
+  for (const char* part :
+       {"felt in 50 %", "Levitt 1971", "Kaernbach 1991", "Geometric means"}) {
+    EXPECT_NE(all.find(part), std::string::npos) << part;
+  }
+  for (const char* part : {"Watson", "Gescheider", "differencing", "Hautus", "interval bias"}) {
+    EXPECT_EQ(all.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace jnd::analysis
