@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,7 @@ struct WindowRequest {
   std::optional<std::uint64_t> seed;
   bool pilot = false;
   bool allow_no_realtime = false;
+  std::map<std::string, std::string> fields;  ///< What the participant brings; may lack.
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;
 };

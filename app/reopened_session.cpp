@@ -9,7 +9,8 @@ ReopenedSession::ReopenedSession(core::StudyStore& store, const core::SessionRow
       study_(stored_study(store, row.session)),
       session_({.session = row.session,
                 .seed = row.seed,
-                .stages = stages_of_session(study_, row.cells)},
+                .stages = stages_of_session(study_, row.cells),
+                .cell = experiments::cell_from_text(study_, row.cells)},
                store.events(row.session), *this, clock_) {}
 
 }  // namespace jnd::app

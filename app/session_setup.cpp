@@ -109,9 +109,10 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
   const std::string hash = store.add_protocol(
       setup.study_file.filename().string(), setup.study.text,
       std::filesystem::relative(setup.study_file, store.folder(), error).generic_string());
-  const std::vector<experiments::Cell> cells = experiments::planned_cells(
-      setup.study, experiments::completed_cells(store), setup.seed,
-      static_cast<std::int64_t>(rows.size()), static_cast<int>(participants.size()));
+  const std::vector<experiments::Cell> cells =
+      experiments::planned_cells(setup.study, experiments::completed_cells(store), setup.seed,
+                                 static_cast<std::int64_t>(rows.size()),
+                                 static_cast<int>(participants.size()), setup.fields);
   std::vector<std::int64_t> sessions;
   for (std::size_t i = 0; i < participants.size(); ++i) {
     core::SessionRow row;

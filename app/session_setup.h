@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/storage/study_store.h"
+#include "experiments/order/cell.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
 
@@ -26,6 +27,8 @@ struct SessionSetup {
   bool pilot = false;
   bool realtime = false;
   bool record = true;  ///< Samples, besides the summaries of strokes.
+  /// What every participant of it brings; none: what each brings is drawn.
+  experiments::FieldValues fields{};
 };
 
 /// The shipped laboratory whose simulated hands fit the device: "thesis", or

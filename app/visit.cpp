@@ -39,6 +39,10 @@ std::int64_t last_time_ns(const std::vector<core::EventRow>& events) {
   return last == events.rend() ? 0 : last->time_ns;
 }
 
+Cell cell_of_session(const Visit::Parameters& visit) {
+  return cell_from_text(visit.study, visit.store.session(visit.session).cells);
+}
+
 std::vector<DurationBucket> buckets_of(const device::DurationSummary& durations) {
   std::vector<DurationBucket> buckets;
   for (const device::DurationSummary::Bucket& bucket : durations.buckets) {
@@ -69,8 +73,10 @@ Visit::Visit(const Parameters& parameters)
                      : Apparatus(apparatus_parameters())),
       session_({.session = parameters.session,
                 .seed = parameters.store.session(parameters.session).seed,
-                .stages = stages_of_session(
-                    parameters.study, parameters.store.session(parameters.session).cells)},
+                .stages = stages_of_session(parameters.study,
+                                            parameters.store.session(parameters.session).cells),
+                .cell = cell_of_session(parameters),
+                .fields = field_values(parameters.study, cell_of_session(parameters))},
                history_, log_, apparatus_.clock()) {}
 
 Apparatus::Parameters Visit::apparatus_parameters() const {

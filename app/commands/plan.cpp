@@ -14,6 +14,7 @@
 
 #include "app/block_words.h"
 #include "app/commands/commands.h"
+#include "app/field_options.h"
 #include "app/json_text.h"
 #include "app/operator/study_words.h"
 #include "app/option_checks.h"
@@ -35,6 +36,7 @@ struct Options {
   int participants = 13;
   std::uint64_t seed = 1;
   std::string device;
+  std::vector<std::string> fields;  ///< "sex=female"
   double speed_m_per_s = 0.5;
   bool json = false;
 };
@@ -70,6 +72,7 @@ Outcome outcome_of(const Options& options) {
   }
   if (options.folder.empty())
     request.participants = next_participants({}, options.participants);
+  request.fields = fields_or_none(outcome.study, options.fields);
   outcome.plans = experiments::plan_participants(outcome.study, request);
   outcome.completed = request.completed;
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
@@ -315,6 +318,8 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command->add_option("--seed", options->seed, "Of everything that is drawn")
       ->check(seed_number())
       ->capture_default_str();
+  add_field_option(*command, options->fields,
+                   "What all of them bring; default: drawn for each");
   command->add_option("--device", options->device, "Whose limits; see `jnd devices`")
       ->capture_default_str();
   command

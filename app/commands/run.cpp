@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/commands/commands.h"
+#include "app/field_options.h"
 #include "app/laboratory_run.h"
 #include "app/open_window.h"
 #include "app/option_checks.h"
@@ -36,6 +37,7 @@ struct Options {
   bool acknowledge = false;
   std::string choose = "repeat";
   std::optional<std::int64_t> session;
+  std::vector<std::string> fields;  ///< "sex=female"
 };
 
 /// Tells of commits, `EVENT SEQUENCE KIND`, until nobody listens any more.
@@ -128,8 +130,10 @@ int run(Options options) {
                         .device = options.device,
                         .seed = options.seed,
                         .pilot = options.pilot,
-                        .allow_no_realtime = options.allow_no_realtime});
+                        .allow_no_realtime = options.allow_no_realtime,
+                        .fields = fields_or_none(study, options.fields)});
   }
+  experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_starts(options.device, study.device.rate_hz);
   options.realtime |= has_own_clock(options.device);
@@ -145,7 +149,8 @@ int run(Options options) {
                     .device = options.device,
                     .seed = options.seed.value_or(std::random_device{}()),
                     .pilot = options.pilot,
-                    .realtime = options.realtime},
+                    .realtime = options.realtime,
+                    .fields = std::move(fields)},
                    {options.participant});
   return run_session(options, store, study, laboratory, sessions.front());
 }
@@ -226,6 +231,8 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--device", options->device, "See `jnd devices`")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the study; drawn if not given")
       ->check(seed_number());
+  add_field_option(*command, options->fields,
+                   "What the participant brings, as the study's participant_fields ask");
   command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/field_options.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/progress_bar.h"
@@ -24,6 +25,7 @@ struct Options {
   std::uint64_t seed = 1;
   int jobs = 2;
   std::string device = "lumped";
+  std::vector<std::string> fields;  ///< "sex=female"
   bool fast = false;
   bool json = false;
 };
@@ -34,6 +36,7 @@ int run(const Options& options) {
   require_device_keeps_pace(options.device, "--device " + options.device);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
+  experiments::FieldValues fields = fields_or_none(study, options.fields);
   require_device_starts(options.device, study.device.rate_hz);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
@@ -47,7 +50,8 @@ int run(const Options& options) {
                                                            .study_file = file,
                                                            .device = options.device,
                                                            .seed = options.seed,
-                                                           .record = !options.fast},
+                                                           .record = !options.fast,
+                                                           .fields = std::move(fields)},
                                                           participants);
   stop_on_signals();
   const auto start = std::chrono::steady_clock::now();
@@ -106,6 +110,8 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--device", options->device, "Simulated device")->capture_default_str();
+  add_field_option(*command, options->fields,
+                   "What all of them bring; default: drawn for each");
   command->add_flag("--fast", options->fast, "Keep summaries of strokes instead of samples");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(

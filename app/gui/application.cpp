@@ -387,13 +387,8 @@ void Application::show_prepare() {
     taken_.push_back(gone.participant);
   }
   seed_ = request_.seed ? *request_.seed : seed_of(store);
-  assigned_.clear();
-  if (!folder_->hides_levels) {
-    const std::vector<experiments::Cell> cells =
-        experiments::planned_cells(*study_, experiments::completed_cells(store), seed_,
-                                   static_cast<std::int64_t>(store.sessions().size()), 1);
-    assigned_ = cell_words(cells.front());
-  }
+  prepare_state_.fields = std::exchange(request_.fields, {});
+  assign(store);
   prepare_state_.participant = request_.participant.empty()
                                    ? next_participants(store, 1).front()
                                    : std::exchange(request_.participant, "");
@@ -408,6 +403,17 @@ void Application::show_prepare() {
   look_before();
 }
 
+void Application::assign(const core::StudyStore& store) {
+  assigned_.clear();
+  const bool knows_fields = field_problem(*study_, prepare_state_.fields).empty();
+  if (folder_->hides_levels || !knows_fields) return;
+  assigned_ =
+      cell_words(experiments::planned_cells(*study_, experiments::completed_cells(store), seed_,
+                                            static_cast<std::int64_t>(store.sessions().size()),
+                                            1, prepare_state_.fields)
+                     .front());
+}
+
 void Application::look_before() {
   preflight_ = std::make_unique<Preflight>(
       PreflightRequest{.folder = folder_->folder,
@@ -419,6 +425,7 @@ void Application::look_before() {
 void Application::draw_prepare(Ui& ui) {
   PrepareModel model{.study = *folder_,
                      .languages = study_->languages,
+                     .fields = study_->participant_fields,
                      .taken = taken_,
                      .assigned = assigned_,
                      .seed = seed_,
@@ -435,6 +442,10 @@ void Application::draw_prepare(Ui& ui) {
     if (preflight_ == nullptr && screen_ == Screen::kPrepare) look_before();
   } else if (result.look_again) {
     look_before();
+  } else if (result.fields_changed) {
+    attempt("The order cannot be assigned", [this] {
+      assign(core::StudyStore(folder_->folder, core::StudyStore::Mode::kReadOnly));
+    });
   } else if (result.tab != StudyTab::kNone) {
     preflight_.reset();
     go_to(result.tab);

@@ -102,6 +102,8 @@ class Application {
   void open(const std::filesystem::path& path);
   void open_folder(const std::filesystem::path& folder);
   void reload_folder();
+  /// Says in words which cell comes next, once what the participant brings is known.
+  void assign(const core::StudyStore& store);
   void look_before();
   void start_tour();
   void start_session(const std::string& participant, const std::string& device);

@@ -34,6 +34,7 @@ void Application::start_tour() {
   open_folder(folder);
   seed_ = static_cast<std::uint64_t>(core::SystemClock().now_ns());
   prepare_state_.language = study_->languages.front();
+  prepare_state_.fields.clear();
   start_session("P01", "mouse");
 }
 
@@ -49,7 +50,8 @@ void Application::start_session(const std::string& participant, const std::strin
                                              .device = device,
                                              .seed = seed_,
                                              .pilot = prepare_state_.pilot,
-                                             .realtime = true},
+                                             .realtime = true,
+                                             .fields = prepare_state_.fields},
                                             {participant})
                                    .front();
   run(std::move(store), session);

@@ -186,7 +186,7 @@ class Outliner {
     line.what = counted(questionnaire.items.size(), "question");
   }
   void describe(const Counterbalance& counterbalance, OutlineStage& line) const {
-    const bool order = counterbalance.method == Counterbalance::Method::kOrder;
+    const bool order = counterbalance.method != Counterbalance::Method::kOneOf;
     line.kind = order ? "Order" : "Choice";
     line.what = order ? counted(counterbalance.arms.size(), "arm") + ", their order balanced"
                       : "one of " + counted(counterbalance.arms.size(), "arm");

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -15,60 +13,61 @@ namespace {
 
 using Arms = std::vector<std::string>;
 
-/// Rows of a Williams square over 0 .. n-1: n of them for an even n, 2n for an odd one.
-std::vector<std::vector<std::size_t>> williams_rows(std::size_t n) {
-  // The first row runs 0, 1, n-1, 2, n-2 ...; each further row adds one to every place.
-  std::vector<std::size_t> first = {0};
-  for (std::size_t low = 1, high = n - 1; first.size() < n; ++low, --high) {
-    first.push_back(low);
-    if (first.size() < n) first.push_back(high);
-  }
-  std::vector<std::vector<std::size_t>> rows;
-  for (std::size_t shift = 0; shift < n; ++shift) {
-    std::vector<std::size_t> row;
-    for (const std::size_t place : first) row.push_back((place + shift) % n);
-    rows.push_back(row);
-  }
-  if (n % 2 == 1) {
-    for (std::size_t i = 0; i < n; ++i) {
-      rows.emplace_back(rows[i].rbegin(), rows[i].rend());
+/// How many completed sessions had what a participant with these values might get.
+class Filling {
+ public:
+  /// Of the whole cell; of its arms and orders, each by itself; of the cell whatever the
+  /// participant brought. The first counts most.
+  using Crowding = std::tuple<int, int, int>;
+
+  Filling(const Study& study, const std::vector<std::string>& completed,
+          const FieldValues& fields)
+      : factors_(factors_of(study)), alone_(factors_.size()) {
+    std::map<std::string, int> sessions;
+    for (const std::string& text : completed) ++sessions[text];
+    for (const Cell& cell : cells_of(study)) {
+      const auto found = sessions.find(to_string(cell));
+      if (found != sessions.end()) add(cell, found->second, field_values(study, cell), fields);
     }
   }
-  return rows;
-}
 
-std::vector<std::vector<std::size_t>> all_orders(std::size_t n) {
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<std::vector<std::size_t>> orders;
-  do {
-    orders.push_back(order);
-  } while (std::next_permutation(order.begin(), order.end()));
-  return orders;
-}
+  [[nodiscard]] Crowding of(const Cell& cell) const {
+    int alone = 0;
+    for (std::size_t i = 0; i < cell.size(); ++i) alone += times(alone_[i], cell[i].arms);
+    return {times(whole_, to_string(cell)), alone, times(assigned_, assigned(cell))};
+  }
 
-/// What a counterbalance can give, each as a list of arms.
-std::vector<Arms> alternatives(const Counterbalance& counterbalance) {
-  std::vector<Arms> found;
-  if (counterbalance.method == Counterbalance::Method::kOneOf) {
-    for (const Counterbalance::Arm& arm : counterbalance.arms) found.push_back({arm.name});
-    return found;
+ private:
+  template <typename Key>
+  static int times(const std::map<Key, int>& counts, const Key& key) {
+    const auto found = counts.find(key);
+    return found == counts.end() ? 0 : found->second;
   }
-  const std::size_t num_arms = counterbalance.arms.size();
-  for (const auto& order : num_arms <= 3 ? all_orders(num_arms) : williams_rows(num_arms)) {
-    Arms arms;
-    for (const std::size_t index : order) arms.push_back(counterbalance.arms[index].name);
-    found.push_back(std::move(arms));
+  /// The part of a cell that nobody brings.
+  [[nodiscard]] std::string assigned(const Cell& cell) const {
+    Cell part;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      if (!factors_[i].is_field) part.push_back(cell[i]);
+    }
+    return to_string(part);
   }
-  return found;
-}
+  void add(const Cell& cell, int num_sessions, const FieldValues& its,
+           const FieldValues& fields) {
+    whole_[to_string(cell)] += num_sessions;
+    assigned_[assigned(cell)] += num_sessions;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const std::string& stratum = factors_[i].stratify_by;
+      if (factors_[i].is_field || (!stratum.empty() && its.at(stratum) != fields.at(stratum))) {
+        continue;
+      }
+      alone_[i][cell[i].arms] += num_sessions;
+    }
+  }
 
-const Assignment* find_assignment(const Cell& cell, const std::string& counterbalance) {
-  for (const Assignment& assignment : cell) {
-    if (assignment.counterbalance == counterbalance) return &assignment;
-  }
-  return nullptr;
-}
+  std::vector<Factor> factors_;
+  std::map<std::string, int> whole_, assigned_;
+  std::vector<std::map<Arms, int>> alone_;  ///< Of each factor.
+};
 
 /// Builds a participant's list, so that the recursion does not carry four arguments along.
 class Flattening {
@@ -81,7 +80,7 @@ class Flattening {
       const std::string here = path + stage.name;
       const auto* counterbalance = std::get_if<Counterbalance>(&stage.content);
       if (counterbalance == nullptr) {
-        list.push_back({&stage, here});
+        list.push_back({&stage, here, order_row(cell_, stage.name)});
       } else {
         add_arms(*counterbalance, find_assignment(cell_, stage.name)->arms, here);
       }
@@ -114,63 +113,32 @@ class Flattening {
 
 }  // namespace
 
-std::string to_string(const Cell& cell) {
-  std::string text;
-  for (const Assignment& assignment : cell) {
-    if (!text.empty()) text += ';';
-    text += assignment.counterbalance + '=';
-    for (std::size_t i = 0; i < assignment.arms.size(); ++i) {
-      text += (i > 0 ? "," : "") + assignment.arms[i];
-    }
+FieldValues drawn_fields(const Study& study, std::uint64_t seed,
+                         std::int64_t participant_index) {
+  FieldValues values;
+  std::int64_t index = 0;
+  for (const ParticipantField& field : study.participant_fields) {
+    core::RandomStream stream(seed, "participant field", {participant_index, index++});
+    values[field.name] = field.options[stream.below(field.options.size())].value;
   }
-  return text;
-}
-
-std::vector<Cell> cells_of(const Study& study) {
-  std::vector<Cell> cells = {{}};
-  for (const Stage& stage : study.stages) {
-    const auto* counterbalance = std::get_if<Counterbalance>(&stage.content);
-    if (counterbalance == nullptr) continue;
-    std::vector<Cell> crossed;
-    for (const Cell& cell : cells) {
-      for (const Arms& arms : alternatives(*counterbalance)) {
-        crossed.push_back(cell);
-        crossed.back().push_back({stage.name, arms});
-      }
-    }
-    cells = std::move(crossed);
-  }
-  return cells;
-}
-
-Cell cell_from_text(const Study& study, const std::string& text) {
-  for (Cell& cell : cells_of(study)) {
-    if (to_string(cell) == text) return std::move(cell);
-  }
-  throw core::Error("cell: expected one of the study `" + study.name + "`, found `" + text +
-                    "`");
+  return values;
 }
 
 Cell least_filled_cell(const Study& study, const std::vector<std::string>& completed,
-                       std::uint64_t seed, std::int64_t participant_index) {
-  std::vector<Cell> cells = cells_of(study);
-  std::map<std::string, int> filled;  // Both whole cells and single assignments, by text.
-  for (const Cell& cell : cells) {
-    const auto times =
-        static_cast<int>(std::count(completed.begin(), completed.end(), to_string(cell)));
-    filled[to_string(cell)] = times;
-    if (cell.size() < 2) continue;
-    for (const Assignment& assignment : cell) filled[to_string(Cell{assignment})] += times;
+                       std::uint64_t seed, std::int64_t participant_index,
+                       const FieldValues& fields) {
+  if (const std::string problem = field_problem(study, fields); !problem.empty()) {
+    throw core::Error("participant fields: " + problem);
   }
-  const auto crowding = [&](const Cell& cell) {
-    int of_each_alone = 0;
-    for (const Assignment& assignment : cell) of_each_alone += filled[to_string({assignment})];
-    return std::pair(filled[to_string(cell)], of_each_alone);
-  };
+  const Filling filling(study, completed, fields);
   std::vector<Cell> best;
-  for (Cell& cell : cells) {
-    if (!best.empty() && crowding(cell) > crowding(best.front())) continue;
-    if (!best.empty() && crowding(cell) < crowding(best.front())) best.clear();
+  Filling::Crowding least;
+  for (Cell& cell : cells_of(study)) {
+    if (field_values(study, cell) != fields) continue;
+    const Filling::Crowding crowding = filling.of(cell);
+    if (!best.empty() && crowding > least) continue;
+    if (!best.empty() && crowding < least) best.clear();
+    least = crowding;
     best.push_back(std::move(cell));
   }
   core::RandomStream stream(seed, "cell", {participant_index});
@@ -179,17 +147,26 @@ Cell least_filled_cell(const Study& study, const std::vector<std::string>& compl
 
 std::vector<Cell> planned_cells(const Study& study, std::vector<std::string> completed,
                                 std::uint64_t seed, std::int64_t first_participant_index,
-                                int num_participants) {
+                                int num_participants, const FieldValues& fields) {
   std::vector<Cell> cells;
   for (int i = 0; i < num_participants; ++i) {
-    cells.push_back(least_filled_cell(study, completed, seed, first_participant_index + i));
+    const std::int64_t index = first_participant_index + i;
+    cells.push_back(
+        least_filled_cell(study, completed, seed, index,
+                          fields.empty() ? drawn_fields(study, seed, index) : fields));
     completed.push_back(to_string(cells.back()));
   }
   return cells;
 }
 
+Block block_of(const Stage& stage, std::size_t row) {
+  Block block = std::get<Block>(stage.content);
+  block.order.row = row;
+  return block;
+}
+
 std::vector<StageInstance> stages_of(const Study& study, const Cell& cell) {
-  static_cast<void>(cell_from_text(study, to_string(cell)));
+  require_cell(study, cell);
   Flattening flattening(cell);
   flattening.add(study.stages, "");
   return std::move(flattening.list);

@@ -216,16 +216,16 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
   std::vector<AnsweredBlock> blocks;
   std::int64_t trial = 0;  // Running number in the session.
   for (std::size_t index = 0; index < stages.size(); ++index) {
-    const auto* block = std::get_if<Block>(&stages[index].stage->content);
-    if (block == nullptr) continue;
-    BlockPlayer player(laboratory_, map_.get(), participant, session_seed, *block);
+    if (!std::holds_alternative<Block>(stages[index].stage->content)) continue;
+    const Block block = block_of(*stages[index].stage, stages[index].order_row);
+    BlockPlayer player(laboratory_, map_.get(), participant, session_seed, block);
     std::vector<AnsweredTrial> answered;
     while (true) {
       // The key of a session's draw.
       core::RandomStream stream(
           session_seed, "order",
           {static_cast<std::int64_t>(index), static_cast<std::int64_t>(answered.size())});
-      const std::vector<PlannedTrial> drawn = next_trials(*block, answered, stream);
+      const std::vector<PlannedTrial> drawn = next_trials(block, answered, stream);
       if (drawn.empty()) break;
       for (const PlannedTrial& planned : drawn) {
         answered.push_back({planned, player.respond(planned, ++trial, answered)});

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "experiments/study/stage_tables.h"
+
 namespace jnd::experiments {
 namespace {
 
@@ -146,6 +148,15 @@ BlockKey repetitions_key() {
                         .kind = ValueKind::kInteger,
                         .meaning = "How often every test stimulus is shown.",
                         .range = {1, 1000}}};
+}
+
+BlockKey order_key() {
+  return {.parameter = {.key = "order",
+                        .kind = ValueKind::kObject,
+                        .meaning = "In which order the stimuli come. Absent: each repetition "
+                                   "by itself in random order.",
+                        .required = false,
+                        .nested = &order_table()}};
 }
 
 std::vector<BlockKey> answer_label_keys() {

@@ -35,6 +35,8 @@ struct BlockKey {
 [[nodiscard]] std::vector<BlockKey> right_answer_keys();
 /// How often every test stimulus is shown.
 [[nodiscard]] BlockKey repetitions_key();
+/// In which order the test stimuli are shown.
+[[nodiscard]] BlockKey order_key();
 /// What the two answers are called.
 [[nodiscard]] std::vector<BlockKey> answer_label_keys();
 /// Steps of an adjustment and its end.

@@ -104,7 +104,8 @@ std::string ConstantStimuli::meaning() const {
 
 std::vector<BlockKey> ConstantStimuli::keys() const {
   std::vector<BlockKey> keys = {stimuli_key(),        task_key(),         reference_key(),
-                                interval_order_key(), catch_trials_key(), repetitions_key()};
+                                interval_order_key(), catch_trials_key(), repetitions_key(),
+                                order_key()};
   for (BlockKey& key : right_answer_keys()) keys.push_back(std::move(key));
   for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));
   return keys;
@@ -124,8 +125,8 @@ std::vector<PlannedTrial> ConstantStimuli::draw_next(const Block& block,
   if (!answered.empty()) return {};
   std::vector<PlannedTrial> trials = with_catch_trials(
       block,
-      shuffled_repetitions(block.intensities, block.repetitions, stream,
-                           [&](int, double intensity) { return test_trial(block, intensity); }),
+      ordered_repetitions(block, block.repetitions, stream,
+                          [&](int, double intensity) { return test_trial(block, intensity); }),
       stream);
   draw_test_intervals(block, trials, stream);
   return trials;

@@ -9,7 +9,7 @@ std::string MagnitudeEstimation::meaning() const {
 }
 
 std::vector<BlockKey> MagnitudeEstimation::keys() const {
-  return {stimuli_key(), repetitions_key()};
+  return {stimuli_key(), repetitions_key(), order_key()};
 }
 
 TrialForm MagnitudeEstimation::form(const Block&) const {
@@ -20,9 +20,9 @@ std::vector<PlannedTrial> MagnitudeEstimation::draw_next(
     const Block& block, const std::vector<AnsweredTrial>& answered,
     core::RandomStream& stream) const {
   if (!answered.empty()) return {};
-  return shuffled_repetitions(
-      block.intensities, block.repetitions, stream,
-      [](int, double intensity) { return PlannedTrial{.intensity = intensity}; });
+  return ordered_repetitions(block, block.repetitions, stream, [](int, double intensity) {
+    return PlannedTrial{.intensity = intensity};
+  });
 }
 
 int MagnitudeEstimation::expected_trials(const Block& block) const noexcept {

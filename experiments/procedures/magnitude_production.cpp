@@ -18,6 +18,7 @@ std::vector<BlockKey> MagnitudeProduction::keys() const {
                                 .unit = "%",
                                 .range = {0.0, 10000.0, true},
                                 .max_items = 100}});
+  keys.push_back(order_key());
   return keys;
 }
 
@@ -30,9 +31,8 @@ std::vector<PlannedTrial> MagnitudeProduction::draw_next(
     core::RandomStream& stream) const {
   if (!answered.empty()) return {};
   const int num_targets = static_cast<int>(block.target_percent.size());
-  return shuffled_repetitions(
-      block.intensities, num_targets * block.repetitions, stream,
-      [&](int repetition, double start) {
+  return ordered_repetitions(
+      block, num_targets * block.repetitions, stream, [&](int repetition, double start) {
         return PlannedTrial{
             .starting_intensity = start,
             .target_percent = block.target_percent[(repetition - 1) % num_targets]};

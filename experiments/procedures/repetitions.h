@@ -1,29 +1,31 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/random_stream.h"
+#include "experiments/order/stimulus_order.h"
 #include "experiments/procedures/procedure.h"
 
 namespace jnd::experiments {
 
-/// Every intensity once in each of `num_repetitions`, each repetition in its own random order;
-/// `make` turns (repetition from 1, intensity) into a trial, whose position is filled in here.
+/// Every stimulus of the block `num_repetitions` times, in the block's order; `make` turns
+/// (repetition from 1, intensity) into a trial, whose repetition and position are filled in
+/// here. Where repetitions are mixed, one is as many trials as there are stimuli.
 template <typename Make>
-[[nodiscard]] std::vector<PlannedTrial> shuffled_repetitions(
-    const std::vector<double>& intensities, int num_repetitions, core::RandomStream& stream,
-    Make make) {
+[[nodiscard]] std::vector<PlannedTrial> ordered_repetitions(const Block& block,
+                                                            int num_repetitions,
+                                                            core::RandomStream& stream,
+                                                            Make make) {
   std::vector<PlannedTrial> trials;
-  for (int repetition = 1; repetition <= num_repetitions; ++repetition) {
-    std::vector<double> order = intensities;
-    stream.shuffle(order);
-    int position = 0;
-    for (const double intensity : order) {
-      PlannedTrial trial = make(repetition, intensity);
-      trial.repetition = repetition;
-      trial.position = ++position;
-      trials.push_back(trial);
-    }
+  const std::size_t per_repetition = block.intensities.size();
+  for (const std::size_t stimulus :
+       stimulus_order(block.order, block.intensities, num_repetitions, stream)) {
+    const int repetition = static_cast<int>(trials.size() / per_repetition) + 1;
+    const int position = static_cast<int>(trials.size() % per_repetition) + 1;
+    trials.push_back(make(repetition, block.intensities[stimulus]));
+    trials.back().repetition = repetition;
+    trials.back().position = position;
   }
   return trials;
 }

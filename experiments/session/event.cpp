@@ -121,7 +121,8 @@ struct Writer {
   json& data;
 
   void operator()(const SessionStarted& e) const {
-    if (!e.language.empty()) data = {{"language", e.language}};
+    if (!e.language.empty()) data["language"] = e.language;
+    if (!e.fields.empty()) data["fields"] = e.fields;
   }
   void operator()(const StageEntered& e) const { row.stage = e.stage; }
   void operator()(const ItemAnswered& e) const {
@@ -239,6 +240,7 @@ struct Reader {
 
   void operator()(SessionStarted& e) const {
     if (data.contains("language")) e.language = data.at("language").get<std::string>();
+    if (data.contains("fields")) data.at("fields").get_to(e.fields);
   }
   void operator()(StageEntered& e) const { e.stage = column(row.stage, "stage"); }
   void operator()(ItemAnswered& e) const {

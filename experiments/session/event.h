@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,6 +18,8 @@ namespace jnd::experiments {
 struct SessionStarted {
   /// Of the texts that the participant gets: "de". "": of a simulated one, or unknown.
   std::string language;
+  /// What the participant brought: name of a field to its value.
+  std::map<std::string, std::string> fields{};
 };
 
 struct StageEntered {

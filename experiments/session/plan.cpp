@@ -153,7 +153,7 @@ double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
 std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanRequest& request) {
   std::vector<Cell> cells =
       planned_cells(study, request.completed, request.seed, request.num_earlier_sessions,
-                    static_cast<int>(request.participants.size()));
+                    static_cast<int>(request.participants.size()), request.fields);
   std::vector<ParticipantPlan> plans;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     ParticipantPlan plan;
@@ -170,7 +170,8 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
       // The key of the draw that a session makes on entering a block: 0 trials answered.
       core::RandomStream stream(seed, "order", {stage_index, 0});
       plan.blocks.push_back(
-          {&stage, stage_index, expected_trials(*block), next_trials(*block, {}, stream)});
+          {&stage, stage_index, expected_trials(*block),
+           next_trials(block_of(stage, plan.stages[index].order_row), {}, stream)});
     }
     plans.push_back(std::move(plan));
   }

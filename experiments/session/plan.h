@@ -46,6 +46,7 @@ struct PlanRequest {
   std::uint64_t seed = 0;                 ///< Of the study.
   std::int64_t num_earlier_sessions = 0;  ///< In the study folder, completed or not.
   std::vector<std::string> completed;     ///< Cells of those completed.
+  FieldValues fields{};  ///< What all of them bring; none: drawn, as simulated ones do.
 };
 
 /// Cells and orders exactly as the sessions will draw them, if they come in this sequence and

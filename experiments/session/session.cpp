@@ -65,7 +65,15 @@ TrialForm Session::current_form() const {
 
 void Session::start(const std::string& language) {
   if (state_.started) cannot("start", "a session that has not begun");
-  commit(SessionStarted{language});
+  core::Commit rows;
+  for (const auto& [field, value] : parameters_.fields) {
+    rows.answers.push_back({.session = parameters_.session,
+                            .sequence = state_.last_sequence + 1,
+                            .stage = "participant",
+                            .item = field,
+                            .answer = value});
+  }
+  commit(SessionStarted{language, parameters_.fields}, std::move(rows));
 }
 
 void Session::enter_stage() {
@@ -77,7 +85,7 @@ void Session::enter_stage() {
 
 void Session::draw_trials() {
   const Stage& stage = *current_stage();
-  const Block& block = current_block();
+  const Block block = block_of(stage, order_row(parameters_.cell, stage.name));
   const std::vector<AnsweredTrial> answered = state_.answered_in(state_.stage);
   core::RandomStream stream(parameters_.seed, "order",
                             {state_.stage, static_cast<std::int64_t>(answered.size())});

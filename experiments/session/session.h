@@ -6,6 +6,7 @@
 
 #include "core/clock.h"
 #include "core/storage/study_store.h"
+#include "experiments/order/counterbalance.h"
 #include "experiments/procedures/procedure.h"
 #include "experiments/session/session_state.h"
 #include "experiments/study/study.h"
@@ -37,6 +38,8 @@ class Session {
     std::int64_t session = 0;
     std::uint64_t seed = 0;
     std::vector<const Stage*> stages;  ///< The participant's own, counterbalance resolved.
+    Cell cell{};                       ///< The participant's, for the squares of blocks.
+    FieldValues fields{};              ///< What the participant brought; kept with the start.
   };
 
   /// Replays `history`; empty for a new session. The references must outlive the session.

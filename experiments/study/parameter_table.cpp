@@ -204,6 +204,14 @@ const ParameterTable& study_table() {
            .required = false,
            .default_json = R"("none")",
            .allowed = {"none", "participant", "double"}},
+          {.key = "participant_fields",
+           .kind = ValueKind::kObjects,
+           .meaning =
+               "What counterbalances are stratified by; each is the `stratify_by` of one "
+               "or more.",
+           .required = false,
+           .max_items = 10,
+           .nested = &participant_field_table()},
           {.key = "stages",
            .kind = ValueKind::kStages,
            .meaning = "What happens in a session, in order."},
@@ -221,7 +229,8 @@ const ParameterTable* stage_table(std::string_view kind) noexcept {
 const std::vector<const ParameterTable*>& all_tables() {
   static const std::vector<const ParameterTable*> kAll = [] {
     std::vector<const ParameterTable*> tables = {&study_table(), &device_table(),
-                                                 &immersion_table(), &force_map_row_table()};
+                                                 &immersion_table(), &force_map_row_table(),
+                                                 &participant_field_table()};
     for (const ParameterTable* stage : stage_tables()) {
       tables.push_back(stage);
       for (const Parameter& parameter : stage->parameters) {

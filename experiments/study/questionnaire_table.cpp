@@ -3,19 +3,6 @@
 namespace jnd::experiments {
 namespace {
 
-const ParameterTable& option_table() {
-  static const ParameterTable kTable = {
-      .name = "option",
-      .meaning = "One answer to choose from.",
-      .parameters = {{.key = "value",
-                      .kind = ValueKind::kName,
-                      .meaning = "What is stored, whatever the language shown."},
-                     {.key = "label",
-                      .kind = ValueKind::kText,
-                      .meaning = "What the participant reads."}}};
-  return kTable;
-}
-
 const ParameterTable& questionnaire_item_table() {
   static const std::vector<Condition> kOnlyScale = {{"kind", {"scale"}}};
   static const std::vector<Condition> kOnlyNumber = {{"kind", {"number"}}};

@@ -44,16 +44,20 @@ To begin from a study that is shipped: `jnd new my_study --from short_tour`.
 
 ## Who gets what
 
-Stages run from the first to the last. Two things differ between participants:
+Stages run from the first to the last. What differs between participants:
 
 - A stage `counterbalance` holds `arms`, each with stages of its own. With `"method": "order"` everybody runs all arms, in
   different orders; with `"method": "one_of"` everybody runs one of them. Several counterbalances are crossed. Each new
   participant gets the combination (the cell) with the fewest completed sessions. One counterbalance cannot stand in
   another.
+- `"stratify_by": "handedness"` in a counterbalance balances it among the left-handed and among the right-handed, each by
+  themselves. `participant_fields` says what has to be known for that before a session: the window asks for it, `jnd run`
+  takes `--field handedness=left`. What a questionnaire asks comes too late for that.
 - Any other stage may have `"only_for": {"priming": "primed"}`: it runs only for those who are in the arm `primed` of the
   `one_of` counterbalance `priming`, wherever that one stands.
 
-The order of the stimuli within a block is drawn anew for every participant.
+The order of the stimuli within a block is drawn anew for every participant; the key `order` of a block says what it must
+keep to. Where it asks for a square, the rows of the square are one more thing that cells consist of.
 
 ## How to read the tables
 

@@ -31,6 +31,15 @@ namespace jnd::experiments {
   return found == nullptr ? otherwise : found->get<double>();
 }
 
+/// A number within the range of its table; `otherwise` where it is not.
+[[nodiscard]] inline double sound_number(const ParameterTable& table,
+                                         const nlohmann::json& object, const std::string& key,
+                                         double otherwise) {
+  const Parameter* parameter = table.find(key);
+  const double value = number_or(object, key, otherwise);
+  return parameter != nullptr && parameter->range.contains(value) ? value : otherwise;
+}
+
 /// The list at `key`, or an empty one.
 [[nodiscard]] inline const nlohmann::json& list(const nlohmann::json& object,
                                                 const std::string& key) {

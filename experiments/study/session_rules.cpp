@@ -22,15 +22,6 @@ struct Surroundings {
   std::set<std::string> arms;  ///< All of the counterbalance.
 };
 
-/// A number that is what its table asks for; `otherwise` where it is not, which
-/// `StructureCheck` has told already.
-double sound_number(const ParameterTable& table, const json& object, const std::string& key,
-                    double otherwise) {
-  const Parameter* parameter = table.find(key);
-  const double value = number_or(object, key, otherwise);
-  return parameter != nullptr && parameter->range.contains(value) ? value : otherwise;
-}
-
 /// Longest durations of a part of the study, in seconds.
 struct Duration {
   double for_everyone_s = 0.0;

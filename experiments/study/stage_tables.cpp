@@ -100,8 +100,17 @@ const ParameterTable& counterbalance_table() {
             .kind = ValueKind::kString,
             .meaning =
                 "`order`: everyone gets every arm, the order differs (every order of 2 "
-                "or 3 arms, a Williams square of more). `one_of`: everyone gets one arm.",
-            .allowed = {"order", "one_of"}},
+                "or 3 arms, a Williams square of more). `latin`: the same with as many orders "
+                "as arms, the rows of a cyclic Latin square: every arm stands equally often "
+                "in every place, but the same arms follow each other. `one_of`: everyone gets "
+                "one arm.",
+            .allowed = {"order", "latin", "one_of"}},
+           {.key = "stratify_by",
+            .kind = ValueKind::kString,
+            .meaning = "The name of one of the study's `participant_fields`: the alternatives "
+                       "are given equally often to the participants of each of its values. "
+                       "Absent: to all participants together.",
+            .required = false},
            {.key = "arms",
             .kind = ValueKind::kObjects,
             .meaning = "The alternatives.",
@@ -113,7 +122,7 @@ const ParameterTable& counterbalance_table() {
             .meaning = "What happens between two arms, for example a break.",
             .required = false,
             .min_items = 0,
-            .only_where = {{"method", {"order"}}}}})};
+            .only_where = {{"method", {"order", "latin"}}}}})};
   return kTable;
 }
 

@@ -18,5 +18,11 @@ namespace jnd::experiments {
 
 [[nodiscard]] const ParameterTable& block_table();
 [[nodiscard]] const ParameterTable& questionnaire_table();
+/// One answer to choose from.
+[[nodiscard]] const ParameterTable& option_table();
+/// What a participant brings.
+[[nodiscard]] const ParameterTable& participant_field_table();
+/// In which order the stimuli of a block come.
+[[nodiscard]] const ParameterTable& order_table();
 
 }  // namespace jnd::experiments

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -64,6 +65,21 @@ struct Practice {
   int max_trials = 0;              ///< The block ends after so many in any case.
 };
 
+/// In which order the stimuli of a block come. Each repetition shows every one of them once.
+struct StimulusOrder {
+  enum class Method {
+    kShuffled,  ///< Each repetition by itself in random order.
+    kMixed,     ///< All repetitions together in random order.
+    kLatin,     ///< Rows of a cyclic Latin square, over participants and repetitions.
+    kWilliams,  ///< Rows of a Williams square, likewise.
+  };
+  Method method = Method::kShuffled;
+  std::optional<int> max_in_a_row;  ///< Trials of one stimulus, >= 1. Not of squares.
+  int min_distance = 1;           ///< From a stimulus to its next trial, >= 1. Not of squares.
+  std::vector<double> not_first;  ///< Stimuli that do not open the block. Not of squares.
+  std::size_t row = 0;            ///< Of the square, for the first repetition; see `block_of`.
+};
+
 /// One procedure over one varied quantity: the part of a study that gives data.
 struct Block {
   std::string
@@ -78,7 +94,8 @@ struct Block {
   std::vector<double> intensities;  ///< Test stimuli, or starting values in production.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::vector<double> target_percent;         ///< Production: one repetition a target.
-  int repetitions = 1;  ///< Each shows every intensity once, in random order; 1 in production.
+  int repetitions = 1;  ///< Each shows every intensity once; 1 in production.
+  StimulusOrder order;
   double coarse_step = 0.0;             ///< Production, unit of the quantity, > fine_step.
   double fine_step = 0.0;               ///< Production, > 0.
   std::optional<double> max_intensity;  ///< Production: no step goes beyond; none by default.
@@ -133,17 +150,18 @@ struct Questionnaire {
 
 struct Stage;
 
-/// Alternatives between participants. `order`: every arm is run, the order of the arms is a
-/// cell. `one_of`: each participant gets one arm.
+/// Alternatives between participants. `order` and `latin`: every arm is run, the order of the
+/// arms is a cell. `one_of`: each participant gets one arm.
 struct Counterbalance {
   struct Arm {
     std::string name;
     std::vector<Stage> stages;
   };
-  enum class Method { kOrder, kOneOf };
+  enum class Method { kOrder, kLatin, kOneOf };
   Method method = Method::kOrder;
   std::vector<Arm> arms;
   std::vector<Stage> between;  ///< Run between two arms of an order, for example a break.
+  std::string stratify_by;     ///< Field within whose values it is balanced; "": over all.
 };
 
 struct Stage {
@@ -171,6 +189,13 @@ struct DeviceNeeds {
   std::vector<core::ForceMap::Row> force_map;  ///< Empty: none, the thesis's fit.
 };
 
+/// What is known of a participant before the session, for counterbalances to be stratified by.
+struct ParticipantField {
+  std::string name;
+  Text question;
+  std::vector<Option> options;
+};
+
 /// A study file, checked and with every default filled in.
 struct Study {
   int format = 1;
@@ -182,6 +207,7 @@ struct Study {
   std::string citation;  ///< Of the study it follows; may be empty.
   DeviceNeeds device;
   Blinding blinding = Blinding::kNone;
+  std::vector<ParticipantField> participant_fields;
   std::vector<Stage> stages;
   std::string text;  ///< The file word for word; its SHA-256 identifies the study.
 };

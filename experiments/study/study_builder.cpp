@@ -146,6 +146,20 @@ Practice practice(const ObjectReader& in) {
           .max_trials = in.integer("max_trials")};
 }
 
+StimulusOrder stimulus_order(const ObjectReader& in) {
+  using Method = StimulusOrder::Method;
+  const std::string method = in.string("method");
+  StimulusOrder order;
+  order.method = method == "mixed"      ? Method::kMixed
+                 : method == "latin"    ? Method::kLatin
+                 : method == "williams" ? Method::kWilliams
+                                        : Method::kShuffled;
+  if (in.has("max_in_a_row")) order.max_in_a_row = in.integer("max_in_a_row");
+  order.min_distance = in.integer("min_distance");
+  if (in.has("not_first")) order.not_first = in.numbers("not_first");
+  return order;
+}
+
 Block block(const ObjectReader& in) {
   Block block;
   block.procedure = in.string("procedure");
@@ -166,6 +180,7 @@ Block block(const ObjectReader& in) {
   block.intensities = block.settings.numbers("");
   block.free_space_between_s = in.number("free_space_between_s");
   block.expected_trial_s = in.number("expected_trial_s");
+  if (in.has("order")) block.order = stimulus_order(in.object("order"));
   if (in.has("repetitions")) block.repetitions = in.integer("repetitions");
   if (in.has("target_percent")) {
     block.target_percent = in.numbers("target_percent");
@@ -192,6 +207,14 @@ PostExperiment post_experiment(const ObjectReader& in) {
   return stage;
 }
 
+std::vector<Option> options(const ObjectReader& in) {
+  std::vector<Option> found;
+  in.each_object("options", [&](const ObjectReader& option, std::size_t) {
+    found.push_back({.value = option.string("value"), .label = option.text("label")});
+  });
+  return found;
+}
+
 Questionnaire questionnaire(const ObjectReader& in) {
   Questionnaire stage = {.instruction = in.text("instruction"), .items = {}};
   in.each_object("items", [&](const ObjectReader& item, std::size_t) {
@@ -203,9 +226,7 @@ Questionnaire questionnaire(const ObjectReader& in) {
     read.unit = item.string("unit");
     read.minimum = item.optional_number("minimum");
     read.maximum = item.optional_number("maximum");
-    item.each_object("options", [&](const ObjectReader& option, std::size_t) {
-      read.options.push_back({.value = option.string("value"), .label = option.text("label")});
-    });
+    read.options = options(item);
     read.num_steps = item.integer("num_steps");
     read.low_label = item.text("low_label");
     read.high_label = item.text("high_label");
@@ -255,8 +276,12 @@ class StageBuilder {
   [[nodiscard]] Counterbalance counterbalance(const ObjectReader& in,
                                               const std::string& pointer) const {
     Counterbalance content;
-    content.method = in.string("method") == "order" ? Counterbalance::Method::kOrder
-                                                    : Counterbalance::Method::kOneOf;
+    using Method = Counterbalance::Method;
+    const std::string method = in.string("method");
+    content.method = method == "order"   ? Method::kOrder
+                     : method == "latin" ? Method::kLatin
+                                         : Method::kOneOf;
+    content.stratify_by = in.string("stratify_by");
     in.each_object("arms", [&](const ObjectReader& arm, std::size_t index) {
       const std::string at = pointer + "/arms/" + std::to_string(index) + "/stages";
       content.arms.push_back({arm.string("name"), stages(arm.list("stages"), at)});
@@ -312,6 +337,11 @@ Study build_study(const LocatedJson& file, std::string text) {
   study.blinding = blinding == "double"        ? Blinding::kDouble
                    : blinding == "participant" ? Blinding::kParticipant
                                                : Blinding::kNone;
+  in.each_object("participant_fields", [&](const ObjectReader& field, std::size_t) {
+    study.participant_fields.push_back({.name = field.string("name"),
+                                        .question = field.text("question"),
+                                        .options = options(field)});
+  });
   study.stages = StageBuilder(file).stages(in.list("stages"), "/stages");
   study.text = std::move(text);
   return study;

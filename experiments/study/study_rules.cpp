@@ -8,7 +8,9 @@
 
 #include "core/error.h"
 #include "core/media/force_map.h"
+#include "experiments/study/field_rules.h"
 #include "experiments/study/label_rules.h"
+#include "experiments/study/order_rules.h"
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/rule_values.h"
 #include "experiments/study/session_rules.h"
@@ -57,6 +59,10 @@ class Rules {
   }
 
   void collect_arms(const json& stages) {
+    for (const json& field : list(file_.root(), "participant_fields")) {
+      if (!field.is_object()) continue;
+      num_cells_ *= std::max(1.0, static_cast<double>(list(field, "options").size()));
+    }
     for (const json& stage : stages) {
       if (!stage.is_object() || word(stage, "kind") != "counterbalance") continue;
       if (word(stage, "method") == "one_of") {
@@ -77,7 +83,7 @@ class Rules {
   void check_num_cells() {
     constexpr double kMostCells = 10000.0;
     if (num_cells_ > kMostCells) {
-      report("/stages", "expected counterbalances that cross to at most " +
+      report("/stages", "expected fields, counterbalances and squares that cross to at most " +
                             plain_number(kMostCells) + " cells, found " +
                             plain_number(num_cells_));
     }
@@ -171,10 +177,11 @@ class Rules {
       const std::string arm = pointer + "/arms/" + std::to_string(i);
       check_unique(arm_names, word(arms[i], "name"), arm + "/name");
       const json& stages = list(arms[i], "stages");
-      if (word(stage, "method") == "order" && arms[i].contains("stages") && stages.empty() &&
-          arms[i]["stages"].is_array()) {
-        report(arm + "/stages",
-               "expected one or more stages, as `method` is `order`, found an empty list");
+      const std::string method = word(stage, "method");
+      if ((method == "order" || method == "latin") && arms[i].contains("stages") &&
+          stages.empty() && arms[i]["stages"].is_array()) {
+        report(arm + "/stages", "expected one or more stages, as `method` is `" + method +
+                                    "`, found an empty list");
       }
       check_stages(stages, arm + "/stages", true);
     }
@@ -258,9 +265,18 @@ class Rules {
         (static_cast<double>(values.size()) + num_catch_trials(block, values.size())) *
         (repetitions == nullptr ? 1.0 : std::max(1.0, repetitions->get<double>())) *
         std::max(1.0, static_cast<double>(list(block, "target_percent").size()));
+    num_cells_ *= num_rows(word(object_at(block, "order"), "method"), values.size());
     if (seen.empty()) return;
     if (procedure == "constant_stimuli") check_reference(block, at, quantity, seen);
     if (procedure == "magnitude_production") check_steps(block, at, quantity, seen);
+  }
+
+  /// Of the square that participants are given the rows of; 1 without one.
+  static double num_rows(const std::string& method, std::size_t num_stimuli) {
+    const double n = std::max(1.0, static_cast<double>(num_stimuli));
+    if (method == "latin") return n;
+    if (method == "williams") return num_stimuli % 2 == 1 && num_stimuli > 1 ? 2.0 * n : n;
+    return 1.0;
   }
 
   void check_reference(const json& block, const std::string& at, const std::string& quantity,
@@ -310,6 +326,8 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_session_rules(file, problems);
   check_label_rules(file, problems);
   check_task_rules(file, problems);
+  check_order_rules(file, problems);
+  check_field_rules(file, problems);
 }
 
 }  // namespace jnd::experiments

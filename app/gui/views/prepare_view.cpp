@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "app/gui/views/layout.h"
+#include "app/operator/study_words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -30,6 +31,11 @@ std::string participant_problem(const PrepareModel& model, const std::string& pa
 std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
   std::string participant = participant_problem(model, state.participant);
   if (!participant.empty()) return participant;
+  for (const experiments::ParticipantField& field : model.fields) {
+    if (!state.fields.contains(field.name)) {
+      return "Choose first: " + in_language(field.question, model.languages.front());
+    }
+  }
   std::string failed;
   for (const PreflightLine& line : model.lines) {
     if (line.status == Status::kFailed) failed += (failed.empty() ? "" : ", ") + line.name;
@@ -50,6 +56,8 @@ void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareVi
   std::string words = problem;
   if (problem.empty()) {
     words = model.study.hides_levels ? "Order assigned, but hidden."
+            : state.fields.size() < model.fields.size()
+                ? "The order depends on the answers below."
             : model.assigned.empty() ? "The same order for everyone."
                                      : "Order: " + model.assigned + ".";
   }
@@ -117,6 +125,42 @@ void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareView
     if (ui.button("language_" + model.languages[i], line.take_left(width, 10),
                   model.languages[i], style)) {
       state.language = model.languages[i];
+    }
+  }
+}
+
+/// What has to be known of the participant: a line of answers to each question. The key goes to
+/// the next answer of the first question that has none.
+void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
+                 PrepareViewResult& result) {
+  const std::string& language = model.languages.front();
+  const auto open =
+      std::find_if(model.fields.begin(), model.fields.end(),
+                   [&](const auto& one) { return !state.fields.contains(one.name); });
+  for (std::size_t i = 0; i < model.fields.size(); ++i) {
+    const experiments::ParticipantField& field = model.fields[i];
+    ui.heading(inside.take_top(18, 6), in_language(field.question, language));
+    Rect line = inside.take_top(42, 20);
+    const bool has_key =
+        open == model.fields.end() ? i + 1 == model.fields.size() : field.name == open->name;
+    const auto chosen =
+        std::find_if(field.options.begin(), field.options.end(), [&](const auto& option) {
+          const auto value = state.fields.find(field.name);
+          return value != state.fields.end() && value->second == option.value;
+        });
+    const bool is_chosen = chosen != field.options.end();
+    const auto next =
+        is_chosen && chosen + 1 != field.options.end() ? chosen + 1 : field.options.begin();
+    for (auto option = field.options.begin(); option != field.options.end(); ++option) {
+      const ButtonStyle style{.key = has_key && option == next ? Chord{letter('F')} : Chord{},
+                              .selected = option == chosen};
+      const std::string& label = in_language(option->label, language);
+      const float width = std::max(90.0f, ui.button_width(label, style));
+      if (ui.button("field_" + field.name + '_' + option->value, line.take_left(width, 10),
+                    label, style)) {
+        state.fields[field.name] = option->value;
+        result.fields_changed = true;
+      }
     }
   }
 }
@@ -203,6 +247,7 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   Rect both = inside.take_top(70, 12);
   draw_seed(ui, both.take_right(std::min(300.0f, both.width / 2), 16), model);
   draw_languages(ui, both, model, state);
+  draw_fields(ui, inside, model, state, result);
   draw_devices(ui, inside, model, state, result);
   state.session_height = inside.y - top;
   ui.end_scroll();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "app/gui/views/study_tabs.h"
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
+#include "experiments/study/study.h"
 
 namespace jnd::app::gui {
 
@@ -21,6 +23,8 @@ struct PrepareModel {
   };
   std::vector<Device> devices;
   std::vector<std::string> languages;  ///< Of the study.
+  /// Of the study: what has to be known of the participant.
+  std::vector<experiments::ParticipantField> fields;
   /// Who is taken, sessions and withdrawals alike, and so cannot take part again.
   std::vector<std::string> taken;
   std::string assigned;  ///< The cell that comes next, in words; "" for one cell or hidden.
@@ -35,6 +39,7 @@ struct PrepareViewState {
   bool pilot = false;
   std::string device;
   std::string language;
+  std::map<std::string, std::string> fields;  ///< Chosen so far: name to value.
   float lines_height = 0, session_height = 0;
 };
 
@@ -42,6 +47,7 @@ struct PrepareViewResult {
   StudyTab tab = StudyTab::kNone;
   bool start = false;       ///< With what the state holds.
   bool look_again = false;  ///< Also after the device was changed.
+  bool fields_changed = false;
 };
 
 [[nodiscard]] PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -44,6 +45,7 @@ Study study_of(std::vector<Stage> stages) {
 }
 
 constexpr auto kOrder = Counterbalance::Method::kOrder;
+constexpr auto kLatin = Counterbalance::Method::kLatin;
 constexpr auto kOneOf = Counterbalance::Method::kOneOf;
 
 std::vector<std::string> texts_of(const std::vector<Cell>& cells) {
@@ -87,6 +89,121 @@ TEST(Counterbalance, BalancesPlaceAndPredecessorOfMoreArmsByAWilliamsSquare) {
     for (const auto& [key, count] : at_place) EXPECT_EQ(count, times);
     for (const auto& [key, count] : follows) EXPECT_EQ(count, times);
   }
+}
+
+TEST(Counterbalance, GivesOneOrderForEachArmOfALatinSquare) {
+  EXPECT_EQ(texts_of(cells_of(study_of({counterbalance("o", kLatin, 3)}))),
+            (std::vector<std::string>{"o=a,b,c", "o=b,c,a", "o=c,a,b"}));
+}
+
+/// A block whose three stimuli come in the rows of a Latin square.
+Stage square_block(const std::string& name) {
+  Stage stage;
+  stage.name = name;
+  stage.content =
+      Block{.intensities = {1.0, 2.0, 3.0}, .order = {.method = StimulusOrder::Method::kLatin}};
+  return stage;
+}
+
+TEST(Counterbalance, CrossesTheRowsOfSquaresInBlocksAndArms) {
+  Stage arms = counterbalance("o", kOrder, 2);
+  std::get<Counterbalance>(arms.content).arms[1].stages.push_back(square_block("inside"));
+  const Study study = study_of({square_block("before"), arms});
+  const std::vector<std::string> cells = texts_of(cells_of(study));
+  EXPECT_EQ(cells.size(), 3u * 2u * 3u);
+  EXPECT_EQ(cells.front(), "before=row_1;o=a,b;inside=row_1");
+  EXPECT_EQ(cells.back(), "before=row_3;o=b,a;inside=row_3");
+  for (const std::string& text : cells) {
+    EXPECT_EQ(to_string(cell_from_text(study, text)), text);
+  }
+  const auto stages =
+      stages_of(study, cell_from_text(study, "before=row_2;o=b,a;inside=row_3"));
+  EXPECT_EQ(paths_of(stages),
+            (std::vector<std::string>{"before", "o/b/o_b", "o/b/inside", "o/a/o_a"}));
+  EXPECT_EQ(stages[0].order_row, 1u);
+  EXPECT_EQ(stages[2].order_row, 2u);
+  EXPECT_EQ(block_of(*stages[2].stage, 2).order.row, 2u);
+}
+
+TEST(Counterbalance, GivesEveryRowOfASquareEquallyOften) {
+  const Study study = study_of({square_block("s"), counterbalance("o", kOrder, 2)});
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    std::map<std::size_t, int> rows;
+    std::map<std::string, int> orders;
+    for (const Cell& cell : planned_cells(study, {}, seed, 0, 12)) {
+      ++rows[order_row(cell, "s")];
+      ++orders[cell[1].arms[0]];
+    }
+    EXPECT_EQ(rows, (std::map<std::size_t, int>{{0, 4}, {1, 4}, {2, 4}}));
+    EXPECT_EQ(orders, (std::map<std::string, int>{{"a", 6}, {"b", 6}}));
+  }
+}
+
+/// Two orders, to be balanced among women and among men.
+Study stratified_study() {
+  Stage orders = counterbalance("o", kOrder, 2);
+  std::get<Counterbalance>(orders.content).stratify_by = "sex";
+  Study study = study_of({orders});
+  study.participant_fields = {
+      {.name = "sex", .question = {}, .options = {{"female", {}}, {"male", {}}}}};
+  return study;
+}
+
+TEST(Counterbalance, IsBalancedWithinWhatParticipantsBring) {
+  const Study study = stratified_study();
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    std::vector<std::string> completed;
+    std::map<std::string, int> filled;
+    for (int i = 0; i < 40; ++i) {
+      const FieldValues fields = {{"sex", i % 3 == 0 ? "female" : "male"}};
+      const Cell cell = least_filled_cell(study, completed, seed, i, fields);
+      EXPECT_EQ(field_values(study, cell), fields);
+      completed.push_back(to_string(cell));
+      ++filled[completed.back()];
+      EXPECT_LE(std::abs(filled["sex=female;o=a,b"] - filled["sex=female;o=b,a"]), 1);
+      EXPECT_LE(std::abs(filled["sex=male;o=a,b"] - filled["sex=male;o=b,a"]), 1);
+      const int first = filled["sex=female;o=a,b"] + filled["sex=male;o=a,b"];
+      EXPECT_LE(std::abs(2 * first - (i + 1)), 1) << "even over everybody, too";
+    }
+  }
+}
+
+TEST(Counterbalance, MakesUpForDropOutsOfTheSameStratumAlone) {
+  const Study study = stratified_study();
+  const std::vector<std::string> completed = {"sex=male;o=a,b", "sex=male;o=a,b",
+                                              "sex=male;o=a,b", "sex=female;o=b,a"};
+  EXPECT_EQ(to_string(least_filled_cell(study, completed, 1, 4, {{"sex", "female"}})),
+            "sex=female;o=a,b");
+  EXPECT_EQ(to_string(least_filled_cell(study, completed, 1, 4, {{"sex", "male"}})),
+            "sex=male;o=b,a");
+}
+
+TEST(Counterbalance, DrawsWhatSimulatedParticipantsBringFromSeedAndParticipant) {
+  const Study study = stratified_study();
+  std::map<std::string, int> drawn;
+  for (int i = 0; i < 1000; ++i) ++drawn[drawn_fields(study, 3, i).at("sex")];
+  EXPECT_GT(drawn["female"], 400);
+  EXPECT_GT(drawn["male"], 400);
+  const std::vector<Cell> cells = planned_cells(study, {}, 3, 10, 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(field_values(study, cells[i]),
+              drawn_fields(study, 3, 10 + static_cast<std::int64_t>(i)));
+  }
+  for (const Cell& cell : planned_cells(study, {}, 3, 10, 4, {{"sex", "male"}})) {
+    EXPECT_EQ(cell[0].arms[0], "male");
+  }
+}
+
+TEST(Counterbalance, RefusesParticipantsOfWhomSomethingIsNotKnown) {
+  const Study study = stratified_study();
+  EXPECT_THROW((void)least_filled_cell(study, {}, 1, 0), core::Error);
+  EXPECT_EQ(field_problem(study, {{"sex", "female"}}), "");
+  EXPECT_EQ(field_problem(study, {}),
+            "expected `sex=VALUE`, VALUE being `female` or `male`, found nothing");
+  EXPECT_EQ(field_problem(study, {{"sex", "woman"}}),
+            "expected `sex=VALUE`, VALUE being `female` or `male`, found `woman`");
+  EXPECT_EQ(field_problem(study, {{"sex", "male"}, {"age", "30"}}),
+            "expected a field of the study `study`, found `age`");
 }
 
 TEST(Counterbalance, CrossesSeveral) {
@@ -182,6 +299,14 @@ TEST(Counterbalance, RunsOneArmOfOneOfAndStagesForThatArmOnly) {
             std::vector<std::string>{"p/a/p_a"});
   EXPECT_EQ(paths_of(stages_of(study, cell_from_text(study, "p=b"))),
             (std::vector<std::string>{"for_b", "p/b/p_b"}));
+}
+
+TEST(Counterbalance, RefusesTextThatIsNoCell) {
+  const Study study = study_of({square_block("s"), counterbalance("o", kOrder, 2)});
+  for (const char* text : {"", "s=row_1", "s=row_4;o=a,b", "s=row_1;o=a,b;", "s=row_1;o=a",
+                           "o=a,b;s=row_1", "s=row_1;;o=a,b", "s;o=a,b", "s=row_01;o=a,b"}) {
+    EXPECT_THROW(static_cast<void>(cell_from_text(study, text)), core::Error) << text;
+  }
 }
 
 TEST(Counterbalance, RefusesACellOfAnotherStudy) {

@@ -19,7 +19,7 @@ std::vector<EventData> one_of_each() {
                                     .commanded_damping_n_s_per_m = std::nullopt,
                                     .limited_ticks = 4,
                                     .finger_lag_s = 0.012};
-  return {SessionStarted{},
+  return {SessionStarted{"de", {{"sex", "female"}}},
           StageEntered{2},
           ItemAnswered{2, "about_you", "body_height_m", "1.75"},
           MediumExplored{2, "viscous", 16.0, 10, 20},

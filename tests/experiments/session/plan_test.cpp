@@ -83,17 +83,19 @@ TEST(Plan, GoesOnWhereTheStudyFolderStands) {
   }
 }
 
-TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
-  const Study study = read_study_text(kStudy, "x");
+/// Sessions of these participants draw what was planned.
+void expect_orders_as_planned(const Study& study) {
   for (const auto& plan :
        plan_participants(study, {.participants = participants(4), .seed = 9})) {
     std::vector<const Stage*> stages;
     for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
     MemoryLog log;
     const core::SimulatedClock clock;
-    Session session(
-        {.session = 1, .seed = session_seed(9, study.name, plan.participant), .stages = stages},
-        {}, log, clock);
+    Session session({.session = 1,
+                     .seed = session_seed(9, study.name, plan.participant),
+                     .stages = stages,
+                     .cell = plan.cell},
+                    {}, log, clock);
     session.start();
     std::int64_t tick = 0;
     while (session.current_stage() != nullptr) {
@@ -115,6 +117,31 @@ TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
     EXPECT_EQ(planned.size(), 19u);
     EXPECT_EQ(planned, drawn);
   }
+}
+
+TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
+  expect_orders_as_planned(read_study_text(kStudy, "x"));
+}
+
+/// The estimation's stimuli in rows of a square.
+std::string study_with_a_square() {
+  const std::string repetitions = "\"repetitions\": 3,";
+  std::string text = kStudy;
+  return text.replace(text.find(repetitions), repetitions.size(),
+                      repetitions + R"( "order": {"method": "latin"},)");
+}
+
+TEST(Plan, ForetellsTheRowsOfSquaresToo) {
+  const Study study = read_study_text(study_with_a_square(), "x");
+  expect_orders_as_planned(study);
+  std::map<double, int> firsts;
+  for (const auto& plan :
+       plan_participants(study, {.participants = participants(6), .seed = 9})) {
+    for (const PlannedBlock& block : plan.blocks) {
+      if (block.stage->name == "estimation") ++firsts[block.trials[0].intensity.value()];
+    }
+  }
+  EXPECT_EQ(firsts, (std::map<double, int>{{0.0, 2}, {1.0, 2}, {4.0, 2}}));
 }
 
 TEST(Plan, GivesEveryParticipantAnOrderOfTheirOwn) {

@@ -152,7 +152,9 @@ TEST(StudyRules, RefuseMoreCellsThanAnyoneCanFill) {
     many += "]},";
   }
   EXPECT_EQ(problems_of(broken("\"stages\": [", many)),
-            "x.json:8:13: /stages: expected counterbalances that cross to at most 10000 cells, "
+            "x.json:8:13: /stages: expected fields, counterbalances and squares that cross to "
+            "at most "
+            "10000 cells, "
             "found 62500");
 }
 

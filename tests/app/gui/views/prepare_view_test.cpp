@@ -29,6 +29,7 @@ class PrepareViewTest : public ::testing::Test {
       if (result.tab != StudyTab::kNone) all.tab = result.tab;
       all.start |= result.start;
       all.look_again |= result.look_again;
+      all.fields_changed |= result.fields_changed;
     });
     return all;
   }
@@ -116,6 +117,22 @@ TEST_F(PrepareViewTest, ADoubleBlindOrderIsNotShownWhateverTheModelHolds) {
   (void)draw();
   EXPECT_FALSE(ui_.drawn().shows("low"));
   EXPECT_TRUE(ui_.drawn().shows("hidden"));
+}
+
+TEST_F(PrepareViewTest, WhatTheStudyStratifiesByIsAskedBeforeTheStart) {
+  model_.fields = {{.name = "handedness",
+                    .question = {{"en", "Which hand?"}, {"de", "Welche Hand?"}},
+                    .options = {{"right", {{"en", "right hand"}, {"de", "rechts"}}},
+                                {"left", {{"en", "left hand"}, {"de", "links"}}}}}};
+  model_.assigned = "";
+  EXPECT_FALSE(after_key({Key::kEnter}).start);
+  EXPECT_TRUE(ui_.drawn().shows("Choose first: Which hand?"));
+  EXPECT_TRUE(ui_.drawn().shows("The order depends on the answers below."));
+  EXPECT_TRUE(after_key({letter('F')}).fields_changed);
+  EXPECT_EQ(state_.fields.at("handedness"), "right");
+  EXPECT_TRUE(after_key({letter('F')}).fields_changed);
+  EXPECT_EQ(state_.fields.at("handedness"), "left");
+  EXPECT_TRUE(after_key({Key::kEnter}).start);
 }
 
 }  // namespace

@@ -1,0 +1,158 @@
+#include "experiments/study/order_rules.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "experiments/study/rule_values.h"
+#include "experiments/study/stage_tables.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+class OrderRules {
+ public:
+  OrderRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
+      : file_(file), problems_(problems) {}
+
+  void run() {
+    if (file_.root().is_object()) check_stages(list(file_.root(), "stages"), "/stages");
+  }
+
+ private:
+  /// What the order of a block is about; only of values that are sound by themselves.
+  struct Stimuli {
+    std::string procedure, quantity;
+    std::vector<double> values;
+    double num_repetitions = 1.0;
+
+    [[nodiscard]] std::string counted() const {
+      return std::to_string(values.size()) + (values.size() == 1 ? " stimulus" : " stimuli");
+    }
+  };
+
+  void report(const std::string& pointer, std::string message) {
+    const TextPosition position = file_.value_position(pointer);
+    add_problem(problems_,
+                {file_.file(), position.line, position.column, pointer, std::move(message)});
+  }
+
+  void check_stages(const json& stages, const std::string& pointer) {
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const json& stage = stages[i];
+      if (!stage.is_object()) continue;
+      const std::string here = pointer + '/' + std::to_string(i);
+      if (word(stage, "kind") == "block") check_block(stage, here + "/order");
+      const json& arms = list(stage, "arms");
+      for (std::size_t arm = 0; arm < arms.size(); ++arm) {
+        if (!arms[arm].is_object()) continue;
+        check_stages(list(arms[arm], "stages"),
+                     here + "/arms/" + std::to_string(arm) + "/stages");
+      }
+      check_stages(list(stage, "between"), here + "/between");
+    }
+  }
+
+  static Stimuli stimuli_of(const json& block) {
+    Stimuli stimuli = {.procedure = word(block, "procedure"),
+                       .quantity = quantity_of(word(block, "medium")),
+                       .values = {}};
+    const json& listed = list(block, stimuli.quantity);
+    const Parameter* its = block_table().find(stimuli.quantity);
+    // A list that is too long is told of as a whole.
+    if (its == nullptr || listed.size() > its->max_items) return stimuli;
+    for (const json& value : listed) {
+      if (value.is_number()) stimuli.values.push_back(value.get<double>());
+    }
+    stimuli.num_repetitions = stimuli.procedure == "magnitude_production"
+                                  ? static_cast<double>(list(block, "target_percent").size())
+                                  : sound_number(block_table(), block, "repetitions", 1.0);
+    return stimuli;
+  }
+
+  void check_block(const json& block, const std::string& pointer) {
+    const json& order = object_at(block, "order");
+    const Stimuli stimuli = stimuli_of(block);
+    if (order.empty() || stimuli.values.empty()) return;
+    const std::string method = word(order, "method");
+    if (method == "mixed") check_mixed(order, stimuli, pointer + "/method");
+    if (method == "latin" || method == "williams") return;
+    check_first(order, stimuli, pointer + "/not_first");
+    check_distances(order, stimuli, pointer);
+  }
+
+  void check_mixed(const json& order, const Stimuli& stimuli, const std::string& pointer) {
+    // Beyond it, how many orders there are can no longer be counted; nobody does so many.
+    constexpr double kMostTrials = 2000.0;
+    if (stimuli.procedure == "magnitude_production") {
+      report(pointer,
+             "expected `shuffled`, `latin` or `williams`, as each repetition of "
+             "`magnitude_production` has a target of its own, found `mixed`");
+    }
+    const double num_trials =
+        static_cast<double>(stimuli.values.size()) * stimuli.num_repetitions;
+    const bool is_free = !order.contains("max_in_a_row") && !order.contains("min_distance");
+    if (num_trials > kMostTrials && !is_free) {
+      report(pointer, "expected at most " + plain_number(kMostTrials) +
+                          " trials to be mixed at a distance, found " +
+                          plain_number(num_trials) + "; use `shuffled`");
+    }
+  }
+
+  void check_first(const json& order, const Stimuli& stimuli, const std::string& pointer) {
+    const json& not_first = list(order, "not_first");
+    const auto& values = stimuli.values;
+    for (std::size_t i = 0; i < not_first.size(); ++i) {
+      if (!not_first[i].is_number() ||
+          std::find(values.begin(), values.end(), not_first[i].get<double>()) != values.end()) {
+        continue;
+      }
+      report(pointer + '/' + std::to_string(i), "expected one of the block's `" +
+                                                    stimuli.quantity + "`, found " +
+                                                    not_first[i].dump());
+    }
+    if (std::all_of(values.begin(), values.end(), [&](double value) {
+          return std::find(not_first.begin(), not_first.end(), json(value)) != not_first.end();
+        })) {
+      report(pointer,
+             "expected a stimulus left that the block can begin with, found all of its " +
+                 stimuli.counted());
+    }
+  }
+
+  void check_distances(const json& order, const Stimuli& stimuli, const std::string& pointer) {
+    if (!(stimuli.num_repetitions > 1.0)) return;
+    const auto num_stimuli = static_cast<double>(stimuli.values.size());
+    const double distance = sound_number(order_table(), order, "min_distance", 1.0);
+    if (distance > num_stimuli) {
+      report(pointer + "/min_distance",
+             "expected a number <= " + plain_number(num_stimuli) + ", as " + stimuli.counted() +
+                 " cannot be ordered with " + plain_number(distance - 1.0) +
+                 " others between two trials of one, found " + plain_number(distance));
+    }
+    const double in_a_row =
+        sound_number(order_table(), order, "max_in_a_row", stimuli.num_repetitions);
+    if (num_stimuli == 1.0 && in_a_row < stimuli.num_repetitions) {
+      report(pointer + "/max_in_a_row",
+             "expected a number >= " + plain_number(stimuli.num_repetitions) + ", as " +
+                 stimuli.counted() +
+                 " with so many trials cannot be ordered with fewer in a "
+                 "row, found " +
+                 plain_number(in_a_row));
+    }
+  }
+
+  const LocatedJson& file_;
+  std::vector<StudyProblem>& problems_;
+};
+
+}  // namespace
+
+void check_order_rules(const LocatedJson& file, std::vector<StudyProblem>& problems) {
+  OrderRules(file, problems).run();
+}
+
+}  // namespace jnd::experiments
