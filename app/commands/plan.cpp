@@ -18,6 +18,7 @@
 #include "app/json_text.h"
 #include "app/operator/study_words.h"
 #include "app/option_checks.h"
+#include "app/plan_statistics.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "app/stability_limits.h"
@@ -36,6 +37,7 @@ struct Options {
   int participants = 13;
   std::uint64_t seed = 1;
   std::string device;
+  std::string laboratory;           ///< "": the default of the device.
   std::vector<std::string> fields;  ///< "sex=female"
   double speed_m_per_s = 0.5;
   bool json = false;
@@ -50,7 +52,8 @@ struct Outcome {
   device::DeviceCapabilities device;
   experiments::RangeLimits limits{};
   std::optional<StabilityCheck> stability;  ///< None: the device has no map.
-  double duration_s = 0.0;                  ///< Of the longest session.
+  PlanStatistics statistics;
+  double duration_s = 0.0;  ///< Of the longest session, as expected.
 };
 
 Outcome outcome_of(const Options& options) {
@@ -75,6 +78,12 @@ Outcome outcome_of(const Options& options) {
   request.fields = fields_or_none(outcome.study, options.fields);
   outcome.plans = experiments::plan_participants(outcome.study, request);
   outcome.completed = request.completed;
+  outcome.statistics = plan_statistics(
+      outcome.study, outcome.plans,
+      experiments::read_laboratory(user_or_shipped(
+          options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
+          "data/laboratories")),
+      options.seed);
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
     outcome.duration_s = std::max(outcome.duration_s, plan.duration_s);
   }
@@ -177,19 +186,21 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
     range.back()["stable"] = static_cast<bool>(outcome.stability->is_stable[i]);
     range.back()["needs_the_hand"] = static_cast<bool>(outcome.stability->needs_the_hand[i]);
   }
-  return {{"study", outcome.study.name},
-          {"seed", options.seed},
-          {"participants", std::move(participants)},
-          {"balance", std::move(balance)},
-          {"duration_s", outcome.duration_s},
-          {"device", options.device},
-          {"limits",
-           {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
-            {"max_total_force_n", outcome.limits.max_total_force_n},
-            {"expected_speed_m_per_s", outcome.limits.expected_speed_m_per_s},
-            {"expected_depth_m", outcome.limits.expected_depth_m}}},
-          {"stability", stability_json(outcome)},
-          {"range", std::move(range)}};
+  ordered_json json = {{"study", outcome.study.name},
+                       {"seed", options.seed},
+                       {"participants", std::move(participants)},
+                       {"balance", std::move(balance)}};
+  add_to_json(outcome.statistics, json);
+  json.update(ordered_json{{"duration_s", outcome.duration_s},
+                           {"device", options.device},
+                           {"limits",
+                            {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
+                             {"max_total_force_n", outcome.limits.max_total_force_n},
+                             {"expected_speed_m_per_s", outcome.limits.expected_speed_m_per_s},
+                             {"expected_depth_m", outcome.limits.expected_depth_m}}},
+                           {"stability", stability_json(outcome)},
+                           {"range", std::move(range)}});
+  return json;
 }
 
 /// "1: 0.5 4 2", one line a repetition; production starts with its target.
@@ -255,6 +266,7 @@ void print(const Outcome& outcome, const Options& options) {
     fmt::print("  {:<56} {:>3} {:>3}\n", cell.empty() ? "(one cell)" : cell, counts.first,
                counts.second);
   }
+  print(outcome.statistics);
   print_range(outcome, options);
 }
 
@@ -274,6 +286,16 @@ std::vector<std::string> problems_of(const Outcome& outcome, const Options& opti
     problems.push_back(options.file + ": " +
                        unstable_words(*outcome.stability, options.device) +
                        "; weaken them, or raise the study's rate");
+  }
+  const std::optional<double>& limit_s = outcome.study.session_limits.max_duration_s;
+  const auto too_long = std::count_if(
+      outcome.statistics.durations_s.begin(), outcome.statistics.durations_s.end(),
+      [&](double duration_s) { return limit_s && duration_s > *limit_s; });
+  if (too_long > 0) {
+    problems.push_back(fmt::format(
+        "{}: expected sessions of at most {:g} s, as `session_limits` says, found {} of {} "
+        "that simulated participants take longer for; shorten adaptive blocks or raise the limit",
+        options.file, *limit_s, too_long, outcome.plans.size()));
   }
   const int needed = outcome.study.device.min_contact_points;
   if (outcome.device.num_contact_points < needed) {
@@ -318,6 +340,9 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command->add_option("--seed", options->seed, "Of everything that is drawn")
       ->check(seed_number())
       ->capture_default_str();
+  command->add_option("--laboratory", options->laboratory,
+                      "Of simulated participants, who tell how long adaptive blocks take; "
+                      "default: thesis, or thesis_exoskeleton with that device");
   add_field_option(*command, options->fields,
                    "What all of them bring; default: drawn for each");
   command->add_option("--device", options->device, "Whose limits; see `jnd devices`")

@@ -8,6 +8,7 @@
 #include "core/safety/fault.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/plan.h"
+#include "experiments/session/session_limits.h"
 
 namespace jnd::app {
 
@@ -408,6 +409,9 @@ SessionView OperatedSession::view() const {
   view.refusal = refusal_;
   view.num_refusals = num_refusals_;
   view.remark = remark_;
+  view.advice =
+      limit_advice(parameters_.study.session_limits,
+                   num_answers_since_break(session_.stages(), state()), view.elapsed_s);
   const bool has_stage = stage() != nullptr && begun_;
   add_words(view, has_stage ? title_of(static_cast<std::size_t>(state().stage)) : "",
             has_stage ? words(instruction_of(*stage())) : "");

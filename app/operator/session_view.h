@@ -168,6 +168,7 @@ struct SessionView {
   std::uint64_t num_stop_presses = 0;  ///< As in `Rearm`.
   std::string refusal;             ///< Why the last request was not carried out; "" otherwise.
   std::uint64_t num_refusals = 0;  ///< So that the same sentence twice is seen twice.
+  std::string advice;  ///< "62 trials without a break, of at most 60"; "" otherwise.
   std::string remark;              ///< "the study file has changed since ..."; "" otherwise.
 };
 

@@ -138,6 +138,32 @@ const ParameterTable& device_table() {
   return kTable;
 }
 
+const ParameterTable& session_limits_table() {
+  static const ParameterTable kTable = {
+      .name = "session_limits",
+      .meaning =
+          "What can be asked of a participant in one session. A study that is expected "
+          "to go beyond is refused; a session that does all the same is told so.",
+      .example = R"({"max_duration_s": 5400, "max_trials_without_break": 60})",
+      .parameters = {
+          {.key = "max_duration_s",
+           .kind = ValueKind::kNumber,
+           .meaning =
+               "From the first stage to the last. Absent: no limit but the 8 hours of any "
+               "study.",
+           .required = false,
+           .unit = "s",
+           .range = {0.0, 28800.0, true}},
+          {.key = "max_trials_without_break",
+           .kind = ValueKind::kInteger,
+           .meaning = "Trials from one `break` to the next, blocks in between taken together. "
+                      "Absent: any number.",
+           .required = false,
+           .range = {1, 50000}},
+      }};
+  return kTable;
+}
+
 }  // namespace
 
 const Parameter* ParameterTable::find(std::string_view key) const noexcept {
@@ -204,6 +230,11 @@ const ParameterTable& study_table() {
            .required = false,
            .default_json = R"("none")",
            .allowed = {"none", "participant", "double"}},
+          {.key = "session_limits",
+           .kind = ValueKind::kObject,
+           .meaning = "What can be asked of a participant in one session.",
+           .required = false,
+           .nested = &session_limits_table()},
           {.key = "participant_fields",
            .kind = ValueKind::kObjects,
            .meaning =
@@ -228,9 +259,12 @@ const ParameterTable* stage_table(std::string_view kind) noexcept {
 
 const std::vector<const ParameterTable*>& all_tables() {
   static const std::vector<const ParameterTable*> kAll = [] {
-    std::vector<const ParameterTable*> tables = {&study_table(), &device_table(),
-                                                 &immersion_table(), &force_map_row_table(),
-                                                 &participant_field_table()};
+    std::vector<const ParameterTable*> tables = {&study_table(),
+                                                 &device_table(),
+                                                 &immersion_table(),
+                                                 &force_map_row_table(),
+                                                 &participant_field_table(),
+                                                 &session_limits_table()};
     for (const ParameterTable* stage : stage_tables()) {
       tables.push_back(stage);
       for (const Parameter& parameter : stage->parameters) {

@@ -196,6 +196,12 @@ struct ParticipantField {
   std::vector<Option> options;
 };
 
+/// What can be asked of a participant in one session.
+struct SessionLimits {
+  std::optional<double> max_duration_s;         ///< > 0.
+  std::optional<int> max_trials_without_break;  ///< >= 1.
+};
+
 /// A study file, checked and with every default filled in.
 struct Study {
   int format = 1;
@@ -207,6 +213,7 @@ struct Study {
   std::string citation;  ///< Of the study it follows; may be empty.
   DeviceNeeds device;
   Blinding blinding = Blinding::kNone;
+  SessionLimits session_limits;
   std::vector<ParticipantField> participant_fields;
   std::vector<Stage> stages;
   std::string text;  ///< The file word for word; its SHA-256 identifies the study.

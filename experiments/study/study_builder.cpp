@@ -337,6 +337,11 @@ Study build_study(const LocatedJson& file, std::string text) {
   study.blinding = blinding == "double"        ? Blinding::kDouble
                    : blinding == "participant" ? Blinding::kParticipant
                                                : Blinding::kNone;
+  const ObjectReader limits = in.object("session_limits");
+  study.session_limits.max_duration_s = limits.optional_number("max_duration_s");
+  if (limits.has("max_trials_without_break")) {
+    study.session_limits.max_trials_without_break = limits.integer("max_trials_without_break");
+  }
   in.each_object("participant_fields", [&](const ObjectReader& field, std::size_t) {
     study.participant_fields.push_back({.name = field.string("name"),
                                         .question = field.text("question"),

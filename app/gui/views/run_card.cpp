@@ -221,6 +221,14 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
             "Not done: " + view.refusal + ".",
             {.colour = Colour::kAmber, .align = Align::kCentre});
   }
+  const bool may_rest = view.step == Step::kReady || view.step == Step::kRest ||
+                        view.step == Step::kStageDone || view.step == Step::kItem;
+  if (!view.advice.empty() && may_rest) {
+    Rect strip = inside.take_bottom(40);
+    ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
+            "The study's limit is passed: " + view.advice + ".",
+            {.colour = Colour::kAmber, .align = Align::kCentre});
+  }
   if (!view.remark.empty() && view.step == Step::kBegin) {
     Rect strip = inside.take_bottom(60);
     ui.text(strip.inset(8), view.remark,

@@ -109,6 +109,27 @@ TEST_F(StudyFileCommandsTest, ValidateTellsWhatADeviceCannotRenderStably) {
   EXPECT_TRUE(found) << outcome.out;
 }
 
+TEST_F(StudyFileCommandsTest, PlanCountsOrdersAndSaysHowLongSessionsTake) {
+  write_file(
+      file("square.json"),
+      replaced(kTinyStudy, "\"scale\": [0.5, 2], \"repetitions\": 2",
+               "\"scale\": [0.5, 2], \"repetitions\": 2, \"order\": {\"method\": \"latin\"}"));
+  const ProgramOutcome outcome = jnd({"plan", "square.json", "--participants", "8", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  const auto& estimation = json["order_statistics"][0];
+  EXPECT_EQ(estimation["block"], "estimation");
+  EXPECT_EQ(estimation["stimuli"], (std::vector<double>{0.5, 2.0}));
+  EXPECT_EQ(estimation["at_place"], (std::vector<std::vector<int>>{{8, 8}, {8, 8}}))
+      << "eight people, two repetitions, half of them each way round";
+  EXPECT_EQ(json["balance"].size(), 2U);
+  EXPECT_EQ(json["balance"][0]["num_planned"], 4);
+  EXPECT_EQ(json["durations"]["simulated"], false) << "nothing adapts";
+  EXPECT_EQ(json["durations"]["duration_s"]["mean"], json["duration_s"]);
+  const std::string text = jnd({"plan", "square.json", "--participants", "8"}).out;
+  EXPECT_NE(text.find("each stimulus 8 times at each place"), std::string::npos) << text;
+}
+
 TEST_F(StudyFileCommandsTest, SchemaIsAlsoAReferenceToRead) {
   const ProgramOutcome outcome = jnd({"schema", "--markdown"});
   EXPECT_EQ(outcome.exit_code, 0);

@@ -137,6 +137,18 @@ TEST_F(RunView, AnswersByKeyAndByMouseForTheTrialThatIsShown) {
   EXPECT_EQ(after_click<operate::Answer>(comparison(), "answer_no").trial, 23);
 }
 
+TEST_F(RunView, APassedLimitIsToldWhereOneMayRest) {
+  const std::string sentence =
+      "The study's limit is passed: 62 trials without a break, of at most 60.";
+  SessionView view = comparison();
+  view.advice = "62 trials without a break, of at most 60";
+  draw(view);
+  EXPECT_FALSE(ui_.drawn().shows(sentence)) << "not in the middle of a trial";
+  view.step = Step::kReady;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows(sentence));
+}
+
 TEST_F(RunView, TheAnswersAreNotThereBeforeTheTestWasFelt) {
   SessionView view = comparison();
   view.trial->can_answer = false;

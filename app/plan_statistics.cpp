@@ -1,0 +1,134 @@
+#include "app/plan_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/error.h"
+#include "experiments/participants/simulated_duration.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace experiments;
+using nlohmann::ordered_json;
+
+bool adapts(const PlannedBlock& block) {
+  return static_cast<int>(block.trials.size()) != block.num_trials;
+}
+
+ordered_json to_json(const Spread& spread) {
+  return {{"mean", spread.mean},
+          {"standard_deviation", spread.standard_deviation},
+          {"least", spread.least},
+          {"most", spread.most}};
+}
+
+ordered_json to_json(const OrderStatistics& orders) {
+  return {{"block", orders.block},
+          {"quantity", orders.quantity},
+          {"stimuli", orders.stimuli},
+          {"at_place", orders.at_place},
+          {"followed_by", orders.followed_by}};
+}
+
+std::string times(const CountRange& range) {
+  return range.fewest == range.most ? fmt::format("{} times", range.most)
+                                    : fmt::format("{} to {} times", range.fewest, range.most);
+}
+
+}  // namespace
+
+Spread spread_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  Spread spread;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  spread.least = *least;
+  spread.most = *most;
+  const auto n = static_cast<double>(values.size());
+  for (const double value : values) spread.mean += value / n;
+  if (values.size() == 1) return spread;
+  double sum = 0.0;
+  for (const double value : values) sum += std::pow(value - spread.mean, 2.0);
+  spread.standard_deviation = std::sqrt(sum / (n - 1.0));
+  return spread;
+}
+
+PlanStatistics plan_statistics(const Study& study, const std::vector<ParticipantPlan>& plans,
+                               const Laboratory& laboratory, std::uint64_t seed) {
+  PlanStatistics statistics{.orders = order_statistics(plans)};
+  std::map<std::string, std::vector<double>> num_trials;  // Of adaptive blocks.
+  for (const ParticipantPlan& plan : plans) {
+    for (const PlannedBlock& block : plan.blocks) {
+      if (adapts(block)) num_trials.try_emplace(block.stage->name);
+    }
+    statistics.durations_s.push_back(plan.duration_s);
+  }
+  statistics.adapts = !num_trials.empty();
+  if (!statistics.adapts) return statistics;
+  try {
+    const AnswerSimulator simulator(study, laboratory);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      const SimulatedDuration simulated = simulated_duration(plans[i], simulator, study, seed);
+      statistics.durations_s[i] = simulated.duration_s;
+      for (auto& [block, numbers] : num_trials) {
+        const auto found = simulated.num_trials.find(block);
+        if (found != simulated.num_trials.end()) numbers.push_back(found->second);
+      }
+    }
+  } catch (const core::Error& error) {
+    statistics.not_simulated = error.what();
+    return statistics;
+  }
+  for (const auto& [block, numbers] : num_trials) {
+    statistics.num_trials[block] = spread_of(numbers);
+  }
+  return statistics;
+}
+
+void add_to_json(const PlanStatistics& statistics, ordered_json& json) {
+  json["order_statistics"] = ordered_json::array();
+  for (const OrderStatistics& orders : statistics.orders) {
+    json["order_statistics"].push_back(to_json(orders));
+  }
+  auto blocks = ordered_json::array();
+  for (const auto& [block, spread] : statistics.num_trials) {
+    ordered_json one = {{"block", block}};
+    one["num_trials"] = to_json(spread);
+    blocks.push_back(std::move(one));
+  }
+  json["durations"] = {{"duration_s", to_json(spread_of(statistics.durations_s))},
+                       {"of_participants_s", statistics.durations_s},
+                       {"simulated", statistics.adapts && statistics.not_simulated.empty()},
+                       {"not_simulated", statistics.not_simulated},
+                       {"adaptive_blocks", std::move(blocks)}};
+}
+
+void print(const PlanStatistics& statistics) {
+  if (!statistics.orders.empty()) fmt::print("\nOrders over all participants\n");
+  for (const OrderStatistics& orders : statistics.orders) {
+    if (orders.stimuli.size() < 2) continue;
+    fmt::print(
+        "  {:<24} each stimulus {} at each place, {} after each other one, {} after "
+        "itself\n",
+        orders.block, times(places_range(orders)), times(followers_range(orders)),
+        times(repeats_range(orders)));
+  }
+  const Spread all = spread_of(statistics.durations_s);
+  fmt::print("\nDuration: {:.0f} min on average, {:.0f} to {:.0f} min\n", all.mean / 60.0,
+             all.least / 60.0, all.most / 60.0);
+  for (const auto& [block, spread] : statistics.num_trials) {
+    fmt::print(
+        "  {:<24} {:.1f} trials on average (standard deviation {:.1f}), {:g} to {:g}; "
+        "by simulated participants\n",
+        block, spread.mean, spread.standard_deviation, spread.least, spread.most);
+  }
+  if (!statistics.not_simulated.empty()) {
+    fmt::print("  adaptive blocks as expected, not simulated: {}\n", statistics.not_simulated);
+  }
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/participants/laboratory.h"
+#include "experiments/session/order_statistics.h"
+#include "experiments/session/plan.h"
+
+namespace jnd::app {
+
+/// Mean and spread over the participants of a plan.
+struct Spread {
+  double mean = 0.0, standard_deviation = 0.0;  ///< The latter 0 of a single participant.
+  double least = 0.0, most = 0.0;
+};
+[[nodiscard]] Spread spread_of(const std::vector<double>& values);
+
+/// What a plan comes to over all of its participants.
+struct PlanStatistics {
+  std::vector<experiments::OrderStatistics> orders;
+  bool adapts = false;  ///< Some block's number of trials depends on the answers.
+  /// Why simulated participants could not tell how many trials adaptive blocks take, so that
+  /// they count as expected; "" where they could.
+  std::string not_simulated;
+  std::vector<double> durations_s;  ///< Of each participant; simulated where it adapts.
+  std::map<std::string, Spread> num_trials;  ///< Of each adaptive block, by its name.
+};
+
+/// `seed`: of the study. Not real time.
+[[nodiscard]] PlanStatistics plan_statistics(
+    const experiments::Study& study, const std::vector<experiments::ParticipantPlan>& plans,
+    const experiments::Laboratory& laboratory, std::uint64_t seed);
+
+/// Keys `order_statistics` and `durations`.
+void add_to_json(const PlanStatistics& statistics, nlohmann::ordered_json& json);
+/// A line for each block, and one of durations.
+void print(const PlanStatistics& statistics);
+
+}  // namespace jnd::app

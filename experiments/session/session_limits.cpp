@@ -1,0 +1,61 @@
+#include "experiments/session/session_limits.h"
+
+#include <cmath>
+#include <variant>
+
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/session/plan.h"
+
+namespace jnd::experiments {
+
+Stretch longest_stretch(const std::vector<StageInstance>& stages) {
+  Stretch longest;
+  int num_trials = 0;
+  for (const StageInstance& instance : stages) {
+    if (std::holds_alternative<Break>(instance.stage->content)) num_trials = 0;
+    const auto* block = std::get_if<Block>(&instance.stage->content);
+    if (block == nullptr) continue;
+    num_trials += procedure_named(block->procedure).expected_trials(*block);
+    if (num_trials > longest.num_trials) longest = {num_trials, instance.stage};
+  }
+  return longest;
+}
+
+double expected_session_s(const std::vector<StageInstance>& stages) {
+  double duration_s = 0.0;
+  for (const StageInstance& instance : stages) {
+    duration_s += expected_duration_s(*instance.stage);
+  }
+  return duration_s;
+}
+
+int num_answers_since_break(const std::vector<const Stage*>& stages,
+                            const SessionState& state) {
+  std::int64_t begin = 0;  // The stage after the last break.
+  for (std::int64_t i = 0; i < state.stage; ++i) {
+    if (std::holds_alternative<Break>(stages.at(static_cast<std::size_t>(i))->content)) {
+      begin = i + 1;
+    }
+  }
+  int num_answers = 0;
+  for (const TrialState& trial : state.trials) {
+    if (trial.stage >= begin && trial.response) ++num_answers;
+  }
+  return num_answers;
+}
+
+std::string limit_advice(const SessionLimits& limits, int num_answers_since_break,
+                         double elapsed_s) {
+  if (limits.max_duration_s && elapsed_s > *limits.max_duration_s) {
+    const auto minutes = [](double s) { return std::to_string(std::lround(s / 60.0)); };
+    return minutes(elapsed_s) + " min so far, of at most " + minutes(*limits.max_duration_s);
+  }
+  if (limits.max_trials_without_break &&
+      num_answers_since_break >= *limits.max_trials_without_break) {
+    return std::to_string(num_answers_since_break) + " trials without a break, of at most " +
+           std::to_string(*limits.max_trials_without_break);
+  }
+  return "";
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/order/counterbalance.h"
+#include "experiments/session/session_state.h"
+#include "experiments/study/study.h"
+
+namespace jnd::experiments {
+
+/// The most trials that somebody does from one `break` to the next, or to an end of the
+/// session.
+struct Stretch {
+  int num_trials = 0;            ///< To be expected.
+  const Stage* block = nullptr;  ///< In which they come to so many; null for no trial.
+};
+
+/// Of a participant's own list of stages; the first of those that are equally long.
+[[nodiscard]] Stretch longest_stretch(const std::vector<StageInstance>& stages);
+
+/// How long a participant's own list of stages is expected to take, in seconds.
+[[nodiscard]] double expected_session_s(const std::vector<StageInstance>& stages);
+
+/// Answers given since the last `break` that was finished, in any stage after it.
+[[nodiscard]] int num_answers_since_break(const std::vector<const Stage*>& stages,
+                                          const SessionState& state);
+
+/// What the experimenter is told when a session under way passes a limit of its study: "62
+/// trials without a break, of at most 60"; "" while it keeps to them. `elapsed_s`: how long the
+/// session has taken so far.
+[[nodiscard]] std::string limit_advice(const SessionLimits& limits, int num_answers_since_break,
+                                       double elapsed_s);
+
+}  // namespace jnd::experiments

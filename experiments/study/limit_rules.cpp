@@ -1,0 +1,48 @@
+#include "experiments/study/limit_rules.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "experiments/order/counterbalance.h"
+#include "experiments/session/session_limits.h"
+#include "experiments/study/parameter_table.h"
+#include "experiments/study/rule_values.h"
+
+namespace jnd::experiments {
+
+void check_limit_rules(const LocatedJson& file, const Study& study,
+                       std::vector<StudyProblem>& problems) {
+  const SessionLimits& limits = study.session_limits;
+  if (!limits.max_duration_s && !limits.max_trials_without_break) return;
+  double longest_s = 0.0;
+  Stretch longest;
+  for (const Cell& cell : cells_of(study)) {
+    const std::vector<StageInstance> stages = stages_of(study, cell);
+    longest_s = std::max(longest_s, expected_session_s(stages));
+    const Stretch stretch = longest_stretch(stages);
+    if (stretch.num_trials > longest.num_trials) longest = stretch;
+  }
+  const auto report = [&](const std::string& key, std::string message) {
+    const std::string pointer = "/session_limits/" + key;
+    const TextPosition position = file.value_position(pointer);
+    add_problem(problems,
+                {file.file(), position.line, position.column, pointer, std::move(message)});
+  };
+  if (limits.max_duration_s && longest_s > *limits.max_duration_s) {
+    report("max_duration_s", "expected at least the " + plain_number(longest_s) +
+                                 " s that the longest session is expected to take, found " +
+                                 plain_number(*limits.max_duration_s) +
+                                 "; shorten the study or raise the limit");
+  }
+  if (limits.max_trials_without_break &&
+      longest.num_trials > *limits.max_trials_without_break) {
+    report("max_trials_without_break",
+           "expected at least the " + std::to_string(longest.num_trials) +
+               " trials that are done without a `break` up to the end of `" +
+               shown_text(longest.block->name) + "`, found " +
+               std::to_string(*limits.max_trials_without_break) + "; put a break in between");
+  }
+}
+
+}  // namespace jnd::experiments
