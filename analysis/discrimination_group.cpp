@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/groups/summary.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/test_families.h"
 
 namespace jnd::analysis {
@@ -64,9 +65,7 @@ void add(const Target& target, Estimate estimate, const std::string& name,
   target.section.estimates.push_back(std::move(estimate));
 }
 
-std::string unit_of(const BlockDesign& block) {
-  return block.quantity == "viscosity_pa_s" ? "Pa s" : "1";
-}
+std::string unit_of(const BlockDesign& block) { return unit_of_quantity(block.quantity); }
 
 void no_value(const Target& target, const std::string& name, const std::string& reason) {
   target.section.excluded.push_back(

@@ -9,6 +9,7 @@
 
 #include "analysis/groups/within_slope.h"
 #include "analysis/magnitude_section.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/test_families.h"
 
 namespace jnd::analysis {
@@ -82,7 +83,7 @@ std::optional<double> previous_stimulus_slope(const Trials& trials) {
 }
 
 std::vector<Effect> effects_of(const BlockDesign& block) {
-  const bool viscosity = block.quantity == "viscosity_pa_s";
+  const std::string unit = unit_of_quantity(block.quantity);
   if (block.procedure == "magnitude_production") {
     return {{"starting_value_slope",
              "how far the set value follows the starting value of the adjustment, within a "
@@ -104,7 +105,7 @@ std::vector<Effect> effects_of(const BlockDesign& block) {
         {"previous_stimulus_slope",
          "change of the answer, relative to its mean for the stimulus, with the intensity of "
          "the stimulus before: above 0 they are drawn together, below 0 set apart",
-         viscosity ? "1/(Pa s)" : "1", previous_stimulus_slope}};
+         unit == "1" ? "1" : "1/(" + unit + ")", previous_stimulus_slope}};
   }
   return {};
 }

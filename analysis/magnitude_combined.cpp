@@ -6,6 +6,7 @@
 #include "analysis/magnitude_fits.h"
 #include "analysis/magnitude_means.h"
 #include "analysis/magnitude_section.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
@@ -218,7 +219,7 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
       },
       options);
   add_extrapolation(section, parts, curves, intensities,
-                    estimation.quantity == "viscosity_pa_s" ? "Pa s" : "1", options);
+                    unit_of_quantity(estimation.quantity), options);
   add_own_power_laws(section, "combined", parts.estimated.names, [&](std::size_t i) {
     PowerFit own = between(curves_of(parts, {i}, Solver::kCeres), intensities, Solver::kCeres);
     // Residuals between two curves say nothing of the answers' spread.

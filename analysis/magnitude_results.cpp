@@ -5,6 +5,7 @@
 #include "analysis/magnitude_fits.h"
 #include "analysis/magnitude_means.h"
 #include "analysis/magnitude_section.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/study_results.h"
 #include "analysis/trial_correlations.h"
 
@@ -23,9 +24,10 @@ constexpr Kind kProduction = {fit_production, fit_log_production};
 
 /// The line through the logarithms of geometric means, as magnitudes have been analysed since
 /// Stevens; and the fit of equalised moduli, with how far the moduli lie apart.
-void add_geometric(ResultsSection& section, const std::string& name,
+void add_geometric(ResultsSection& section, const BlockDesign& design,
                    const MagnitudeBlock& block, const Kind& kind,
                    const ResultsOptions& options) {
+  const std::string& name = design.block;
   const std::string zeros = block.num_zeros > 0 ? std::string(", ") + kZeroRule : "";
   (void)add_power_law(
       section, name + ".geometric",
@@ -51,6 +53,7 @@ void add_geometric(ResultsSection& section, const std::string& name,
        .meaning = std::string("answers of 0 where one above 0 was expected; for logarithms: ") +
                   kZeroRule,
        .n = static_cast<int>(block.size())});
+  if (!design.own_log_moduli.empty()) return;  // Every fit is of equalised moduli.
   const auto moduli = log_moduli(block);
   if (!moduli) {
     section.excluded.push_back(
@@ -102,11 +105,52 @@ std::map<double, std::vector<double>> by_x(const std::vector<Means>& participant
   return values;
 }
 
-void add_estimation_means(ResultsSection& section, const std::string& name,
+/// What a magnitude of 1 is.
+std::string unit_words(const BlockDesign& design) {
+  if (design.counts_in_water()) return "water being 1";
+  return design.protocol.modulus == "standard" ? "the standard being 1"
+                                               : "everybody's own modulus being 1";
+}
+
+/// Who chose their own numbers says nothing by their size; how they relate is all there is.
+void add_moduli(ResultsSection& section, const BlockDesign& design,
+                const ResultsOptions& options) {
+  if (design.counts_in_water()) return;
+  if (design.protocol.modulus == "standard") {
+    section.excluded.push_back({"everyone", design.block +
+                                                ": comparisons in percent of water, for "
+                                                "magnitudes are ratios to the standard"});
+    return;
+  }
+  if (design.own_log_moduli.empty()) {
+    section.excluded.push_back(
+        {"everyone", design.block +
+                         ": equalised moduli, no stimulus that all participants answered; the "
+                         "numbers stand as they were said"});
+    return;
+  }
+  section.excluded.push_back(
+      {"everyone", design.block +
+                       ": k as a size and comparisons in percent of water, for everybody chose "
+                       "their own numbers; moduli were equalised before every fit"});
+  std::vector<double> moduli;
+  for (const auto& [participant, log_modulus] : design.own_log_moduli) {
+    moduli.push_back(log_modulus);
+    section.participants.push_back(
+        {participant, design.block + ".modulus", std::exp(log_modulus), {}, ""});
+  }
+  add_spread(section, design.block + ".modulus_sd_ln",
+             "standard deviation between participants of the logarithm of their modulus, the "
+             "geometric mean of their numbers",
+             moduli, options);
+}
+
+void add_estimation_means(ResultsSection& section, const BlockDesign& design,
                           const MagnitudeBlock& block) {
+  const std::string& name = design.block;
   for (const auto& [intensity, values] : by_x(block.means)) {
     add_mean(section, name + ".mean_at_" + number_text(intensity),
-             "arithmetic mean of the participants' means, water being 1", values);
+             "arithmetic mean of the participants' means, " + unit_words(design), values);
   }
   for (const auto& [intensity, logs] : by_x(block.log_means)) {
     add_geometric_mean(section, name + ".geometric_mean_at_" + number_text(intensity),
@@ -117,7 +161,7 @@ void add_estimation_means(ResultsSection& section, const std::string& name,
 std::string percent_name(double target) { return std::to_string(std::lround(target)); }
 
 std::string unit_of(const BlockDesign& block) {
-  return block.quantity == "viscosity_pa_s" ? "Pa s" : "1";
+  return unit_of_quantity(block.quantity);
 }
 
 void add_set_intensities(ResultsSection& section, const BlockDesign& design,
@@ -228,14 +272,15 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
         return fit_estimation(group_means(block.means, drawn), PowerMethod::kLogLog, solver);
       },
       options);
-  add_geometric(section, name, block, kEstimation, options);
+  add_geometric(section, design, block, kEstimation, options);
   add_own_power_laws(section, name, block.names, [&](std::size_t i) {
     return fit_estimation(block.means[i], PowerMethod::kNonlinear, Solver::kCeres);
   });
   add_own_power_laws(section, name + ".geometric", block.names,
                      [&](std::size_t i) { return fit_log_estimation(block.log_means[i]); });
   add_own_exponents(section, name, options);
-  add_estimation_means(section, name, block);
+  add_estimation_means(section, design, block);
+  add_moduli(section, design, options);
   add_trial_correlations(section, data, design, options);
   return section;
 }
@@ -259,7 +304,7 @@ ResultsSection production_results(const StudyData& data, const BlockDesign& desi
       },
       options);
   add_r_squared(section, name, whole, static_cast<int>(block.size()));
-  add_geometric(section, name, block, kProduction, options);
+  add_geometric(section, design, block, kProduction, options);
   add_own_power_laws(section, name, block.names, [&](std::size_t i) {
     return fit_production(block.means[i], PowerMethod::kNonlinear, Solver::kCeres);
   });

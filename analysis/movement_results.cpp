@@ -197,9 +197,15 @@ ResultsSection movement_results(const StudyData& data) {
   if (data.blocks.empty()) return section;  // Nothing is presented that could hold no stroke.
   std::vector<std::string> blocks, with_both;
   for (const BlockDesign& block : data.blocks) {
+    if (block.medium == "solid") {
+      section.excluded.push_back(
+          {"everyone", block.block + ": strokes, for a solid is pressed, not stroked through"});
+      continue;
+    }
     blocks.push_back(block.block);
     if (has_both_intervals(data, block.block)) with_both.push_back(block.block);
   }
+  if (blocks.empty()) return section;
   for (const Quantity& quantity : kQuantities) {
     if (!anyone_has(data, quantity.value)) continue;
     add_whole(section, data, quantity);

@@ -16,6 +16,21 @@ ProtocolBlock block_of(const json& stage) {
   ProtocolBlock block;
   block.task = word_at(stage, "task", block.task);
   block.is_practice = stage.contains("practice");
+  block.modulus = word_at(stage, "modulus", block.modulus);
+  const auto number = stage.find("modulus_value");
+  if (number != stage.end() && number->is_number() && number->get<double>() > 0.0) {
+    block.modulus_value = number->get<double>();
+  }
+  const std::string medium = word_at(stage, "standard_medium", "none");
+  if (medium == "none") return block;
+  block.standard_medium = medium;
+  const std::string start = "standard_";
+  for (const auto& [key, value] : stage.items()) {
+    // Its amount is the one list that begins so: "standard_scale".
+    if (key.starts_with(start) && value.is_array()) {
+      block.standard_quantity = key.substr(start.size());
+    }
+  }
   return block;
 }
 

@@ -12,6 +12,11 @@ struct ProtocolBlock {
   /// reminder, which magnitudes are not asked by.
   std::string task = "reminder";
   bool is_practice = false;  ///< Its trials are no data.
+  std::string standard_medium;    ///< "water"; "" for a block without a standard.
+  std::string standard_quantity;  ///< What its reference intensities are: "scale".
+  /// Of a magnitude estimation: "water_is_100", "standard" or "free".
+  std::string modulus = "water_is_100";
+  double modulus_value = 100.0;  ///< What the standard counts as, > 0.
 };
 
 /// The blocks of a study file by their names, those of every arm among them. What does not look

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/common_modulus.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -72,6 +73,7 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
                .quantity = row.quantity,
                .num_trials = std::max(block.num_trials, ++num_trials[row.block]),
                .reference_intensity = block.reference_intensity,
+               .medium = row.medium,
                .protocol = its_protocol->second[row.block]};
     }
     ParticipantData& participant = of(data.participants, session.participant);
@@ -110,6 +112,7 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
               return a.participant < b.participant;
             });
   for (auto& [name, block] : blocks) data.blocks.push_back(std::move(block));
+  for (BlockDesign& block : data.blocks) bring_to_common_modulus(data, block);
   return data;
 }
 

@@ -33,14 +33,20 @@ struct BlockDesign {
   std::string quantity;
   std::int64_t num_trials = 0;  ///< For one participant; the most of any, where they differ.
   std::optional<double> reference_intensity;
+  std::string medium{};
   ProtocolBlock protocol{};
+  /// Where everybody chose their own numbers: by participant, ln of the number that their
+  /// answers were divided by.
+  std::map<std::string, double> own_log_moduli{};
 
+  /// An estimation in percent of water, which numbers of others compare with.
+  [[nodiscard]] bool counts_in_water() const { return protocol.modulus == "water_is_100"; }
   /// Of every test stimulus it is asked whether it is more than a reference: its answers have a
   /// psychometric function, whatever procedure chose the stimuli.
   [[nodiscard]] bool compares() const {
     return reference_intensity && protocol.task != "same_different" &&
            protocol.task != "yes_no" && procedure != "magnitude_estimation" &&
-           procedure != "magnitude_production";
+           procedure != "magnitude_production" && procedure != "matching";
   }
   /// The test alone, and whether it is felt.
   [[nodiscard]] bool detects() const { return protocol.task == "yes_no"; }
@@ -64,7 +70,8 @@ struct StudyData {
   std::vector<AdaptiveRun> runs;
 };
 
-/// Reads the folder's database; nothing is computed yet. Throws `Error` for a damaged study.
+/// Reads the folder's database. Nothing is computed yet, but that answers of an estimation come
+/// in percent of their modulus (`bring_to_common_modulus`). Throws `Error` for a damaged study.
 /// `with_pilots`: pilot sessions as well.
 [[nodiscard]] StudyData load_study(const core::StudyStore& store, bool with_pilots = false);
 

@@ -67,8 +67,11 @@ StudyResults results_of(const StudyData& data, const Published& published,
   for (const BlockDesign& block : productions) {
     results.sections.push_back(production_results(data, block, options));
   }
+  for (const BlockDesign& block : blocks_of(data, "matching")) {
+    results.sections.push_back(matching_results(data, block, options));
+  }
   if (estimations.size() == 1 && productions.size() == 1 &&
-      estimations[0].quantity == productions[0].quantity) {
+      estimations[0].quantity == productions[0].quantity && estimations[0].counts_in_water()) {
     results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
   }
   for (const BlockDesign& block : discriminations) {
@@ -91,8 +94,13 @@ StudyResults results_of(const StudyData& data, const Published& published,
   mark_movement_family(results.sections);
   adjust_by_family(results.sections);
   for (ResultsSection& section : results.sections) {
+    const bool counts_alike =
+        std::ranges::all_of(data.blocks, [&](const BlockDesign& block) {
+          return block.block != section.name || block.counts_in_water();
+        });
     for (Estimate& estimate : section.estimates) {
-      const auto found = published.values.find(estimate.name);
+      const auto found = counts_alike ? published.values.find(estimate.name)
+                                      : published.values.end();
       if (found != published.values.end()) {
         estimate.published = found->second.value;
         estimate.published_positive = found->second.positive;

@@ -96,6 +96,8 @@ struct ResultsOptions {
                                                 const ResultsOptions& options);
 [[nodiscard]] ResultsSection production_results(const StudyData& data, const BlockDesign& block,
                                                 const ResultsOptions& options);
+[[nodiscard]] ResultsSection matching_results(const StudyData& data, const BlockDesign& block,
+                                              const ResultsOptions& options);
 [[nodiscard]] ResultsSection combined_results(const StudyData& data,
                                               const BlockDesign& estimation,
                                               const BlockDesign& production,

@@ -21,7 +21,8 @@ std::optional<double> number_of(const ordered_json& json) {
 constexpr std::pair<PlannedQuantity, const char*> kQuantities[] = {
     {PlannedQuantity::kWeberFraction, "weber_fraction"},
     {PlannedQuantity::kEstimationExponent, "estimation_exponent"},
-    {PlannedQuantity::kProductionExponent, "production_exponent"}};
+    {PlannedQuantity::kProductionExponent, "production_exponent"},
+    {PlannedQuantity::kMatch, "match"}};
 
 const char* word_of(PlannedQuantity quantity) {
   for (const auto& [known, word] : kQuantities) {

@@ -36,13 +36,16 @@ constexpr double kRatioPerPercent = 0.01;
 
 /// The one place that says what a block's answers are analysed for.
 PlannedQuantity quantity_of(const Block& block) {
-  switch (procedure_named(block.procedure).form(block).answer) {
+  const TrialForm form = procedure_named(block.procedure).form(block);
+  switch (form.answer) {
     case AnswerKind::kYesNo:
     case AnswerKind::kInterval:
       return PlannedQuantity::kWeberFraction;
     case AnswerKind::kMatch:
-      return PlannedQuantity::kProductionExponent;
+      return form.has_reference ? PlannedQuantity::kMatch
+                                : PlannedQuantity::kProductionExponent;
     case AnswerKind::kPercent:
+    case AnswerKind::kNumber:
       break;
   }
   return PlannedQuantity::kEstimationExponent;
@@ -60,6 +63,8 @@ PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuant
       ++count.num_trials;
     } else if (quantity == PlannedQuantity::kProductionExponent) {
       answers.magnitudes[planned.target_percent.value()].push_back(response);
+    } else if (quantity == PlannedQuantity::kMatch) {
+      answers.magnitudes[planned.reference_intensity.value()].push_back(response);
     } else {
       answers.magnitudes[planned.intensity.value()].push_back(response * kRatioPerPercent);
     }
@@ -181,7 +186,7 @@ bool somebody_gets_both(const Study& study, const std::string& first,
 }
 
 /// What the same fit makes of the median person without noise.
-std::optional<double> noise_free_exponent(const Study& study, const Laboratory& laboratory,
+std::optional<double> noise_free_value(const Study& study, const Laboratory& laboratory,
                                           const PlannedBlock& block) {
   const Laboratory quiet = without_noise(laboratory);
   const AnswerSimulator simulator(study, quiet);
@@ -220,6 +225,7 @@ Laboratory null_laboratory(const Laboratory& laboratory, const Block& first,
   Laboratory alike = laboratory;
   alike.device.mechanical_viscosity_n_s_per_m = 0.0;
   alike.perceiver.weber_fraction = common;
+  if (alike.pressing) alike.pressing->weber_fraction = common;
   return alike;
 }
 
@@ -267,7 +273,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
       one.reference = block_of(*stage).reference_intensity.value_or(0.0);
       one.true_value = median_weber_fraction(laboratory_, block_of(*stage), map.get());
     } else {
-      one.true_value = noise_free_exponent(study, laboratory_, one);
+      one.true_value = noise_free_value(study, laboratory_, one);
     }
     planned.blocks.push_back(std::move(one));
   }

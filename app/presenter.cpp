@@ -49,16 +49,20 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   if (measuring_) {
     core::ContactSums sums = last.contact_sums - sums_before_;
     const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
-    summary.stroke_width_m = strokes.stroke_width_m;
-    summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
-    summary.mean_height_m = strokes.mean_height_m;
-    summary.num_strokes = strokes.num_strokes;
-    summary.finger_lag_s = apparatus_.metered_finger_lag_s();
+    // A solid is pressed: what its hand does along the surface is no stroke.
+    const bool is_pressed = amounts_.plane().is_there();
+    if (!is_pressed) {
+      summary.stroke_width_m = strokes.stroke_width_m;
+      summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
+      summary.mean_height_m = strokes.mean_height_m;
+      summary.num_strokes = strokes.num_strokes;
+      summary.finger_lag_s = apparatus_.metered_finger_lag_s();
+    }
     if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
     // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
     felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();
-    summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
+    if (!is_pressed) summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
   }
   if (amounts_.is_plain_damping()) {
     summary.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;

@@ -14,6 +14,7 @@
 #include "core/random_stream.h"
 #include "core/storage/sha256.h"
 #include "device/device_registry.h"
+#include "experiments/participants/abilities.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
@@ -103,6 +104,9 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
       throw core::Error(store.folder().string() + ": expected a new participant, found that " +
                         participant + " has a session already; choose another or resume");
     }
+  }
+  if (setup.laboratory != nullptr) {
+    experiments::require_abilities(*setup.laboratory, setup.study);
   }
   refuse_other_study(store, setup, rows);
   std::error_code error;

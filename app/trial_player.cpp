@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/error.h"
 #include "core/random_stream.h"
-#include "experiments/procedures/procedure_registry.h"
+#include "experiments/participants/counting.h"
 #include "experiments/procedures/task.h"
 #include "experiments/session/stimulus.h"
 
@@ -101,7 +102,7 @@ device::StrokePlan TrialPlayer::plan_of(const StrokeIntent& intent) const {
   return {.amplitude_m = intent.amplitude_m,
           .max_speed_m_per_s = intent.max_speed_m_per_s,
           .height_m = intent.height_m,
-          .lift_m = habit.lift_m,
+          .lift_m = intent.lift_m.value_or(habit.lift_m),
           .amplitude_sd_ratio = habit.stroke_amplitude_sd_ratio,
           .speed_sd_ratio = habit.stroke_speed_sd_ratio,
           .height_sd_m = habit.stroke_height_sd_m};
@@ -112,8 +113,54 @@ core::RandomStream TrialPlayer::stroke_stream(std::int64_t trial, std::int64_t a
   return {session_.seed(), "stroke", {trial, attempt, presentation}};
 }
 
+/// What a solid gave way with: the regression through the origin of the force on the hand's
+/// depth in it, weighed over the points as the force is.
+class TrialPlayer::StiffnessMeter {
+ public:
+  explicit StiffnessMeter(double surface_m) : surface_m_(surface_m) {}
+
+  void look(const core::Telemetry& telemetry) {
+    double depth_m = 0.0;
+    for (std::size_t point = 0; point < core::kNumContactPoints; ++point) {
+      const double height_m = telemetry.sample.tip_position_m[point][2];
+      depth_m += core::kAreaShareRatio[point] * std::max(0.0, surface_m_ - height_m);
+    }
+    sum_force_depth_ += telemetry.total_force_n[2] * depth_m;
+    sum_depth_depth_ += depth_m * depth_m;
+  }
+  /// In N/m; 0 without contact.
+  [[nodiscard]] double stiffness_n_per_m() const {
+    return sum_depth_depth_ > 0.0 ? std::max(0.0, sum_force_depth_ / sum_depth_depth_) : 0.0;
+  }
+
+ private:
+  double surface_m_;
+  double sum_force_depth_ = 0.0, sum_depth_depth_ = 0.0;
+};
+
+/// Out of whatever is below: who presses a surface enters it from above.
+void TrialPlayer::rise_above(double surface_m) {
+  constexpr double kGlanceS = 0.020, kPatienceS = 10.0;
+  apparatus_.begin_strokes(plan_of(participant_.hover(surface_m)),
+                           stroke_stream(*session_.state().current_trial(), 0, 0));
+  const auto lowest_m = [&] {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto& tip_m : apparatus_.telemetry().sample.tip_position_m) {
+      lowest = std::min<double>(lowest, tip_m[2]);
+    }
+    return lowest;
+  };
+  double waited_s = 0.0;
+  while (lowest_m() <= surface_m && waited_s < kPatienceS) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(kGlanceS);
+    waited_s += kGlanceS;
+    stop_if_loose();
+  }
+}
+
 /// Until the strokes are done and the hand has visibly turned, or far too much time is over.
-void TrialPlayer::run_strokes(const StrokeIntent& intent) {
+void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffness) {
   constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
   const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
   double elapsed_s = 0.0;
@@ -122,6 +169,7 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent) {
     apparatus_.run_for(kGlanceS);
     elapsed_s += kGlanceS;
     stop_if_loose();
+    stiffness.look(apparatus_.telemetry());
   }
   apparatus_.run_for(0.2 + 0.1 * intent.period_s);
   stop_if_loose();
@@ -139,10 +187,14 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent) {
 TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
   attachment_.begin(apparatus_.telemetry());
   stop_if_loose();
+  const double surface_m = run_.study.device.immersion.origin_z_m;
+  if (block.is_solid()) rise_above(surface_m);
   presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
-  const StrokeIntent intent = participant_.strokes(block.procedure);
+  const StrokeIntent intent = block.is_solid()
+                                  ? participant_.presses(block.procedure, surface_m)
+                                  : participant_.strokes(block.procedure);
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(number, trial.attempt,
                                      static_cast<std::int64_t>(trial.presentations.size())));
@@ -151,9 +203,12 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
     apparatus_.run_for(1.0 / run_.study.device.rate_hz);
   }
   presenter_.ramp_is_over();
-  run_strokes(intent);
+  StiffnessMeter stiffness(surface_m);
+  run_strokes(intent, stiffness);
   const Presenter::Felt felt = presenter_.end();
-  return {.damping_n_s_per_m = felt.delivered_damping_n_s_per_m + device_damping(felt),
+  return {.amount = block.is_solid()
+                        ? stiffness.stiffness_n_per_m()
+                        : felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
           .duration_s = felt.duration_s};
 }
@@ -170,8 +225,10 @@ Moment TrialPlayer::moment(const Block& block) const {
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
   // Adaptive procedures have one repetition, as long as it takes.
+  const std::size_t num_pairs =
+      block.intensities.size() * std::max<std::size_t>(1, block.standards.size());
   const auto per_repetition =
-      static_cast<std::int64_t>(block.intensities.size()) + num_catch_trials(block);
+      static_cast<std::int64_t>(num_pairs) + num_catch_trials(block);
   return {.trial = number,
           .attempt = trial.attempt,
           .presentation = static_cast<std::int64_t>(trial.presentations.size()),
@@ -180,7 +237,7 @@ Moment TrialPlayer::moment(const Block& block) const {
 }
 
 double TrialPlayer::read(const Felt& felt, const Block& block) const {
-  return participant_.perceiver().reading_ln(felt.damping_n_s_per_m, moment(block));
+  return participant_.perceiver(block).reading_ln(felt.amount, moment(block));
 }
 
 void TrialPlayer::run_trial(const Block& block) {
@@ -196,37 +253,47 @@ void TrialPlayer::run_trial(const Block& block) {
 }
 
 void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
-  const TrialForm form = procedure_named(block.procedure).form(block);
-  if (form.adjustable) return produce(block, trial);
+  const TrialForm form = session_.current_form();
+  if (form.adjustable) return adjust(block, trial, form.has_reference);
   if (form.order_is_drawn) return compare_intervals(block, form.answer);
   if (form.answer == AnswerKind::kYesNo && !form.has_reference) return detect(block);
   if (form.answer == AnswerKind::kYesNo) return compare(block);
-  estimate(block, trial);
+  estimate(block, trial, form);
 }
 
-void TrialPlayer::estimate(const Block& block, std::int64_t trial) {
-  double sum_ln = 0.0;
+void TrialPlayer::estimate(const Block& block, std::int64_t trial, const TrialForm& form) {
+  double sum_ln = 0.0, standard_ln = 0.0;
   int looks = 0;
   Felt felt;
   do {
+    if (form.has_reference) standard_ln += read(present(block, "reference"), block);
     felt = present(block, "test");
     sum_ln += read(felt, block);
     ++looks;
-  } while (participant_.perceiver().looks_again(moment(block)));
+  } while (participant_.perceiver(block).looks_again(moment(block)));
   std::optional<double> previous;
   if (trial > 1) {
     const TrialState& before = session_.state().trial(trial - 1);
     if (before.stage == session_.state().stage) previous = before.response;
   }
-  session_.answer(
-      participant_.perceiver().estimate_percent(sum_ln / looks, moment(block), previous),
-      felt.duration_s, felt.last_tick);
+  const Perceiver& perceiver = participant_.perceiver(block);
+  double answer = 0.0;
+  if (form.answer == AnswerKind::kPercent) {
+    answer = perceiver.estimate_percent(sum_ln / looks, moment(block), previous);
+  } else {
+    std::optional<double> felt_standard_ln;
+    if (form.has_reference) felt_standard_ln = standard_ln / looks;
+    const auto map = force_map_of(run_.study.device);
+    answer = perceiver.estimate_number(
+        sum_ln / looks, moment(block), previous,
+        counting_of(run_.laboratory, participant_, block, felt_standard_ln, map.get()));
+  }
+  session_.answer(answer, felt.duration_s, felt.last_tick);
 }
 
 /// Whether anything is there, against free space as it is remembered.
 void TrialPlayer::detect(const Block& block) {
-  const double remembered_ln =
-      std::log(std::max(run_.laboratory.device.mechanical_viscosity_n_s_per_m, 1e-6));
+  const Perceiver& perceiver = participant_.perceiver(block);
   double test_ln = 0.0;
   int looks = 0;
   Felt felt;
@@ -234,9 +301,9 @@ void TrialPlayer::detect(const Block& block) {
     felt = present(block, "test");
     test_ln += read(felt, block);
     ++looks;
-  } while (participant_.perceiver().looks_again(moment(block)));
+  } while (perceiver.looks_again(moment(block)));
   const bool there =
-      participant_.perceiver().says_present(test_ln / looks, remembered_ln, moment(block));
+      perceiver.says_present(test_ln / looks, perceiver.free_space_ln(), moment(block));
   session_.answer(there ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
 }
 
@@ -250,14 +317,14 @@ void TrialPlayer::compare(const Block& block) {
     felt = present(block, "test");
     test_ln += read(felt, block);
     ++looks;
-  } while (participant_.perceiver().looks_again(moment(block)));
-  const bool thicker = participant_.perceiver().says_thicker(
+  } while (participant_.perceiver(block).looks_again(moment(block)));
+  const bool thicker = participant_.perceiver(block).says_thicker(
       test_ln / looks, reference_ln / looks, moment(block));
   session_.answer(thicker ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
 }
 
 void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
-  const Perceiver& person = participant_.perceiver();
+  const Perceiver& person = participant_.perceiver(block);
   double first_ln = 0.0;
   double second_ln = 0.0;
   int looks = 0;
@@ -277,9 +344,18 @@ void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
   session_.answer(answer, felt.duration_s, felt.last_tick);
 }
 
-void TrialPlayer::produce(const Block& block, std::int64_t trial) {
+/// A production; with a reference a matching, in which the person may go back to it.
+void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_reference) {
   constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
-  const double target_percent = session_.state().trial(trial).planned.target_percent.value();
+  const PlannedTrial planned = session_.state().trial(trial).planned;
+  const Perceiver& perceiver = participant_.perceiver(block);
+  double standard_ln = 0.0;
+  int standard_looks = 0;
+  const auto feel_standard = [&] {
+    const double reading_ln = read(present(block, "reference"), block);
+    standard_ln += (reading_ln - standard_ln) / ++standard_looks;
+  };
+  if (has_reference) feel_standard();
   // What is felt now, with the noise of all looks at this trial averaged: who steps on and on
   // knows better where they are than who felt it once.
   double noise_ln = 0.0;
@@ -289,7 +365,7 @@ void TrialPlayer::produce(const Block& block, std::int64_t trial) {
   const auto look = [&] {
     felt = present(block, "test");
     duration_s += felt.duration_s;
-    const double felt_ln = std::log(std::max(felt.damping_n_s_per_m, 1e-6));
+    const double felt_ln = std::log(std::max(felt.amount, 1e-6));
     noise_ln += read(felt, block) - felt_ln;
     ++looks;
     return felt_ln + noise_ln / looks;
@@ -300,8 +376,16 @@ void TrialPlayer::produce(const Block& block, std::int64_t trial) {
   Wish last_wish = Wish::kMatches;
   for (int step = 0; step < kMaxSteps; ++step) {
     const Wish wish =
-        participant_.perceiver().wish(reading_ln, first_ln, target_percent, moment(block));
-    if (wish == Wish::kMatches) break;
+        has_reference
+            ? perceiver.wish_to_match(reading_ln, first_ln, standard_ln, moment(block))
+            : perceiver.wish(reading_ln, first_ln, planned.target_percent.value(),
+                             moment(block));
+    if (wish == Wish::kMatches) {
+      if (!has_reference || !perceiver.looks_again(moment(block))) break;
+      feel_standard();
+      reading_ln = look();
+      continue;
+    }
     // Back and forth over the target by the smallest step: it does not get closer than this.
     if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
         (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {

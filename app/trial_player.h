@@ -39,13 +39,14 @@ class TrialPlayer {
 
  private:
   struct Felt {
-    double damping_n_s_per_m = 0.0;
+    double amount = 0.0;  ///< A damping in N s/m, or of a solid its stiffness in N/m.
     std::int64_t last_tick = 0;
     double duration_s = 0.0;
   };
 
   [[nodiscard]] double device_damping(const Presenter::Felt& felt) const;
   struct CameOff;
+  class StiffnessMeter;
 
   void feel(const experiments::Exploration& exploration);
   void stop_if_loose() const;
@@ -56,15 +57,17 @@ class TrialPlayer {
   [[nodiscard]] device::StrokePlan plan_of(const experiments::StrokeIntent& intent) const;
   [[nodiscard]] core::RandomStream stroke_stream(std::int64_t trial, std::int64_t attempt,
                                                  std::int64_t presentation) const;
-  void run_strokes(const experiments::StrokeIntent& intent);
+  void rise_above(double surface_m);
+  void run_strokes(const experiments::StrokeIntent& intent, StiffnessMeter& stiffness);
   Felt present(const experiments::Block& block, const std::string& interval);
   [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
   [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;
-  void estimate(const experiments::Block& block, std::int64_t trial);
+  void estimate(const experiments::Block& block, std::int64_t trial,
+                const experiments::TrialForm& form);
   void detect(const experiments::Block& block);
   void compare(const experiments::Block& block);
   void compare_intervals(const experiments::Block& block, experiments::AnswerKind asked);
-  void produce(const experiments::Block& block, std::int64_t trial);
+  void adjust(const experiments::Block& block, std::int64_t trial, bool has_reference);
 
   const LaboratoryRun& run_;
   Apparatus& apparatus_;

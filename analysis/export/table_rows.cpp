@@ -32,8 +32,11 @@ std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
   std::vector<ExportedTrial> trials;
   for (core::TrialRow& row : store.trials(session, true)) {
     const bool stands = std::binary_search(standing.begin(), standing.end(), row.sequence);
-    const bool is_practice = blocks[row.block].is_practice;
-    trials.push_back({.row = std::move(row), .excluded = !stands, .is_practice = is_practice});
+    const ProtocolBlock& block = blocks[row.block];
+    trials.push_back({.row = std::move(row),
+                      .excluded = !stands,
+                      .is_practice = block.is_practice,
+                      .standard_medium = block.standard_medium});
   }
   return trials;
 }
@@ -79,7 +82,8 @@ void write_trial_cells(TableWriter& table, const core::SessionRow& session,
   table.cell(row.is_catch)
       .cell(trial.is_practice)
       .cell(row.intensity)
-      .cell(row.reference_intensity);
+      .cell(row.reference_intensity)
+      .cell(trial.standard_medium);
   table.cell(row.starting_intensity).cell(row.target_percent).cell(row.response);
   table.cell(row.response_time_s).cell(row.num_presentations).cell(row.num_steps);
   table.cell(row.first_tick).cell(row.last_tick).cell(trial.excluded);

@@ -15,8 +15,9 @@ namespace jnd::analysis {
 /// A trial whose answer stands.
 struct ExportedTrial {
   core::TrialRow row;
-  bool excluded = false;     ///< Set aside with a reason.
-  bool is_practice = false;  ///< Of a block that is practice.
+  bool excluded = false;        ///< Set aside with a reason.
+  bool is_practice = false;     ///< Of a block that is practice.
+  std::string standard_medium;  ///< Of the reference; "" where it is the block's own.
 };
 /// In the order of the trials.
 [[nodiscard]] std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,

@@ -8,6 +8,7 @@ namespace jnd::analysis {
 namespace {
 
 constexpr char kProduction[] = "magnitude_production";
+constexpr char kMatching[] = "matching";
 
 struct Mean {
   double sum = 0.0;
@@ -71,6 +72,7 @@ class BlockReplacement {
     if (!trial.intensity) return false;
     if (*trial.intensity == 0.0) return true;
     if (trial.procedure == kProduction) return replace_production(trial);
+    if (trial.procedure == kMatching) return replace_matching(trial);
     const auto level = levels_.find(*trial.intensity);
     if (level == levels_.end()) return false;
     double intensity = *level->second.value();
@@ -89,6 +91,17 @@ class BlockReplacement {
     if (found == delivered_.end() || !found->second.test) return false;
     trial.intensity = found->second.test;
     trial.response = found->second.test;
+    return true;
+  }
+
+  /// What was delivered of the value set, over what was delivered of the standard where that
+  /// is known: many fluids' force was never measured.
+  bool replace_matching(core::TrialRow& trial) const {
+    if (!replace_production(trial)) return false;
+    const std::optional<double> standard = delivered_.at({trial.session, trial.trial}).reference;
+    if (!standard || !(*standard > 0.0) || !trial.reference_intensity) return true;
+    trial.intensity = *trial.intensity * *trial.reference_intensity / *standard;
+    trial.response = trial.intensity;
     return true;
   }
 

@@ -38,7 +38,8 @@ struct DeliveredStudy {
 /// For fits on delivered intensity. A trial gets the mean of what its participant was delivered
 /// at its level, since one presentation alone is a noisy measure. Where there is a reference,
 /// that keeps its value and the test gets the delivered ratio to it: what a Weber fraction
-/// rests on. A production gets what was delivered of the value set. Zero intensity stays zero.
+/// rests on. A production gets what was delivered of the value set, a
+/// matching too, with the standard as a reference. Zero intensity stays zero.
 [[nodiscard]] DeliveredStudy with_delivered(StudyData data,
                                             const DeliveredIntensities& delivered);
 

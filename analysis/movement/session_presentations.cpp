@@ -18,7 +18,8 @@ constexpr std::size_t kMostLevels = 32;
 
 struct TrialPlan {
   core::DesignRow design;
-  std::set<double> levels;  ///< Of its block.
+  std::set<double> levels;      ///< Of its block.
+  std::string standard_medium;  ///< Of the reference; "" where it is the block's own.
 };
 
 std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
@@ -35,7 +36,10 @@ std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
     }
     plans[row.trial].design = std::move(row);
   }
-  for (auto& [trial, plan] : plans) plan.levels = levels[plan.design.block];
+  for (auto& [trial, plan] : plans) {
+    plan.levels = levels[plan.design.block];
+    plan.standard_medium = blocks[plan.design.block].standard_medium;
+  }
   return plans;
 }
 
@@ -43,7 +47,10 @@ PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& p
   // A catch trial of a yes-no task is free space, too.
   const bool is_free = row.interval == "free_space" ||
                        (plan.design.is_catch && !plan.design.reference_intensity);
-  const std::string medium = is_free ? "free_space" : plan.design.medium;
+  const bool is_standard = row.interval == "reference" && !plan.standard_medium.empty();
+  const std::string medium = is_free       ? "free_space"
+                             : is_standard ? plan.standard_medium
+                                           : plan.design.medium;
   return {.movement = {.session = row.session,
                        .trial = row.trial,
                        .attempt = row.attempt,
@@ -107,7 +114,9 @@ std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
   std::vector<PlannedPresentation> all;
   for (const core::PresentationRow& row : store.presentations(session)) {
     const auto plan = plans.find(row.trial);
-    if (plan != plans.end()) all.push_back(planned(row, plan->second));
+    // A solid is pressed, which nothing here is about.
+    if (plan == plans.end() || plan->second.design.medium == "solid") continue;
+    all.push_back(planned(row, plan->second));
   }
   if (explored) add_explored(store, session, all);
   std::ranges::stable_sort(

@@ -13,7 +13,7 @@ namespace jnd::analysis {
 namespace {
 
 /// A participant's own number in a block, where it is normally distributed over people:
-/// ln ln(1 + w), or the exponent.
+/// ln ln(1 + w), the exponent, or ln(match).
 struct OwnNumber {
   bool answered = false;
   std::optional<double> plain;      ///< None of a degenerate participant.
@@ -45,6 +45,12 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
     return own;
   }
   const Means logs = means_of(log_answers(answers.magnitudes, ZeroRule::kHalfSmallest).logs);
+  if (block.quantity == PlannedQuantity::kMatch) {
+    std::vector<double> means;
+    for (const auto& [standard, mean] : logs) means.push_back(mean);
+    own.plain = summary_of(means).mean;
+    return own;
+  }
   own.plain =
       (block.quantity == PlannedQuantity::kEstimationExponent ? fit_log_estimation(logs)
                                                               : fit_log_production(logs))
@@ -52,17 +58,20 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
   return own;
 }
 
-double weber_fraction_at(double log_log_number) { return std::expm1(std::exp(log_log_number)); }
+/// Back from where it is normally distributed.
+double quantity_at(double number, PlannedQuantity quantity) {
+  if (quantity == PlannedQuantity::kWeberFraction) return std::expm1(std::exp(number));
+  return quantity == PlannedQuantity::kMatch ? std::exp(number) : number;
+}
 
 PlannedEstimate mean_of(const std::vector<double>& numbers, PlannedQuantity quantity) {
   const Summary summary = summary_of(numbers);
   PlannedEstimate estimate{.value = summary.mean, .ci95 = summary.mean_ci95};
-  if (quantity != PlannedQuantity::kWeberFraction) return estimate;
   for (std::optional<double>* end :
        {&estimate.value, &estimate.ci95.low, &estimate.ci95.high}) {
     if (!*end) continue;
-    const double fraction = weber_fraction_at(**end);
-    *end = std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
+    const double value = quantity_at(**end, quantity);
+    *end = std::isfinite(value) ? std::optional(value) : std::nullopt;
   }
   return estimate;
 }
@@ -166,6 +175,11 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
   const std::string pse = analysis.free_pse ? "pse free" : "pse at the reference";
   for (std::size_t place = 0; place < analysis.blocks.size(); ++place) {
     const PlannedBlock& block = analysis.blocks[place];
+    if (block.quantity == PlannedQuantity::kMatch) {
+      names.push_back({block.name + ".match",
+                       "geometric mean of the participants' matches over all standards", place});
+      continue;
+    }
     if (block.quantity != PlannedQuantity::kWeberFraction) {
       names.push_back({block.name + ".a",
                        "mean of the participants' own exponents, lines through the logarithms",

@@ -13,7 +13,12 @@
 namespace jnd::analysis {
 
 /// What a block is there to estimate.
-enum class PlannedQuantity { kWeberFraction, kEstimationExponent, kProductionExponent };
+enum class PlannedQuantity {
+  kWeberFraction,
+  kEstimationExponent,
+  kProductionExponent,
+  kMatch,  ///< Geometric mean of what was matched, over all standards.
+};
 
 struct PlannedBlock {
   std::string name;  ///< "group_d"
@@ -45,7 +50,8 @@ struct PlannedName {
 /// One participant's answers in one block, without any if the block was not for them.
 struct PlannedAnswers {
   std::vector<AnswerCount> counts;  ///< Discrimination.
-  MagnitudeAnswers magnitudes;      ///< Ratios at intensities, or intensities at targets.
+  /// Ratios at intensities, or intensities at targets or standards.
+  MagnitudeAnswers magnitudes;
 };
 /// In the order of the blocks.
 using PlannedPerson = std::vector<PlannedAnswers>;

@@ -30,6 +30,7 @@ class Writer {
   void write_thresholds();
   void write_hierarchical();
   void write_power_laws();
+  void write_matching();
   void write_groups();
   void write_tests();
   void write_effects();
@@ -47,6 +48,11 @@ class Writer {
   [[nodiscard]] bool has_procedure(const std::string& procedure) const {
     return std::ranges::any_of(source_.data.blocks, [&](const BlockDesign& one) {
       return one.procedure == procedure;
+    });
+  }
+  [[nodiscard]] bool has_modulus(const std::string& modulus) const {
+    return std::ranges::any_of(source_.data.blocks, [&](const BlockDesign& one) {
+      return one.procedure == "magnitude_estimation" && one.protocol.modulus == modulus;
     });
   }
   [[nodiscard]] bool discriminates() const {
@@ -157,6 +163,19 @@ void Writer::write_power_laws() {
   if (has_procedure("magnitude_estimation"))
     text += ", intensity 0 included where it was presented";
   text += ".";
+  if (has_modulus("standard")) {
+    text +=
+        " Where a standard was felt that had a number, magnitudes are ratios to it, not to "
+        "water.";
+  }
+  if (has_modulus("free")) {
+    text +=
+        " Where everybody chose their own numbers, each participant’s answers are divided by "
+        "the geometric mean of their answers to the stimuli that all answered (" +
+        cite("Lane et al. 1961") +
+        ") before anything else: exponents are as they were, k has no meaning, and nothing is "
+        "compared in percent of water.";
+  }
   if (has_procedure("magnitude_production")) {
     text +=
         " Production: the magnitude asked for over the mean intensity set, as published; "
@@ -180,9 +199,23 @@ void Writer::write_power_laws() {
   add("Power laws", text);
 }
 
+void Writer::write_matching() {
+  if (!has_procedure("matching")) return;
+  add("Matching",
+      "Method of adjustment (as in " + cite("Bergmann Tiest et al. 2013") +
+          "): a match is the intensity at which the comparison was said to feel like the "
+          "standard, with free switching between both. Everything is computed with the "
+          "logarithms of matches; matches of 0 are left out and counted. A participant’s value "
+          "at a standard is the geometric mean over repetitions and starting values. Over the "
+          "standard, where both have the same unit, it is the constant error as a ratio. The "
+          "spread is the standard deviation of ln(match) about its mean at each standard, "
+          "pooled over standards. The effect of the starting value is the slope of ln(match) on "
+          "its logarithm that all standards share, each with a level of its own.");
+}
+
 void Writer::write_groups() {
   std::string text;
-  if (discriminates() || has_magnitudes()) {
+  if (discriminates() || has_magnitudes() || has_procedure("matching")) {
     text =
         "Group intervals: participants are drawn anew with replacement, " +
         std::to_string(source_.results_options.num_resamples) + " times (seed " +
@@ -325,6 +358,7 @@ MethodWords method_words(const ReportSource& source) {
   writer.write_thresholds();
   writer.write_hierarchical();
   writer.write_power_laws();
+  writer.write_matching();
   writer.write_groups();
   writer.write_tests();
   writer.write_effects();

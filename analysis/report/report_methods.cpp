@@ -22,6 +22,19 @@ std::string joined(const std::set<double>& numbers, const std::string& unit) {
   return unit.empty() ? all : all + " " + unit;
 }
 
+std::string reference_words(const BlockDesign& block, const std::set<double>& references) {
+  const ProtocolBlock& protocol = block.protocol;
+  if (protocol.standard_medium.empty()) {
+    return "reference " + joined(references, quantity_unit(block.quantity));
+  }
+  return "standard " + quantity_words(protocol.standard_quantity) + " " +
+         joined(references, quantity_unit(protocol.standard_quantity)) + " of the medium “" +
+         protocol.standard_medium + "”" +
+         (protocol.modulus == "standard"
+              ? ", which counts as " + shortest_words(protocol.modulus_value)
+              : "");
+}
+
 /// What a block presented, from its answered trials.
 std::string block_words(const StudyData& data, const BlockDesign& block) {
   std::set<double> intensities;
@@ -32,8 +45,8 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
   std::int64_t repetitions = 0;
   for (const ParticipantData& participant : data.participants) {
     for (const core::TrialRow& trial : participant.trials_in(block.block)) {
-      const bool produces = trial.target_percent.has_value();
-      if (trial.intensity && !produces) intensities.insert(*trial.intensity);
+      const bool adjusts = trial.starting_intensity.has_value();
+      if (trial.intensity && !adjusts) intensities.insert(*trial.intensity);
       if (trial.reference_intensity) references.insert(*trial.reference_intensity);
       if (trial.starting_intensity) starts.insert(*trial.starting_intensity);
       if (trial.target_percent) targets.insert(*trial.target_percent);
@@ -46,7 +59,8 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
                       quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
   if (!intensities.empty()) words += "; levels " + joined(intensities, unit);
-  if (!references.empty()) words += "; reference " + joined(references, unit);
+  if (!references.empty()) words += "; " + reference_words(block, references);
+  if (block.protocol.modulus == "free") words += "; numbers of everybody’s own choice";
   if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");
   if (!starts.empty()) words += "; starting from " + joined(starts, unit);
   words += "; " + counted_words(repetitions, "repetition") + ", " +

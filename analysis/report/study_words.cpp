@@ -77,6 +77,7 @@ StudyWords study_words_of(const std::string& protocol_text) {
 std::string quantity_words(const std::string& quantity) {
   if (quantity == "scale") return "scaling factor";
   if (quantity == "viscosity_pa_s") return "viscosity";
+  if (quantity == "stiffness_n_per_m") return "stiffness";
   return in_words(quantity);
 }
 
@@ -100,6 +101,7 @@ std::string procedure_words(const std::string& procedure, const std::string& tas
   std::string words = in_words(procedure);
   if (procedure == "constant_stimuli") words = "method of constant stimuli";
   if (procedure == "limits") words = "method of limits";
+  if (procedure == "matching") return "matching by the method of adjustment";
   if (procedure == "quest_plus") words = "QUEST+ (Watson 2017)";
   if (task == "yes_no") return words + " as a yes-no task";
   if (task == "two_interval") return words + " as a two-interval task (order drawn)";

@@ -13,6 +13,8 @@ using namespace experiments;
 
 namespace {
 
+constexpr double kTouchingM = -0.005;  ///< Of the surface, for a solid.
+
 [[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
 
 bool felt_the_test(const TrialState& trial) {
@@ -60,7 +62,6 @@ struct OperatedSession::Act {
     my.feeling_ =
         Feeling{.first_tick = my.visit_.apparatus().next_tick(), .setting = medium->setting};
     my.visit_.apparatus().render(amounts_of(medium->setting));
-    constexpr double kTouchingM = -0.005;  // Of the surface, for a solid.
     my.move_simulated_hand(medium->setting.medium == "solid" ? kTouchingM : -0.15);
   }
 
@@ -105,13 +106,18 @@ struct OperatedSession::Act {
     }
     end_presentation();
     my.presenter_.begin(*my.block(), present.interval);
-    my.move_simulated_hand(-0.15);
+    const bool is_pressed = my.block()->is_solid() && present.interval != "free_space";
+    my.move_simulated_hand(is_pressed ? kTouchingM : -0.15);
   }
 
   void operator()(const operate::Answer& answer) const {
     const TrialState& trial = require_trial(answer.trial);
     if (!trial.under_way || !my.presenter_.under_way() || !felt_the_test(trial)) {
       refuse("the test has not been felt yet");
+    }
+    if (my.session_.current_form().adjustable &&
+        trial.presentations.back().interval == "reference") {
+      refuse("the fluid to adjust is not being felt");
     }
     my.session_.require_answer(answer.value);
     const double response_time_s = my.presenter_.felt_s();

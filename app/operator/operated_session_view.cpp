@@ -9,6 +9,7 @@
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session_limits.h"
+#include "experiments/session/stimulus.h"
 
 namespace jnd::app {
 
@@ -201,8 +202,12 @@ std::string OperatedSession::level_of(const TrialState& trial) const {
       trial.under_way ? trial.set_intensity : planned.starting_intensity.value_or(0.0));
   std::string level_and_more = level_words(its_block.quantity, level);
   if (planned.reference_intensity) {
+    const MediumSetting reference =
+        setting_of(its_block, "reference", *planned.reference_intensity);
     level_and_more +=
-        ", reference " + level_words(its_block.quantity, *planned.reference_intensity);
+        ", reference " + (reference.medium == its_block.medium
+                              ? level_words(reference.quantity, reference.intensity)
+                              : words_of(reference));
   }
   return level_and_more;
 }
@@ -215,7 +220,8 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
                  .repetition = trial.planned.repetition,
                  .answer = form.answer,
                  .has_reference = form.has_reference,
-                 .adjustable = form.adjustable};
+                 .adjustable = form.adjustable,
+                 .is_solid = block()->is_solid()};
   view.num_in_block = 0;
   for (std::size_t i = 0; i < state().trials.size(); ++i) {
     if (state().trials[i].stage != trial.stage) continue;
@@ -242,6 +248,9 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
   view.yes_label = block()->yes_label.empty() ? "Yes" : words(block()->yes_label);
   view.no_label = block()->no_label.empty() ? "No" : words(block()->no_label);
   view.target_percent = trial.planned.target_percent;
+  if (form.answer == AnswerKind::kNumber && form.has_reference) {
+    view.modulus_value = block()->settings.number("modulus_value");
+  }
   view.level = level_of(trial);
   view.rest_left_s = std::max(0.0, rest_until_s_ - now_s());
   return view;
@@ -320,7 +329,9 @@ void OperatedSession::describe_loop(SessionView& view) const {
                        .has_walls = parameters_.study.device.wall_stiffness_n_per_m > 0.0};
   view.loop.num_limited_ticks = view.telemetry.num_limited_ticks;
   if (!hides_levels_) {
-    view.surroundings.surface_is_solid = feeling_ && feeling_->setting.medium == "solid";
+    const bool presses = presenter_.under_way() && block() != nullptr && block()->is_solid();
+    view.surroundings.surface_is_solid =
+        presses || (feeling_ && feeling_->setting.medium == "solid");
     return;
   }
   // Speed and force tell the level; within the limits or not is all that may be known.

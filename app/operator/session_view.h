@@ -80,6 +80,7 @@ struct TrialView {
   experiments::AnswerKind answer = experiments::AnswerKind::kYesNo;
   bool has_reference = false;
   bool adjustable = false;
+  bool is_solid = false;  ///< A surface that is pressed, not a fluid.
   std::string interval;  ///< Being felt: "test", "reference", "free_space"; "" for none.
   double felt_s = 0.0;   ///< For how long already.
   int num_strokes = 0;   ///< Whole ones, in this presentation.
@@ -88,6 +89,7 @@ struct TrialView {
   std::string question;
   std::string yes_label, no_label;  ///< What the two answers are called.
   std::optional<double> target_percent;
+  std::optional<double> modulus_value;  ///< The number of the standard, where it has one.
   std::string level;         ///< "1.65 Pa s, reference 1.85 Pa s"; "" where it is hidden.
   double rest_left_s = 0.0;  ///< Of the free space before.
 };

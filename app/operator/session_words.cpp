@@ -26,7 +26,7 @@ std::string own_words(Own what, const std::string& language) {
 /// The sentences of a trial for two people, and for one alone.
 struct TrialSentences {
   const char *present_reference, *present_fluid, *resting;
-  const char *reference, *free_space, *production, *estimation, *comparison;
+  const char *reference, *free_space, *production, *estimation, *number, *comparison;
 };
 constexpr TrialSentences kForTwo = {
     "Show the fist, then present the reference.",
@@ -36,6 +36,7 @@ constexpr TrialSentences kForTwo = {
     "Go back to a fluid when the participant is ready.",
     "Follow the participant's signs until it matches.",
     "At the ready sign, ask; type the percent and press Enter.",
+    "At the ready sign, ask; type the number and press Enter.",
     "Show one finger. At the ready sign, ask:"};
 constexpr TrialSentences kForOne = {"Present the reference.",
                                     "Present the fluid.",
@@ -44,7 +45,15 @@ constexpr TrialSentences kForOne = {"Present the reference.",
                                     "Go back to a fluid when you are ready.",
                                     "Lower or raise it until it feels right.",
                                     "Feel it, type the percent and press Enter.",
+                                    "Feel it, type the number and press Enter.",
                                     "Feel the test, then answer:"};
+
+/// What is said of a fluid, said of a solid surface.
+void speak_of_a_surface(std::string& words) {
+  const std::string fluid = "fluid";
+  const std::size_t at = words.find(fluid);
+  if (at != std::string::npos) words.replace(at, fluid.size(), "surface");
+}
 
 void add_trial_words(SessionView& view, std::string_view instruction) {
   const TrialView& trial = *view.trial;
@@ -77,6 +86,10 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
     view.sign = HandSign::kFist;
     view.sentence = sentences.reference;
     view.participant_text.clear();
+    if (trial.modulus_value) {
+      view.participant_text = "= " + number_words(*trial.modulus_value);
+      view.say = view.participant_text;
+    }
   } else if (trial.interval == "free_space") {
     view.heading = "Free space";
     view.sign = HandSign::kOpenHand;
@@ -90,8 +103,9 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
   } else {
     view.heading = "Test fluid";
     view.sign = HandSign::kOneFinger;
-    view.sentence =
-        trial.answer == AnswerKind::kPercent ? sentences.estimation : sentences.comparison;
+    view.sentence = trial.answer == AnswerKind::kPercent  ? sentences.estimation
+                    : trial.answer == AnswerKind::kNumber ? sentences.number
+                                                          : sentences.comparison;
     view.say = trial.question;
   }
 }
@@ -182,7 +196,12 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
     case Step::kRest:
     case Step::kReady:
     case Step::kPresenting:
-      return add_trial_words(view, instruction);
+      add_trial_words(view, instruction);
+      if (view.trial->is_solid) {
+        speak_of_a_surface(view.heading);
+        speak_of_a_surface(view.sentence);
+      }
+      return;
     case Step::kStageDone:
       view.sentence = "Done. Go on, or take the last answer back first.";
       return;

@@ -12,6 +12,7 @@
 #include "core/storage/study_store.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/plan.h"
+#include "experiments/study/parameter_table.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
@@ -133,12 +134,17 @@ class Outliner {
   }
   void describe(const Block& block, OutlineStage& line) const {
     line.kind = name_words(block.procedure, /*as_title=*/true);
-    const int num_trials = procedure_named(block.procedure).expected_trials(block);
+    const Procedure& procedure = procedure_named(block.procedure);
+    const int num_trials = procedure.expected_trials(block);
+    const bool adjusts = procedure.form(block).adjustable;
     const std::string trials =
         trials_to_expect(block, num_trials) + (num_trials == 1 ? " trial" : " trials");
     const std::size_t count = block.intensities.size();
     if (length_is_expected(block)) {
       line.what = adaptive_words(block) + ": " + trials;
+    } else if (adjusts && !block.standards.empty()) {
+      line.what = counted(count, "starting value") + " for " +
+                  counted(block.standards.size(), "standard") + ": " + trials;
     } else if (block.target_percent.empty()) {
       line.what = fmt::format(
           "{} {}, {}: {}", count, count == 1 ? "stimulus" : "stimuli",
@@ -164,8 +170,17 @@ class Outliner {
     if (block.reference_intensity) {
       line.details.push_back("reference " + name + list_of({*block.reference_intensity}, unit));
     }
+    if (!block.standards.empty()) {
+      const std::string quantity = quantity_of(block.standard_medium);
+      const std::string its_unit = quantity_unit(quantity);
+      line.details.push_back("standard " + name_words(block.standard_medium, false) + ", " +
+                             (its_unit.empty() ? quantity_words(quantity) + " " : "") +
+                             list_of(block.standards, its_unit));
+    }
     if (!block.target_percent.empty()) {
       line.details.push_back("targets " + list_of(block.target_percent, "%"));
+    }
+    if (adjusts) {
       line.details.push_back("steps of " + list_of({block.coarse_step, block.fine_step}, unit));
     }
   }

@@ -6,7 +6,9 @@
 
 #include "core/error.h"
 #include "core/random_stream.h"
+#include "experiments/participants/abilities.h"
 #include "experiments/participants/calculated_stroke.h"
+#include "experiments/participants/counting.h"
 #include "experiments/procedures/adjustment.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
@@ -28,7 +30,8 @@ class BlockPlayer {
         seed_(session_seed),
         block_(block),
         form_(procedure_named(block.procedure).form(block)),
-        strokes_(participant.strokes(block.procedure)) {}
+        strokes_(participant.strokes(block.procedure)),
+        perceiver_(participant.perceiver(block)) {}
 
   /// The response to a trial. `answered`: those before it in the block.
   double respond(const PlannedTrial& planned, std::int64_t trial,
@@ -36,7 +39,7 @@ class BlockPlayer {
     moment_ = {.trial = trial,
                .presentation = 0,
                .trial_in_block = static_cast<std::int64_t>(answered.size()) + 1};
-    if (form_.adjustable) return produce(planned);
+    if (form_.adjustable) return adjust(planned);
     if (form_.order_is_drawn) return compare_intervals(planned);
     if (form_.answer == AnswerKind::kYesNo && !form_.has_reference) return detect(planned);
     if (form_.answer == AnswerKind::kYesNo) return compare(planned);
@@ -44,18 +47,19 @@ class BlockPlayer {
   }
 
  private:
-  /// What the next presentation feels like, in ln(N s/m).
-  double present(double intensity) {
+  /// What the next presentation feels like, in ln(N s/m), of a solid in ln(N/m).
+  double present(const char* interval, double intensity) {
     ++moment_.presentation;
-    const core::MediumAmounts medium = amounts_of(setting_of(block_, "test", intensity));
+    const core::MediumAmounts medium = amounts_of(setting_of(block_, interval, intensity));
     double delivered = medium.damping_n_s_per_m;
-    if (!medium.is_plain_damping()) {
+    if (!medium.is_plain_damping() && !block_.is_solid()) {
       delivered = calculated_stroke(laboratory_, strokes_.amplitude_m, drawn_speed_m_per_s(),
                                     medium, map_)
                       .delivered_damping_n_s_per_m;
     }
-    felt_ = delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
-    return participant_.perceiver().reading_ln(felt_, moment_);
+    felt_ = block_.is_solid() ? medium.plane_stiffness_n_per_m
+                              : delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
+    return perceiver_.reading_ln(felt_, moment_);
   }
 
   /// Mean of this presentation's strokes, each a little faster or slower.
@@ -71,44 +75,51 @@ class BlockPlayer {
   }
 
   [[nodiscard]] bool looks_again() const {
-    return participant_.perceiver().looks_again(moment_);
+    return perceiver_.looks_again(moment_);
   }
 
   double estimate(const PlannedTrial& planned, const std::vector<AnsweredTrial>& answered) {
-    double sum_ln = 0.0;
+    double sum_ln = 0.0, standard_ln = 0.0;
     int looks = 0;
     do {
-      sum_ln += present(planned.intensity.value());
+      if (planned.reference_intensity) {
+        standard_ln += present("reference", *planned.reference_intensity);
+      }
+      sum_ln += present("test", planned.intensity.value());
       ++looks;
     } while (looks_again());
-    std::optional<double> previous;
+    std::optional<double> previous, felt_standard_ln;
     if (!answered.empty()) previous = answered.back().response;
-    return participant_.perceiver().estimate_percent(sum_ln / looks, moment_, previous);
+    if (planned.reference_intensity) felt_standard_ln = standard_ln / looks;
+    if (form_.answer == AnswerKind::kPercent) {
+      return perceiver_.estimate_percent(sum_ln / looks, moment_, previous);
+    }
+    return perceiver_.estimate_number(
+        sum_ln / looks, moment_, previous,
+        counting_of(laboratory_, participant_, block_, felt_standard_ln, map_));
   }
 
   /// Whether anything is there, against free space as it is remembered.
   double detect(const PlannedTrial& planned) {
-    const double remembered_ln =
-        std::log(std::max(laboratory_.device.mechanical_viscosity_n_s_per_m, 1e-6));
     double test_ln = 0.0;
     int looks = 0;
     do {
-      test_ln += present(planned.intensity.value());
+      test_ln += present("test", planned.intensity.value());
       ++looks;
     } while (looks_again());
-    return participant_.perceiver().says_present(test_ln / looks, remembered_ln, moment_) ? 1.0
-                                                                                          : 0.0;
+    const double nothing_ln = perceiver_.free_space_ln();
+    return perceiver_.says_present(test_ln / looks, nothing_ln, moment_) ? 1.0 : 0.0;
   }
 
   double compare(const PlannedTrial& planned) {
     double reference_ln = 0.0, test_ln = 0.0;
     int looks = 0;
     do {
-      reference_ln += present(planned.reference_intensity.value());
-      test_ln += present(planned.intensity.value());
+      reference_ln += present("reference", planned.reference_intensity.value());
+      test_ln += present("test", planned.intensity.value());
       ++looks;
     } while (looks_again());
-    return participant_.perceiver().says_thicker(test_ln / looks, reference_ln / looks, moment_)
+    return perceiver_.says_thicker(test_ln / looks, reference_ln / looks, moment_)
                ? 1.0
                : 0.0;
   }
@@ -120,27 +131,43 @@ class BlockPlayer {
     double first_ln = 0.0, second_ln = 0.0;
     int looks = 0;
     do {
-      first_ln += present(test_first ? test : reference);
-      second_ln += present(test_first ? reference : test);
+      first_ln += present("first", test_first ? test : reference);
+      second_ln += present("second", test_first ? reference : test);
       ++looks;
     } while (looks_again());
-    const Perceiver& person = participant_.perceiver();
     if (form_.answer != AnswerKind::kInterval) {
-      return person.says_different(first_ln / looks, second_ln / looks, moment_) ? 1.0 : 0.0;
+      return perceiver_.says_different(first_ln / looks, second_ln / looks, moment_) ? 1.0
+                                                                                     : 0.0;
     }
-    const bool second = person.says_thicker(second_ln / looks, first_ln / looks, moment_);
+    const bool second = perceiver_.says_thicker(second_ln / looks, first_ln / looks, moment_);
     return response_of(form_.answer, planned, second ? 2.0 : 1.0);
   }
 
-  double produce(const PlannedTrial& planned) {
+  /// What a step is to do, of a production or of a matching.
+  [[nodiscard]] Perceiver::Wish wish(const PlannedTrial& planned, double reading_ln,
+                                     double first_ln, double standard_ln) const {
+    if (form_.has_reference) {
+      return perceiver_.wish_to_match(reading_ln, first_ln, standard_ln, moment_);
+    }
+    return perceiver_.wish(reading_ln, first_ln, planned.target_percent.value(), moment_);
+  }
+
+  double adjust(const PlannedTrial& planned) {
     using Wish = Perceiver::Wish;
     constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
+    double standard_ln = 0.0;
+    int standard_looks = 0;
+    const auto feel_standard = [&] {
+      const double reading_ln = present("reference", planned.reference_intensity.value());
+      standard_ln += (reading_ln - standard_ln) / ++standard_looks;
+    };
+    if (form_.has_reference) feel_standard();
     const double start = planned.starting_intensity.value();
     double set = start, noise_ln = 0.0;
     int looks = 0;
     // The noise of all looks at this trial averaged, as in a session.
     const auto look = [&] {
-      const double reading_ln = present(set);
+      const double reading_ln = present("test", set);
       const double felt_ln = std::log(std::max(felt_, 1e-6));
       noise_ln += reading_ln - felt_ln;
       return felt_ln + noise_ln / ++looks;
@@ -149,17 +176,21 @@ class BlockPlayer {
     const double first_ln = reading_ln;
     Wish last_wish = Wish::kMatches;
     for (int step = 0; step < kMaxSteps; ++step) {
-      const Wish wish = participant_.perceiver().wish(reading_ln, first_ln,
-                                                      planned.target_percent.value(), moment_);
-      if (wish == Wish::kMatches) break;
+      const Wish next = wish(planned, reading_ln, first_ln, standard_ln);
+      if (next == Wish::kMatches) {
+        if (!form_.has_reference || !looks_again()) break;
+        feel_standard();
+        reading_ln = look();
+        continue;
+      }
       // Back and forth over the target by the smallest step: it does not get closer.
-      if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
-          (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
+      if ((last_wish == Wish::kRaiseFine && next == Wish::kLowerFine) ||
+          (last_wish == Wish::kLowerFine && next == Wish::kRaiseFine)) {
         break;
       }
-      last_wish = wish;
-      const bool raise = wish == Wish::kRaiseFine || wish == Wish::kRaiseCoarse;
-      const bool coarse = wish == Wish::kRaiseCoarse || wish == Wish::kLowerCoarse;
+      last_wish = next;
+      const bool raise = next == Wish::kRaiseFine || next == Wish::kRaiseCoarse;
+      const bool coarse = next == Wish::kRaiseCoarse || next == Wish::kLowerCoarse;
       const double size = coarse ? block_.coarse_step : block_.fine_step;
       const double target = stepped_intensity(block_, start, set, raise ? size : -size);
       if (target == set) break;
@@ -176,6 +207,7 @@ class BlockPlayer {
   const Block& block_;
   TrialForm form_;
   StrokeIntent strokes_;
+  const Perceiver& perceiver_;
   Moment moment_;
   double felt_ = 0.0;
 };
@@ -193,7 +225,8 @@ void require_answerable(const std::vector<Stage>& stages) {
     const bool known = form.adjustable ? form.answer == AnswerKind::kMatch
                        : form.answer == AnswerKind::kPercent
                            ? !form.has_reference
-                           : form.answer == AnswerKind::kYesNo || form.order_is_drawn;
+                           : form.answer == AnswerKind::kYesNo ||
+                                 form.answer == AnswerKind::kNumber || form.order_is_drawn;
     if (!known) {
       throw core::Error("block " + stage.name +
                         ": expected a procedure that simulated participants answer without a "
@@ -208,6 +241,7 @@ void require_answerable(const std::vector<Stage>& stages) {
 AnswerSimulator::AnswerSimulator(const Study& study, const Laboratory& laboratory)
     : laboratory_(laboratory), map_(force_map_of(study.device)) {
   require_answerable(study.stages);
+  require_abilities(laboratory, study);
 }
 
 std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInstance>& stages,

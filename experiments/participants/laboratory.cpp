@@ -55,6 +55,9 @@ class Section {
     }
   }
 
+  [[nodiscard]] bool has(const char* key) const {
+    return object_ != nullptr && object_->contains(key);
+  }
   void positive(const char* key, double& value) { number(key, value, 1e-9, 1e9); }
   void not_negative(const char* key, double& value) { number(key, value, 0.0, 1e9); }
 
@@ -197,6 +200,27 @@ void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
   in.number("look_again_probability", perceiver.look_again_probability, 0.0, 0.99);
   in.positive("match_tolerance_ln", perceiver.match_tolerance_ln);
   in.positive("coarse_step_ln", perceiver.coarse_step_ln);
+  if (in.has("free_modulus")) {
+    in.positive("free_modulus", perceiver.free_modulus.emplace());
+    in.number("free_modulus_sd_ln", perceiver.free_modulus_sd_ln, 0.0, 3.0);
+  }
+  in.finish();
+}
+
+/// An older laboratory has none.
+void read_pressing(const json& file, std::optional<Laboratory::Pressing>& pressing,
+                   std::vector<std::string>& problems) {
+  if (!file.contains("pressing")) return;
+  Section in(file, "pressing", "/pressing", problems);
+  Laboratory::Pressing& read = pressing.emplace();
+  in.positive("weber_fraction", read.weber_fraction);
+  in.number("weber_fraction_sd_ln", read.weber_fraction_sd_ln, 0.0, 2.0);
+  in.positive("detection_threshold_n_per_m", read.detection_threshold_n_per_m);
+  in.positive("standard_stiffness_n_per_m", read.standard_stiffness_n_per_m);
+  in.number("depth_m", read.depth_m, 0.001, 0.2);
+  in.number("lift_m", read.lift_m, 0.001, 0.2);
+  in.number("period_s", read.period_s, 0.1, 10.0);
+  in.number("sideways_m", read.sideways_m, 0.001, 0.1);
   in.finish();
 }
 
@@ -248,7 +272,8 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   Laboratory laboratory{.text = text};
   static const std::set<std::string> kKeys = {
       "format", "name",     "title",   "comment",   "calibrated_on", "device",
-      "arm",    "movement", "strokes", "perceiver", "answers",       "implied"};
+      "arm",    "movement", "strokes", "perceiver", "pressing",      "answers",
+      "implied"};
   for (const auto& [key, value] : file.items()) {
     if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
   }
@@ -270,6 +295,7 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   read_movement(file, laboratory.movement, problems);
   read_strokes(file, laboratory.strokes, problems);
   read_perceiver(file, laboratory.perceiver, problems);
+  read_pressing(file, laboratory.pressing, problems);
   read_answers(file, laboratory.answers, problems);
   if (!problems.empty()) {
     std::string message = place + ": " + std::to_string(problems.size()) + " problem(s)";

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,21 @@ struct Laboratory {
     double look_again_probability = 0.0;   ///< [0, 1)
     double match_tolerance_ln = 0.0;       ///< Production: what passes for equal, > 0.
     double coarse_step_ln = 0.0;           ///< Production: beyond this, a coarse step, > 0.
+    /// The number that people give water who choose their own, > 0; without it nobody does.
+    std::optional<double> free_modulus;
+    double free_modulus_sd_ln = 0.0;  ///< Between persons.
+  };
+
+  /// How persons press a solid and what they feel of it: its stiffness, in which the device's
+  /// own viscosity plays no role. Everything else is the perceiver's.
+  struct Pressing {
+    double weber_fraction = 0.0, weber_fraction_sd_ln = 0.0;  ///< For stiffness, > 0.
+    double detection_threshold_n_per_m = 0.0;  ///< What nothing is remembered to feel like, > 0.
+    double standard_stiffness_n_per_m = 0.0;   ///< What a magnitude of 100 % is, > 0.
+    double depth_m = 0.0;    ///< How far below the surface the arm pulls the hand, > 0.
+    double lift_m = 0.0;     ///< How far above it the hand goes between two presses, > 0.
+    double period_s = 0.0;   ///< Of one press, > 0.
+    double sideways_m = 0.0; ///< Half the way to and fro along the surface meanwhile, > 0.
   };
 
   /// What persons say of themselves and on paper.
@@ -90,6 +106,7 @@ struct Laboratory {
   Movement movement;
   std::map<std::string, Strokes> strokes;  ///< By procedure; "default" for any other.
   Perceiver perceiver;
+  std::optional<Pressing> pressing;  ///< None: nobody is asked about solids.
   Answers answers;
   /// Names of estimates, as in results, that parameters were fitted to.
   std::vector<std::string> calibrated_on;

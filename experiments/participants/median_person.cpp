@@ -9,6 +9,11 @@ namespace jnd::experiments {
 Laboratory without_noise(Laboratory laboratory) {
   Laboratory::Perceiver& p = laboratory.perceiver;
   p.weber_fraction = 1e-9;
+  p.free_modulus_sd_ln = 0.0;
+  if (laboratory.pressing) {
+    laboratory.pressing->weber_fraction = 1e-9;
+    laboratory.pressing->weber_fraction_sd_ln = 0.0;
+  }
   p.weber_fraction_sd_ln = p.criterion_sd_ln = p.exponent_sd = p.unit_sd_ln = p.shrink_sd_ln =
       0.0;
   p.criterion_drift_per_trial_ln = p.lapse_rate = p.learning_ratio = 0.0;
@@ -23,6 +28,7 @@ double median_weber_fraction(const Laboratory& laboratory, const Block& block,
   if (!block.reference_intensity || !(*block.reference_intensity > 0.0)) {
     throw core::Error("block: expected a reference > 0 for a Weber fraction, found none");
   }
+  if (block.is_solid()) return laboratory.pressing.value().weber_fraction;
   const double amplitude_m = laboratory.strokes_for(block.procedure).amplitude_m;
   const auto felt = [&](double intensity) {
     return laboratory.device.mechanical_viscosity_n_s_per_m +

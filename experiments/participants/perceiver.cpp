@@ -28,6 +28,12 @@ double rounded_percent(double percent) {
   return step * std::round(percent / step);
 }
 
+/// `number` > 0.
+double to_two_digits(double number) {
+  const double step = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
+  return step * std::round(number / step);
+}
+
 }  // namespace
 
 Person draw_person(const Laboratory& laboratory, std::uint64_t session_seed) {
@@ -55,22 +61,45 @@ Person draw_person(const Laboratory& laboratory, std::uint64_t session_seed) {
       18.0, other.normal(laboratory.answers.age_years, laboratory.answers.age_sd_years))));
   person.amplitude_score = z("amplitude");
   person.max_speed_m_per_s = m.max_speed_m_per_s * std::exp(m.max_speed_sd_ln * z("max_speed"));
+  if (laboratory.pressing) {
+    const Laboratory::Pressing& pressing = *laboratory.pressing;
+    person.stiffness_weber_fraction =
+        pressing.weber_fraction *
+        std::exp(pressing.weber_fraction_sd_ln * z("stiffness_weber_fraction"));
+  }
+  if (p.free_modulus) {
+    person.free_modulus = *p.free_modulus * std::exp(p.free_modulus_sd_ln * z("free_modulus"));
+  }
   return person;
 }
 
 Perceiver::Perceiver(const Laboratory& laboratory, const Person& person,
-                     std::uint64_t session_seed)
-    : laboratory_(laboratory), person_(person), seed_(session_seed) {}
+                     std::uint64_t session_seed, Feels feels)
+    : laboratory_(laboratory),
+      person_(person),
+      seed_(session_seed),
+      weber_fraction_(person.weber_fraction),
+      free_space_(laboratory.device.mechanical_viscosity_n_s_per_m),
+      threshold_(1e-6),
+      standard_(laboratory.perceiver.standard_damping_n_s_per_m) {
+  if (feels == Feels::kDamping) return;
+  weber_fraction_ = person.stiffness_weber_fraction;
+  free_space_ = 0.0;
+  threshold_ = laboratory.pressing.value().detection_threshold_n_per_m;
+  standard_ = laboratory.pressing->standard_stiffness_n_per_m;
+}
 
-double Perceiver::reading_ln(double felt_damping_n_s_per_m, const Moment& moment) const {
+double Perceiver::free_space_ln() const { return std::log(std::max(free_space_, threshold_)); }
+
+double Perceiver::reading_ln(double felt, const Moment& moment) const {
   const Laboratory::Perceiver& p = laboratory_.perceiver;
   const auto trial = static_cast<double>(moment.trial_in_block - 1);
   const double learning = 1.0 + p.learning_ratio * std::exp(-trial / p.learning_trials);
   const double fatigue = 1.0 + p.fatigue_ratio_per_trial * trial;
   const double sd =
-      std::log1p(person_.weber_fraction) / std::numbers::sqrt2 * learning * fatigue;
+      std::log1p(weber_fraction_) / std::numbers::sqrt2 * learning * fatigue;
   RandomStream stream(seed_, "reading", {moment.trial, moment.attempt, moment.presentation});
-  return std::log(std::max(felt_damping_n_s_per_m, 1e-6)) + sd * unit_noise(p.noise, stream);
+  return std::log(std::max(felt, threshold_)) + sd * unit_noise(p.noise, stream);
 }
 
 bool Perceiver::lapses(const Moment& moment) const {
@@ -94,7 +123,7 @@ bool Perceiver::says_thicker(double test_ln, double reference_ln, const Moment& 
 }
 
 bool Perceiver::says_present(double test_ln, double free_space_ln, const Moment& moment) const {
-  return says_thicker(test_ln, free_space_ln + std::log1p(person_.weber_fraction), moment);
+  return says_thicker(test_ln, free_space_ln + std::log1p(weber_fraction_), moment);
 }
 
 bool Perceiver::says_different(double first_ln, double second_ln, const Moment& moment) const {
@@ -102,11 +131,9 @@ bool Perceiver::says_different(double first_ln, double second_ln, const Moment& 
 }
 
 double Perceiver::magnitude_ln(double reading_ln) const {
-  const double excess =
-      std::exp(reading_ln) - laboratory_.device.mechanical_viscosity_n_s_per_m;
+  const double excess = std::exp(reading_ln) - free_space_;
   if (!(excess > 0.0)) return -INFINITY;
-  return std::log(person_.unit) +
-         person_.exponent * std::log(excess / laboratory_.perceiver.standard_damping_n_s_per_m);
+  return std::log(person_.unit) + person_.exponent * std::log(excess / standard_);
 }
 
 double Perceiver::centre_ln() const {
@@ -114,20 +141,43 @@ double Perceiver::centre_ln() const {
          person_.exponent * std::log(laboratory_.perceiver.centre_ratio);
 }
 
-double Perceiver::estimate_percent(double reading_ln, const Moment& moment,
-                                   std::optional<double> previous_percent) const {
+std::optional<double> Perceiver::answer_ln(double reading_ln, double unit_ln,
+                                           const Moment& moment,
+                                           std::optional<double> previous_ratio) const {
+  const double its_centre_ln = centre_ln() - unit_ln;
   if (lapses(moment)) {
     RandomStream stream(seed_, "guess", {moment.trial, moment.attempt});
-    return rounded_percent(100.0 * std::exp(centre_ln() + 0.3 * stream.normal()));
+    return its_centre_ln + 0.3 * stream.normal();
   }
-  const double felt_ln = magnitude_ln(reading_ln);
-  if (!std::isfinite(felt_ln)) return 0.0;
-  double answer_ln = person_.shrink * felt_ln + (1.0 - person_.shrink) * centre_ln();
-  if (previous_percent && *previous_percent > 0.0) {
-    answer_ln += laboratory_.perceiver.assimilation_ratio *
-                 (std::log(*previous_percent / 100.0) - answer_ln);
+  const double felt_ln = magnitude_ln(reading_ln) - unit_ln;
+  if (!std::isfinite(felt_ln)) return std::nullopt;
+  double ratio_ln = person_.shrink * felt_ln + (1.0 - person_.shrink) * its_centre_ln;
+  if (previous_ratio && *previous_ratio > 0.0) {
+    ratio_ln +=
+        laboratory_.perceiver.assimilation_ratio * (std::log(*previous_ratio) - ratio_ln);
   }
-  return rounded_percent(100.0 * std::exp(answer_ln));
+  return ratio_ln;
+}
+
+double Perceiver::estimate_percent(double reading_ln, const Moment& moment,
+                                   std::optional<double> previous_percent) const {
+  if (previous_percent) *previous_percent /= 100.0;
+  const std::optional<double> ratio_ln = answer_ln(reading_ln, 0.0, moment, previous_percent);
+  return ratio_ln ? rounded_percent(100.0 * std::exp(*ratio_ln)) : 0.0;
+}
+
+double Perceiver::estimate_number(double reading_ln, const Moment& moment,
+                                  std::optional<double> previous,
+                                  const Counting& counting) const {
+  // What is hardly felt gets some small number, since 0 is none.
+  constexpr double kLeastRatio = 0.01;
+  double unit_ln = counting.standard_ln ? magnitude_ln(*counting.standard_ln) : 0.0;
+  if (!std::isfinite(unit_ln)) unit_ln = 0.0;  // A standard that was not felt at all.
+  if (previous) *previous /= counting.number;
+  const std::optional<double> ratio_ln = answer_ln(reading_ln, unit_ln, moment, previous);
+  const double ratio = ratio_ln ? std::max(kLeastRatio, std::exp(*ratio_ln)) : kLeastRatio;
+  if (!counting.in_round_numbers) return to_two_digits(counting.number * ratio);
+  return counting.number * std::max(kLeastRatio, rounded_percent(100.0 * ratio) / 100.0);
 }
 
 Perceiver::Wish Perceiver::wish(double reading_ln, double first_reading_ln,
@@ -138,7 +188,18 @@ Perceiver::Wish Perceiver::wish(double reading_ln, double first_reading_ln,
   const double felt_ln = magnitude_ln(reading_ln);
   const double start_ln = magnitude_ln(first_reading_ln);
   if (std::isfinite(start_ln)) aim_ln += p.anchor_ratio * (start_ln - aim_ln);
-  const double difference_ln = felt_ln - aim_ln;
+  return step_for(felt_ln - aim_ln);
+}
+
+Perceiver::Wish Perceiver::wish_to_match(double reading_ln, double first_reading_ln,
+                                         double standard_ln, const Moment& moment) const {
+  double aim_ln = standard_ln + criterion_ln(moment);
+  aim_ln += laboratory_.perceiver.anchor_ratio * (first_reading_ln - aim_ln);
+  return step_for(reading_ln - aim_ln);
+}
+
+Perceiver::Wish Perceiver::step_for(double difference_ln) const {
+  const Laboratory::Perceiver& p = laboratory_.perceiver;
   if (std::abs(difference_ln) <= p.match_tolerance_ln) return Wish::kMatches;
   if (difference_ln < 0.0) {
     return difference_ln < -p.coarse_step_ln ? Wish::kRaiseCoarse : Wish::kRaiseFine;

@@ -11,6 +11,7 @@ namespace jnd::experiments {
 /// One simulated person, drawn from a laboratory's population.
 struct Person {
   double weber_fraction = 0.0;
+  double stiffness_weber_fraction = 0.0;  ///< 0 where nobody is asked about solids.
   double criterion_ln = 0.0;
   double criterion_drift_per_trial_ln = 0.0;
   double exponent = 1.0;
@@ -22,6 +23,7 @@ struct Person {
   int age_years = 0;
   double amplitude_score = 0.0;  ///< Own stroke width, in sd of the population.
   double max_speed_m_per_s = 0.0;
+  double free_modulus = 1.0;  ///< The number that water gets from who chooses their own.
 };
 
 /// The person that this session's seed stands for.
@@ -34,6 +36,13 @@ struct Moment {
   std::int64_t attempt = 1;
   std::int64_t presentation = 1;
   std::int64_t trial_in_block = 1;  ///< From 1, for learning and fatigue.
+};
+
+/// What the numbers of an estimation count in.
+struct Counting {
+  double number = 100.0;              ///< Of the standard, or of water where there is none.
+  std::optional<double> standard_ln;  ///< How the standard felt; none where it is water.
+  bool in_round_numbers = true;       ///< Of the hundred; else to two digits.
 };
 
 /// From felt viscosity to answers, the same person in every procedure.
@@ -49,13 +58,20 @@ struct Moment {
 /// difference is an assumption. A magnitude is
 ///     unit ((felt - free space) / standard)^exponent,  clipped at 0,
 /// shrunk in ln toward that of the range's centre: answers in estimation, targets in
-/// production.
+/// production. Of a solid the same holds for its stiffness, with a Weber fraction of its own
+/// and nothing felt in free space.
 class Perceiver {
  public:
-  Perceiver(const Laboratory& laboratory, const Person& person, std::uint64_t session_seed);
+  enum class Feels { kDamping, kStiffness };
 
-  /// Noisy ln of the felt damping; `felt_damping_n_s_per_m` > 0.
-  [[nodiscard]] double reading_ln(double felt_damping_n_s_per_m, const Moment& moment) const;
+  /// Stiffness takes a laboratory with `pressing`.
+  Perceiver(const Laboratory& laboratory, const Person& person, std::uint64_t session_seed,
+            Feels feels = Feels::kDamping);
+
+  /// Noisy ln of what is felt, a damping in N s/m or a stiffness in N/m; `felt` > 0.
+  [[nodiscard]] double reading_ln(double felt, const Moment& moment) const;
+  /// What free space is remembered to feel like, as its reading without noise.
+  [[nodiscard]] double free_space_ln() const;
 
   /// Answer to "is the test thicker", from the mean readings of all looks.
   [[nodiscard]] bool says_thicker(double test_ln, double reference_ln,
@@ -74,24 +90,43 @@ class Perceiver {
   [[nodiscard]] double estimate_percent(double reading_ln, const Moment& moment,
                                         std::optional<double> previous_percent) const;
 
+  /// A number > 0 in another count. `previous` is the answer before.
+  [[nodiscard]] double estimate_number(double reading_ln, const Moment& moment,
+                                       std::optional<double> previous,
+                                       const Counting& counting) const;
+
   enum class Wish { kMatches, kRaiseFine, kRaiseCoarse, kLowerFine, kLowerCoarse };
 
   /// What the person signals in production. `first_reading_ln` is that of the starting value.
   [[nodiscard]] Wish wish(double reading_ln, double first_reading_ln, double target_percent,
                           const Moment& moment) const;
 
+  /// What the person signals in a matching, from the mean readings of the comparison and of the
+  /// standard: what is neither thicker nor thinner by their criterion matches.
+  [[nodiscard]] Wish wish_to_match(double reading_ln, double first_reading_ln,
+                                   double standard_ln, const Moment& moment) const;
+
   [[nodiscard]] bool looks_again(const Moment& moment) const;
 
  private:
+  [[nodiscard]] Wish step_for(double difference_ln) const;
+  [[nodiscard]] double criterion_ln(const Moment& moment) const;
   [[nodiscard]] double magnitude_ln(double reading_ln) const;
   [[nodiscard]] double centre_ln() const;
   [[nodiscard]] bool lapses(const Moment& moment) const;
   [[nodiscard]] bool guesses_yes(const Moment& moment) const;
-  [[nodiscard]] double criterion_ln(const Moment& moment) const;
+  /// ln of the ratio to what counts as 1, which is felt `unit_ln` above water at scale 1.
+  [[nodiscard]] std::optional<double> answer_ln(double reading_ln, double unit_ln,
+                                                const Moment& moment,
+                                                std::optional<double> previous_ratio) const;
 
   const Laboratory& laboratory_;
   Person person_;
   std::uint64_t seed_;
+  double weber_fraction_;
+  double free_space_;  ///< What is felt there, in the unit of what is felt.
+  double threshold_;   ///< Anything less feels like it.
+  double standard_;    ///< What a magnitude of 1 is over free space.
 };
 
 }  // namespace jnd::experiments

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
 #include "core/random_stream.h"
 
 namespace jnd::experiments {
@@ -25,7 +26,12 @@ SimulatedParticipant::SimulatedParticipant(const Laboratory& laboratory,
     : laboratory_(laboratory),
       seed_(session_seed),
       person_(draw_person(laboratory, session_seed)),
-      perceiver_(laboratory, person_, session_seed) {}
+      perceiver_(laboratory, person_, session_seed) {
+  if (laboratory.pressing) {
+    pressing_perceiver_.emplace(laboratory, person_, session_seed,
+                                Perceiver::Feels::kStiffness);
+  }
+}
 
 double SimulatedParticipant::home_height_m() const {
   // The fluid has no bottom, but the hand has to be in it.
@@ -42,6 +48,32 @@ StrokeIntent SimulatedParticipant::strokes(const std::string& procedure) const {
           .height_m = home_height_m(),
           .num_strokes = habit.strokes_per_presentation,
           .period_s = period_s};
+}
+
+StrokeIntent SimulatedParticipant::presses(const std::string& procedure,
+                                           double surface_m) const {
+  if (!laboratory_.pressing) {
+    throw core::Error("laboratory " + laboratory_.name +
+                      ": expected /pressing for a solid, found none");
+  }
+  const Laboratory::Pressing& habit = *laboratory_.pressing;
+  // The way down and the way up are each half a stroke: mid-way between the two the hand is as
+  // high as both.
+  return {.amplitude_m = habit.sideways_m,
+          .max_speed_m_per_s = 2.0 * std::numbers::pi * habit.sideways_m / habit.period_s,
+          .height_m = surface_m + 0.5 * (habit.lift_m - habit.depth_m),
+          .num_strokes = laboratory_.strokes_for(procedure).strokes_per_presentation,
+          .period_s = habit.period_s,
+          .lift_m = 0.5 * (habit.lift_m + habit.depth_m)};
+}
+
+StrokeIntent SimulatedParticipant::hover(double surface_m) const {
+  constexpr double kClearanceM = 0.05, kWidestM = 0.05;
+  StrokeIntent intent = strokes("");
+  intent.amplitude_m = std::min(intent.amplitude_m, kWidestM);
+  intent.height_m = surface_m + kClearanceM;
+  intent.lift_m = 0.0;
+  return intent;
 }
 
 std::string SimulatedParticipant::answer(const QuestionnaireItem& item) const {

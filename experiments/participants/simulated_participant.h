@@ -18,6 +18,8 @@ struct StrokeIntent {
   double height_m = 0.0;  ///< Workspace frame: below the surface is negative.
   int num_strokes = 1;    ///< Whole ones, before the person has felt enough.
   double period_s = 0.0;  ///< Of one stroke.
+  /// Lower by this in mid-stroke forward, higher on the way back; none: as the person tends to.
+  std::optional<double> lift_m{};
 };
 
 /// A simulated person in a session: moves, feels, answers. Everything is a function of
@@ -29,12 +31,21 @@ class SimulatedParticipant {
   SimulatedParticipant(const Laboratory& laboratory, std::uint64_t session_seed);
 
   [[nodiscard]] const Person& person() const noexcept { return person_; }
-  [[nodiscard]] const Perceiver& perceiver() const noexcept { return perceiver_; }
+  /// In this block: of a solid what is felt is its stiffness, else a damping.
+  [[nodiscard]] const Perceiver& perceiver(const Block& block) const {
+    return block.is_solid() ? pressing_perceiver_.value() : perceiver_;
+  }
 
   /// Where the hand rests, workspace frame.
   [[nodiscard]] double home_height_m() const;
   /// For a presentation under this procedure; "" outside of any.
   [[nodiscard]] StrokeIntent strokes(const std::string& procedure) const;
+  /// The same on a solid whose surface is at this height: the hand hardly moves along it, but
+  /// down into it and up again, once a stroke. Throws `Error` where the laboratory has no
+  /// numbers for it.
+  [[nodiscard]] StrokeIntent presses(const std::string& procedure, double surface_m) const;
+  /// To and fro above that surface, from where it is entered by pressing.
+  [[nodiscard]] StrokeIntent hover(double surface_m) const;
 
   /// Answers to questions on paper.
   [[nodiscard]] std::string answer(const QuestionnaireItem& item) const;
@@ -45,6 +56,7 @@ class SimulatedParticipant {
   std::uint64_t seed_;
   Person person_;
   Perceiver perceiver_;
+  std::optional<Perceiver> pressing_perceiver_;
 };
 
 }  // namespace jnd::experiments

@@ -50,7 +50,7 @@ const ParameterTable& practice_table() {
 }  // namespace
 
 std::string BlockKey::name_for(const std::string& quantity) const {
-  if (!of_quantity) return parameter.key;
+  if (!names_quantity()) return parameter.key;
   return parameter.key.empty() ? quantity : parameter.key + '_' + quantity;
 }
 
@@ -58,9 +58,10 @@ BlockKey stimuli_key() {
   return {
       .parameter = {.key = "",
                     .kind = ValueKind::kNumbers,
-                    .meaning = "The test stimuli, or in `magnitude_production` the values that "
-                               "an adjustment starts from. Each repetition shows every one of "
-                               "them once, in random order. No value may stand twice.",
+                    .meaning = "The test stimuli, or in `magnitude_production` and `matching` "
+                               "the values that an adjustment starts from. Each repetition "
+                               "shows every one of them once, in random order; in `matching` "
+                               "once with every standard. No value may stand twice.",
                     .max_items = 200},
       .of_quantity = true};
 }
@@ -141,6 +142,31 @@ std::vector<BlockKey> right_answer_keys() {
                                     "its trials are no data.",
                          .required = false,
                          .nested = &practice_table()}}};
+}
+
+std::vector<BlockKey> standard_keys() {
+  BlockKey medium{.parameter = {.key = "standard_medium",
+                                .kind = ValueKind::kString,
+                                .meaning = "What is felt as the standard: in `matching` always, "
+                                           "in `magnitude_estimation` where `modulus` is "
+                                           "`standard`. It may be the medium of the block; how "
+                                           "far matches then lie from it is the constant "
+                                           "error.",
+                                .required = false,
+                                .default_json = R"("none")",
+                                .allowed = {"none"}}};
+  for (const MediumQuantity& one : media()) {
+    if (!one.quantity.empty()) medium.parameter.allowed.push_back(one.medium);
+  }
+  BlockKey standards{.parameter = {.key = "standard",
+                                   .kind = ValueKind::kNumbers,
+                                   .meaning = "How much of `standard_medium` is felt as the "
+                                              "standard: one value or several in `matching`, "
+                                              "one in `magnitude_estimation`.",
+                                   .max_items = 50},
+                     .of_standard = true,
+                     .is_positive = true};
+  return {medium, standards};
 }
 
 BlockKey repetitions_key() {

@@ -14,9 +14,11 @@ struct BlockKey {
   Parameter parameter{};
   /// "reference" stands in the file as "reference_viscosity_pa_s", and "" as "viscosity_pa_s".
   bool of_quantity = false;
+  bool of_standard = false;  ///< The same with the quantity of `standard_medium`.
   bool is_positive = false;  ///< > 0, though the quantity itself may be 0.
 
-  /// As it stands in a block of this quantity: "reference_viscosity_pa_s".
+  [[nodiscard]] bool names_quantity() const noexcept { return of_quantity || of_standard; }
+  /// As it stands with this quantity: "reference_viscosity_pa_s".
   [[nodiscard]] std::string name_for(const std::string& quantity) const;
 };
 
@@ -33,6 +35,8 @@ struct BlockKey {
 [[nodiscard]] BlockKey catch_probability_key();
 /// What a block can have whose trials have right answers: feedback and practice.
 [[nodiscard]] std::vector<BlockKey> right_answer_keys();
+/// What is felt as the standard: a medium, and how much of it.
+[[nodiscard]] std::vector<BlockKey> standard_keys();
 /// How often every test stimulus is shown.
 [[nodiscard]] BlockKey repetitions_key();
 /// In which order the test stimuli are shown.

@@ -35,6 +35,7 @@ enum class AnswerKind {
   kYesNo,     ///< 1 is yes, or different; 0 is no, or the same.
   kInterval,  ///< In which interval there was more, 1 or 2; stored is 1 for the test's, else 0.
   kMatch,     ///< "It matches"; the answer is the intensity that was set.
+  kNumber,    ///< A number > 0, in the unit of a standard or of one's own.
 };
 
 /// What the experimenter can do in a trial of this procedure.

@@ -7,6 +7,7 @@
 #include "experiments/procedures/limits_procedure.h"
 #include "experiments/procedures/magnitude_estimation.h"
 #include "experiments/procedures/magnitude_production.h"
+#include "experiments/procedures/matching.h"
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
 
@@ -15,14 +16,14 @@ namespace jnd::experiments {
 const std::vector<const Procedure*>& procedures() {
   static const MagnitudeEstimation kMagnitudeEstimation;
   static const MagnitudeProduction kMagnitudeProduction;
+  static const Matching kMatching;
   static const ConstantStimuli kConstantStimuli;
   static const LimitsProcedure kLimits;
   static const StaircaseProcedure kStaircase;
   static const QuestPlusProcedure kQuestPlus;
   static const std::vector<const Procedure*> kAll = {
-      &kMagnitudeEstimation, &kMagnitudeProduction,
-      &kConstantStimuli,     &kLimits,
-      &kStaircase,           &kQuestPlus};
+      &kMagnitudeEstimation, &kMagnitudeProduction, &kMatching, &kConstantStimuli,
+      &kLimits,              &kStaircase,           &kQuestPlus};
   return kAll;
 }
 

@@ -83,6 +83,9 @@ class RangeCollector {
       for (const double intensity : intensities) {
         add(stage, setting_of(*block, "test", intensity));
       }
+      for (const double standard : block->standards) {
+        add(stage, setting_of(*block, "reference", standard));
+      }
     } else if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
       for (const Counterbalance::Arm& arm : counterbalance->arms) add(arm.stages);
       add(counterbalance->between);

@@ -18,13 +18,16 @@ namespace {
                     ", found none; nothing was stored");
 }
 
-constexpr char kWhatAnAnswerIs[] =
-    "a number >= 0, 1 or 0 for yes or no, or 1 or 2 for an interval,";
+std::string what_an_answer_is(AnswerKind kind) {
+  if (kind == AnswerKind::kYesNo) return "1 or 0 for yes or no,";
+  if (kind == AnswerKind::kInterval) return "1 or 2 for an interval,";
+  return kind == AnswerKind::kNumber ? "a number > 0" : "a number >= 0";
+}
 
 bool is_answer(AnswerKind kind, double value) {
   if (kind == AnswerKind::kYesNo) return value == 0.0 || value == 1.0;
   if (kind == AnswerKind::kInterval) return value == 1.0 || value == 2.0;
-  return std::isfinite(value) && value >= 0.0;
+  return std::isfinite(value) && (kind == AnswerKind::kNumber ? value > 0.0 : value >= 0.0);
 }
 
 /// What an interval of the trial holds: "test" or "reference" for "first" and "second", where
@@ -60,7 +63,13 @@ const Block& Session::current_block() const {
 }
 
 TrialForm Session::current_form() const {
-  return procedure_named(current_block().procedure).form(current_block());
+  TrialForm form = procedure_named(current_block().procedure).form(current_block());
+  // A standard may be felt every so many trials alone.
+  if (const std::optional<std::int64_t> trial = state_.current_trial()) {
+    form.has_reference =
+        form.has_reference && state_.trial(*trial).planned.reference_intensity.has_value();
+  }
+  return form;
 }
 
 void Session::start(const std::string& language) {
@@ -286,7 +295,7 @@ double Session::response_for(double value) const {
   const TrialState& trial = state_.trial(open_trial("take an answer"));
   const AnswerKind kind = current_form().answer;
   const double answer = kind == AnswerKind::kMatch ? trial.set_intensity : value;
-  if (!is_answer(kind, answer)) cannot("take an answer", kWhatAnAnswerIs);
+  if (!is_answer(kind, answer)) cannot("take an answer", what_an_answer_is(kind));
   return response_of(kind, trial.planned, answer);
 }
 
@@ -356,7 +365,7 @@ void Session::correct(std::int64_t number, double value, const std::string& reas
       *parameters_.stages.at(static_cast<std::size_t>(state_.trial(number).stage));
   const Block& block = std::get<Block>(stage.content);
   const AnswerKind kind = procedure_named(block.procedure).form(block).answer;
-  if (!is_answer(kind, value)) cannot("correct an answer", kWhatAnAnswerIs);
+  if (!is_answer(kind, value)) cannot("correct an answer", what_an_answer_is(kind));
   const TrialState& trial = state_.trial(number);
   const double response = response_of(kind, trial.planned, value);
   core::Commit rows;

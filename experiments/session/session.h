@@ -56,6 +56,7 @@ class Session {
   [[nodiscard]] const Stage* current_stage() const noexcept;
   /// Of the current stage; throws `Error` if it is no block.
   [[nodiscard]] const Block& current_block() const;
+  /// Of the current trial, or of the block where none waits.
   [[nodiscard]] TrialForm current_form() const;
 
   /// `language`: of the texts that the participant gets; "" for a simulated one.

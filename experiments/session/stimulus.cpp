@@ -51,9 +51,11 @@ MediumSetting setting_of(const Block& block, const std::string& interval, double
       intensity == 0.0 && block.settings.has("task") && task_of(block) == Task::kYesNo;
   if (interval == "free_space" || is_nothing)
     return {.medium = "free_space", .quantity = "", .intensity = 0.0};
-  return {.medium = block.medium,
-          .quantity = block.quantity,
+  const bool is_standard = interval == "reference" && !block.standard_medium.empty();
+  return {.medium = is_standard ? block.standard_medium : block.medium,
+          .quantity = is_standard ? quantity_of(block.standard_medium) : block.quantity,
           .intensity = intensity,
+          .friction_ratio = block.friction_ratio,
           .buoyancy_n = block.buoyancy_n};
 }
 

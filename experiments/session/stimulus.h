@@ -14,8 +14,8 @@ namespace jnd::experiments {
 [[nodiscard]] core::MediumAmounts amounts_of(const std::string& medium, double intensity);
 [[nodiscard]] core::MediumAmounts amounts_of(const MediumSetting& setting);
 
-/// The setting of a presentation in a block: its medium, or free space, which 0 is in a yes-no
-/// task.
+/// The setting of a presentation in a block: its medium, that of its standard where it has one
+/// (interval "reference"), or free space, which 0 is in a yes-no task.
 [[nodiscard]] MediumSetting setting_of(const Block& block, const std::string& interval,
                                        double intensity);
 

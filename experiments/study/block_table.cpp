@@ -6,11 +6,11 @@
 namespace jnd::experiments {
 namespace {
 
-/// Fluids, which a block can vary.
+/// What a block can vary: anything but free space.
 std::vector<MediumQuantity> block_media() {
   std::vector<MediumQuantity> found;
   for (const MediumQuantity& one : media()) {
-    if (one.medium != "free_space" && one.medium != "solid") found.push_back(one);
+    if (!one.quantity.empty()) found.push_back(one);
   }
   return found;
 }
@@ -36,7 +36,9 @@ Parameter medium_parameter() {
           "`viscous_stokes`: the same with the constant of a sphere. `water_map`: water with "
           "the drag and lift of the study's `force_map`. `viscous_schiller_naumann`: viscous "
           "with the fluid's inertia, up to a Reynolds number (100 speed / viscosity, SI units) "
-          "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand."};
+          "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand. "
+          "`solid`: a flat surface at the height of a fluid's, pressed instead of stroked, "
+          "varied by `stiffness_n_per_m`."};
   for (const MediumQuantity& one : block_media()) parameter.allowed.push_back(one.medium);
   return parameter;
 }
@@ -52,24 +54,25 @@ void add_word(std::vector<std::string>& words, const std::string& word) {
   if (std::ranges::find(words, word) == words.end()) words.push_back(word);
 }
 
-/// The key as blocks of this medium have it; where another procedure or a medium of the same
-/// quantity has it already, it is theirs, too.
+/// The key as blocks of this medium have it, or blocks with this standard; where another
+/// procedure or a medium of the same quantity has it already, it is theirs, too.
 void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
              const std::string& procedure, const MediumQuantity& medium) {
   const std::string name = key.name_for(medium.quantity);
   if (std::vector<std::string>* known = words_of(parameters, name, 0)) {
     add_word(*known, procedure);
-    if (key.of_quantity) add_word(*words_of(parameters, name, 1), medium.medium);
+    if (key.names_quantity()) add_word(*words_of(parameters, name, 1), medium.medium);
     return;
   }
   Parameter parameter = key.parameter;
   parameter.key = name;
   parameter.only_where = {{"procedure", {procedure}}};
-  if (key.of_quantity) {
+  if (key.names_quantity()) {
     parameter.unit = medium.unit;
     parameter.range = medium.range;
     if (key.is_positive) parameter.range.low_is_open = true;
-    parameter.only_where.push_back({"medium", {medium.medium}});
+    parameter.only_where.push_back(
+        {key.of_standard ? "standard_medium" : "medium", {medium.medium}});
   }
   const std::vector<Condition>& more = key.parameter.only_where;
   parameter.only_where.insert(parameter.only_where.end(), more.begin(), more.end());
@@ -82,12 +85,13 @@ std::vector<Parameter> procedure_parameters() {
   for (const MediumQuantity& medium : block_media()) {
     for (const Procedure* procedure : procedures()) {
       for (const BlockKey& key : procedure->keys()) {
-        add_key(key.of_quantity ? of_quantities : others, key, std::string(procedure->name()),
-                medium);
+        add_key(key.names_quantity() ? of_quantities : others, key,
+                std::string(procedure->name()), medium);
       }
     }
   }
   of_quantities.push_back(buoyancy_parameter());
+  of_quantities.push_back(friction_parameter());
   of_quantities.insert(of_quantities.end(), others.begin(), others.end());
   return of_quantities;
 }
@@ -122,7 +126,7 @@ const ParameterTable& block_table() {
         .meaning =
             "One procedure over one varied quantity: the part of a study that gives "
             "data. The keys that name the quantity carry its unit: `scale` for water, "
-            "`viscosity_pa_s` for viscous fluids.",
+            "`viscosity_pa_s` for viscous fluids, `stiffness_n_per_m` for solids.",
         .example = R"json({"kind": "block", "name": "thick_fluids",
   "procedure": "constant_stimuli", "medium": "viscous",
   "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 5,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -46,6 +47,21 @@ namespace jnd::experiments {
   static const nlohmann::json kNone = nlohmann::json::array();
   const auto found = object.find(key);
   return found != object.end() && found->is_array() ? *found : kNone;
+}
+
+/// Under which key a block has its standards: "standard_scale". Of a key that no block has,
+/// where it has no standard.
+[[nodiscard]] inline std::string standard_key(const nlohmann::json& block) {
+  return "standard_" + quantity_of(word(block, "standard_medium"));
+}
+
+/// How often a block shows each of its stimuli in a repetition: once for every target of a
+/// production, once with every standard of a matching.
+[[nodiscard]] inline double num_showings(const nlohmann::json& block) {
+  const std::size_t num_targets = list(block, "target_percent").size();
+  const std::size_t num_standards = list(block, standard_key(block)).size();
+  return static_cast<double>(std::max<std::size_t>(1, num_targets) *
+                             std::max<std::size_t>(1, num_standards));
 }
 
 /// The object at `key`, or an empty one.

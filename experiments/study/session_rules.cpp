@@ -156,10 +156,9 @@ class SessionRules {
     // A list that is too long is told of as a whole.
     const Parameter* its = block_table().find(quantity_of(word(block, "medium")));
     if (its != nullptr && levels.size() > its->max_items) return 0.0;
-    const auto num_targets = static_cast<double>(list(block, "target_percent").size());
     return trial_s *
            (static_cast<double>(levels.size()) + num_catch_trials(block, levels.size())) *
-           sound_number(table, block, "repetitions", 1.0) * std::max(1.0, num_targets);
+           sound_number(table, block, "repetitions", 1.0) * num_showings(block);
   }
 
   double media_duration_s(const json& stage, const std::string& pointer,

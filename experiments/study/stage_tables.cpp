@@ -265,15 +265,19 @@ std::vector<Parameter> setting_parameters(std::vector<Parameter> own) {
                           .range = entry.range,
                           .only_where = {{"medium", {entry.medium}}}});
   }
-  parameters.push_back({.key = "friction_ratio",
-                        .kind = ValueKind::kNumber,
-                        .meaning = "Friction of the surface over the force pressing on it.",
-                        .required = false,
-                        .default_json = "0.0",
-                        .range = {0.0, 10.0},
-                        .only_where = {{"medium", {"solid"}}}});
+  parameters.push_back(friction_parameter());
   parameters.push_back(buoyancy_parameter());
   return joined(std::move(parameters), std::move(own));
+}
+
+Parameter friction_parameter() {
+  return {.key = "friction_ratio",
+          .kind = ValueKind::kNumber,
+          .meaning = "Friction of the surface over the force pressing on it.",
+          .required = false,
+          .default_json = "0.0",
+          .range = {0.0, 10.0},
+          .only_where = {{"medium", {"solid"}}}};
 }
 
 Parameter buoyancy_parameter() {

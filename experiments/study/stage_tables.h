@@ -13,8 +13,9 @@ namespace jnd::experiments {
 /// `medium` and, in the unit of its key, the one value of its quantity; then `own`.
 [[nodiscard]] std::vector<Parameter> setting_parameters(std::vector<Parameter> own);
 
-/// `buoyancy_n`, which every fluid may have.
+/// `buoyancy_n`, which every fluid may have, and `friction_ratio`, which every solid may.
 [[nodiscard]] Parameter buoyancy_parameter();
+[[nodiscard]] Parameter friction_parameter();
 
 [[nodiscard]] const ParameterTable& block_table();
 [[nodiscard]] const ParameterTable& questionnaire_table();

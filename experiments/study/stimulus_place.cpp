@@ -33,14 +33,17 @@ std::string stage_pointer(const json& stages, const std::string& pointer,
 std::string number_pointer(const json& value, const std::string& pointer,
                            const MediumSetting& setting) {
   if (!value.is_structured()) return "";
-  const bool is_other_medium =
-      value.is_object() && value.contains("medium") && word(value, "medium") != setting.medium;
-  if (is_other_medium) return "";
+  const auto is_other_medium = [&](const std::string& key) {
+    const char* decider = key.starts_with("standard_") ? "standard_medium" : "medium";
+    return value.is_object() && value.contains(decider) &&
+           word(value, decider) != setting.medium;
+  };
   for (const auto& [key, inner] : value.items()) {
     const std::string here = pointer + '/' + pointer_token(key);
     // `viscosity_pa_s`, `reference_viscosity_pa_s`, `max_viscosity_pa_s`; a step is no
     // stimulus.
-    if (key.ends_with(setting.quantity) && key.find("_step_") == std::string::npos) {
+    if (key.ends_with(setting.quantity) && key.find("_step_") == std::string::npos &&
+        !is_other_medium(key)) {
       if (inner.is_number() && inner.get<double>() == setting.intensity) return here;
       for (std::size_t i = 0; inner.is_array() && i < inner.size(); ++i) {
         if (inner[i].is_number() && inner[i].get<double>() == setting.intensity) {

@@ -84,26 +84,32 @@ struct StimulusOrder {
 struct Block {
   std::string
       procedure;       ///< "magnitude_estimation", "magnitude_production", "constant_stimuli".
-  std::string medium;  ///< One of `media()` that is a fluid.
-  std::string quantity;     ///< "scale" or "viscosity_pa_s".
-  double buoyancy_n = 0.0;  ///< Of the fluid, >= 0.
+  std::string medium;  ///< One of `media()` but free space.
+  std::string quantity;         ///< "scale", "viscosity_pa_s" or "stiffness_n_per_m".
+  double buoyancy_n = 0.0;      ///< Of the fluid, >= 0.
+  double friction_ratio = 0.0;  ///< Of the solid, >= 0.
   Text instruction;
   Text question;                    ///< What the participant is asked in every trial.
   Text yes_label, no_label;         ///< What the two answers are called; may be empty.
   Text first_label, second_label;   ///< Likewise, of a choice between two intervals.
-  std::vector<double> intensities;  ///< Test stimuli, or starting values in production.
+  std::vector<double> intensities;  ///< Test stimuli, or starting values of an adjustment.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
+  std::string standard_medium;    ///< Of what is felt as the standard; "" where there is none.
+  std::vector<double> standards;  ///< In the unit of `standard_medium`, each > 0.
   std::vector<double> target_percent;         ///< Production: one repetition a target.
   int repetitions = 1;  ///< Each shows every intensity once; 1 in production.
   StimulusOrder order;
-  double coarse_step = 0.0;             ///< Production, unit of the quantity, > fine_step.
-  double fine_step = 0.0;               ///< Production, > 0.
-  std::optional<double> max_intensity;  ///< Production: no step goes beyond; none by default.
+  double coarse_step = 0.0;             ///< Adjustment, unit of the quantity, > fine_step.
+  double fine_step = 0.0;               ///< Adjustment, > 0.
+  std::optional<double> max_intensity;  ///< Adjustment: no step goes beyond; none by default.
   double free_space_between_s = 0.0;    ///< Free space before each trial, >= 0.
   double expected_trial_s = 0.0;        ///< For planning the length of a session, > 0.
   bool feedback = false;                ///< Right or wrong is told after each answer.
   std::optional<Practice> practice;     ///< The block is practice, and no data.
   Settings settings;                    ///< The procedure's own keys, all of them.
+
+  /// A surface that is pressed, not a fluid that is stroked through.
+  [[nodiscard]] bool is_solid() const { return medium == "solid"; }
 };
 
 struct Break {

@@ -1,5 +1,6 @@
 #include "experiments/study/study_builder.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -166,14 +167,23 @@ Block block(const ObjectReader& in) {
   block.medium = in.string("medium");
   block.quantity = quantity_of(block.medium);
   block.buoyancy_n = in.number("buoyancy_n");
+  block.friction_ratio = in.number("friction_ratio");
   block.instruction = in.text("instruction");
   block.question = in.text("question");
   block.yes_label = in.text("yes_label");
   block.no_label = in.text("no_label");
   block.first_label = in.text("first_label");
   block.second_label = in.text("second_label");
-  for (const BlockKey& key : procedure_named(block.procedure).keys()) {
-    if (auto value = in.setting(key.name_for(block.quantity))) {
+  const std::vector<BlockKey> keys = procedure_named(block.procedure).keys();
+  if (std::ranges::any_of(keys, &BlockKey::of_standard)) {
+    block.standard_medium = in.string("standard_medium");
+    if (block.standard_medium == "none") block.standard_medium.clear();
+  }
+  const std::string standard_quantity = quantity_of(block.standard_medium);
+  for (const BlockKey& key : keys) {
+    if (key.of_standard && standard_quantity.empty()) continue;
+    if (auto value = in.setting(
+            key.name_for(key.of_standard ? standard_quantity : block.quantity))) {
       block.settings.set(key.parameter.key, std::move(*value));
     }
   }
@@ -182,12 +192,11 @@ Block block(const ObjectReader& in) {
   block.expected_trial_s = in.number("expected_trial_s");
   if (in.has("order")) block.order = stimulus_order(in.object("order"));
   if (in.has("repetitions")) block.repetitions = in.integer("repetitions");
-  if (in.has("target_percent")) {
-    block.target_percent = in.numbers("target_percent");
-    block.coarse_step = in.number("coarse_step_" + block.quantity);
-    block.fine_step = in.number("fine_step_" + block.quantity);
-    block.max_intensity = in.optional_number("max_" + block.quantity);
-  }
+  block.standards = block.settings.numbers("standard");
+  block.target_percent = block.settings.numbers("target_percent");
+  block.coarse_step = block.settings.number("coarse_step", 0.0);
+  block.fine_step = block.settings.number("fine_step", 0.0);
+  block.max_intensity = block.settings.optional_number("max");
   block.reference_intensity = block.settings.optional_number("reference");
   block.feedback = in.boolean("feedback");
   if (in.has("practice")) block.practice = practice(in.object("practice"));

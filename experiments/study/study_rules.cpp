@@ -16,6 +16,7 @@
 #include "experiments/study/session_rules.h"
 #include "experiments/study/shown_text.h"
 #include "experiments/study/stage_tables.h"
+#include "experiments/study/standard_rules.h"
 #include "experiments/study/task_rules.h"
 
 namespace jnd::experiments {
@@ -158,7 +159,10 @@ class Rules {
     check_unique(stage_names_, word(stage, "name"), pointer + "/name");
     check_only_for(stage, pointer);
     const std::string kind = word(stage, "kind");
-    if (kind == "block") check_block(stage, pointer);
+    if (kind == "block") {
+      check_block(stage, pointer);
+      check_standard(file_, stage, pointer, problems_);
+    }
     if (kind == "questionnaire" || kind == "post_experiment") check_items(stage, pointer);
     if (kind != "counterbalance") return;
     if (inside) {
@@ -264,11 +268,13 @@ class Rules {
     num_trials_ +=
         (static_cast<double>(values.size()) + num_catch_trials(block, values.size())) *
         (repetitions == nullptr ? 1.0 : std::max(1.0, repetitions->get<double>())) *
-        std::max(1.0, static_cast<double>(list(block, "target_percent").size()));
+        num_showings(block);
     num_cells_ *= num_rows(word(object_at(block, "order"), "method"), values.size());
     if (seen.empty()) return;
     if (procedure == "constant_stimuli") check_reference(block, at, quantity, seen);
-    if (procedure == "magnitude_production") check_steps(block, at, quantity, seen);
+    if (procedure == "magnitude_production" || procedure == "matching") {
+      check_steps(block, at, quantity, seen);
+    }
   }
 
   /// Of the square that participants are given the rows of; 1 without one.

@@ -21,11 +21,12 @@ Columns explored_media() {
 }
 
 Columns of_blocks() {
-  const auto only = [](const char* procedure) {
-    return std::vector<Condition>{{"procedure", {procedure}}};
+  const auto only = [](std::vector<std::string> procedures) {
+    return std::vector<Condition>{{"procedure", std::move(procedures)}};
   };
   const std::vector<Condition> asked = {
       {"procedure", {"constant_stimuli", "limits", "staircase", "quest_plus"}}};
+  const std::vector<std::string> adjustments = {"magnitude_production", "matching"};
   const std::string unit = "unit of the quantity";
   return {
       {"trials.csv", "trial", "", "Running number in the session, from 1"},
@@ -33,11 +34,13 @@ Columns of_blocks() {
       {"trials.csv", "block", "", "`name` of the block"},
       {"trials.csv", "procedure", "", "`procedure` of the block"},
       {"trials.csv", "medium", "", "`medium` of the block"},
-      {"trials.csv", "quantity", "", "What an intensity is: `scale` or `viscosity_pa_s`"},
+      {"trials.csv", "quantity", "", "What an intensity is: `scale`, `viscosity_pa_s` or `stiffness_n_per_m`"},
       {"trials.csv", "repetition", "", "From 1"},
       {"trials.csv", "position", "", "Within the repetition, from 1"},
-      {"trials.csv", "intensity", unit, "The test stimulus; in a production the value set"},
+      {"trials.csv", "intensity", unit, "The test stimulus; of an adjustment the value set"},
       {"trials.csv", "reference_intensity", unit, "The reference stimulus", asked},
+      {"trials.csv", "reference_intensity", "unit of the quantity of `standard_medium`",
+       "The standard, a `standard_medium`", only({"matching"})},
       {"trials.csv", "test_interval", "",
        "Where the order is drawn: the interval of the test, 1 or 2. In `two_interval` the one "
        "chosen is `test_interval` where `response` is 1, else 3 - `test_interval`",
@@ -45,12 +48,16 @@ Columns of_blocks() {
       {"trials.csv", "is_catch", "", "1: a catch trial", asked},
       {"trials.csv", "is_practice", "", "1: the block has `practice`; not for analysis", asked},
       {"trials.csv", "starting_intensity", unit, "Where the adjustment began",
-       only("magnitude_production")},
+       only(adjustments)},
       {"trials.csv", "target_percent", "%", "What it should feel like",
-       only("magnitude_production")},
-      {"trials.csv", "num_steps", "", "Steps of the adjustment", only("magnitude_production")},
-      {"trials.csv", "response", "%", "How strong it felt", only("magnitude_estimation")},
-      {"trials.csv", "response", unit, "The value that was set", only("magnitude_production")},
+       only({"magnitude_production"})},
+      {"trials.csv", "num_steps", "", "Steps of the adjustment", only(adjustments)},
+      {"trials.csv", "reference_intensity", "unit of the quantity of `standard_medium`",
+       "The standard, in trials that begin with it", only({"magnitude_estimation"})},
+      {"trials.csv", "response", "%",
+       "How strong it felt; with the `modulus` `standard` or `free` a number without unit",
+       only({"magnitude_estimation"})},
+      {"trials.csv", "response", unit, "The value that was set", only(adjustments)},
       {"trials.csv", "response", "",
        "1: yes, different, or the interval of the test; 0: no, the same, or the other interval",
        asked},

@@ -66,7 +66,9 @@ double corrected_value(const RunViewState& state) {
     return state.correct_value == "no" ? 0.0 : std::nan("");
   }
   const std::optional<double> value = typed_number(state.correct_value);
-  return value && *value >= 0.0 ? *value : std::nan("");
+  const bool is_answer =
+      value && (state.correct_kind == AnswerKind::kNumber ? *value > 0.0 : *value >= 0.0);
+  return is_answer ? *value : std::nan("");
 }
 
 void request(const SessionView& view, const RunViewState& state, RunViewResult& result) {
@@ -117,6 +119,7 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   if (corrects) {
     const char* hint = state.correct_kind == AnswerKind::kYesNo     ? "yes or no"
                        : state.correct_kind == AnswerKind::kPercent ? "percent"
+                       : state.correct_kind == AnswerKind::kNumber  ? "number"
                                                                     : "intensity";
     entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
                              hint, state.dialog_is_new);

@@ -36,8 +36,12 @@ std::string felt_words(const TrialView& trial) {
   return words;
 }
 
-/// What can be typed as a percent: digits and one point.
-void type_percent(Ui& ui, const TrialView& trial, RunViewState& state) {
+bool is_typed(AnswerKind kind) {
+  return kind == AnswerKind::kPercent || kind == AnswerKind::kNumber;
+}
+
+/// What can be typed as a percent or another number: digits and one point.
+void type_number(Ui& ui, const TrialView& trial, RunViewState& state) {
   // An attempt that was undone or broken off takes what was typed with it.
   if (state.percent_trial != trial.trial || state.percent_attempt != trial.attempt) {
     state.percent_trial = trial.trial;
@@ -73,9 +77,9 @@ class TrialCard {
     const bool test = trial_.interval == "test";
     if (trial_.answer == AnswerKind::kYesNo && trial_.can_answer) {
       stack.add(kLargeButton, 18, [this](const Rect& place) { draw_yes_no(place); });
-    } else if (trial_.answer == AnswerKind::kPercent && trial_.can_answer) {
-      type_percent(ui_, trial_, state_);
-      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_percent(place); });
+    } else if (is_typed(trial_.answer) && trial_.can_answer) {
+      type_number(ui_, trial_, state_);
+      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_number(place); });
     } else if (trial_.answer == AnswerKind::kMatch && test) {
       add_steps(stack);
     } else {
@@ -96,7 +100,9 @@ class TrialCard {
     const bool reference = trial_.has_reference;
     draw_button_row(ui_, place,
                     {{"present",
-                      reference ? "Present the reference" : "Present the fluid",
+                      reference          ? "Present the reference"
+                      : trial_.is_solid ? "Present the surface"
+                                        : "Present the fluid",
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
                       [&] { present(reference ? "reference" : "test"); }}},
                     320);
@@ -130,9 +136,12 @@ class TrialCard {
                     std::min(250.0f, (place.width - 40) / 2));
   }
 
-  void draw_percent(const Rect& place) {
+  void draw_number(const Rect& place) {
+    const bool percent = trial_.answer == AnswerKind::kPercent;
     Rect row = place.middle(std::min(520.0f, place.width - 32), place.height);
     const bool typed = !state_.percent.empty() && state_.percent != ".";
+    const double number = std::strtod(state_.percent.c_str(), nullptr);
+    const bool is_answer = typed && (percent || number > 0.0);
     const Rect enter = row.take_right(200, 16);
     ui_.fill(row, Colour::kGround, 9);
     ui_.outline(row, typed ? Colour::kBlue : Colour::kLine, 9, typed ? 2 : 1);
@@ -140,11 +149,17 @@ class TrialCard {
                           .colour = typed ? Colour::kInk : Colour::kSoft,
                           .align = Align::kCentre};
     ui_.text(row.middle(row.width - 20, ui_.line_height(style.font)),
-             typed ? state_.percent + " %" : "type the percent", style);
+             !typed    ? percent ? "type the percent" : "type a number above 0"
+             : percent ? state_.percent + " %"
+                       : state_.percent,
+             style);
     if (ui_.button(
             "answer_percent", enter, "Store",
-            {.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = typed, .large = true})) {
-      answer(std::strtod(state_.percent.c_str(), nullptr));
+            {.tone = Tone::kPrimary,
+             .key = {Key::kEnter},
+             .enabled = is_answer,
+             .large = true})) {
+      answer(number);
       state_.percent.clear();
     }
   }

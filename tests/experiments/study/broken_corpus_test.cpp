@@ -107,7 +107,7 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   int num_messages = 0;
   for (const char* name : {"structure_check", "study_rules", "session_rules", "label_rules",
                            "task_rules", "order_rules", "field_rules", "limit_rules",
-                           "located_json", "study_reader"}) {
+                           "standard_rules", "located_json", "study_reader"}) {
     const std::string code = text_of(source("experiments/study/" + std::string(name) + ".cpp"));
     ASSERT_NE(code, "") << name;
     for (const std::string& words : literals_of(code)) {

@@ -45,6 +45,16 @@ TEST(StimulusPlace, IsTheOneOfItsMediumInAListOfMedia) {
   EXPECT_EQ(pointer("media", {"free_space", "", 0.0}, text), "/stages/0");
 }
 
+TEST(StimulusPlace, OfAStandardIsWhereTheStandardsStand) {
+  const auto study = nlohmann::json::parse(R"({"stages": [{"kind": "block", "name": "match",
+    "medium": "viscous", "viscosity_pa_s": [4, 8], "standard_medium": "viscous_stokes",
+    "standard_viscosity_pa_s": [8, 4]}]})");
+  EXPECT_EQ(stimulus_pointer(study, "match", {"viscous_stokes", "viscosity_pa_s", 8.0}),
+            "/stages/0/standard_viscosity_pa_s/0");
+  EXPECT_EQ(stimulus_pointer(study, "match", {"viscous", "viscosity_pa_s", 8.0}),
+            "/stages/0/viscosity_pa_s/1");
+}
+
 TEST(StimulusPlace, IsNowhereForAnUnknownStage) {
   EXPECT_EQ(pointer("no_such_stage", {"water", "scale", 2.0}), "");
 }

@@ -1,0 +1,38 @@
+#include "experiments/participants/abilities.h"
+
+#include "core/error.h"
+#include "experiments/procedures/magnitude_estimation.h"
+
+namespace jnd::experiments {
+namespace {
+
+[[noreturn]] void lacks(const Laboratory& laboratory, const std::string& key,
+                        const std::string& what, const std::string& block) {
+  throw core::Error("laboratory " + laboratory.name + ": expected " + key + " for " + what +
+                    " in the block " + block + ", found none; add it, with its basis");
+}
+
+void require(const Laboratory& laboratory, const std::vector<Stage>& stages) {
+  for (const Stage& stage : stages) {
+    if (const auto* several = std::get_if<Counterbalance>(&stage.content)) {
+      for (const Counterbalance::Arm& arm : several->arms) require(laboratory, arm.stages);
+      require(laboratory, several->between);
+    }
+    const auto* block = std::get_if<Block>(&stage.content);
+    if (block == nullptr) continue;
+    if (block->is_solid() && !laboratory.pressing) {
+      lacks(laboratory, "/pressing", "the solid", stage.name);
+    }
+    if (modulus_of(*block) == Modulus::kFree && !laboratory.perceiver.free_modulus) {
+      lacks(laboratory, "/perceiver/free_modulus", "numbers of one's own", stage.name);
+    }
+  }
+}
+
+}  // namespace
+
+void require_abilities(const Laboratory& laboratory, const Study& study) {
+  require(laboratory, study.stages);
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// Method of adjustment: the standard is felt first, then the comparison, which the participant
+/// has raised and lowered step by step until both feel alike, with free switching back and
+/// forth. The standard is a medium of its own, or another amount of the block's. Each
+/// repetition pairs every standard with every starting value once, in random order. Stored as
+/// reference_intensity in the unit of the standard's medium; the response is the comparison's
+/// intensity. Steps may leave the range of starting values.
+class Matching final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "matching"; }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+}  // namespace jnd::experiments

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/hand_made_study.h"
+#include "analysis/study_results.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr char kToWater[] = R"({"name": "by_hand", "stages": [{"kind": "counterbalance",
+  "arms": [{"name": "one", "stages": [{"kind": "block", "name": "match",
+    "standard_medium": "water", "standard_scale": [1, 4]}]}]}]})";
+constexpr char kWithinViscous[] = R"({"name": "by_hand", "stages": [{"kind": "block",
+  "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [2]}]})";
+
+void match(HandMadeStudy& study, double standard, double start, double set) {
+  (void)study.answer({.block = "match",
+                      .procedure = "matching",
+                      .quantity = "viscosity_pa_s",
+                      .repetition = 1,
+                      .intensity = set,
+                      .reference_intensity = standard,
+                      .starting_intensity = start,
+                      .response = set});
+}
+
+StudyResults results(const HandMadeStudy& study) {
+  return results_of(load_study(study.store()), {}, {.num_resamples = 100});
+}
+
+double value(const StudyResults& results, const std::string& name) {
+  const Estimate* estimate = results.find(name);
+  EXPECT_NE(estimate, nullptr) << name;
+  return estimate == nullptr ? std::nan("") : estimate->value.value_or(std::nan(""));
+}
+
+/// One who halves and doubles about the match with the starting value, and one who is sure.
+void add_two_people(HandMadeStudy& study) {
+  study.add("P01");
+  match(study, 1.0, 1.0, 2.0);
+  match(study, 1.0, 4.0, 8.0);
+  match(study, 4.0, 1.0, 4.0);
+  match(study, 4.0, 4.0, 16.0);
+  study.add("P02");
+  match(study, 1.0, 1.0, 1.0);
+  match(study, 1.0, 4.0, 1.0);
+  match(study, 4.0, 1.0, 2.0);
+  match(study, 4.0, 4.0, 2.0);
+}
+
+TEST(MatchingResults, AreThoseWorkedByHand) {
+  HandMadeStudy study(kToWater);
+  add_two_people(study);
+  const StudyResults all = results(study);
+  // Geometric means of 4 and 1, of 8 and 2.
+  EXPECT_NEAR(value(all, "match.match_at_1"), 2.0, 1e-12);
+  EXPECT_NEAR(value(all, "match.match_at_4"), 4.0, 1e-12);
+  EXPECT_EQ(all.find("match.match_at_4")->unit, "Pa s");
+  EXPECT_NE(all.find("match.match_at_4")->meaning.find("4 of water"), std::string::npos);
+  // From 2 at 1 to 4 at 4.
+  EXPECT_NEAR(value(all, "match.k"), 2.0, 1e-9);
+  EXPECT_NEAR(value(all, "match.a"), 0.5, 1e-9);
+  // Four deviations of ln 2 with 4 - 2 degrees of freedom, and none.
+  EXPECT_NEAR(value(all, "match.match_sd_ln"), 0.5 * std::sqrt(2.0) * std::log(2.0), 1e-12);
+  // The first goes with the start wholly, the second not at all.
+  EXPECT_NEAR(value(all, "match.starting_value_slope"), 0.5, 1e-12);
+  EXPECT_EQ(value(all, "match.num_zeros"), 0.0);
+}
+
+TEST(MatchingResults, AreThereForEveryParticipant) {
+  HandMadeStudy study(kToWater);
+  add_two_people(study);
+  const StudyResults all = results(study);
+  const auto own = [&](const std::string& participant, const std::string& name) {
+    for (const ParticipantEstimate& one : all.sections.front().participants) {
+      if (one.participant == participant && one.name == name) return one.value;
+    }
+    return std::optional<double>();
+  };
+  EXPECT_NEAR(own("P01", "match.match_at_1").value(), 4.0, 1e-12);
+  EXPECT_NEAR(own("P02", "match.match_at_4").value(), 2.0, 1e-12);
+  EXPECT_NEAR(own("P01", "match.starting_value_slope").value(), 1.0, 1e-12);
+  EXPECT_NEAR(own("P02", "match.match_sd_ln").value(), 0.0, 1e-12);
+}
+
+TEST(MatchingResults, BetweenTwoUnitsThereIsNoRatio) {
+  HandMadeStudy study(kToWater);
+  add_two_people(study);
+  EXPECT_EQ(results(study).find("match.ratio_to_standard"), nullptr);
+}
+
+TEST(MatchingResults, WithinAUnitTheRatioIsTheConstantError) {
+  HandMadeStudy study(kWithinViscous);
+  study.add("P01");
+  match(study, 2.0, 1.0, 1.0);
+  match(study, 2.0, 8.0, 4.0);
+  study.add("P02");
+  match(study, 2.0, 1.0, 4.0);
+  match(study, 2.0, 8.0, 4.0);
+  const StudyResults all = results(study);
+  EXPECT_NEAR(value(all, "match.ratio_to_standard"), std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(all.find("match.k"), nullptr) << "one standard makes no line";
+  EXPECT_TRUE(std::ranges::any_of(all.sections.front().comparisons, [](const auto& one) {
+    return one.name == "match: ln ratio_to_standard against 0, t";
+  }));
+}
+
+TEST(MatchingResults, AMatchOfNothingHasNoLogarithmAndIsCounted) {
+  HandMadeStudy study(kWithinViscous);
+  study.add("P01");
+  match(study, 2.0, 1.0, 2.0);
+  match(study, 2.0, 8.0, 0.0);
+  study.add("P02");
+  match(study, 2.0, 1.0, 0.0);
+  const StudyResults all = results(study);
+  EXPECT_NEAR(value(all, "match.match_at_2"), 2.0, 1e-12);
+  EXPECT_EQ(value(all, "match.num_zeros"), 2.0);
+  ASSERT_EQ(all.sections.front().excluded.size(), 1U);
+  EXPECT_EQ(all.sections.front().excluded.front().participant, "P02");
+}
+
+TEST(MatchingResults, AMatchIsNoComparisonWithAReference) {
+  HandMadeStudy study(kToWater);
+  add_two_people(study);
+  const StudyData data = load_study(study.store());
+  ASSERT_EQ(data.blocks.size(), 1U);
+  EXPECT_FALSE(data.blocks.front().compares());
+  EXPECT_EQ(data.blocks.front().protocol.standard_medium, "water");
+  EXPECT_EQ(data.blocks.front().protocol.standard_quantity, "scale");
+}
+
+}  // namespace
+}  // namespace jnd::analysis
