@@ -31,7 +31,8 @@ void draw_threshold(Ui& ui, const Rect& place, const Threshold& block, const std
     const std::string words = "No value: " + figure->reason + ".";
     const Rect why = inside.take_bottom(ui.text_height(inside.width, words, amber), 8);
     (void)draw_plot(ui, inside, threshold_plot(block, *figure));
-    return ui.text(why, words, amber);
+    ui.text(why, words, amber);
+    return;
   }
   Rect line = inside.take_bottom(30, 4);
   (void)draw_plot(ui, inside, threshold_plot(block, *figure));
