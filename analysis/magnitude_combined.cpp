@@ -218,8 +218,8 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
         return geometric_mean(curves.of(drawn, solver));
       },
       options);
-  add_extrapolation(section, parts, curves, intensities,
-                    unit_of_quantity(estimation.quantity), options);
+  add_extrapolation(section, parts, curves, intensities, unit_of_quantity(estimation.quantity),
+                    options);
   add_own_power_laws(section, "combined", parts.estimated.names, [&](std::size_t i) {
     PowerFit own = between(curves_of(parts, {i}, Solver::kCeres), intensities, Solver::kCeres);
     // Residuals between two curves say nothing of the answers' spread.

@@ -160,9 +160,7 @@ void add_estimation_means(ResultsSection& section, const BlockDesign& design,
 
 std::string percent_name(double target) { return std::to_string(std::lround(target)); }
 
-std::string unit_of(const BlockDesign& block) {
-  return unit_of_quantity(block.quantity);
-}
+std::string unit_of(const BlockDesign& block) { return unit_of_quantity(block.quantity); }
 
 void add_set_intensities(ResultsSection& section, const BlockDesign& design,
                          const MagnitudeBlock& block) {

@@ -11,7 +11,7 @@ struct ProtocolBlock {
   /// "reminder", "yes_no", "two_interval" or "same_different"; where none stands in the file, a
   /// reminder, which magnitudes are not asked by.
   std::string task = "reminder";
-  bool is_practice = false;  ///< Its trials are no data.
+  bool is_practice = false;       ///< Its trials are no data.
   std::string standard_medium;    ///< "water"; "" for a block without a standard.
   std::string standard_quantity;  ///< What its reference intensities are: "scale".
   /// Of a magnitude estimation: "water_is_100", "standard" or "free".

@@ -94,13 +94,12 @@ StudyResults results_of(const StudyData& data, const Published& published,
   mark_movement_family(results.sections);
   adjust_by_family(results.sections);
   for (ResultsSection& section : results.sections) {
-    const bool counts_alike =
-        std::ranges::all_of(data.blocks, [&](const BlockDesign& block) {
-          return block.block != section.name || block.counts_in_water();
-        });
+    const bool counts_alike = std::ranges::all_of(data.blocks, [&](const BlockDesign& block) {
+      return block.block != section.name || block.counts_in_water();
+    });
     for (Estimate& estimate : section.estimates) {
-      const auto found = counts_alike ? published.values.find(estimate.name)
-                                      : published.values.end();
+      const auto found =
+          counts_alike ? published.values.find(estimate.name) : published.values.end();
       if (found != published.values.end()) {
         estimate.published = found->second.value;
         estimate.published_positive = found->second.positive;

@@ -187,7 +187,7 @@ bool somebody_gets_both(const Study& study, const std::string& first,
 
 /// What the same fit makes of the median person without noise.
 std::optional<double> noise_free_value(const Study& study, const Laboratory& laboratory,
-                                          const PlannedBlock& block) {
+                                       const PlannedBlock& block) {
   const Laboratory quiet = without_noise(laboratory);
   const AnswerSimulator simulator(study, quiet);
   const PlannedAnalysis alone{.blocks = {block}, .sizes = {1}};

@@ -206,9 +206,8 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   StiffnessMeter stiffness(surface_m);
   run_strokes(intent, stiffness);
   const Presenter::Felt felt = presenter_.end();
-  return {.amount = block.is_solid()
-                        ? stiffness.stiffness_n_per_m()
-                        : felt.delivered_damping_n_s_per_m + device_damping(felt),
+  return {.amount = block.is_solid() ? stiffness.stiffness_n_per_m()
+                                     : felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
           .duration_s = felt.duration_s};
 }
@@ -227,8 +226,7 @@ Moment TrialPlayer::moment(const Block& block) const {
   // Adaptive procedures have one repetition, as long as it takes.
   const std::size_t num_pairs =
       block.intensities.size() * std::max<std::size_t>(1, block.standards.size());
-  const auto per_repetition =
-      static_cast<std::int64_t>(num_pairs) + num_catch_trials(block);
+  const auto per_repetition = static_cast<std::int64_t>(num_pairs) + num_catch_trials(block);
   return {.trial = number,
           .attempt = trial.attempt,
           .presentation = static_cast<std::int64_t>(trial.presentations.size()),

@@ -48,7 +48,9 @@ const std::vector<CsvColumn>& trial_columns() {
       {"block", "", "Name of the block in the study file"},
       {"procedure", "", "How the block asks"},
       {"medium", "", "What was rendered"},
-      {"quantity", "", "What intensities mean: scale (ratio), viscosity_pa_s (Pa s) or stiffness_n_per_m (N/m)"},
+      {"quantity", "",
+       "What intensities mean: scale (ratio), viscosity_pa_s (Pa s) or stiffness_n_per_m "
+       "(N/m)"},
       {"repetition", "", "From 1; in each, every stimulus once", kCount},
       {"position", "", "Within the repetition, from 1", kCount},
       {"series", "", "Staircase or series of the block, from 1; empty where there is one",

@@ -98,7 +98,8 @@ class BlockReplacement {
   /// is known: many fluids' force was never measured.
   bool replace_matching(core::TrialRow& trial) const {
     if (!replace_production(trial)) return false;
-    const std::optional<double> standard = delivered_.at({trial.session, trial.trial}).reference;
+    const std::optional<double> standard =
+        delivered_.at({trial.session, trial.trial}).reference;
     if (!standard || !(*standard > 0.0) || !trial.reference_intensity) return true;
     trial.intensity = *trial.intensity * *trial.reference_intensity / *standard;
     trial.response = trial.intensity;

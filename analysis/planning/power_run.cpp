@@ -177,7 +177,8 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
     const PlannedBlock& block = analysis.blocks[place];
     if (block.quantity == PlannedQuantity::kMatch) {
       names.push_back({block.name + ".match",
-                       "geometric mean of the participants' matches over all standards", place});
+                       "geometric mean of the participants' matches over all standards",
+                       place});
       continue;
     }
     if (block.quantity != PlannedQuantity::kWeberFraction) {

@@ -209,7 +209,8 @@ void Writer::write_matching() {
           "at a standard is the geometric mean over repetitions and starting values. Over the "
           "standard, where both have the same unit, it is the constant error as a ratio. The "
           "spread is the standard deviation of ln(match) about its mean at each standard, "
-          "pooled over standards. The effect of the starting value is the slope of ln(match) on "
+          "pooled over standards. The effect of the starting value is the slope of ln(match) "
+          "on "
           "its logarithm that all standards share, each with a level of its own.");
 }
 

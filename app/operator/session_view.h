@@ -81,9 +81,9 @@ struct TrialView {
   bool has_reference = false;
   bool adjustable = false;
   bool is_solid = false;  ///< A surface that is pressed, not a fluid.
-  std::string interval;  ///< Being felt: "test", "reference", "free_space"; "" for none.
-  double felt_s = 0.0;   ///< For how long already.
-  int num_strokes = 0;   ///< Whole ones, in this presentation.
+  std::string interval;   ///< Being felt: "test", "reference", "free_space"; "" for none.
+  double felt_s = 0.0;    ///< For how long already.
+  int num_strokes = 0;    ///< Whole ones, in this presentation.
   std::optional<double> reference_felt_s;  ///< The last time before.
   bool can_answer = false;                 ///< The test was felt in this attempt.
   std::string question;
@@ -171,7 +171,7 @@ struct SessionView {
   std::string refusal;             ///< Why the last request was not carried out; "" otherwise.
   std::uint64_t num_refusals = 0;  ///< So that the same sentence twice is seen twice.
   std::string advice;  ///< "62 trials without a break, of at most 60"; "" otherwise.
-  std::string remark;              ///< "the study file has changed since ..."; "" otherwise.
+  std::string remark;  ///< "the study file has changed since ..."; "" otherwise.
 };
 
 }  // namespace jnd::app

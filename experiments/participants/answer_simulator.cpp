@@ -74,9 +74,7 @@ class BlockPlayer {
     return strokes_.max_speed_m_per_s * sum / strokes_.num_strokes;
   }
 
-  [[nodiscard]] bool looks_again() const {
-    return perceiver_.looks_again(moment_);
-  }
+  [[nodiscard]] bool looks_again() const { return perceiver_.looks_again(moment_); }
 
   double estimate(const PlannedTrial& planned, const std::vector<AnsweredTrial>& answered) {
     double sum_ln = 0.0, standard_ln = 0.0;
@@ -119,9 +117,7 @@ class BlockPlayer {
       test_ln += present("test", planned.intensity.value());
       ++looks;
     } while (looks_again());
-    return perceiver_.says_thicker(test_ln / looks, reference_ln / looks, moment_)
-               ? 1.0
-               : 0.0;
+    return perceiver_.says_thicker(test_ln / looks, reference_ln / looks, moment_) ? 1.0 : 0.0;
   }
 
   double compare_intervals(const PlannedTrial& planned) {

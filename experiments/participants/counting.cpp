@@ -31,10 +31,9 @@ Counting counting_of(const Laboratory& laboratory, const SimulatedParticipant& p
       return {.number = participant.person().free_modulus, .in_round_numbers = false};
     case Modulus::kStandard:
       return {.number = block.settings.number("modulus_value"),
-              .standard_ln =
-                  felt_standard_ln
-                      ? felt_standard_ln
-                      : remembered_ln(laboratory, participant, block, map)};
+              .standard_ln = felt_standard_ln
+                                 ? felt_standard_ln
+                                 : remembered_ln(laboratory, participant, block, map)};
     case Modulus::kWater:
       break;
   }

@@ -271,9 +271,8 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   std::vector<std::string> problems;
   Laboratory laboratory{.text = text};
   static const std::set<std::string> kKeys = {
-      "format", "name",     "title",   "comment",   "calibrated_on", "device",
-      "arm",    "movement", "strokes", "perceiver", "pressing",      "answers",
-      "implied"};
+      "format",   "name",    "title",     "comment",  "calibrated_on", "device", "arm",
+      "movement", "strokes", "perceiver", "pressing", "answers",       "implied"};
   for (const auto& [key, value] : file.items()) {
     if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
   }

@@ -19,8 +19,8 @@ namespace jnd::experiments {
 ///     felt(reference (1 + w)) = (1 + w0) felt(reference),
 ///
 /// which for a viscous fluid of damping c x on a device of viscosity b is w0 (1 + b / (c
-/// reference)); of a solid its own for stiffness. Lapses, learning and fatigue, which make answers coarser, are not in it. Throws
-/// `Error` for a block without a reference > 0.
+/// reference)); of a solid its own for stiffness. Lapses, learning and fatigue, which make
+/// answers coarser, are not in it. Throws `Error` for a block without a reference > 0.
 [[nodiscard]] double median_weber_fraction(const Laboratory& laboratory, const Block& block,
                                            const core::ForceMap* map = nullptr);
 

@@ -96,8 +96,7 @@ double Perceiver::reading_ln(double felt, const Moment& moment) const {
   const auto trial = static_cast<double>(moment.trial_in_block - 1);
   const double learning = 1.0 + p.learning_ratio * std::exp(-trial / p.learning_trials);
   const double fatigue = 1.0 + p.fatigue_ratio_per_trial * trial;
-  const double sd =
-      std::log1p(weber_fraction_) / std::numbers::sqrt2 * learning * fatigue;
+  const double sd = std::log1p(weber_fraction_) / std::numbers::sqrt2 * learning * fatigue;
   RandomStream stream(seed_, "reading", {moment.trial, moment.attempt, moment.presentation});
   return std::log(std::max(felt, threshold_)) + sd * unit_noise(p.noise, stream);
 }

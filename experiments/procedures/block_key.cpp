@@ -147,11 +147,12 @@ std::vector<BlockKey> right_answer_keys() {
 std::vector<BlockKey> standard_keys() {
   BlockKey medium{.parameter = {.key = "standard_medium",
                                 .kind = ValueKind::kString,
-                                .meaning = "What is felt as the standard: in `matching` always, "
-                                           "in `magnitude_estimation` where `modulus` is "
-                                           "`standard`. It may be the medium of the block; how "
-                                           "far matches then lie from it is the constant "
-                                           "error.",
+                                .meaning =
+                                    "What is felt as the standard: in `matching` always, "
+                                    "in `magnitude_estimation` where `modulus` is "
+                                    "`standard`. It may be the medium of the block; how "
+                                    "far matches then lie from it is the constant "
+                                    "error.",
                                 .required = false,
                                 .default_json = R"("none")",
                                 .allowed = {"none"}}};

@@ -21,9 +21,13 @@ const std::vector<const Procedure*>& procedures() {
   static const LimitsProcedure kLimits;
   static const StaircaseProcedure kStaircase;
   static const QuestPlusProcedure kQuestPlus;
-  static const std::vector<const Procedure*> kAll = {
-      &kMagnitudeEstimation, &kMagnitudeProduction, &kMatching, &kConstantStimuli,
-      &kLimits,              &kStaircase,           &kQuestPlus};
+  static const std::vector<const Procedure*> kAll = {&kMagnitudeEstimation,
+                                                     &kMagnitudeProduction,
+                                                     &kMatching,
+                                                     &kConstantStimuli,
+                                                     &kLimits,
+                                                     &kStaircase,
+                                                     &kQuestPlus};
   return kAll;
 }
 

@@ -106,9 +106,9 @@ class StandardRules {
       if (!standards[i].is_number()) continue;
       const auto [first, is_new] = seen.emplace(standards[i].get<double>(), i);
       if (is_new) continue;
-      report(key + '/' + std::to_string(i),
-             "expected each standard once, found " + standards[i].dump() + " at index " +
-                 std::to_string(first->second) + " already");
+      report(key + '/' + std::to_string(i), "expected each standard once, found " +
+                                                standards[i].dump() + " at index " +
+                                                std::to_string(first->second) + " already");
     }
   }
 

@@ -96,8 +96,8 @@ struct Block {
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::string standard_medium;    ///< Of what is felt as the standard; "" where there is none.
   std::vector<double> standards;  ///< In the unit of `standard_medium`, each > 0.
-  std::vector<double> target_percent;         ///< Production: one repetition a target.
-  int repetitions = 1;  ///< Each shows every intensity once; 1 in production.
+  std::vector<double> target_percent;  ///< Production: one repetition a target.
+  int repetitions = 1;                 ///< Each shows every intensity once; 1 in production.
   StimulusOrder order;
   double coarse_step = 0.0;             ///< Adjustment, unit of the quantity, > fine_step.
   double fine_step = 0.0;               ///< Adjustment, > 0.

@@ -182,8 +182,8 @@ Block block(const ObjectReader& in) {
   const std::string standard_quantity = quantity_of(block.standard_medium);
   for (const BlockKey& key : keys) {
     if (key.of_standard && standard_quantity.empty()) continue;
-    if (auto value = in.setting(
-            key.name_for(key.of_standard ? standard_quantity : block.quantity))) {
+    if (auto value =
+            in.setting(key.name_for(key.of_standard ? standard_quantity : block.quantity))) {
       block.settings.set(key.parameter.key, std::move(*value));
     }
   }

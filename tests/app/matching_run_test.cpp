@@ -53,8 +53,8 @@ class MatchingRun : public ::testing::Test {
 
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   Study study_ = read_study_text(kMatchingStudy, "matching.json");
-  Laboratory laboratory_ = read_laboratory(std::filesystem::path(JND_SOURCE_DIR) /
-                                           "data/laboratories/thesis.json");
+  Laboratory laboratory_ =
+      read_laboratory(std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
   std::vector<std::int64_t> sessions_;
@@ -64,9 +64,8 @@ TEST_F(MatchingRun, TheSamePersonsMatchAlikeWithAndWithoutADevice) {
   const AnswerSimulator simulator(study_, laboratory_);
   for (const std::int64_t session : sessions_) {
     const auto trials = store_.trials(session);
-    const auto calculated =
-        simulator.answers(stages_of(study_, cells_of(study_).front()),
-                          store_.session(session).seed);
+    const auto calculated = simulator.answers(stages_of(study_, cells_of(study_).front()),
+                                              store_.session(session).seed);
     ASSERT_EQ(trials.size(), 6U);
     for (std::size_t i = 0; i < trials.size(); ++i) {
       const AnsweredTrial& alone = calculated.front().trials[i];

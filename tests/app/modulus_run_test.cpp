@@ -31,8 +31,8 @@ const std::string kModulusStudy = R"json({
 TEST(ModulusRun, VerifiesAndHasResults) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const Study study = read_study_text(kModulusStudy, "modulus.json");
-  const Laboratory laboratory = read_laboratory(std::filesystem::path(JND_SOURCE_DIR) /
-                                                "data/laboratories/thesis.json");
+  const Laboratory laboratory =
+      read_laboratory(std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
   core::StudyStore store(temporary.path() / "a.study", core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const auto sessions = add_sessions(store,

@@ -64,8 +64,8 @@ TEST_F(SolidRun, TheSamePersonsAnswerAlikeWithAndWithoutADevice) {
   const AnswerSimulator simulator(study_, laboratory_);
   int num_alike = 0, num_trials = 0;
   for (const std::int64_t session : sessions_) {
-    const auto calculated = simulator.answers(
-        stages_of(study_, cells_of(study_).front()), store_.session(session).seed);
+    const auto calculated = simulator.answers(stages_of(study_, cells_of(study_).front()),
+                                              store_.session(session).seed);
     const auto trials = store_.trials(session);
     ASSERT_EQ(trials.size(), 12U);
     for (std::size_t i = 0; i < trials.size(); ++i) {

@@ -100,7 +100,7 @@ class TrialCard {
     const bool reference = trial_.has_reference;
     draw_button_row(ui_, place,
                     {{"present",
-                      reference          ? "Present the reference"
+                      reference         ? "Present the reference"
                       : trial_.is_solid ? "Present the surface"
                                         : "Present the fluid",
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
@@ -153,12 +153,11 @@ class TrialCard {
              : percent ? state_.percent + " %"
                        : state_.percent,
              style);
-    if (ui_.button(
-            "answer_percent", enter, "Store",
-            {.tone = Tone::kPrimary,
-             .key = {Key::kEnter},
-             .enabled = is_answer,
-             .large = true})) {
+    if (ui_.button("answer_percent", enter, "Store",
+                   {.tone = Tone::kPrimary,
+                    .key = {Key::kEnter},
+                    .enabled = is_answer,
+                    .large = true})) {
       answer(number);
       state_.percent.clear();
     }

@@ -40,7 +40,8 @@ TEST(SimulatedMatching, AQuietPersonMatchesWhatFeelsAlike) {
   // The drag of a sphere is 1.2322 viscosity speed, that of the hand 1.7760: 8 Pa s of the one
   // feel like 5.550 of the other.
   const Laboratory quiet = without_noise(laboratory());
-  for (const AnsweredTrial& trial : answers(matching_study("viscous_stokes", {8.0}), quiet, 1)) {
+  for (const AnsweredTrial& trial :
+       answers(matching_study("viscous_stokes", {8.0}), quiet, 1)) {
     EXPECT_NEAR(trial.response, 8.0 * 1.2322 / 1.7760, 0.4)
         << "from " << *trial.planned.starting_intensity;
   }

@@ -76,8 +76,7 @@ TEST(Matching, IsFinishedOnceEverythingDrawnIsAnswered) {
   std::vector<AnsweredTrial> answered;
   for (const PlannedTrial& trial : drawn(block_of(study), 1)) answered.push_back({trial, 1.0});
   core::RandomStream stream(1, "order");
-  EXPECT_TRUE(
-      procedure_named("matching").draw_next(block_of(study), answered, stream).empty());
+  EXPECT_TRUE(procedure_named("matching").draw_next(block_of(study), answered, stream).empty());
 }
 
 TEST(Matching, IsAnsweredByAdjustingWithTheStandardToGoBackTo) {

@@ -45,8 +45,7 @@ TEST(SolidBlocks, EveryProcedureCanAskAboutStiffness) {
   for (const Procedure* procedure : procedures()) {
     const std::string name(procedure->name());
     ASSERT_TRUE(kKeys.contains(name)) << name;
-    const std::string text =
-        study_with(R"("procedure": ")" + name + R"(", )" + kKeys.at(name));
+    const std::string text = study_with(R"("procedure": ")" + name + R"(", )" + kKeys.at(name));
     ASSERT_TRUE(study_text_problems(text, "s.json").empty())
         << name << ": " << to_string(study_text_problems(text, "s.json").front());
     const Study study = read_study_text(text, "s.json");
@@ -59,10 +58,10 @@ TEST(SolidBlocks, EveryProcedureCanAskAboutStiffness) {
 }
 
 TEST(SolidBlocks, TheSurfaceHasTheBlocksFriction) {
-  const Study study = read_study_text(
-      study_with(R"("procedure": "constant_stimuli", "friction_ratio": 0.3, )" +
-                 kKeys.at("constant_stimuli")),
-      "s.json");
+  const Study study =
+      read_study_text(study_with(R"("procedure": "constant_stimuli", "friction_ratio": 0.3, )" +
+                                 kKeys.at("constant_stimuli")),
+                      "s.json");
   const Block& block = std::get<Block>(study.stages.front().content);
   const core::MediumAmounts amounts = amounts_of(setting_of(block, "test", 200.0));
   EXPECT_EQ(amounts.plane_stiffness_n_per_m, 200.0);
