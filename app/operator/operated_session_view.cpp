@@ -6,6 +6,7 @@
 #include "app/operator/session_words.h"
 #include "app/operator/study_outline.h"
 #include "core/safety/fault.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session_limits.h"
@@ -231,8 +232,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
   }
   if (length_is_expected(*block())) {
     view.num_is_expected = true;
-    view.num_in_block = std::max(view.num_in_block,
-                                 procedure_named(block()->procedure).expected_trials(*block()));
+    view.num_in_block = std::max(view.num_in_block, expected_trials(*block()));
   }
   if (presenter_.under_way()) {
     view.interval = trial.presentations.back().interval;

@@ -16,7 +16,7 @@
 #include "core/storage/backup.h"
 #include "core/storage/recording.h"
 #include "experiments/order/counterbalance.h"
-#include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/session/session_state.h"
 #include "experiments/study/study_reader.h"
 
@@ -90,9 +90,7 @@ class Interruption {
     const auto* block = std::get_if<experiments::Block>(&stage.content);
     if (block == nullptr || !length_is_expected(*block)) return;
     session.num_is_expected = true;
-    session.num_trials =
-        std::max(session.num_trials,
-                 experiments::procedure_named(block->procedure).expected_trials(*block));
+    session.num_trials = std::max(session.num_trials, experiments::expected_trials(*block));
   }
 
   const core::StudyStore& store_;

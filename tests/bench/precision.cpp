@@ -14,7 +14,7 @@
 
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/report/figure_files.h"
-#include "analysis/report/report.h"
+#include "analysis/report/run_tool.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/psychometric_function.h"
@@ -248,8 +248,9 @@ those of `experiments/participants/answer_simulator`, so without a device.
 - **QUEST+**: 30 by 30 grid of pse and w, eleven stimuli; posterior mean of ln w.
 
 Numbers are root mean square errors of ln w: 0.2 is about 20 %. Estimates beyond 0.05 and 2, the ends of the grid of
-QUEST+, count as these ends, as do answers without a curve. The file [precision.csv](precision.csv) has mean errors
-besides.
+QUEST+, count as these ends; so do answers without a curve, and staircases that have not turned three times count as
+the upper one. The file [precision.csv](precision.csv) has mean errors besides. A staircase of reversals alone cannot
+tell a shifted pse from a difference: where people's pse lies off the reference, fit the raw answers.
 
 ![Precision against trials](precision.svg)
 )";
@@ -285,8 +286,8 @@ int run(const std::filesystem::path& folder, int num_people) {
   }
   std::filesystem::create_directories(folder);
   const Figure figure = figure_of(tables);
-  const std::vector<DrawnFigure> drawn = write_figures(
-      {figure}, folder, {.simulated = true, .gnuplot = installed_report_tools().gnuplot});
+  const std::vector<DrawnFigure> drawn =
+      write_figures({figure}, folder, {.simulated = true, .gnuplot = find_tool({"gnuplot"})});
   if (!drawn.front().problem.empty()) {
     std::fprintf(stderr, "precision: %s\n", drawn.front().problem.c_str());
   }
@@ -299,7 +300,7 @@ int run(const std::filesystem::path& folder, int num_people) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const int num_people = argc > 2 ? std::atoi(argv[2]) : 1000;
+  const int num_people = argc > 2 ? std::atoi(argv[2]) : 500;
   if (argc < 2 || num_people < 1) {
     std::fprintf(stderr, "usage: jnd_precision FOLDER [PEOPLE]\n");
     return 2;
