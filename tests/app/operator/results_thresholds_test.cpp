@@ -71,7 +71,7 @@ TEST_F(ResultsThresholdsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
 }
 
 TEST_F(ResultsThresholdsTest, TracksHaveTheirReversals) {
-  const Threshold& tracks = thresholds_of(source())[1];
+  const Threshold tracks = thresholds_of(source()).at(1);
   EXPECT_TRUE(tracks.has_tracks);
   ASSERT_EQ(tracks.participants.size(), 1U);
   const ThresholdFigure& own = tracks.participants[0];
