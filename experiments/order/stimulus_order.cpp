@@ -70,8 +70,7 @@ Order shuffled(const StimulusOrder& rule, const std::vector<double>& stimuli,
 Order mixed(const StimulusOrder& rule, const std::vector<double>& stimuli, int num_repetitions,
             core::RandomStream& stream) {
   std::vector<std::string> labels;
-  OrderConstraints constraints = {
-      .max_in_a_row = rule.max_in_a_row, .min_distance = rule.min_distance, .not_first = {}};
+  OrderConstraints constraints = {.max_in_a_row = rule.max_in_a_row, .not_first = {}};
   for (std::size_t i = 0; i < stimuli.size() * static_cast<std::size_t>(num_repetitions); ++i) {
     labels.push_back(std::to_string(i % stimuli.size()));
   }

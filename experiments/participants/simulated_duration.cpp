@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/session/session.h"
 
 namespace jnd::experiments {
@@ -15,9 +15,8 @@ SimulatedDuration simulated_duration(const ParticipantPlan& plan,
        simulator.answers(plan.stages, session_seed(seed, study.name, plan.participant))) {
     const auto& block = std::get<Block>(answered.stage->content);
     const auto num_trials = static_cast<int>(answered.trials.size());
-    const int expected = procedure_named(block.procedure).expected_trials(block);
-    simulated.duration_s +=
-        (num_trials - expected) * (block.free_space_between_s + block.expected_trial_s);
+    simulated.duration_s += (num_trials - expected_trials(block)) *
+                            (block.free_space_between_s + block.expected_trial_s);
     simulated.num_trials[answered.stage->name] += num_trials;
   }
   return simulated;

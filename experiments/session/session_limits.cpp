@@ -3,7 +3,7 @@
 #include <cmath>
 #include <variant>
 
-#include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/session/plan.h"
 
 namespace jnd::experiments {
@@ -15,7 +15,7 @@ Stretch longest_stretch(const std::vector<StageInstance>& stages) {
     if (std::holds_alternative<Break>(instance.stage->content)) num_trials = 0;
     const auto* block = std::get_if<Block>(&instance.stage->content);
     if (block == nullptr) continue;
-    num_trials += procedure_named(block->procedure).expected_trials(*block);
+    num_trials += expected_trials(*block);
     if (num_trials > longest.num_trials) longest = {num_trials, instance.stage};
   }
   return longest;

@@ -77,6 +77,11 @@ class OrderRules {
     const json& order = object_at(block, "order");
     const Stimuli stimuli = stimuli_of(block);
     if (order.empty() || stimuli.values.empty()) return;
+    if (block.contains("practice")) {
+      report(pointer,
+             "expected no order in a block that is `practice`, whose trials are drawn one by "
+             "one, found one");
+    }
     const std::string method = word(order, "method");
     if (method == "mixed") check_mixed(order, stimuli, pointer + "/method");
     if (method == "latin" || method == "williams") return;
@@ -94,10 +99,9 @@ class OrderRules {
     }
     const double num_trials =
         static_cast<double>(stimuli.values.size()) * stimuli.num_repetitions;
-    const bool is_free = !order.contains("max_in_a_row") && !order.contains("min_distance");
-    if (num_trials > kMostTrials && !is_free) {
+    if (num_trials > kMostTrials && order.contains("max_in_a_row")) {
       report(pointer, "expected at most " + plain_number(kMostTrials) +
-                          " trials to be mixed at a distance, found " +
+                          " trials to be mixed with `max_in_a_row`, found " +
                           plain_number(num_trials) + "; use `shuffled`");
     }
   }

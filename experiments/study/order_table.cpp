@@ -38,7 +38,7 @@ const ParameterTable& order_table() {
            .required = false,
            .default_json = "1",
            .range = {1, 200},
-           .only_where = kDrawn},
+           .only_where = {{"method", {"shuffled"}}}},
           {.key = "not_first",
            .kind = ValueKind::kNumbers,
            .meaning = "Stimuli that the block does not begin with, as they stand in its list.",

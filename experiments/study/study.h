@@ -75,7 +75,7 @@ struct StimulusOrder {
   };
   Method method = Method::kShuffled;
   std::optional<int> max_in_a_row;  ///< Trials of one stimulus, >= 1. Not of squares.
-  int min_distance = 1;           ///< From a stimulus to its next trial, >= 1. Not of squares.
+  int min_distance = 1;  ///< From a stimulus to its next trial, >= 1. Of `kShuffled` alone.
   std::vector<double> not_first;  ///< Stimuli that do not open the block. Not of squares.
   std::size_t row = 0;            ///< Of the square, for the first repetition; see `block_of`.
 };
