@@ -1,0 +1,60 @@
+// Every study that is shipped, as its author would try it: checked, planned, simulated,
+// analysed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/study/schema_writer.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOutcome;
+
+std::vector<std::string> shipped_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(JND_SOURCE_DIR) / "protocols")) {
+    const fs::path name = entry.path().filename();
+    if (name.extension() == ".json" && name != experiments::kSchemaFileName) {
+      names.push_back(name.stem());
+    }
+  }
+  return names;
+}
+
+class ShippedStudyTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
+    return test_support::run_program(arguments,
+                                     {.folder = temporary_.path(), .environment = {}});
+  }
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_P(ShippedStudyTest, IsCheckedPlannedSimulatedVerifiedAndAnalysed) {
+  const std::string& name = GetParam();
+  ProgramOutcome outcome = jnd({"validate", name, "--device", "lumped"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  outcome = jnd({"plan", name, "--participants", "4", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["participants"].size(), 4U);
+  outcome = jnd({"simulate", name, "--participants", "2", "--study", "a.study", "--fast"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  outcome = jnd({"verify", "a.study", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  outcome = jnd({"results", "a.study", "--resamples", "100", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_FALSE(nlohmann::json::parse(outcome.out)["sections"].empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedStudyTest, ::testing::ValuesIn(shipped_names()),
+                         [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace jnd::app
