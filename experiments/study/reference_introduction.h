@@ -29,6 +29,9 @@ simulate it and to analyse it. A study takes nothing from other files.
 
 To begin from a study that is shipped: `jnd new my_study --from short_tour`.
 
+How precisely a Weber fraction is known after so many trials, by constant stimuli, staircases and QUEST+:
+[what trials are worth](../data/reference/precision/README.md).
+
 ## How the file is written
 
 - Objects stand in braces and hold keys with values: `{"name": "rest", "duration_s": 60}`. Lists stand in brackets:
