@@ -120,6 +120,9 @@ ordered_json to_json(const experiments::PlannedTrial& trial) {
   if (trial.reference_intensity) json["reference_intensity"] = *trial.reference_intensity;
   if (trial.starting_intensity) json["starting_intensity"] = *trial.starting_intensity;
   if (trial.target_percent) json["target_percent"] = *trial.target_percent;
+  if (trial.series) json["series"] = *trial.series;
+  if (trial.test_interval) json["test_interval"] = *trial.test_interval;
+  if (trial.is_catch) json["is_catch"] = true;
   return json;
 }
 
@@ -294,7 +297,8 @@ std::vector<std::string> problems_of(const Outcome& outcome, const Options& opti
   if (too_long > 0) {
     problems.push_back(fmt::format(
         "{}: expected sessions of at most {:g} s, as `session_limits` says, found {} of {} "
-        "that simulated participants take longer for; shorten adaptive blocks or raise the limit",
+        "that simulated participants take longer for; shorten adaptive blocks or raise the "
+        "limit",
         options.file, *limit_s, too_long, outcome.plans.size()));
   }
   const int needed = outcome.study.device.min_contact_points;

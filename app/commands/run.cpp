@@ -18,6 +18,7 @@
 #include "app/stop_signals.h"
 #include "app/usage_message.h"
 #include "core/error.h"
+#include "experiments/session/event.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
@@ -40,15 +41,24 @@ struct Options {
   std::vector<std::string> fields;  ///< "sex=female"
 };
 
-/// Tells of commits, `EVENT SEQUENCE KIND`, until nobody listens any more.
+/// "right" or "wrong" with a space before it, where that was told of an answer.
+std::string feedback_words(const core::EventRow& row) {
+  const experiments::Event event = experiments::event_from_row(row);
+  const auto* answer = std::get_if<experiments::TrialAnswered>(&event.data);
+  if (answer == nullptr || !answer->feedback_right) return "";
+  return *answer->feedback_right ? " right" : " wrong";
+}
+
+/// Tells of commits, `EVENT SEQUENCE KIND`, until nobody listens any more; behind an answer
+/// that feedback is given to, `right` or `wrong`.
 class Acknowledgements {
  public:
   explicit Acknowledgements(bool wanted) : wanted_(wanted) {}
 
   void tell(const core::EventRow& event) {
     if (!wanted_ || unheard_) return;
-    unheard_ = std::printf("EVENT %lld %s\n", static_cast<long long>(event.sequence),
-                           event.kind.c_str()) < 0 ||
+    unheard_ = std::printf("EVENT %lld %s%s\n", static_cast<long long>(event.sequence),
+                           event.kind.c_str(), feedback_words(event).c_str()) < 0 ||
                std::fflush(stdout) != 0;
   }
   /// A line could not be delivered: whoever relies on them must not be left behind.

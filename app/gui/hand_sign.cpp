@@ -99,6 +99,17 @@ Drawing one_finger() {
           .creases = {}};
 }
 
+Drawing two_fingers() {
+  const Part palm = {{{{32, 63}, {69.5f, 63}, {64, 82}, {39, 82}}, 11.5f}};
+  return {.parts = {palm,
+                    {{{{74, 45}, {74, 59}}, 7.2f}},
+                    {{{{60.5f, 41}, {60.5f, 60}}, 7.5f}},
+                    {{{{48, 62}, {56, 13}}, 7.9f}},
+                    {{{{30.5f, 64}, {25, 17}}, 8}},
+                    {{{{27, 74}, {54, 68}}, 7.8f}}},
+          .creases = {}};
+}
+
 Drawing okay() {
   const Part palm = {{{{54, 60}, {70, 62}, {64, 82}, {52, 82}}, 11}};
   const Part fingers = {
@@ -151,6 +162,8 @@ Drawing drawing_of(HandSign sign) {
       return fist();
     case HandSign::kOneFinger:
       return one_finger();
+    case HandSign::kTwoFingers:
+      return two_fingers();
     case HandSign::kReady:
     case HandSign::kMatches:
       return okay();
@@ -203,6 +216,8 @@ const char* words(HandSign sign) noexcept {
       return "fist";
     case HandSign::kOneFinger:
       return "one finger";
+    case HandSign::kTwoFingers:
+      return "two fingers";
     case HandSign::kReady:
       return "okay, ready";
     case HandSign::kRaise:

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/attachment_watch.h"
@@ -100,6 +101,11 @@ class OperatedSession {
   [[nodiscard]] TrialView trial_view(std::int64_t trial) const;
   [[nodiscard]] MediumView medium_view(const experiments::Exploration& medium) const;
   [[nodiscard]] std::vector<AnswerLine> answer_lines() const;
+  [[nodiscard]] std::pair<std::string, std::string> labels_of(
+      const experiments::Block& block) const;
+  [[nodiscard]] std::string answer_in_words(const experiments::Block& block,
+                                            experiments::AnswerKind kind,
+                                            const experiments::TrialState& trial) const;
   [[nodiscard]] std::string level_of(const experiments::TrialState& trial) const;
   void describe_loop(SessionView& view) const;
   void describe_progress(SessionView& view) const;
@@ -130,7 +136,7 @@ class OperatedSession {
   double rest_until_s_ = 0.0;
   std::int64_t resting_for_trial_ = 0;
   double break_until_s_ = 0.0;
-  std::optional<double> reference_felt_s_;
+  std::optional<double> first_felt_s_;  ///< The trial's reference, or first interval.
   double block_begun_s_ = 0.0;
   std::int64_t answered_before_ = 0;  ///< In this block, before this visit.
 };

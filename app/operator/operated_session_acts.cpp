@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "app/operator/operated_session.h"
+#include "app/operator/trial_intervals.h"
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "experiments/session/stimulus.h"
@@ -17,15 +18,19 @@ constexpr double kTouchingM = -0.005;  ///< Of the surface, for a solid.
 
 [[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
 
-bool felt_the_test(const TrialState& trial) {
-  return std::any_of(trial.presentations.begin(), trial.presentations.end(),
-                     [](const PresentationState& felt) { return felt.interval == "test"; });
-}
-
-bool felt_the_reference(const TrialState& trial) {
-  return std::any_of(
-      trial.presentations.begin(), trial.presentations.end(),
-      [](const PresentationState& felt) { return felt.interval == "reference"; });
+/// Where the trial's intervals have an order of their own, what cannot be asked for by name.
+void require_order(const TrialForm& form, const TrialState& trial,
+                   const std::string& interval) {
+  const std::string before = first_interval(form);
+  if (interval == last_interval(form) && before != interval &&
+      !(trial.under_way && felt(trial, before))) {
+    refuse(form.order_is_drawn ? "the first interval comes first"
+                               : "the reference comes first");
+  }
+  if (interval == "reference" && !form.has_reference) refuse("this block has no reference");
+  if (form.order_is_drawn && (interval == "reference" || interval == "test")) {
+    refuse("this block has a first and a second interval");
+  }
 }
 
 }  // namespace
@@ -90,18 +95,11 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Present& present) const {
     const TrialState& trial = require_trial(present.trial);
-    const TrialForm form = my.session_.current_form();
-    if (present.interval == "test" && form.has_reference &&
-        !(trial.under_way && felt_the_reference(trial))) {
-      refuse("the reference comes first");
-    }
-    if (present.interval == "reference" && !form.has_reference) {
-      refuse("this block has no reference");
-    }
+    require_order(my.session_.current_form(), trial, present.interval);
     my.session_.require_interval(present.interval);
     begin_feeling();
     if (!trial.under_way) {
-      my.reference_felt_s_.reset();
+      my.first_felt_s_.reset();
       my.session_.start_trial(my.visit_.apparatus().next_tick());
     }
     end_presentation();
@@ -112,7 +110,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Answer& answer) const {
     const TrialState& trial = require_trial(answer.trial);
-    if (!trial.under_way || !my.presenter_.under_way() || !felt_the_test(trial)) {
+    if (!my.presenter_.under_way() || !can_answer(my.session_.current_form(), trial)) {
       refuse("the test has not been felt yet");
     }
     if (my.session_.current_form().adjustable &&
@@ -262,11 +260,12 @@ struct OperatedSession::Act {
 
   void end_presentation() const {
     if (!my.presenter_.under_way()) return;
-    const bool was_reference =
-        my.state().trial(*my.state().current_trial()).presentations.back().interval ==
-        "reference";
+    const TrialForm form = my.session_.current_form();
+    const TrialState& trial = my.state().trial(*my.state().current_trial());
+    const bool was_first =
+        form.has_reference && shown_interval(form, trial) == first_interval(form);
     const Presenter::Felt felt = my.presenter_.end();
-    if (was_reference) my.reference_felt_s_ = felt.duration_s;
+    if (was_first) my.first_felt_s_ = felt.duration_s;
   }
 };
 

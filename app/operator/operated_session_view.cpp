@@ -5,9 +5,11 @@
 #include "app/operator/operated_session.h"
 #include "app/operator/session_words.h"
 #include "app/operator/study_outline.h"
+#include "app/operator/trial_intervals.h"
 #include "core/safety/fault.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/task.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session_limits.h"
 #include "experiments/session/stimulus.h"
@@ -222,7 +224,8 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
                  .answer = form.answer,
                  .has_reference = form.has_reference,
                  .adjustable = form.adjustable,
-                 .is_solid = block()->is_solid()};
+                 .is_solid = block()->is_solid(),
+                 .order_is_drawn = form.order_is_drawn};
   view.num_in_block = 0;
   for (std::size_t i = 0; i < state().trials.size(); ++i) {
     if (state().trials[i].stage != trial.stage) continue;
@@ -230,23 +233,21 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
     view.num_repetitions = std::max(view.num_repetitions, state().trials[i].planned.repetition);
     if (static_cast<std::int64_t>(i) + 1 == number) view.in_block = view.num_in_block;
   }
-  if (length_is_expected(*block())) {
+  if (length_is_expected(*block()) || block()->practice) {
     view.num_is_expected = true;
     view.num_in_block = std::max(view.num_in_block, expected_trials(*block()));
   }
   if (presenter_.under_way()) {
-    view.interval = trial.presentations.back().interval;
+    view.interval = shown_interval(form, trial);
     view.felt_s = presenter_.felt_s();
     if (!hides_levels_) view.num_strokes = visit_.apparatus().num_metered_strokes();
   }
-  view.reference_felt_s = reference_felt_s_;
-  view.can_answer =
-      trial.under_way &&
-      std::any_of(trial.presentations.begin(), trial.presentations.end(),
-                  [](const PresentationState& felt) { return felt.interval == "test"; });
+  view.first_felt_s = first_felt_s_;
+  view.can_answer = can_answer(form, trial);
   view.question = words(block()->question);
-  view.yes_label = block()->yes_label.empty() ? "Yes" : words(block()->yes_label);
-  view.no_label = block()->no_label.empty() ? "No" : words(block()->no_label);
+  const auto [yes, no] = labels_of(*block());
+  view.yes_label = yes;
+  view.no_label = no;
   view.target_percent = trial.planned.target_percent;
   if (form.answer == AnswerKind::kNumber && form.has_reference) {
     view.modulus_value = block()->settings.number("modulus_value");
@@ -277,6 +278,38 @@ MediumView OperatedSession::medium_view(const Exploration& medium) const {
   return view;
 }
 
+std::pair<std::string, std::string> OperatedSession::labels_of(const Block& block) const {
+  const auto label = [&](const Text& text, const char* otherwise) {
+    return text.empty() ? otherwise : words(text);
+  };
+  switch (task_of(block)) {
+    case Task::kTwoInterval:
+      return {label(block.first_label, "First"), label(block.second_label, "Second")};
+    case Task::kSameDifferent:
+      return {label(block.yes_label, "Different"), label(block.no_label, "Same")};
+    case Task::kReminder:
+    case Task::kYesNo:
+      break;
+  }
+  return {label(block.yes_label, "Yes"), label(block.no_label, "No")};
+}
+
+/// As it was given: a chosen interval does not tell which held the test.
+std::string OperatedSession::answer_in_words(const Block& block, AnswerKind kind,
+                                             const TrialState& trial) const {
+  const double answer = answer_of(kind, trial.planned, *trial.response);
+  const bool hidden = (hides_levels_ || is_alone()) && kind == AnswerKind::kMatch;
+  if (hidden) return "set";
+  if (kind == AnswerKind::kMatch) return level_words(block.quantity, answer);
+  if (kind != AnswerKind::kYesNo && kind != AnswerKind::kInterval) {
+    return answer_words(kind, answer);
+  }
+  const bool has_own_words = kind == AnswerKind::kInterval ||
+                             task_of(block) == Task::kSameDifferent || !block.yes_label.empty();
+  const auto [yes, no] = labels_of(block);
+  return has_own_words ? (answer == 1.0 ? yes : no) : answer_words(kind, answer);
+}
+
 std::vector<AnswerLine> OperatedSession::answer_lines() const {
   std::vector<AnswerLine> lines;
   const std::optional<std::int64_t> last = state().last_answered_trial();
@@ -293,13 +326,7 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
                     .block = title_of(its_stage),
                     .kind = kind,
                     .response_time_s = trial.response_time_s};
-    const bool hidden = (hides_levels_ || is_alone()) && kind == AnswerKind::kMatch;
-    line.answer = hidden ? "set"
-                  : kind == AnswerKind::kMatch
-                      ? level_words(its_block.quantity, *trial.response)
-                  : kind == AnswerKind::kYesNo && !its_block.yes_label.empty()
-                      ? words(*trial.response == 1.0 ? its_block.yes_label : its_block.no_label)
-                      : answer_words(kind, *trial.response);
+    line.answer = answer_in_words(its_block, kind, trial);
     line.can_undo = last == line.trial && trial.stage == state().stage && !state().ended;
     lines.push_back(std::move(line));
   }
@@ -396,6 +423,13 @@ SessionView OperatedSession::view() const {
     if (const auto* rest = std::get_if<Break>(&stage()->content)) {
       view.break_s = rest->duration_s;
       view.break_left_s = std::max(0.0, break_until_s_ - now_s());
+    }
+  }
+  if (!state().ended && block() != nullptr && state().stage_open) {
+    view.feedback_right = state().feedback_right;
+    if (block()->practice && !view.trial) {
+      view.practice = practice_words(
+          *block(), practice_state(*block(), state().answered_in(state().stage)));
     }
   }
   view.answers = answer_lines();

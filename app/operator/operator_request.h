@@ -36,13 +36,15 @@ struct FinishStage {
   std::string reason;
 };
 
-/// The medium switched: "reference", "test" or "free_space".
+/// The medium switched: "reference", "test" or "free_space"; "first" or "second" where the
+/// order is drawn.
 struct Present {
   std::int64_t trial = 0;
   std::string interval;
 };
 
-/// Percent, or 1 and 0. In a production `value` is ignored: it matches.
+/// Percent, 1 and 0, or the interval that was chosen. In a production `value` is ignored: it
+/// matches.
 struct Answer {
   std::int64_t trial = 0;
   double value = 0.0;

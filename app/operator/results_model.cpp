@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -18,7 +19,7 @@
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"
-#include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/practice.h"
 
 namespace jnd::app {
 namespace {
@@ -128,22 +129,22 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-/// Trials that the sessions of a study should have answers to, whether drawn yet or not. Where
-/// the answers decide how many there are, a session that came to its end has drawn them all.
-std::int64_t expected_trials(const experiments::Study& study, const core::StudyStore& store,
-                             const core::SessionRow& row) {
+/// Trials of every block of a session that should have answers, whether drawn yet or not;
+/// practice is none. Where the answers decide how many there are, a session that came to its
+/// end has drawn them all.
+std::map<std::string, std::int64_t> expected_trials(const experiments::Study& study,
+                                                    const core::StudyStore& store,
+                                                    const core::SessionRow& row) {
   std::map<std::string, std::int64_t> drawn;
   for (const core::DesignRow& trial : store.design(row.session)) ++drawn[trial.block];
   const bool is_over = store.completed(row.session);
-  std::int64_t expected = 0;
+  std::map<std::string, std::int64_t> expected;
   for (const experiments::Stage* stage : stages_of_session(study, row.cells)) {
     const auto* block = std::get_if<experiments::Block>(&stage->content);
-    if (block == nullptr) continue;
-    if (is_over && length_is_expected(*block)) {
-      expected += drawn[stage->name];
-      continue;
-    }
-    expected += experiments::procedure_named(block->procedure).expected_trials(*block);
+    if (block == nullptr || block->practice) continue;
+    expected[stage->name] = is_over && length_is_expected(*block)
+                                ? drawn[stage->name]
+                                : experiments::expected_trials(*block);
   }
   return expected;
 }
@@ -157,10 +158,16 @@ class Quality {
         ++num_pilots_;
         continue;
       }
-      expected_ += expected_trials(study, store, row);
-      const auto all = store.trials(row.session, /*include_excluded=*/true).size();
-      answers_ += static_cast<std::int64_t>(all);
-      excluded_ += static_cast<std::int64_t>(all - store.trials(row.session).size());
+      const auto expected = expected_trials(study, store, row);
+      for (const auto& [block, num_trials] : expected) expected_ += num_trials;
+      const auto num_of_data = [&expected](const std::vector<core::TrialRow>& trials) {
+        return std::ranges::count_if(trials, [&](const core::TrialRow& trial) {
+          return expected.contains(trial.block);
+        });
+      };
+      const auto all = num_of_data(store.trials(row.session, /*include_excluded=*/true));
+      answers_ += all;
+      excluded_ += all - num_of_data(store.trials(row.session));
       open_ += store.finished(row.session) ? 0 : 1;
       if (row.recorded) look_at_recording(store.recording_file(row.session));
     }

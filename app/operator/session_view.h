@@ -30,7 +30,17 @@ enum class Step {
 };
 
 /// What the experimenter shows to the participant, who hears nothing.
-enum class HandSign { kNone, kFist, kOneFinger, kReady, kRaise, kLower, kMatches, kOpenHand };
+enum class HandSign {
+  kNone,
+  kFist,
+  kOneFinger,
+  kTwoFingers,
+  kReady,
+  kRaise,
+  kLower,
+  kMatches,
+  kOpenHand
+};
 
 struct StageLine {
   enum class Status { kDone, kNow, kLater };
@@ -80,14 +90,17 @@ struct TrialView {
   experiments::AnswerKind answer = experiments::AnswerKind::kYesNo;
   bool has_reference = false;
   bool adjustable = false;
-  bool is_solid = false;  ///< A surface that is pressed, not a fluid.
-  std::string interval;   ///< Being felt: "test", "reference", "free_space"; "" for none.
-  double felt_s = 0.0;    ///< For how long already.
-  int num_strokes = 0;    ///< Whole ones, in this presentation.
-  std::optional<double> reference_felt_s;  ///< The last time before.
-  bool can_answer = false;                 ///< The test was felt in this attempt.
+  bool is_solid = false;        ///< A surface that is pressed, not a fluid.
+  bool order_is_drawn = false;  ///< Intervals are "first" and "second"; which is the test is
+                                ///< nowhere in a view.
+  /// Being felt: "test", "reference", "first", "second", "free_space"; "" for none.
+  std::string interval;
+  double felt_s = 0.0;                 ///< For how long already.
+  int num_strokes = 0;                 ///< Whole ones, in this presentation.
+  std::optional<double> first_felt_s;  ///< Reference or first interval, the last time before.
+  bool can_answer = false;             ///< What is asked about was felt in this attempt.
   std::string question;
-  std::string yes_label, no_label;  ///< What the two answers are called.
+  std::string yes_label, no_label;  ///< What the two answers are called; the intervals.
   std::optional<double> target_percent;
   std::optional<double> modulus_value;  ///< The number of the standard, where it has one.
   std::string level;         ///< "1.65 Pa s, reference 1.85 Pa s"; "" where it is hidden.
@@ -147,7 +160,9 @@ struct SessionView {
   std::optional<TrialView> trial;  ///< In a block, once it is drawn.
   std::optional<MediumView> medium;
   double break_left_s = 0.0, break_s = 0.0;
-  std::vector<AnswerLine> answers;  ///< The newest first; at most fifty.
+  std::optional<bool> feedback_right;  ///< To be told of the last answer.
+  std::string practice;                ///< What a practice has come to, once it is over.
+  std::vector<AnswerLine> answers;     ///< The newest first; at most fifty.
   std::vector<std::string> notes;
 
   double elapsed_s = 0.0;   ///< Since this visit began.

@@ -11,12 +11,16 @@ namespace {
 using experiments::AnswerKind;
 
 /// What the participant's screen says of itself; studies bring the rest.
-enum class Own { kPause, kWait, kThanks };
+enum class Own { kPause, kWait, kThanks, kRight, kWrong };
 
 std::string own_words(Own what, const std::string& language) {
-  static const std::map<std::string, std::array<const char*, 3>> kWords = {
-      {"en", {"Pause. Rest your hand.", "One moment, please.", "Thank you!"}},
-      {"de", {"Pause. Ruhen Sie Ihre Hand aus.", "Einen Moment bitte.", "Vielen Dank!"}},
+  static const std::map<std::string, std::array<const char*, 5>> kWords = {
+      {"en",
+       {"Pause. Rest your hand.", "One moment, please.", "Thank you!", "That was right.",
+        "That was wrong."}},
+      {"de",
+       {"Pause. Ruhen Sie Ihre Hand aus.", "Einen Moment bitte.", "Vielen Dank!",
+        "Das war richtig.", "Das war falsch."}},
   };
   const auto known = kWords.find(language);
   return (known == kWords.end() ? kWords.at("en")
@@ -27,6 +31,7 @@ std::string own_words(Own what, const std::string& language) {
 struct TrialSentences {
   const char *present_reference, *present_fluid, *resting;
   const char *reference, *free_space, *production, *estimation, *number, *comparison;
+  const char *present_first, *first, *second;
 };
 constexpr TrialSentences kForTwo = {
     "Show the fist, then present the reference.",
@@ -37,7 +42,10 @@ constexpr TrialSentences kForTwo = {
     "Follow the participant's signs until it matches.",
     "At the ready sign, ask; type the percent and press Enter.",
     "At the ready sign, ask; type the number and press Enter.",
-    "Show one finger. At the ready sign, ask:"};
+    "Show one finger. At the ready sign, ask:",
+    "Show one finger, then present the first.",
+    "When the participant is ready, show two fingers and present the second.",
+    "Show two fingers. At the ready sign, ask:"};
 constexpr TrialSentences kForOne = {"Present the reference.",
                                     "Present the fluid.",
                                     "A moment of free space.",
@@ -46,7 +54,19 @@ constexpr TrialSentences kForOne = {"Present the reference.",
                                     "Lower or raise it until it feels right.",
                                     "Feel it, type the percent and press Enter.",
                                     "Feel it, type the number and press Enter.",
-                                    "Feel the test, then answer:"};
+                                    "Feel the test, then answer:",
+                                    "Present the first.",
+                                    "Feel the first, then present the second.",
+                                    "Feel the second, then answer:"};
+
+/// What is told of the answer before, in front of what is said anyway.
+void add_feedback(SessionView& view) {
+  const std::string told =
+      own_words(*view.feedback_right ? Own::kRight : Own::kWrong, view.language);
+  view.say = told + (view.say.empty() ? "" : " " + view.say);
+  view.participant_text =
+      told + (view.participant_text.empty() ? "" : "\n" + view.participant_text);
+}
 
 /// What is said of a fluid, said of a solid surface.
 void speak_of_a_surface(std::string& words) {
@@ -67,7 +87,11 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
     view.heading = view.step == Step::kRest ? "Free space" : "Next trial";
     view.say = first ? std::string(instruction) : target;
     view.participant_text = view.say;
-    if (trial.has_reference) {
+    if (view.feedback_right) add_feedback(view);
+    if (trial.order_is_drawn) {
+      view.sentence = sentences.present_first;
+      view.sign = HandSign::kOneFinger;
+    } else if (trial.has_reference) {
       view.sentence = sentences.present_reference;
       view.sign = HandSign::kFist;
     } else {
@@ -90,6 +114,16 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
       view.participant_text = "= " + number_words(*trial.modulus_value);
       view.say = view.participant_text;
     }
+  } else if (trial.interval == "first") {
+    view.heading = "First interval";
+    view.sign = HandSign::kOneFinger;
+    view.sentence = sentences.first;
+    view.participant_text.clear();
+  } else if (trial.interval == "second") {
+    view.heading = "Second interval";
+    view.sign = HandSign::kTwoFingers;
+    view.sentence = sentences.second;
+    view.say = trial.question;
   } else if (trial.interval == "free_space") {
     view.heading = "Free space";
     view.sign = HandSign::kOpenHand;
@@ -167,9 +201,10 @@ std::string level_words(const std::string& quantity, double intensity) {
   return number_words(intensity);
 }
 
-std::string answer_words(AnswerKind kind, double response) {
-  if (kind == AnswerKind::kYesNo) return response == 1.0 ? "yes" : "no";
-  return number_words(response) + (kind == AnswerKind::kPercent ? " %" : "");
+std::string answer_words(AnswerKind kind, double answer) {
+  if (kind == AnswerKind::kYesNo) return answer == 1.0 ? "yes" : "no";
+  if (kind == AnswerKind::kInterval) return answer == 1.0 ? "first" : "second";
+  return number_words(answer) + (kind == AnswerKind::kPercent ? " %" : "");
 }
 
 void add_words(SessionView& view, std::string_view stage_title, std::string_view instruction) {
@@ -204,6 +239,8 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
       return;
     case Step::kStageDone:
       view.sentence = "Done. Go on, or take the last answer back first.";
+      if (!view.practice.empty()) view.sentence = "Done: " + view.practice + ". Go on?";
+      if (view.feedback_right) add_feedback(view);
       return;
     case Step::kPaused:
       view.heading = "Paused";

@@ -15,8 +15,8 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
 /// "1.65 Pa s", "scale 2", "300 N/m": an intensity as it is shown. `quantity` as in studies.
 [[nodiscard]] std::string level_words(const std::string& quantity, double intensity);
 
-/// "yes", "120 %", "2.4": an answer as it is shown.
-[[nodiscard]] std::string answer_words(experiments::AnswerKind kind, double response);
+/// "yes", "120 %", "2.4", "first": an answer as it is shown.
+[[nodiscard]] std::string answer_words(experiments::AnswerKind kind, double answer);
 
 /// A number for people: up to three significant digits after rounding, no trailing zeros.
 [[nodiscard]] std::string number_words(double value);

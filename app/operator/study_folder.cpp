@@ -88,7 +88,7 @@ class Interruption {
   /// Where answers decide, those drawn so far are not all there will be.
   static void expect_trials(const experiments::Stage& stage, InterruptedSession& session) {
     const auto* block = std::get_if<experiments::Block>(&stage.content);
-    if (block == nullptr || !length_is_expected(*block)) return;
+    if (block == nullptr || !(length_is_expected(*block) || block->practice)) return;
     session.num_is_expected = true;
     session.num_trials = std::max(session.num_trials, experiments::expected_trials(*block));
   }

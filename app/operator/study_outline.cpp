@@ -10,6 +10,7 @@
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/plan.h"
 #include "experiments/study/parameter_table.h"
@@ -135,7 +136,7 @@ class Outliner {
   void describe(const Block& block, OutlineStage& line) const {
     line.kind = name_words(block.procedure, /*as_title=*/true);
     const Procedure& procedure = procedure_named(block.procedure);
-    const int num_trials = procedure.expected_trials(block);
+    const int num_trials = expected_trials(block);
     const bool adjusts = procedure.form(block).adjustable;
     const std::string trials =
         trials_to_expect(block, num_trials) + (num_trials == 1 ? " trial" : " trials");
@@ -153,6 +154,13 @@ class Outliner {
       line.what = counted(count, "starting value") + " for " +
                   counted(block.target_percent.size(), "target") + ": " + trials;
     }
+    if (block.practice) {
+      line.details.push_back(fmt::format(
+          "practice, until {:.0f} % of the last {} answers are right, at most {} trials",
+          100.0 * block.practice->min_correct_ratio, block.practice->num_trials_judged,
+          block.practice->max_trials));
+    }
+    if (block.feedback) line.details.emplace_back("right or wrong is told after each answer");
     if (hides_) {
       line.details.emplace_back("levels hidden: double-blind");
       return;
@@ -275,7 +283,7 @@ StudyOutline outline_of(const Study& study, bool shows_levels) {
       duration_s += expected_duration_s(*instance.stage);
       const auto* block = std::get_if<Block>(&instance.stage->content);
       if (block == nullptr) continue;
-      num_trials += procedure_named(block->procedure).expected_trials(*block);
+      num_trials += expected_trials(*block);
     }
     outline.shortest_s = first ? duration_s : std::min(outline.shortest_s, duration_s);
     outline.longest_s = std::max(outline.longest_s, duration_s);

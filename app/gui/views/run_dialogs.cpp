@@ -65,6 +65,10 @@ double corrected_value(const RunViewState& state) {
     if (state.correct_value == "yes") return 1.0;
     return state.correct_value == "no" ? 0.0 : std::nan("");
   }
+  if (state.correct_kind == AnswerKind::kInterval) {
+    if (state.correct_value == "first" || state.correct_value == "1") return 1.0;
+    return state.correct_value == "second" || state.correct_value == "2" ? 2.0 : std::nan("");
+  }
   const std::optional<double> value = typed_number(state.correct_value);
   const bool is_answer =
       value && (state.correct_kind == AnswerKind::kNumber ? *value > 0.0 : *value >= 0.0);
@@ -117,10 +121,11 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
           words.explanation, soft);
   bool entered = false;
   if (corrects) {
-    const char* hint = state.correct_kind == AnswerKind::kYesNo     ? "yes or no"
-                       : state.correct_kind == AnswerKind::kPercent ? "percent"
-                       : state.correct_kind == AnswerKind::kNumber  ? "number"
-                                                                    : "intensity";
+    const char* hint = state.correct_kind == AnswerKind::kYesNo      ? "yes or no"
+                       : state.correct_kind == AnswerKind::kInterval ? "first or second"
+                       : state.correct_kind == AnswerKind::kPercent  ? "percent"
+                       : state.correct_kind == AnswerKind::kNumber   ? "number"
+                                                                     : "intensity";
     entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
                              hint, state.dialog_is_new);
     entered |= ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint);

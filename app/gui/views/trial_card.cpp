@@ -16,6 +16,31 @@ using experiments::StepSize;
 constexpr float kLargeButton = 84;
 constexpr float kSmallButton = 46;
 
+/// An interval of a trial, as requests name it, and what its buttons say.
+struct Interval {
+  const char *name, *present, *again, *back, *button;
+  Key key;
+};
+constexpr Interval kTest = {
+    "test", "Present the test", "Test again", "Back to the test", "present_test", letter('T')};
+constexpr Interval kReference = {"reference",         "Present the reference",
+                                 "Reference again",   "Back to the reference",
+                                 "present_reference", letter('R')};
+constexpr Interval kFirst = {"first",         "Present the first",
+                             "First again",   "Back to the first",
+                             "present_first", Key::kLeft};
+constexpr Interval kSecond = {"second",         "Present the second",
+                              "Second again",   "Back to the second",
+                              "present_second", Key::kRight};
+
+/// What is felt first, and what the question is about.
+const Interval& first_of(const TrialView& trial) {
+  return trial.order_is_drawn ? kFirst : trial.has_reference ? kReference : kTest;
+}
+const Interval& last_of(const TrialView& trial) {
+  return trial.order_is_drawn ? kSecond : kTest;
+}
+
 std::string felt_words(const TrialView& trial) {
   char text[160];
   std::string words;
@@ -26,9 +51,9 @@ std::string felt_words(const TrialView& trial) {
       words += " · " + std::to_string(trial.num_strokes) +
                (trial.num_strokes == 1 ? " stroke" : " strokes");
     }
-    if (trial.interval != "reference" && trial.reference_felt_s) {
-      std::snprintf(text, sizeof text, " · reference felt before for %.1f s",
-                    *trial.reference_felt_s);
+    if (trial.interval != first_of(trial).name && trial.first_felt_s) {
+      std::snprintf(text, sizeof text, " · %s felt before for %.1f s", first_of(trial).name,
+                    *trial.first_felt_s);
       words += text;
     }
   }
@@ -77,6 +102,8 @@ class TrialCard {
     const bool test = trial_.interval == "test";
     if (trial_.answer == AnswerKind::kYesNo && trial_.can_answer) {
       stack.add(kLargeButton, 18, [this](const Rect& place) { draw_yes_no(place); });
+    } else if (trial_.answer == AnswerKind::kInterval && trial_.can_answer) {
+      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_choice(place); });
     } else if (is_typed(trial_.answer) && trial_.can_answer) {
       type_number(ui_, trial_, state_);
       stack.add(kLargeButton, 18, [this](const Rect& place) { draw_number(place); });
@@ -97,30 +124,31 @@ class TrialCard {
   }
 
   void draw_first(const Rect& place) {
-    const bool reference = trial_.has_reference;
+    const Interval& first = first_of(trial_);
     draw_button_row(ui_, place,
                     {{"present",
-                      reference         ? "Present the reference"
-                      : trial_.is_solid ? "Present the surface"
-                                        : "Present the fluid",
+                      trial_.has_reference ? first.present
+                      : trial_.is_solid    ? "Present the surface"
+                                           : "Present the fluid",
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
-                      [&] { present(reference ? "reference" : "test"); }}},
+                      [&] { present(first.name); }}},
                     320);
     // What it is called elsewhere does the same.
-    if (ui_.pressed({letter(reference ? 'R' : 'T')})) present(reference ? "reference" : "test");
+    if (ui_.pressed({first.key})) present(first.name);
   }
 
   void draw_next(const Rect& place) {
-    const bool to_reference =
-        trial_.interval == "free_space" && trial_.has_reference && !trial_.reference_felt_s;
+    const bool to_first =
+        trial_.interval == "free_space" && trial_.has_reference && !trial_.first_felt_s;
+    const Interval& next = to_first ? first_of(trial_) : last_of(trial_);
     draw_button_row(ui_, place,
                     {{"present",
-                      to_reference ? "Present the reference" : "Present the test",
+                      next.present,
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
-                      [&] { present(to_reference ? "reference" : "test"); }}},
+                      [&] { present(next.name); }}},
                     320);
-    // As the test is called everywhere else.
-    if (!to_reference && ui_.pressed({letter('T')})) present("test");
+    // As it is called everywhere else.
+    if (!to_first && ui_.pressed({next.key})) present(next.name);
   }
 
   void draw_yes_no(const Rect& place) {
@@ -133,6 +161,19 @@ class TrialCard {
                       trial_.no_label,
                       {.tone = Tone::kPrimary, .key = {letter('N')}, .large = true},
                       [&] { answer(0.0); }}},
+                    std::min(250.0f, (place.width - 40) / 2));
+  }
+
+  void draw_choice(const Rect& place) {
+    draw_button_row(ui_, place,
+                    {{"answer_first",
+                      trial_.yes_label,
+                      {.tone = Tone::kPrimary, .key = {letter('1')}, .large = true},
+                      [&] { answer(1.0); }},
+                     {"answer_second",
+                      trial_.no_label,
+                      {.tone = Tone::kPrimary, .key = {letter('2')}, .large = true},
+                      [&] { answer(2.0); }}},
                     std::min(250.0f, (place.width - 40) / 2));
   }
 
@@ -201,23 +242,21 @@ class TrialCard {
 
   void draw_switches(const Rect& place) {
     std::vector<RowButton> buttons;
-    const auto add = [&](const char* name, const char* label, char key, const char* interval) {
-      buttons.push_back(
-          {name, label, {.key = {letter(key)}}, [this, interval] { present(interval); }});
+    const Interval& first = first_of(trial_);
+    const Interval& last = last_of(trial_);
+    const auto add = [&](const Interval& interval) {
+      const bool again = trial_.interval == interval.name || trial_.interval == first.name;
+      buttons.push_back({interval.button,
+                         again ? interval.again : interval.back,
+                         {.key = {interval.key}},
+                         [this, &interval] { present(interval.name); }});
     };
-    if (trial_.has_reference) {
-      add("present_reference",
-          trial_.interval == "reference" ? "Reference again" : "Back to the reference", 'R',
-          "reference");
-    }
-    if (trial_.interval != "reference") {
-      add("present_test", trial_.interval == "test" ? "Test again" : "Back to the test", 'T',
-          "test");
-    } else if (trial_.can_answer) {
-      add("present_test", "Test again", 'T', "test");
-    }
+    if (trial_.has_reference) add(first);
+    if (!trial_.has_reference || trial_.interval != first.name || trial_.can_answer) add(last);
     if (trial_.interval != "free_space") {
-      add("present_free_space", "Free space", 'F', "free_space");
+      buttons.push_back({"present_free_space", "Free space", {.key = {letter('F')}}, [this] {
+                           present("free_space");
+                         }});
     }
     draw_button_row(ui_, place, buttons);
   }

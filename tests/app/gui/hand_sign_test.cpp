@@ -11,9 +11,9 @@
 namespace jnd::app::gui {
 namespace {
 
-constexpr HandSign kSigns[] = {HandSign::kFist,    HandSign::kOneFinger, HandSign::kReady,
-                               HandSign::kRaise,   HandSign::kLower,     HandSign::kMatches,
-                               HandSign::kOpenHand};
+constexpr HandSign kSigns[] = {HandSign::kFist,    HandSign::kOneFinger, HandSign::kTwoFingers,
+                               HandSign::kReady,   HandSign::kRaise,     HandSign::kLower,
+                               HandSign::kMatches, HandSign::kOpenHand};
 
 TEST(HandSign, EveryOneIsDrawnWithinItsPlaceAndNoted) {
   HeadlessUi ui;

@@ -131,7 +131,7 @@ TEST_F(OperatedSessionTest, ThePresentationIsStoredWithWhatWasDelivered) {
   act(operate::Present{trial, "reference"});
   pass(9.0);
   act(operate::Present{trial, "test"});
-  EXPECT_NEAR(view().trial->reference_felt_s.value(), 9.0, 0.1);
+  EXPECT_NEAR(view().trial->first_felt_s.value(), 9.0, 0.1);
   pass(1.0);
   act(operate::Answer{trial, 1.0});
   const std::vector<core::PresentationRow> rows = store_->presentations(session_number_);

@@ -39,7 +39,7 @@ SessionView comparison() {
                          .interval = "test",
                          .felt_s = 6.4,
                          .num_strokes = 3,
-                         .reference_felt_s = 8.1,
+                         .first_felt_s = 8.1,
                          .can_answer = true,
                          .question = view.say,
                          .yes_label = "Thicker",
@@ -147,6 +147,56 @@ TEST_F(RunView, APassedLimitIsToldWhereOneMayRest) {
   view.step = Step::kReady;
   draw(view);
   EXPECT_TRUE(ui_.drawn().shows(sentence));
+}
+
+/// The second interval of a trial in drawn order is being felt.
+SessionView two_intervals() {
+  SessionView view = comparison();
+  view.trial->answer = AnswerKind::kInterval;
+  view.trial->order_is_drawn = true;
+  view.trial->interval = "second";
+  view.trial->yes_label = "First";
+  view.trial->no_label = "Second";
+  return view;
+}
+
+TEST_F(RunView, AnIntervalIsChosenByItsNumber) {
+  EXPECT_EQ(after_key<operate::Answer>(two_intervals(), {letter('1')}).value, 1.0);
+  EXPECT_EQ(after_key<operate::Answer>(two_intervals(), {letter('2')}).value, 2.0);
+  EXPECT_EQ(after_click<operate::Answer>(two_intervals(), "answer_first").value, 1.0);
+  EXPECT_EQ(after_click<operate::Answer>(two_intervals(), "answer_second").trial, 23);
+}
+
+TEST_F(RunView, TheIntervalsOfADrawnOrderAreFirstAndSecond) {
+  SessionView view = two_intervals();
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kLeft}).interval, "first");
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kRight}).interval, "second");
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("Back to the first"));
+  EXPECT_FALSE(ui_.drawn().shows("Test again"));
+  EXPECT_TRUE(ui_.drawn().shows("first felt before for 8.1 s"));
+  view.trial->interval = "first";
+  view.trial->can_answer = false;
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "second");
+  draw(view);
+  EXPECT_FALSE(ui_.drawn().shows("Second again"));
+  view.step = Step::kReady;
+  view.trial->interval.clear();
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "first");
+}
+
+TEST_F(RunView, AWrongIntervalIsSetRightByItsName) {
+  SessionView view = two_intervals();
+  for (AnswerLine& line : view.answers) line.kind = AnswerKind::kInterval;
+  draw(view);
+  ui_.click("answer_20");
+  draw(view);
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("first or second"));
+  state_.correct_value = "second";
+  state_.reason = "misheard";
+  ui_.press({Key::kEnter});
+  EXPECT_EQ(only<operate::Correct>(draw(view)).value, 2.0);
 }
 
 TEST_F(RunView, TheAnswersAreNotThereBeforeTheTestWasFelt) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "experiments/procedures/procedure.h"
+#include "experiments/session/session_state.h"
+
+namespace jnd::app {
+
+// What the stimuli of a trial are called for those who run it. Where the order is drawn they
+// are "first" and "second", and nobody is told which of them is the test.
+
+/// What has to be felt first: "reference", "first", or "test" where it stands alone.
+[[nodiscard]] std::string first_interval(const experiments::TrialForm& form);
+/// What the question is about: "test" or "second".
+[[nodiscard]] std::string last_interval(const experiments::TrialForm& form);
+/// The one being felt or felt last, by that name, or "free_space"; "" for none.
+[[nodiscard]] std::string shown_interval(const experiments::TrialForm& form,
+                                         const experiments::TrialState& trial);
+/// Whether this interval, by that name, was felt in this attempt.
+[[nodiscard]] bool felt(const experiments::TrialState& trial, const std::string& interval);
+/// Everything that the question is about was felt in this attempt.
+[[nodiscard]] bool can_answer(const experiments::TrialForm& form,
+                              const experiments::TrialState& trial);
+
+}  // namespace jnd::app
