@@ -93,8 +93,12 @@ TEST(SimulatedModulus, APersonsNumbersAreTheirModulusTimesTheRatioToWater) {
 TEST(SimulatedModulus, TheStandardItselfGetsItsNumber) {
   const Laboratory quiet = without_noise(laboratory());
   for (const AnsweredTrial& trial : answers(estimation("standard"), quiet, 1)) {
-    if (*trial.planned.intensity == 6.0) EXPECT_DOUBLE_EQ(trial.response, 10.0);
-    if (*trial.planned.intensity == 12.0) EXPECT_GT(trial.response, 15.0);
+    if (*trial.planned.intensity == 6.0) {
+      EXPECT_DOUBLE_EQ(trial.response, 10.0);
+    }
+    if (*trial.planned.intensity == 12.0) {
+      EXPECT_GT(trial.response, 15.0);
+    }
   }
 }
 
@@ -103,7 +107,9 @@ TEST(SimulatedModulus, AStandardThatWasFeltBeforeIsRemembered) {
   Study study = estimation("standard");
   std::get<Block>(study.stages.front().content).settings.set("standard_every_trials", 12.0);
   for (const AnsweredTrial& trial : answers(study, quiet, 1)) {
-    if (*trial.planned.intensity == 6.0) EXPECT_DOUBLE_EQ(trial.response, 10.0);
+    if (*trial.planned.intensity == 6.0) {
+      EXPECT_DOUBLE_EQ(trial.response, 10.0);
+    }
   }
 }
 
