@@ -122,7 +122,8 @@ bool Perceiver::says_thicker(double test_ln, double reference_ln, const Moment& 
 }
 
 bool Perceiver::says_present(double test_ln, double free_space_ln, const Moment& moment) const {
-  return says_thicker(test_ln, free_space_ln + std::log1p(weber_fraction_), moment);
+  if (lapses(moment)) return guesses_yes(moment);
+  return test_ln - free_space_ln > std::log1p(weber_fraction_);
 }
 
 bool Perceiver::says_different(double first_ln, double second_ln, const Moment& moment) const {

@@ -52,7 +52,7 @@ struct Counting {
 /// where test minus reference exceeds the person's criterion, so that two total dampings that
 /// differ by the factor 1 + w0 are told apart with 84 %. Of two intervals the second is chosen
 /// where it exceeds the first by the criterion, which is then a bias for an interval. Two are
-/// called different where they differ by more than ln(1 + w) + criterion either way (the
+/// called different where they differ by more than ln(1 + w) either way (the
 /// differencing rule, Macmillan and Creelman 2005), and something is said to be there where it
 /// exceeds what is remembered of free space by as much: that people ask for one just noticeable
 /// difference is an assumption. A magnitude is
@@ -77,7 +77,8 @@ class Perceiver {
   [[nodiscard]] bool says_thicker(double test_ln, double reference_ln,
                                   const Moment& moment) const;
 
-  /// Answer to "is anything there"; free space is remembered without noise.
+  /// Answer to "is anything there"; free space is remembered without noise. The person's
+  /// criterion is an error between two intervals and has no part in it.
   [[nodiscard]] bool says_present(double test_ln, double free_space_ln,
                                   const Moment& moment) const;
 

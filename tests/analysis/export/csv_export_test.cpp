@@ -104,7 +104,8 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
        fs::directory_iterator(fs::path(JND_SOURCE_DIR) / "data" / "database")) {
     schema += bytes(layout.path());
   }
-  const std::set<std::string> kWorkedOut = {"simulated", "excluded", "completed"};
+  const std::set<std::string> kWorkedOut = {"simulated", "excluded", "completed", "is_practice",
+                                            "standard_medium"};
   for (const char* name : kTables) {
     const CsvTable columns = table(name);
     for (const std::string& column : columns.columns()) {

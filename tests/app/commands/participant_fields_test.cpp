@@ -31,7 +31,8 @@ class ParticipantFieldsTest : public ::testing::Test {
   ParticipantFieldsTest() { write_file(temporary_.path() / "study.json", stratified_study()); }
 
   ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, {.folder = temporary_.path(), .environment = {}});
+    return test_support::run_program(arguments,
+                                     {.folder = temporary_.path(), .environment = {}});
   }
   ProgramOutcome run(const std::string& participant, const std::vector<std::string>& more) {
     std::vector<std::string> words = {"run",        "study.json",    "--study",
@@ -53,7 +54,7 @@ TEST_F(ParticipantFieldsTest, ASessionWantsThemAndKeepsThem) {
   EXPECT_TRUE(stored.session(1).cells.starts_with("sex=female;priming="));
   const core::EventRow begin = stored.events(1).front();
   EXPECT_EQ(begin.kind, "session_started");
-  EXPECT_EQ(document(begin.data)["fields"]["sex"], "female");
+  EXPECT_EQ(nlohmann::json::parse(begin.data)["fields"]["sex"], "female");
   const std::vector<core::AnswerRow> answers = stored.answers(1);
   ASSERT_FALSE(answers.empty());
   EXPECT_EQ(answers.front().stage, "participant");
@@ -102,7 +103,8 @@ TEST_F(ParticipantFieldsTest, APlanForetellsWhatSimulatedParticipantsBring) {
                                         "--seed", "5", "--study", "s.study", "--fast"});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   std::vector<std::string> foretold, stored;
-  for (const auto& participant : document(planned.out)["participants"]) {
+  const auto plan = document(planned.out);
+  for (const auto& participant : plan["participants"]) {
     foretold.push_back(participant["cells"]);
   }
   for (const core::SessionRow& row : store().sessions()) stored.push_back(row.cells);

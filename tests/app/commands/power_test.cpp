@@ -156,7 +156,7 @@ TEST_F(PowerCommandTest, BadInputIsToldInOneSentence) {
       {{"power", "tiny.json", "--participants", "6", "--compare", "comparison,estimation"},
        "magnitude_estimation"},
       {{"power", "tiny.json", "--participants", "6", "--null"}, "--null"},
-      {{"power", "empty.json", "--participants", "6"}, "a block to answer"},
+      {{"power", "empty.json", "--participants", "6"}, "a block of magnitudes or comparisons"},
       {{"power", study, "--participants", "6", "--shard", "3/2", "--out", "x"}, "`3/2`"},
       {{"power", study, "--participants", "6", "--shard", "0/2", "--out", "x"}, "`0/2`"},
       {{"power", study, "--participants", "6", "--shard", "two", "--out", "x"}, "`two`"},

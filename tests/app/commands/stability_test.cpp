@@ -91,6 +91,7 @@ TEST_F(StabilityCommandTest, AStimulusBeyondTheMapIsAProblemOfThePlan) {
   const fs::path share = temporary_.path() / "share";
   fs::create_directories(share / "data/stability");
   fs::copy(fs::path(JND_SOURCE_DIR) / "protocols", share / "protocols");
+  fs::copy(fs::path(JND_SOURCE_DIR) / "data/laboratories", share / "data/laboratories");
   const std::string limits =
       R"("extra_delay_s": 0, "stiffness_n_per_m": 5000, "stiffness_is_at_least": false,
          "viscosity_is_at_least": false)";

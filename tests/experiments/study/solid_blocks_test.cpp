@@ -75,7 +75,8 @@ TEST(SolidBlocks, TheRangeTellsWhatTheDeviceCannotRender) {
                     "reference_stiffness_n_per_m": 300, "repetitions": 1)"),
       "s.json");
   std::map<double, bool> fits;
-  for (const RangeEntry& entry : planned_range(study, {})) {
+  for (const RangeEntry& entry :
+       planned_range(study, {.max_force_per_point_n = 10.0, .max_total_force_n = 30.0})) {
     fits[entry.setting.intensity] = entry.fits;
   }
   EXPECT_TRUE(fits.at(200.0));

@@ -78,9 +78,10 @@ TEST(StudyRules, WantSomethingToBeOrderedInEveryArmOfAnOrder) {
 }
 
 TEST(StudyRules, PutNothingBetweenArmsOfWhichOnlyOneIsRun) {
-  EXPECT_EQ(problems_of(broken("\"method\": \"order\"", "\"method\": \"one_of\"")),
-            "x.json:29:6: /stages/2/between: expected this key only where `method` is `order`, "
-            "found it where `method` is `one_of`");
+  EXPECT_EQ(
+      problems_of(broken("\"method\": \"order\"", "\"method\": \"one_of\"")),
+      "x.json:29:6: /stages/2/between: expected this key only where `method` is `order` or "
+      "`latin`, found it where `method` is `one_of`");
 }
 
 TEST(StudyRules, TakeNoCounterbalanceInsideAnother) {

@@ -187,7 +187,10 @@ TEST_F(RunView, TheIntervalsOfADrawnOrderAreFirstAndSecond) {
 
 TEST_F(RunView, AWrongIntervalIsSetRightByItsName) {
   SessionView view = two_intervals();
-  for (AnswerLine& line : view.answers) line.kind = AnswerKind::kInterval;
+  AnswerLine line;
+  line.trial = 20;
+  line.kind = AnswerKind::kInterval;
+  view.answers = {line};
   draw(view);
   ui_.click("answer_20");
   draw(view);
