@@ -196,7 +196,8 @@ TEST_F(RunView, AWrongIntervalIsSetRightByItsName) {
   draw(view);
   draw(view);
   EXPECT_TRUE(ui_.drawn().shows("first or second"));
-  state_.correct_value = "second";
+  ui_.type("second");
+  draw(view);
   state_.reason = "misheard";
   ui_.press({Key::kEnter});
   EXPECT_EQ(only<operate::Correct>(draw(view)).value, 2.0);
