@@ -201,11 +201,11 @@ Figure figure_of(const std::vector<Table>& tables) {
                   "mean_error_ln", "panel", "series"}};
   std::string plot =
       "  set multiplot layout 1,2\n  set logscale y\n  set xrange [0:125]\n"
-      "  set yrange [0.08:1.6]\n  set ytics (0.1, 0.2, 0.4, 0.8, 1.6)\n"
+      "  set yrange [0.05:2.2]\n  set ytics (0.1, 0.2, 0.4, 0.8, 1.6)\n"
       "  set xlabel 'Trials'\n  set ylabel 'Root mean square error of ln w'\n";
   for (std::size_t panel = 0; panel < tables.size(); ++panel) {
     plot += "  set title '" + kPanels[panel].second + "'\n" +
-            (panel == 0 ? "  set key top right samplen 2\n" : "  unset key\n") + "  plot ";
+            (panel == 0 ? "  set key bottom left Left reverse samplen 2\n" : "  unset key\n") + "  plot ";
     for (std::size_t estimator = 0; estimator < kEstimators.size(); ++estimator) {
       const auto series = static_cast<int>(panel * kEstimators.size() + estimator) + 1;
       for (std::size_t n = 0; n < tables[panel][estimator].size(); ++n) {

@@ -31,12 +31,12 @@ do for [format in 'svg pdf'] {
   set multiplot layout 1,2
   set logscale y
   set xrange [0:125]
-  set yrange [0.08:1.6]
+  set yrange [0.05:2.2]
   set ytics (0.1, 0.2, 0.4, 0.8, 1.6)
   set xlabel 'Trials'
   set ylabel 'Root mean square error of ln w'
   set title 'pse at the reference'
-  set key top right samplen 2
+  set key bottom left Left reverse samplen 2
   plot 'precision.csv' using 'num_trials':(column('series')==1 ? column('root_mean_square_error_ln') : NaN) with linespoints lt 1 lw 1.6 ps 0.5 title 'constant stimuli, curve fitted', 'precision.csv' using 'num_trials':(column('series')==2 ? column('root_mean_square_error_ln') : NaN) with linespoints lt 2 lw 1.6 ps 0.5 title 'staircase, reversals averaged', 'precision.csv' using 'num_trials':(column('series')==3 ? column('root_mean_square_error_ln') : NaN) with linespoints lt 3 lw 1.6 ps 0.5 title 'staircase, curve fitted', 'precision.csv' using 'num_trials':(column('series')==4 ? column('root_mean_square_error_ln') : NaN) with linespoints lt 4 lw 1.6 ps 0.5 title 'QUEST+, posterior mean'
   set title 'pse differs by 0.15 in ln'
   unset key
