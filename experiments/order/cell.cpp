@@ -180,8 +180,9 @@ std::string field_problem(const Study& study, const FieldValues& values) {
            ", found " + (given == values.end() ? "nothing" : '`' + given->second + '`');
   }
   for (const auto& [name, value] : values) {
-    if (std::none_of(study.participant_fields.begin(), study.participant_fields.end(),
-                     [&](const ParticipantField& field) { return field.name == name; })) {
+    if (std::none_of(
+            study.participant_fields.begin(), study.participant_fields.end(),
+            [&wanted = name](const ParticipantField& field) { return field.name == wanted; })) {
       return "expected a field of the study `" + study.name + "`, found `" + name + '`';
     }
   }
