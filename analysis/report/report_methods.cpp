@@ -58,7 +58,14 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
   std::string words = procedure_words(block.procedure, block.protocol.task) + "; " +
                       quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
-  if (!intensities.empty()) words += "; levels " + joined(intensities, unit);
+  constexpr std::size_t kMostListed = 20;  // An adaptive procedure makes up its levels.
+  if (intensities.size() > kMostListed) {
+    words += "; " + std::to_string(intensities.size()) + " levels from " +
+             number_words(*intensities.begin()) + " to " + number_words(*intensities.rbegin()) +
+             ' ' + unit;
+  } else if (!intensities.empty()) {
+    words += "; levels " + joined(intensities, unit);
+  }
   if (!references.empty()) words += "; " + reference_words(block, references);
   if (block.protocol.modulus == "free") words += "; numbers of everybody’s own choice";
   if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/groups/wilson_interval.h"
@@ -24,6 +25,7 @@ struct BlockCurves {
   const BlockDesign& block;
   std::vector<OwnCurve> participants;
   AxisRange range;
+  bool has_fixed_levels = true;  ///< Or as many as the answers led to, with one or two each.
 };
 
 std::optional<double> own_value(const FigureSource& source, const std::string& block,
@@ -70,6 +72,9 @@ BlockCurves curves_of(const FigureSource& source, const BlockDesign& block) {
     }
     curves.participants.push_back(std::move(own));
   }
+  constexpr std::size_t kMostFixed = 20;
+  curves.has_fixed_levels =
+      std::set<double>(intensities.begin(), intensities.end()).size() <= kMostFixed;
   curves.range = axis_range(intensities, /*logarithmic=*/true);
   return curves;
 }
@@ -151,18 +156,20 @@ Figure figure_of(const FigureSource& source, const BlockCurves& curves, std::siz
                     " with lines ls 11 lw 1.3, ";
     }
     panel.plot += from_table(figure.tables[0]) + "'intensity':" + if_series(series, "ratio") +
-                  ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' lw 1 pt "
-                  "7 ps 0.4";
+                  (curves.has_fixed_levels ? ":'ratio_low':'ratio_high' with yerrorbars ls 11 "
+                                           : " with points ls 11 ") +
+                  "lc rgb '#0072B2' lw 1 pt 7 ps 0.4";
     panels.push_back(std::move(panel));
   }
   figure.height_in = grid_height_in(grid, panels.size(), 1.15);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption =
-      "Proportion of answers " + answer_words(block) +
-      " with Wilson’s 95 % interval, and the curve of maximum likelihood where it exists, "
-      "with " +
-      (block.detects() ? "the intensity felt in 50 %" : "its Weber fraction w") +
-      " in the title. Dashed: the same answer in catch trials.";
+  figure.caption = "Proportion of answers " + answer_words(block) +
+                   (curves.has_fixed_levels ? " with Wilson’s 95 % interval"
+                                            : " at every level that the answers led to") +
+                   ", and the curve of maximum likelihood where it exists, "
+                   "with " +
+                   (block.detects() ? "the intensity felt in 50 %" : "its Weber fraction w") +
+                   " in the title. Dashed: the same answer in catch trials.";
   return figure;
 }
 

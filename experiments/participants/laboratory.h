@@ -80,14 +80,13 @@ struct Laboratory {
   /// How persons press a solid and what they feel of it: its stiffness, in which the device's
   /// own viscosity plays no role. Everything else is the perceiver's.
   struct Pressing {
-    double weber_fraction = 0.0, weber_fraction_sd_ln = 0.0;  ///< For stiffness, > 0.
-    double detection_threshold_n_per_m =
-        0.0;                                  ///< What nothing is remembered to feel like, > 0.
-    double standard_stiffness_n_per_m = 0.0;  ///< What a magnitude of 100 % is, > 0.
-    double depth_m = 0.0;     ///< How far below the surface the arm pulls the hand, > 0.
-    double lift_m = 0.0;      ///< How far above it the hand goes between two presses, > 0.
-    double period_s = 0.0;    ///< Of one press, > 0.
-    double sideways_m = 0.0;  ///< Half the way to and fro along the surface meanwhile, > 0.
+    double weber_fraction, weber_fraction_sd_ln;  ///< For stiffness, > 0.
+    double detection_threshold_n_per_m;  ///< What nothing is remembered to feel like, > 0.
+    double standard_stiffness_n_per_m;   ///< What a magnitude of 100 % is, > 0.
+    double depth_m;     ///< How far below the surface the arm pulls the hand, > 0.
+    double lift_m;      ///< How far above it the hand goes between two presses, > 0.
+    double period_s;    ///< Of one press, > 0.
+    double sideways_m;  ///< Half the way to and fro along the surface meanwhile, > 0.
   };
 
   /// What persons say of themselves and on paper.
