@@ -19,7 +19,7 @@ void require_levels(const StaircaseRule& rule) {
   require(rule.highest > rule.lowest, "staircase.highest", "a level above the lowest",
           rule.highest);
   require(rule.start >= rule.lowest && rule.start <= rule.highest, "staircase.start",
-          "a level within the bounds", rule.start);
+          "a level from the lowest to the highest", rule.start);
   require_ascending(rule.scale, "staircase.grid", rule.grid);
   if (rule.grid.empty()) return;
   require(rule.grid.size() >= 2, "staircase.grid", "two levels or more", rule.grid.front());
@@ -48,6 +48,8 @@ void require_counts(const StaircaseRule& rule) {
   const int averaged = rule.num_reversals_averaged;
   require(averaged >= 2 && averaged % 2 == 0, "staircase.num_reversals_averaged",
           "an even number, 2 or more", averaged);
+  require(averaged <= rule.max_reversals.value_or(averaged), "staircase.num_reversals_averaged",
+          "no more than `max_reversals`", averaged);
 }
 
 /// Probability that `num_down` lowering answers in a row come before `num_up` raising ones.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "experiments/study/drawing_rules.h"
 #include "experiments/study/limit_rules.h"
 #include "experiments/study/located_json.h"
 #include "experiments/study/structure_check.h"
@@ -63,8 +64,10 @@ LocatedJson checked(const std::string& text, const std::string& file_name,
   if (file.usable()) {
     StructureCheck(file, problems).run();
     check_study_rules(file, problems);
-    if (problems.empty() && file.root().contains("session_limits")) {
-      check_limit_rules(file, build_study(file, text), problems);
+    if (problems.empty()) {
+      const Study study = build_study(file, text);
+      check_drawing(file, study, problems);
+      check_limit_rules(file, study, problems);
     }
   }
   std::stable_sort(problems.begin(), problems.end(),

@@ -167,6 +167,7 @@ TEST(Staircase, IsOnItsBoundsDespiteRounding) {
 TEST(Staircase, EndsAfterAsManyReversalsTrialsOrBlockedStepsAsTheRuleSays) {
   StaircaseRule rule = one_up_two_down();
   rule.max_reversals = 3;
+  rule.num_reversals_averaged = 2;
   rule.max_trials = 40;
   const std::string swinging = "yyyynyynyyn";
   const auto end_after = [&](std::size_t num_answers) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/study/located_json.h"
+#include "experiments/study/study.h"
+#include "experiments/study/study_problem.h"
+
+namespace jnd::experiments {
+
+/// Has every block draw its first trial, and tells at its key what the procedure then misses,
+/// so that no session finds it out with a participant in the device. For a study that is sound
+/// otherwise. Not real time.
+void check_drawing(const LocatedJson& file, const Study& study,
+                   std::vector<StudyProblem>& problems);
+
+}  // namespace jnd::experiments
