@@ -69,7 +69,8 @@ void add_scale(ResultsSection& section, const QuestionnaireItem& item,
   const std::vector<double> values = add_own_numbers(section, item, answers);
   const Summary summary = summary_of(values);
   const std::string steps =
-      "rating from 1, the worst, to " + std::to_string(item.num_steps) + ", the best: ";
+      "rating from 1, the worst, to " + std::to_string(item.num_steps) + ", the best" +
+      (item.high_is_good ? ": " : " (turned round: it was asked with 1 as the best): ");
   add_mean(section, prefix_of(item), "mean " + steps + item.question, values);
   add(section, prefix_of(item) + ".sd", summary.standard_deviation, "1",
       "standard deviation between participants", values.size());

@@ -70,8 +70,8 @@ void write_counts(HtmlText& html, const StudyData& data, const ResultsSection& s
 void write_questionnaires(HtmlText& html, const StudyData& data,
                           const ResultsSection& section) {
   HtmlTable ratings{.caption =
-                        "Ratings from 1, the worst, to the last step, the best, as in "
-                        "tables D.3 and D.4 of the thesis",
+                        "Ratings from 1, the worst, to the last step, the best; scales "
+                        "asked the other way are turned round",
                     .columns = columns_with({"sd", "Median"})};
   HtmlTable numbers{.caption = "Numbers",
                     .columns = columns_with({"sd", "Smallest", "Largest"})};
