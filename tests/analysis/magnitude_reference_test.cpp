@@ -7,6 +7,7 @@
 #include <string>
 
 #include "analysis/study_results.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -16,7 +17,7 @@ using nlohmann::json;
 /// An invented study and its analysis by SciPy, see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) +
+    std::ifstream in(test_support::source_folder().string() +
                      "/data/reference/magnitudes/magnitudes.json");
     return json::parse(in);
   }();

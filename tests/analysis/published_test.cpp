@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
@@ -57,7 +58,7 @@ TEST_F(PublishedTest, AFileThatCannotBeReadAsPublishedValuesIsNamed) {
 }
 
 TEST_F(PublishedTest, TheShippedValuesAreThoseOfTheThesis) {
-  const std::string folder = std::string(JND_SOURCE_DIR) + "/data/published";
+  const std::string folder = test_support::source_folder().string() + "/data/published";
   const Published magnitude = published_for("magnitude_of_virtual_water", folder);
   EXPECT_EQ(magnitude.values.at("magnitude_estimation.k").value, 0.6663);
   EXPECT_EQ(magnitude.values.at("magnitude_production.a").value, 1.206);

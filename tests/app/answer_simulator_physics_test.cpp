@@ -9,6 +9,7 @@
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 using namespace experiments;
 
-const std::filesystem::path kSource = JND_SOURCE_DIR;
+const std::filesystem::path kSource = test_support::source_folder();
 
 /// Answers of a block, of everybody: with a device simulated to every tick, and calculated.
 struct Both {

@@ -12,13 +12,14 @@
 #include "core/error.h"
 #include "core/media/medium.h"
 #include "core/random_stream.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
 
 experiments::Laboratory thesis_laboratory() {
-  return experiments::read_laboratory(std::filesystem::path(JND_SOURCE_DIR) / "data" /
-                                      "laboratories" / "thesis.json");
+  return experiments::read_laboratory(test_support::source_folder() / "data" / "laboratories" /
+                                      "thesis.json");
 }
 
 double force_n(const Apparatus& apparatus) {

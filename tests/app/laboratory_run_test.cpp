@@ -14,6 +14,7 @@
 #include "core/storage/integrity.h"
 #include "core/storage/recording.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
@@ -83,7 +84,7 @@ class LaboratoryRunTest : public ::testing::Test {
   /// Hurried persons, so that hundreds of sessions take seconds.
   static experiments::Laboratory hurried_laboratory() {
     experiments::Laboratory laboratory = experiments::read_laboratory(
-        fs::path(JND_SOURCE_DIR) / "data" / "laboratories" / "thesis.json");
+        test_support::source_folder() / "data" / "laboratories" / "thesis.json");
     laboratory.arm.home_s = 0.1;
     for (auto& [procedure, strokes] : laboratory.strokes) {
       strokes.amplitude_m = 0.05;

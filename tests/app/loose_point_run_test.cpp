@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/storage/integrity.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -47,7 +48,7 @@ class LoosePointRunTest : public ::testing::Test {
                   {"medium": "free_space", "duration_s": 0.5})"),
       "tiny.json");
   experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+      test_support::source_folder() / "data/laboratories/thesis.json");
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
 };

@@ -9,6 +9,7 @@
 #include "core/storage/integrity.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/session/session.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
@@ -54,7 +55,7 @@ class MatchingRun : public ::testing::Test {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   Study study_ = read_study_text(kMatchingStudy, "matching.json");
   Laboratory laboratory_ =
-      read_laboratory(std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+      read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
   std::vector<std::int64_t> sessions_;

@@ -5,6 +5,7 @@
 #include "app/replay_check.h"
 #include "core/storage/integrity.h"
 #include "experiments/session/session.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
@@ -32,7 +33,7 @@ TEST(ModulusRun, VerifiesAndHasResults) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const Study study = read_study_text(kModulusStudy, "modulus.json");
   const Laboratory laboratory =
-      read_laboratory(std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+      read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
   core::StudyStore store(temporary.path() / "a.study", core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const auto sessions = add_sessions(store,

@@ -15,6 +15,7 @@
 #include "core/random_stream.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
@@ -53,7 +54,7 @@ class PresenterTest : public ::testing::Test {
 
   experiments::Study study_ = experiments::read_study_text(kTinyStudy, "tiny.json");
   experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+      test_support::source_folder() / "data/laboratories/thesis.json");
   SlowLog log_;
   std::unique_ptr<Apparatus> apparatus_;
   std::unique_ptr<experiments::Session> session_;

@@ -9,6 +9,7 @@
 #include "app/tiny_study.h"
 #include "core/error.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -26,7 +27,7 @@ class SessionSetupTest : public ::testing::Test {
                           core::Durability::kAtClose};
   experiments::Study study_ = experiments::read_study_text(kTinyStudy, "t.json");
   experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      fs::path(JND_SOURCE_DIR) / "data" / "laboratories" / "thesis.json");
+      test_support::source_folder() / "data" / "laboratories" / "thesis.json");
 };
 
 TEST_F(SessionSetupTest, EverySessionHasASeedOfItsOwnAndEverythingNeededToRepeatIt) {

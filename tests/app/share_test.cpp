@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -16,7 +17,7 @@ TEST(Share, FindsShippedStudiesByNameAndByPath) {
   for (const char* name :
        {"short_tour", "short_tour.json", "protocols/short_tour.json", "no/such/short_tour"}) {
     EXPECT_TRUE(fs::equivalent(user_or_shipped(name, "protocols"),
-                               fs::path(JND_SOURCE_DIR) / "protocols/short_tour.json"))
+                               test_support::source_folder() / "protocols/short_tour.json"))
         << name;
   }
   EXPECT_TRUE(fs::exists(user_or_shipped("thesis", "data/laboratories")));

@@ -10,6 +10,7 @@
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
@@ -30,8 +31,7 @@ const std::string kSolidStudy = R"json({
 Study study() { return read_study_text(kSolidStudy, "solid.json"); }
 
 Laboratory laboratory() {
-  return read_laboratory(std::filesystem::path(JND_SOURCE_DIR) /
-                         "data/laboratories/thesis.json");
+  return read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
 }
 
 class SolidRun : public ::testing::Test {

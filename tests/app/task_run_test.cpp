@@ -12,6 +12,7 @@
 #include "experiments/session/event.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -39,7 +40,7 @@ class TaskRunTest : public ::testing::Test {
 
   experiments::Study study_ = experiments::read_study_text(kTaskStudy, "tasks.json");
   experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+      test_support::source_folder() / "data/laboratories/thesis.json");
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,7 +81,7 @@ std::string room_of(const std::string& path) {
 }
 
 TEST(IncludeRules, DependenciesPointTowardCore) {
-  const fs::path root = JND_SOURCE_DIR;
+  const fs::path root = jnd::test_support::source_folder();
   int includes_checked = 0;
   for (const std::string folder : {"core", "device", "experiments", "analysis", "app"}) {
     if (!fs::exists(root / folder)) continue;

@@ -10,6 +10,7 @@
 #include "app/session_setup.h"
 #include "core/storage/study_store.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -24,7 +25,7 @@ class StudyOfManySessions {
  public:
   explicit StudyOfManySessions(int num_sessions)
       : store_(folder(), StudyStore::Mode::kCreate, core::Durability::kAtClose) {
-    const fs::path source = JND_SOURCE_DIR;
+    const fs::path source = test_support::source_folder();
     const fs::path file = source / "protocols" / "viscosity_discrimination.json";
     const experiments::Study study = experiments::read_study(file);
     const experiments::Laboratory laboratory =

@@ -5,11 +5,12 @@
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
 
-const std::string kSource = JND_SOURCE_DIR;
+const std::string kSource = test_support::source_folder().string();
 
 /// 1000 studies of study 2 with 13 participants: answers, individual fits, group tests, sums.
 /// Wanted: under 10 s on 2 cores.

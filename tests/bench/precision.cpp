@@ -26,6 +26,7 @@
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 namespace {
 
@@ -205,7 +206,8 @@ Figure figure_of(const std::vector<Table>& tables) {
       "  set xlabel 'Trials'\n  set ylabel 'Root mean square error of ln w'\n";
   for (std::size_t panel = 0; panel < tables.size(); ++panel) {
     plot += "  set title '" + kPanels[panel].second + "'\n" +
-            (panel == 0 ? "  set key bottom left Left reverse samplen 2\n" : "  unset key\n") + "  plot ";
+            (panel == 0 ? "  set key bottom left Left reverse samplen 2\n" : "  unset key\n") +
+            "  plot ";
     for (std::size_t estimator = 0; estimator < kEstimators.size(); ++estimator) {
       const auto series = static_cast<int>(panel * kEstimators.size() + estimator) + 1;
       for (std::size_t n = 0; n < tables[panel][estimator].size(); ++n) {
@@ -278,7 +280,7 @@ tell a shifted pse from a difference: where people's pse lies off the reference,
 
 int run(const std::filesystem::path& folder, int num_people) {
   const Study study = read_study_text(kStudy, "precision.json");
-  const Laboratory laboratory = read_laboratory(std::filesystem::path(JND_SOURCE_DIR) / "data" /
+  const Laboratory laboratory = read_laboratory(jnd::test_support::source_folder() / "data" /
                                                 "laboratories" / "thesis.json");
   std::vector<Table> tables;
   for (const auto& [pse_sd_ln, words] : kPanels) {

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 namespace jnd {
 namespace {
 
@@ -78,8 +80,9 @@ struct LoopRun {
 };
 
 std::optional<LoopRun> run_loop(int seconds) {
-  const auto text = output_of("'" JND_PROGRAM "' loop --rate-hz 1000 --json --seconds " +
-                              std::to_string(seconds));
+  const auto text =
+      output_of("'" + test_support::program_file().string() +
+                "' loop --rate-hz 1000 --json --seconds " + std::to_string(seconds));
   if (!text) return std::nullopt;
   const auto json = nlohmann::json::parse(*text, nullptr, false);
   if (json.is_discarded()) return std::nullopt;

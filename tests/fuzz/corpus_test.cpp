@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 extern "C" {
 int study_fuzz_input(const std::uint8_t* data, std::size_t size);
 int csv_fuzz_input(const std::uint8_t* data, std::size_t size);
@@ -27,7 +29,8 @@ using Input = int (*)(const std::uint8_t*, std::size_t);
 /// Feeds a fuzz target with every file of a folder: seeds, and what fuzzing once found.
 void expect_sound(Input input, const std::string& folder) {
   int num_files = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(JND_SOURCE_DIR) / folder)) {
+  for (const auto& entry :
+       fs::directory_iterator(jnd::test_support::source_folder() / folder)) {
     std::ifstream stream(entry.path(), std::ios::binary);
     const std::vector<char> letters{std::istreambuf_iterator<char>(stream), {}};
     const std::vector<std::uint8_t> bytes(letters.begin(), letters.end());

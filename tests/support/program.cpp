@@ -11,6 +11,8 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "support/places.h"
+
 namespace jnd::test_support {
 namespace {
 
@@ -41,7 +43,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
                                const ProgramOptions& options) {
   std::vector<std::string> words = options.wrapper;
-  words.emplace_back(JND_PROGRAM);
+  words.push_back(program_file());
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> environment = environment_of(options);
   std::array<int, 2> pipe{};

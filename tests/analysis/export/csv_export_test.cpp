@@ -14,6 +14,7 @@
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -101,7 +102,7 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
   export_csv(study_.store(), out(), {});
   std::string schema;
   for (const auto& layout :
-       fs::directory_iterator(fs::path(JND_SOURCE_DIR) / "data" / "database")) {
+       fs::directory_iterator(test_support::source_folder() / "data" / "database")) {
     schema += bytes(layout.path());
   }
   const std::set<std::string> kWorkedOut = {"simulated", "excluded", "completed", "is_practice",

@@ -8,6 +8,7 @@
 
 #include "analysis/fits/psychometric_effects.h"
 #include "analysis/fits/psychometric_json.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -17,7 +18,7 @@ using nlohmann::json;
 /// Computed by R: see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) +
+    std::ifstream in(test_support::source_folder().string() +
                      "/data/reference/psychometric_families/psychometric_reference.json");
     return json::parse(in);
   }();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "analysis/fits/fit_json.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -16,7 +17,8 @@ using nlohmann::json;
 /// data/reference/fits_reference.json: computed by SciPy, see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) + "/data/reference/fits_reference.json");
+    std::ifstream in(test_support::source_folder().string() +
+                     "/data/reference/fits_reference.json");
     return json::parse(in);
   }();
   return kDocument;

@@ -8,6 +8,7 @@
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/fits/signal_detection.h"
 #include "analysis/threshold_group.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -17,7 +18,7 @@ using nlohmann::json;
 /// data/reference/thresholds: computed by SciPy, see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) +
+    std::ifstream in(test_support::source_folder().string() +
                      "/data/reference/thresholds/thresholds.json");
     return json::parse(in);
   }();

@@ -8,6 +8,7 @@
 
 #include "analysis/fits/fit_json.h"
 #include "analysis/groups/multiplicity.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -17,7 +18,7 @@ using nlohmann::json;
 /// Computed by SciPy, and in part by R: see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) +
+    std::ifstream in(test_support::source_folder().string() +
                      "/data/reference/group_tests/group_tests.json");
     return json::parse(in);
   }();

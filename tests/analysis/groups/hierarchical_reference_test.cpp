@@ -7,6 +7,7 @@
 #include <string>
 
 #include "analysis/groups/hierarchical_fit.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -16,7 +17,7 @@ using nlohmann::json;
 /// Computed by lme4's glmer, and by integration on a grid in R: see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) +
+    std::ifstream in(test_support::source_folder().string() +
                      "/data/reference/hierarchical/hierarchical_reference.json");
     return json::parse(in);
   }();

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "analysis/movement/made_up_recording.h"
+#include "support/places.h"
 
 namespace jnd::analysis {
 namespace {
@@ -60,7 +61,7 @@ PresentationMeter::Result metered_evenly(std::int64_t first_tick, std::int64_t l
 
 /// data/reference/movement: measured by NumPy and SciPy, see the script beside it.
 TEST(PresentationMeter, AgreesWithScipyOnARecordingWithTremorRestAndGap) {
-  std::ifstream file(std::string(JND_SOURCE_DIR) +
+  std::ifstream file(test_support::source_folder().string() +
                      "/data/reference/movement/movement_reference.json");
   const json expected = json::parse(file);
   const PresentationMeter::Result found =

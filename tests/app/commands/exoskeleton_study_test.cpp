@@ -9,6 +9,7 @@
 
 #include "app/json_document.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
@@ -34,8 +35,9 @@ std::string shortened(const fs::path& file) {
 TEST(ExoskeletonStudy, TheThickFluidIsSlowerThePalmLeadsAndTheFingersFollow) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   const test_support::TemporaryFolder temporary{test_support::memory_folder()};
-  write_file(temporary.path() / "short.json",
-             shortened(fs::path(JND_SOURCE_DIR) / "protocols/viscosity_discrimination.json"));
+  write_file(
+      temporary.path() / "short.json",
+      shortened(test_support::source_folder() / "protocols/viscosity_discrimination.json"));
   const auto jnd = [&](const std::vector<std::string>& words) {
     return test_support::run_program(words, {.folder = temporary.path(), .environment = {}});
   };

@@ -8,6 +8,7 @@
 
 #include "app/sentence.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/small_disk.h"
 #include "support/temporary_folder.h"
@@ -216,7 +217,7 @@ TEST(ExportCommand, AFolderThatCannotBeWrittenIsOneSentence) {
 std::string bids_validator() {
   const std::string in_module = "/bids-validator/bin/bids-validator";
   const std::string local =
-      std::string(JND_SOURCE_DIR) + "/build/bids-validator/node_modules" + in_module;
+      test_support::source_folder().string() + "/build/bids-validator/node_modules" + in_module;
   for (const std::string& file : {local, "/usr/local/lib/node_modules" + in_module,
                                   "/usr/lib/node_modules" + in_module}) {
     if (fs::exists(file)) return file;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -26,15 +27,15 @@ TEST(PowerSlurm, AJobArrayAndItsMergeGiveTheBytesOfOneProcess) {
   }
   // Jobs see this folder as themselves: its name is short enough for a socket.
   const test_support::TemporaryFolder temporary;
-  const fs::path source = JND_SOURCE_DIR;
+  const fs::path source = test_support::source_folder();
   const std::string words =
       "viscosity_discrimination --participants 6,8..10 --runs 30 --seed 9";
-  const std::string command = "bash '" +
-                              (source / "tests/app/commands/power_slurm.sh").string() + "' '" +
-                              temporary.path().string() + "' '" JND_PROGRAM "' '" +
-                              (source / "data/cluster/power.slurm").string() + "' '" +
-                              (temporary.path() / "result").string() + "' " + words + " >'" +
-                              (temporary.path() / "said").string() + "' 2>&1";
+  const std::string command =
+      "bash '" + (source / "tests/app/commands/power_slurm.sh").string() + "' '" +
+      temporary.path().string() + "' '" + test_support::program_file().string() + "' '" +
+      (source / "data/cluster/power.slurm").string() + "' '" +
+      (temporary.path() / "result").string() + "' " + words + " >'" +
+      (temporary.path() / "said").string() + "' 2>&1";
   const int code = std::system(command.c_str());
   ASSERT_EQ(code, 0) << read_file(temporary.path() / "said");
   const auto whole =

@@ -5,6 +5,7 @@
 
 #include "app/json_document.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -78,7 +79,7 @@ TEST_F(ResultsMovementTest, SaysWhoHasNoRecording) {
 TEST_F(ResultsMovementTest, FitsOnWhatWasDeliveredTakeTheLimiterOutOfTheWeberFraction) {
   // Group E feels 16 Pa s, far above 5 N.
   nlohmann::json laboratory = nlohmann::json::parse(
-      read_file(fs::path(JND_SOURCE_DIR) / "data" / "laboratories" / "thesis.json"));
+      read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
   laboratory["device"]["max_total_force_n"] = 5.0;
   write_file(temporary_.path() / "limited.json", laboratory.dump());
   simulate({"viscosity_discrimination", "--participants", "4", "--study", "v.study", "--fast",

@@ -5,6 +5,7 @@
 
 #include "app/json_document.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -148,7 +149,7 @@ TEST_F(ResultsCommandTest, TheTableSaysThatItIsSimulatedAndShowsNoNan) {
 TEST_F(ResultsCommandTest, AForceLimiterAtFiveNewtonsMovesTheWeberFractionOfGroupE) {
   // Group E feels 16 Pa s, far above 5 N; group D feels 8, mostly below.
   nlohmann::json laboratory = nlohmann::json::parse(
-      read_file(fs::path(JND_SOURCE_DIR) / "data" / "laboratories" / "thesis.json"));
+      read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
   laboratory["device"]["max_total_force_n"] = 5.0;
   write_file(temporary_.path() / "limited.json", laboratory.dump());
   simulate("viscosity_discrimination", "free.study", 4);
@@ -192,7 +193,7 @@ TEST_F(ResultsCommandTest, AnotherLaboratoryMovesTheNumbers) {
 TEST_F(ResultsCommandTest, AChangedLaboratoryIsNotPassedOffAsTheShippedOne) {
   write_file(temporary_.path() / "tiny.json", kTinyStudy);
   const std::string shipped =
-      read_file(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json");
+      read_file(test_support::source_folder().string() + "/data/laboratories/thesis.json");
   write_file(temporary_.path() / "mine.json",
              replaced(shipped, "\"dry_friction_n\": {\"value\": 0.4",
                       "\"dry_friction_n\": {\"value\": 0.5"));

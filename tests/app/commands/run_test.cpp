@@ -7,6 +7,7 @@
 #include "app/json_document.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -199,7 +200,7 @@ TEST_F(RunCommandTest, InRealTimeWhatTheLoopWasGivenAndHowPunctualItWasIsKept) {
 }
 
 TEST_F(RunCommandTest, ASessionThatAnOlderProgramBeganGoesOnAsItWouldHave) {
-  fs::copy(fs::path(JND_SOURCE_DIR) / "tests/core/storage/layout_1",
+  fs::copy(test_support::source_folder() / "tests/core/storage/layout_1",
            temporary_.path() / "old.study", fs::copy_options::recursive);
   std::string before;
   for (const core::TrialRow& trial : opened("old.study").trials(1)) {

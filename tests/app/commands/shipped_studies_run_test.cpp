@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/study/schema_writer.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -19,7 +20,8 @@ using test_support::ProgramOutcome;
 
 std::vector<std::string> shipped_names() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(JND_SOURCE_DIR) / "protocols")) {
+  for (const auto& entry :
+       fs::directory_iterator(test_support::source_folder() / "protocols")) {
     const fs::path name = entry.path().filename();
     if (name.extension() == ".json" && name != experiments::kSchemaFileName) {
       names.push_back(name.stem());

@@ -9,6 +9,7 @@
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -90,8 +91,8 @@ TEST_F(StabilityCommandTest, AStimulusBeyondTheMapIsAProblemOfThePlan) {
   namespace fs = std::filesystem;
   const fs::path share = temporary_.path() / "share";
   fs::create_directories(share / "data/stability");
-  fs::copy(fs::path(JND_SOURCE_DIR) / "protocols", share / "protocols");
-  fs::copy(fs::path(JND_SOURCE_DIR) / "data/laboratories", share / "data/laboratories");
+  fs::copy(test_support::source_folder() / "protocols", share / "protocols");
+  fs::copy(test_support::source_folder() / "data/laboratories", share / "data/laboratories");
   const std::string limits =
       R"("extra_delay_s": 0, "stiffness_n_per_m": 5000, "stiffness_is_at_least": false,
          "viscosity_is_at_least": false)";

@@ -13,6 +13,7 @@
 #include "app/session_setup.h"
 #include "app/tiny_study.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -149,7 +150,7 @@ class OperatedSessionTest : public ::testing::Test {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   std::filesystem::path folder_ = temporary_.path() / "a.study";
   experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      std::filesystem::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json");
+      test_support::source_folder() / "data/laboratories/thesis.json");
   OperatorDoors doors_;
   LiveTrace trace_{LiveTrace::Parameters{}};
   ScopeTrace scopes_{ScopeTrace::Parameters{}};

@@ -9,6 +9,7 @@
 #include "app/tiny_study.h"
 #include "core/storage/integrity.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -21,7 +22,7 @@ class SessionWorkerTest : public ::testing::Test {
   std::unique_ptr<SessionWorker> start(const std::string& study_text = kTinyStudy) {
     experiments::Study study = experiments::read_study_text(study_text, "study.json");
     auto laboratory = std::make_unique<experiments::Laboratory>(experiments::read_laboratory(
-        fs::path(JND_SOURCE_DIR) / "data/laboratories/thesis.json"));
+        test_support::source_folder() / "data/laboratories/thesis.json"));
     auto store = std::make_unique<core::StudyStore>(folder_, core::StudyStore::Mode::kCreate);
     const std::int64_t session = add_sessions(*store,
                                               {.study = study,

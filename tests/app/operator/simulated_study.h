@@ -10,6 +10,7 @@
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -88,7 +89,7 @@ class SimulatedStudy {
   std::filesystem::path file_;
   experiments::Study study_;
   experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      std::filesystem::path(JND_SOURCE_DIR) / "data" / "laboratories" / "thesis.json");
+      test_support::source_folder() / "data" / "laboratories" / "thesis.json");
 };
 
 }  // namespace jnd::app

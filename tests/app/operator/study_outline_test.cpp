@@ -4,6 +4,7 @@
 
 #include "app/operator/simulated_study.h"
 #include "experiments/session/plan.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 experiments::Study tiny() { return experiments::read_study_text(kTinyStudy, "tiny.json"); }
 
 experiments::Study shipped(const char* name) {
-  return experiments::read_study(fs::path(JND_SOURCE_DIR) / "protocols" / name);
+  return experiments::read_study(test_support::source_folder() / "protocols" / name);
 }
 
 const OutlineStage& stage(const StudyOutline& outline, const std::string& title) {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/window/window_fixture.h"
+#include "support/places.h"
 
 namespace jnd::app {
 
@@ -23,7 +24,7 @@ class PicturesWindowTest : public WindowTest {
     window_->share = path("jnd");
     std::filesystem::create_directory(window_->share);
     for (const char* part : {"protocols", "data"}) {
-      std::filesystem::copy(std::filesystem::path(JND_SOURCE_DIR) / part, window_->share / part,
+      std::filesystem::copy(test_support::source_folder() / part, window_->share / part,
                             std::filesystem::copy_options::recursive);
     }
   }
@@ -58,7 +59,7 @@ class PicturesWindowTest : public WindowTest {
 
   static nlohmann::json shipped(const std::string& name) {
     return nlohmann::json::parse(
-        read_file(std::filesystem::path(JND_SOURCE_DIR) / "protocols" / (name + ".json")));
+        read_file(test_support::source_folder() / "protocols" / (name + ".json")));
   }
 
   std::set<std::string> taken_;

@@ -4,6 +4,7 @@
 
 #include "core/storage/kept_study.h"
 #include "core/storage/withdrawal.h"
+#include "support/places.h"
 
 namespace jnd::core {
 namespace {
@@ -124,7 +125,7 @@ TEST_F(BackupTest, SaysWhenTheCopyIsNotWhole) {
 
 TEST_F(BackupTest, AStudyOfAnOlderLayoutKeepsItsIdentity) {
   const fs::path old = kept_.beside("old");
-  fs::copy(fs::path(JND_SOURCE_DIR) / "tests/core/storage/layout_1", old,
+  fs::copy(test_support::source_folder() / "tests/core/storage/layout_1", old,
            fs::copy_options::recursive);
   EXPECT_TRUE(back_up(old, copy(), 1).integrity.complete);
   EXPECT_EQ(back_up(old, copy(), 2).num_chunks_copied, 0);

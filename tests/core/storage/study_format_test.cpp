@@ -4,6 +4,7 @@
 
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
+#include "support/places.h"
 
 namespace jnd::core {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 class StudyFormatTest : public ::testing::Test {
  protected:
   StudyFormatTest() {
-    fs::copy(fs::path(JND_SOURCE_DIR) / "tests/core/storage/layout_1", old(),
+    fs::copy(test_support::source_folder() / "tests/core/storage/layout_1", old(),
              fs::copy_options::recursive);
   }
   [[nodiscard]] fs::path old() const { return temporary_.path() / "old.study"; }

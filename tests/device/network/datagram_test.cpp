@@ -11,6 +11,7 @@
 #include "core/random_stream.h"
 #include "device/network/crc32.h"
 #include "simulated_network.h"
+#include "support/places.h"
 
 namespace jnd::device {
 namespace {
@@ -158,7 +159,7 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
 TEST(Datagram, WhatAnotherProgramWroteAfterTheTablesIsUnderstood) {
   const auto read = [](const std::string& name) {
     std::ifstream file(
-        std::string(JND_SOURCE_DIR) + "/tests/fuzz/corpus/datagram/" + name + ".bin",
+        test_support::source_folder().string() + "/tests/fuzz/corpus/datagram/" + name + ".bin",
         std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     const auto bytes = std::as_bytes(std::span(text));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/adaptive/quest_plus.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kTolerance = 1e-10;
 /// Computed with NumPy and SciPy: see the script beside it.
 const json& reference() {
   static const json kDocument = [] {
-    std::ifstream in(std::string(JND_SOURCE_DIR) +
+    std::ifstream in(test_support::source_folder().string() +
                      "/data/reference/quest_plus/quest_plus.json");
     return json::parse(in);
   }();

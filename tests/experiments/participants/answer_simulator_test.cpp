@@ -9,11 +9,12 @@
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
 
-const std::string kSource = JND_SOURCE_DIR;
+const std::string kSource = test_support::source_folder().string();
 
 Laboratory laboratory() { return read_laboratory(kSource + "/data/laboratories/thesis.json"); }
 

@@ -1,4 +1,5 @@
 #include "experiments/participants/calculated_stroke.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,8 @@ namespace {
 using std::numbers::pi;
 
 Laboratory laboratory() {
-  return read_laboratory(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json");
+  return read_laboratory(test_support::source_folder().string() +
+                         "/data/laboratories/thesis.json");
 }
 
 TEST(CalculatedStroke, AViscousFluidIsDeliveredAsItsDampingWhateverTheSpeed) {

@@ -8,12 +8,13 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
 
 std::string shipped(const char* name) {
-  std::ifstream stream(std::string(JND_SOURCE_DIR) + "/data/laboratories/" + name);
+  std::ifstream stream(test_support::source_folder().string() + "/data/laboratories/" + name);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

@@ -5,12 +5,14 @@
 #include "core/media/viscous_drag.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
 
 Laboratory laboratory() {
-  return read_laboratory(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json");
+  return read_laboratory(test_support::source_folder().string() +
+                         "/data/laboratories/thesis.json");
 }
 
 Study matching_study(const std::string& standard_medium, std::vector<double> standards) {

@@ -7,6 +7,7 @@
 #include "experiments/participants/abilities.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
@@ -14,8 +15,8 @@ namespace {
 /// People whose numbers are a power law of a viscous fluid's viscosity: nothing draws them
 /// toward the middle.
 Laboratory laboratory() {
-  Laboratory laboratory =
-      read_laboratory(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json");
+  Laboratory laboratory = read_laboratory(test_support::source_folder().string() +
+                                          "/data/laboratories/thesis.json");
   laboratory.perceiver.shrink = 1.0;
   laboratory.perceiver.shrink_sd_ln = laboratory.perceiver.assimilation_ratio = 0.0;
   return laboratory;

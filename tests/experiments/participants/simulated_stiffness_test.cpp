@@ -7,12 +7,14 @@
 #include "experiments/participants/abilities.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
 
 Laboratory laboratory() {
-  return read_laboratory(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json");
+  return read_laboratory(test_support::source_folder().string() +
+                         "/data/laboratories/thesis.json");
 }
 
 Study study_of(Block block) {

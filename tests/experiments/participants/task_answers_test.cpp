@@ -10,6 +10,7 @@
 #include "experiments/procedures/staircase_procedure.h"
 #include "experiments/session/stimulus.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 // Every task gives back what its simulated participant has, and a criterion shows where theory
 // says it does.
@@ -22,8 +23,8 @@ constexpr double kReference = 8.0;
 
 /// Only reading noise.
 Laboratory plain_laboratory() {
-  Laboratory laboratory = without_noise(
-      read_laboratory(std::string(JND_SOURCE_DIR) + "/data/laboratories/thesis.json"));
+  Laboratory laboratory = without_noise(read_laboratory(test_support::source_folder().string() +
+                                                        "/data/laboratories/thesis.json"));
   laboratory.perceiver.weber_fraction = kWeber;
   return laboratory;
 }

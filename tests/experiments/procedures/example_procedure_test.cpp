@@ -1,4 +1,5 @@
 #include "tests/experiments/procedures/example_procedure.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace jnd::experiments {
 namespace {
 
 std::string text_of(const std::string& file) {
-  std::ifstream stream(std::string(JND_SOURCE_DIR) + '/' + file, std::ios::binary);
+  std::ifstream stream(test_support::source_folder().string() + '/' + file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

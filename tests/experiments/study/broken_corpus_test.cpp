@@ -12,6 +12,7 @@
 
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 // tests/experiments/study/broken holds a broken study NAME.json for each rule, and in NAME.txt
 // what the reader must say of it. A new rule wants a new pair:
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path source(const std::string& name) { return fs::path(JND_SOURCE_DIR) / name; }
+fs::path source(const std::string& name) { return test_support::source_folder() / name; }
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/media/water_drag.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
@@ -35,7 +36,7 @@ TEST(ForceMapFile, ReadsRowsCommentsAndLinesFromWindows) {
 
 TEST(ForceMapFile, TheShippedFitIsTheThesiss) {
   const core::ForceMap map =
-      read_force_map(std::filesystem::path(JND_SOURCE_DIR) / "data/force_maps/thesis_fit.csv");
+      read_force_map(test_support::source_folder() / "data/force_maps/thesis_fit.csv");
   EXPECT_FALSE(map.has_lift());
   for (int i = 0; i <= 18; ++i) {
     const double angle = std::numbers::pi / 36.0 * i;
@@ -46,7 +47,7 @@ TEST(ForceMapFile, TheShippedFitIsTheThesiss) {
 
 TEST(ForceMapFile, TheShippedPlateIsKirchhoffsAndRayleighs) {
   const core::ForceMap map =
-      read_force_map(std::filesystem::path(JND_SOURCE_DIR) / "data/force_maps/flat_plate.csv");
+      read_force_map(test_support::source_folder() / "data/force_maps/flat_plate.csv");
   EXPECT_TRUE(map.has_lift());
   // Lamb, Hydrodynamics, art. 77: head on 2 pi / (4 + pi) = 0.880.
   EXPECT_NEAR(map.at(std::numbers::pi / 2.0, 1.0).drag, 0.880, 5e-4);
@@ -91,7 +92,7 @@ TEST(ForceMapFile, AFileThatIsNotThereIsSaidToBeNone) {
               "no_such_map.csv: expected a force map that can be read, found none; check its "
               "name");
   }
-  EXPECT_THROW(static_cast<void>(read_force_map(JND_SOURCE_DIR)), core::Error);
+  EXPECT_THROW(static_cast<void>(read_force_map(test_support::source_folder())), core::Error);
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 #include "experiments/study/reference_writer.h"
 #include "experiments/study/schema_writer.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
 
 std::string shipped(const std::string& name) {
-  std::ifstream stream(std::filesystem::path(JND_SOURCE_DIR) / "protocols" / name,
-                       std::ios::binary);
+  std::ifstream stream(test_support::source_folder() / "protocols" / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

@@ -7,12 +7,13 @@
 #include "experiments/order/counterbalance.h"
 #include "experiments/study/schema_writer.h"
 #include "experiments/study/study_reader.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace {
 
 Study shipped(const std::string& name) {
-  return read_study(std::filesystem::path(JND_SOURCE_DIR) / "protocols" / (name + ".json"));
+  return read_study(test_support::source_folder() / "protocols" / (name + ".json"));
 }
 
 /// The first stage of this name that any cell of the study runs.
@@ -32,8 +33,8 @@ const Content& content_of(const Study& study, const std::string& name) {
 
 TEST(ShippedStudies, HaveNoProblem) {
   int num_studies = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(JND_SOURCE_DIR) / "protocols")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test_support::source_folder() / "protocols")) {
     const std::filesystem::path name = entry.path().filename();
     if (name.extension() != ".json" || name == kSchemaFileName) continue;
     ++num_studies;

@@ -1,4 +1,5 @@
 #include "experiments/study/written_data.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace jnd::experiments {
 namespace {
 
 std::string layout(const std::string& name) {
-  std::ifstream stream(std::filesystem::path(JND_SOURCE_DIR) / "data/database" / name);
+  std::ifstream stream(test_support::source_folder() / "data/database" / name);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+namespace jnd::test_support {
+
+/// The tree that the tests were built from.
+[[nodiscard]] std::filesystem::path source_folder();
+
+/// The jnd program that was built with them.
+[[nodiscard]] std::filesystem::path program_file();
+
+}  // namespace jnd::test_support
