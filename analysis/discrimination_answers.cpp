@@ -5,24 +5,38 @@
 namespace jnd::analysis {
 namespace {
 
+void count(AnswerCount& count, double intensity, bool yes) {
+  count.intensity = intensity;
+  count.num_yes += yes ? 1 : 0;
+  ++count.num_trials;
+}
+
 void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
   if (!trial.intensity || !trial.response || !trial.reference_intensity) return;
   const bool yes = *trial.response > 0.5;
   answers.reference = *trial.reference_intensity;
-  AnswerCount& count = answers.levels[*trial.intensity];
-  count.intensity = *trial.intensity;
-  count.num_yes += yes ? 1 : 0;
-  ++count.num_trials;
-  answers.in_order.push_back({.intensity = *trial.intensity,
-                              .num_yes = yes ? 1.0 : 0.0,
-                              .trial = static_cast<double>(trial.trial)});
+  count(answers.levels[*trial.intensity], *trial.intensity, yes);
+  const double order = order_of(trial);
+  AnswerCount& cell = answers.cells[{*trial.intensity, order}];
+  count(cell, *trial.intensity, yes);
+  cell.order = order;
+  OrderedAnswers& one =
+      answers.in_order.emplace_back(OrderedAnswers{.intensity = *trial.intensity,
+                                                   .num_yes = yes ? 1.0 : 0.0,
+                                                   .trial = static_cast<double>(trial.trial)});
+  if (trial.test_interval) one.test_first = *trial.test_interval == 1;
 }
 
 }  // namespace
 
+double order_of(const core::TrialRow& trial) noexcept {
+  if (!trial.test_interval) return 0.0;
+  return *trial.test_interval == 1 ? kTestFirst : kTestSecond;
+}
+
 std::vector<AnswerCount> DiscriminationAnswers::rows() const {
   std::vector<AnswerCount> all;
-  for (const auto& [intensity, count] : levels) all.push_back(count);
+  for (const auto& [key, cell] : cells) all.push_back(cell);
   return all;
 }
 
@@ -61,6 +75,7 @@ PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOption
   if (options.corrected) rows = with_half_an_answer(std::move(rows));
   return fit_psychometric(rows, {.reference = answers.reference,
                                  .free_pse = options.free_pse,
+                                 .by_order = true,
                                  .diagnostics = options.num_goodness > 0,
                                  .num_goodness = options.num_goodness,
                                  .seed = options.seed,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "analysis/fits/psychometric_effects.h"
@@ -9,15 +10,20 @@
 
 namespace jnd::analysis {
 
-/// Answers of one participant in one block of comparisons, by level.
+/// Answers of one participant in one block of comparisons.
 struct DiscriminationAnswers {
   std::string participant;
   double reference = 0.0;
-  std::map<double, AnswerCount> levels;
-  std::vector<OrderedAnswers> in_order;  ///< One a trial.
+  std::map<double, AnswerCount> levels;                    ///< Both orders together.
+  std::map<std::pair<double, double>, AnswerCount> cells;  ///< By intensity and order.
+  std::vector<OrderedAnswers> in_order;                    ///< One a trial.
 
+  /// One for each level and, where either interval may hold the test, order.
   [[nodiscard]] std::vector<AnswerCount> rows() const;
 };
+
+/// As `AnswerCount::order`.
+[[nodiscard]] double order_of(const core::TrialRow& trial) noexcept;
 
 /// Everybody's answers in a block; who has none is named. `with_excluded`: those in trials that
 /// were set aside as well.
@@ -25,14 +31,14 @@ struct DiscriminationAnswers {
     const StudyData& data, const BlockDesign& block, bool with_excluded,
     std::vector<ExcludedParticipant>& excluded);
 
-/// The answers with half a "yes" and half a "no" in all added, in equal shares of 1 / (2 levels)
-/// at every level (after the log-linear correction of Hautus 1995), and multiplied to stay
-/// whole, which leaves the estimate as it is. One row a level.
+/// The answers with half a "yes" and half a "no" in all added, in equal shares of 1 / (2
+/// levels) at every level (after the log-linear correction of Hautus 1995), and multiplied to
+/// stay whole, which leaves the estimate as it is. One row a level.
 [[nodiscard]] std::vector<AnswerCount> with_half_an_answer(std::vector<AnswerCount> rows);
 
-/// One participant's fit. `corrected`: `with_half_an_answer`, so that answers that separate the
-/// stimuli perfectly have a fraction too. It moves every fraction, so it is for those alone who
-/// have none.
+/// One participant's fit, each order of the intervals with a pse of its own. `corrected`:
+/// `with_half_an_answer`, so that answers that separate the stimuli perfectly have a fraction
+/// too. It moves every fraction, so it is for those alone who have none.
 struct OwnFitOptions {
   bool corrected = false;
   bool free_pse = false;

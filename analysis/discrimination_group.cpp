@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/fits/interval_order_fit.h"
 #include "analysis/groups/summary.h"
 #include "analysis/quantity_unit.h"
 #include "analysis/test_families.h"
@@ -15,20 +16,22 @@ using Everybody = std::vector<DiscriminationAnswers>;
 
 PsychometricFit pooled_fit(const Everybody& all, const std::vector<std::size_t>& drawn,
                            PsychometricMethod method, bool free_pse, Solver solver) {
-  std::map<double, AnswerCount> pooled;
+  std::map<std::pair<double, double>, AnswerCount> pooled;
   for (const std::size_t index : drawn) {
-    for (const auto& [intensity, count] : all[index].levels) {
-      AnswerCount& sum = pooled[intensity];
-      sum.intensity = intensity;
+    for (const auto& [key, count] : all[index].cells) {
+      AnswerCount& sum = pooled[key];
+      sum.intensity = count.intensity;
+      sum.order = count.order;
       sum.num_yes += count.num_yes;
       sum.num_trials += count.num_trials;
     }
   }
   std::vector<AnswerCount> rows;
-  for (const auto& [intensity, count] : pooled) rows.push_back(count);
+  for (const auto& [key, count] : pooled) rows.push_back(count);
   return fit_psychometric(rows, {.reference = all.front().reference,
                                  .method = method,
                                  .free_pse = free_pse,
+                                 .by_order = method == PsychometricMethod::kMaximumLikelihood,
                                  .intervals = false,
                                  .solver = solver});
 }
@@ -96,6 +99,10 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
     if (free_pse) pse.ci95 = resampled(true);
   }
   add(target, fraction, name, "pooled-curve w: " + meaning, all.size());
+  if (fit.order_effect_ln && !free_pse) {
+    add(target, {.value = fit.order_effect_ln, .unit = "1"}, name + "_order_effect_ln",
+        "ln pse with the test second less with the test first, of that curve", all.size());
+  }
   if (!free_pse) return;
   pse.unit = unit_of(target.block);
   add(target, pse, "pse", "pse of the pooled curve: " + meaning, all.size());
@@ -131,10 +138,27 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
       all.size());
 }
 
+bool have_orders(const Everybody& all) {
+  return std::ranges::any_of(
+      all, [](const DiscriminationAnswers& one) { return orders_vary(one.rows()); });
+}
+
+/// As published, or, where that would take both orders of the intervals for one, with the
+/// orders apart.
+void add_pooled_at_reference(const Target& target, const Everybody& all,
+                             const std::string& words) {
+  if (have_orders(all)) {
+    add_pooled(target, all, "weber_fraction", PsychometricMethod::kMaximumLikelihood, false,
+               "maximum likelihood, pse at the reference but for the order of the intervals");
+  } else {
+    add_pooled(target, all, "weber_fraction", PsychometricMethod::kLeastSquares, false,
+               "least squares on proportions, pse at the reference" + words);
+  }
+}
+
 /// What is shown again for another set of people or trials.
 void add_main(const Target& target, const Everybody& all) {
-  add_pooled(target, all, "weber_fraction", PsychometricMethod::kLeastSquares, false,
-             "least squares on proportions, pse at the reference");
+  add_pooled_at_reference(target, all, "");
   add_median_person(target, all, HierarchicalPse::kPersonal);
 }
 
@@ -145,10 +169,11 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
   std::vector<ExcludedParticipant> named_before;
   const Everybody all = discrimination_answers(data, block, false, named_before);
   const Target target{section, block, options, "", ""};
-  add_pooled(target, all, "weber_fraction", PsychometricMethod::kLeastSquares, false,
-             "least squares on proportions, pse at the reference, as published");
-  add_pooled(target, all, "weber_fraction_ml", PsychometricMethod::kMaximumLikelihood, false,
-             "maximum likelihood, pse at the reference");
+  add_pooled_at_reference(target, all, ", as published");
+  if (!have_orders(all)) {
+    add_pooled(target, all, "weber_fraction_ml", PsychometricMethod::kMaximumLikelihood, false,
+               "maximum likelihood, pse at the reference");
+  }
   add_pooled(target, all, "weber_fraction_free_pse", PsychometricMethod::kMaximumLikelihood,
              true, "maximum likelihood, pse free");
   add_median_person(target, all, HierarchicalPse::kPersonal);

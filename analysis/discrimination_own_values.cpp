@@ -26,6 +26,10 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     const PsychometricFit free = fit_of(true);
     add("weber_fraction", fixed.weber_fraction, fixed.weber_fraction_ci95, fixed.reason);
     add("weber_fraction_free_pse", free.weber_fraction, free.weber_fraction_ci95, free.reason);
+    // For those who draw the curve of the first.
+    if (fixed.order_effect_ln) {
+      add("order_effect_ln_at_reference", fixed.order_effect_ln, {}, "");
+    }
     add("pse", free.pse, free.pse_ci95.value_or(Interval{}), free.reason);
     if (fixed.goodness.p_value) add("goodness_p", fixed.goodness.p_value, {}, "");
     if (free.goodness.p_value) add("goodness_p_free_pse", free.goodness.p_value, {}, "");

@@ -1,16 +1,17 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "analysis/fits/probit_regression.h"
+#include "analysis/fits/psychometric_fit.h"
 #include "analysis/threshold_group.h"
 #include "analysis/threshold_results.h"
 
 namespace jnd::analysis {
 namespace {
 
+constexpr char kOneIntervalAlone[] = "the test came in one interval alone";
+
 struct OrderedTrial {
-  double log_ratio = 0.0;  ///< ln(test / reference)
+  double ratio = 0.0;  ///< Test over reference.
   bool test_is_second = false;
   bool more = false;  ///< The test was chosen.
 };
@@ -21,8 +22,8 @@ std::vector<OrderedTrial> ordered_trials(const ParticipantData& participant,
   for (const core::TrialRow& trial : participant.trials_in(block)) {
     if (!trial.test_interval || !trial.intensity || !trial.reference_intensity) continue;
     if (!trial.response || !(*trial.intensity > 0.0)) continue;
-    trials.push_back({std::log(*trial.intensity / *trial.reference_intensity),
-                      *trial.test_interval == 2, *trial.response > 0.5});
+    trials.push_back({*trial.intensity / *trial.reference_intensity, *trial.test_interval == 2,
+                      *trial.response > 0.5});
   }
   return trials;
 }
@@ -42,28 +43,20 @@ std::optional<double> bias_of(const std::vector<OrderedTrial>& trials) {
          0.5;
 }
 
-struct OrderEffect {
-  std::optional<double> value;  ///< ln pse, test second, less ln pse, test first.
-  std::string reason;
-};
-
-/// P(test chosen) = Phi(b0 ln(x / reference) + b1 + b2 o), o = 1/2 where the test is second and
-/// -1/2 where it is first: the pses of both orders lie -b2 / b0 apart.
-OrderEffect order_effect_of(const std::vector<OrderedTrial>& trials) {
-  const auto rows = static_cast<Eigen::Index>(trials.size());
-  Eigen::MatrixXd design(rows, 3);
-  Eigen::VectorXd yes(rows);
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const OrderedTrial& trial = trials[static_cast<std::size_t>(row)];
-    design.row(row) << trial.log_ratio, 1.0, trial.test_is_second ? 0.5 : -0.5;
-    yes(row) = trial.more ? 1.0 : 0.0;
+/// How far apart the pses of both orders lie, the pse free.
+PsychometricFit fit_of(const std::vector<OrderedTrial>& trials) {
+  std::vector<AnswerCount> rows;
+  for (const OrderedTrial& trial : trials) {
+    rows.push_back({.intensity = trial.ratio,
+                    .num_yes = trial.more ? 1 : 0,
+                    .num_trials = 1,
+                    .order = trial.test_is_second ? kTestSecond : kTestFirst});
   }
-  const ProbitRegression fit = fit_probit(design, yes, Eigen::VectorXd::Ones(rows));
-  if (fit.status != FitStatus::kOk) return {.reason = fit.reason};
-  if (!(fit.coefficients(0) > 0.0)) {
-    return {.reason = "the test is not chosen more often as it grows"};
-  }
-  return {.value = -fit.coefficients(2) / fit.coefficients(0)};
+  return fit_psychometric(rows, {.reference = 1.0,
+                                 .free_pse = true,
+                                 .by_order = true,
+                                 .intervals = false,
+                                 .solver = Solver::kNewton});
 }
 
 }  // namespace
@@ -81,16 +74,17 @@ ResultsSection interval_results(const StudyData& data, const BlockDesign& block)
     const std::vector<OrderedTrial> trials = ordered_trials(participant, block.block);
     if (trials.empty()) continue;
     const std::optional<double> bias = bias_of(trials);
-    const OrderEffect effect = order_effect_of(trials);
+    const PsychometricFit fit = fit_of(trials);
     const auto tell = [&](const std::string& name, const std::optional<double>& value,
                           const std::string& reason) {
       section.participants.push_back(
           {participant.participant, block.block + "." + name, value, {}, reason});
     };
-    tell("interval_bias", bias, bias ? "" : "the test came in one interval alone");
-    tell("order_effect_ln", effect.value, effect.reason);
+    tell("interval_bias", bias, bias ? "" : kOneIntervalAlone);
+    tell("order_effect_ln", fit.order_effect_ln,
+         fit.status == FitStatus::kOk && !bias ? kOneIntervalAlone : fit.reason);
     if (bias) biases[participant.participant] = *bias;
-    if (effect.value) effects[participant.participant] = *effect.value;
+    if (fit.order_effect_ln) effects[participant.participant] = *fit.order_effect_ln;
   }
   add_mean(section,
            {.name = block.block + ".interval_bias",

@@ -62,7 +62,8 @@ ordered_json request_json(const PowerDesign& design) {
 
 ordered_json to_json(const PlannedPower& power, const PlannedName& name) {
   return {{"name", name.name},
-          {"primary", name.meaning == "primary"},
+          {"primary", name.meaning == kPrimaryTest},
+          {"meaning", name.meaning},
           {"power", power.power},
           {"power_ci95", {power.power_low, power.power_high}},
           {"num_significant", power.num_significant},
@@ -80,6 +81,7 @@ ordered_json to_json(const PlannedPrecision& precision, const PlannedName& name,
           {"half_width_median", number(precision.half_width_median)},
           {"half_width_90", number(precision.half_width_90)},
           {"coverage", number(precision.coverage)},
+          {"coverage_ci95", {precision.coverage_low, precision.coverage_high}},
           {"degenerate", number(precision.degenerate)},
           {"num_undefined", precision.num_undefined}};
 }
@@ -219,6 +221,8 @@ ordered_json power_result(const PowerDesign& design,
     sizes.push_back(std::move(one));
   }
   json["sizes"] = std::move(sizes);
+  json["warnings"] =
+      planning_doubts(design.analysis, summaries, design.request.null_hypothesis);
   return json;
 }
 

@@ -53,12 +53,16 @@ PlannedQuantity quantity_of(const Block& block) {
 
 PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuantity quantity) {
   PlannedAnswers answers;
-  std::map<double, analysis::AnswerCount> counts;
+  std::map<std::pair<double, double>, analysis::AnswerCount> counts;
   for (const auto& [planned, response] : trials) {
     if (planned.is_catch) continue;
     if (quantity == PlannedQuantity::kWeberFraction) {
-      analysis::AnswerCount& count = counts[planned.intensity.value()];
+      const double order = !planned.test_interval        ? 0.0
+                           : *planned.test_interval == 1 ? analysis::kTestFirst
+                                                         : analysis::kTestSecond;
+      analysis::AnswerCount& count = counts[{planned.intensity.value(), order}];
       count.intensity = *planned.intensity;
+      count.order = order;
       count.num_yes += response > 0.5 ? 1 : 0;
       ++count.num_trials;
     } else if (quantity == PlannedQuantity::kProductionExponent) {
@@ -69,7 +73,7 @@ PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuant
       answers.magnitudes[planned.intensity.value()].push_back(response * kRatioPerPercent);
     }
   }
-  for (const auto& [intensity, count] : counts) answers.counts.push_back(count);
+  for (const auto& [key, count] : counts) answers.counts.push_back(count);
   return answers;
 }
 

@@ -29,8 +29,8 @@ std::string power_table(const PowerDesign& design,
   const std::vector<PlannedName> tests = test_names(design.analysis);
   for (std::size_t test = 0; test < tests.size(); ++test) {
     table += fmt::format("\n{}{}\n  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", tests[test].name,
-                         tests[test].meaning.empty() ? "" : " (primary)", "participants",
-                         design.request.null_hypothesis ? "p < 0.05" : "power",
+                         tests[test].meaning.empty() ? "" : " (" + tests[test].meaning + ")",
+                         "participants", design.request.null_hypothesis ? "p < 0.05" : "power",
                          "95 % of the share", "undefined", "difference");
     for (const PlannedSummary& summary : summaries) {
       const PlannedPower& power = summary.tests[test];
@@ -63,6 +63,10 @@ std::string power_table(const PowerDesign& design,
     table += fmt::format("  {:>12} {:>22.0f} {:>10.1f}\n", summaries[size].num_participants,
                          design.durations[size].mean_s / 60.0,
                          design.durations[size].total_s / 3600.0);
+  }
+  for (const std::string& doubt :
+       planning_doubts(design.analysis, summaries, design.request.null_hypothesis)) {
+    table += "\nWARNING: " + doubt + "\n";
   }
   return table +
          "\nHalf width: of the 95 % interval over participants, in the median study, and what "

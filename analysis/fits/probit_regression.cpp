@@ -52,13 +52,13 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
   fit.coefficients = Eigen::VectorXd::Zero(design.cols());
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
     const Derivatives here = derivatives_at(design, num_yes, num_trials, fit.coefficients);
+    fit.log_likelihood = here.value;
     const Eigen::LLT<Eigen::MatrixXd> cholesky(here.information);
     if (cholesky.info() != Eigen::Success) break;
     Eigen::VectorXd step = cholesky.solve(here.gradient);
     const double largest = (design * step).cwiseAbs().maxCoeff();
     if (largest <= kSmallStep) {
       fit.status = FitStatus::kOk;
-      fit.log_likelihood = here.value;
       fit.covariance = cholesky.solve(Eigen::MatrixXd::Identity(design.cols(), design.cols()));
       return fit;
     }

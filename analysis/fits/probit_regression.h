@@ -13,7 +13,8 @@ struct ProbitRegression {
   std::string reason;  ///< Why there is no fit; "" if there is one.
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;   ///< Inverse of the observed information.
-  double log_likelihood = 0.0;  ///< Without binomial coefficients.
+  double log_likelihood = 0.0;  ///< Without binomial coefficients; where separated, near its
+                                ///< limit.
 };
 
 /// One row of `design` for each count. Concave, so Newton's method from 0 finds the optimum;

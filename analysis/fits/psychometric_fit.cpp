@@ -7,11 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/fits/interval_order_fit.h"
 #include "analysis/fits/psychometric_bootstrap.h"
 #include "analysis/fits/psychometric_goodness.h"
 #include "analysis/fits/psychometric_interval.h"
 #include "analysis/fits/psychometric_posterior.h"
 #include "analysis/fits/psychometric_search.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
@@ -181,6 +183,16 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;
   const PsychometricLevels levels =
       pooled_levels(data, options.reference, free_pse, options.family);
+  if (options.by_order && orders_vary(data)) {
+    core::require(options.family == PsychometricFamily::kWeber &&
+                      options.method == kMaximumLikelihood && !options.free_lapse &&
+                      options.num_bootstrap == 0 && !options.posterior,
+                  "by_order", "the Weber curve by maximum likelihood alone", 1.0);
+    PsychometricFit fit = fit_by_interval_order(data, options);
+    if (fit.status == FitStatus::kOk)
+      add_doubts(fit, data, levels, fit.num_levels - (options.free_pse ? 3 : 2));
+    return fit;
+  }
   PsychometricFit fit;
   fit.family = options.family;
   fit.method = options.method;

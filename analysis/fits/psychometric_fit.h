@@ -15,7 +15,10 @@ struct AnswerCount {
   double intensity = 0.0;       ///< >= 0; at 0 the curve is at its lower asymptote.
   std::int64_t num_yes = 0;     ///< 0 .. num_trials
   std::int64_t num_trials = 0;  ///< >= 0; a row without trials says nothing.
+  /// Where the test lay: kTestFirst or kTestSecond; 0 where it is always there or not known.
+  double order = 0.0;
 };
+inline constexpr double kTestFirst = -0.5, kTestSecond = 0.5;
 
 enum class PsychometricMethod {
   kMaximumLikelihood,  ///< "ml"
@@ -43,6 +46,9 @@ struct PsychometricOptions {
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   bool free_pse = false;  ///< Some families have it free always.
   bool free_lapse = false;
+  /// Where the rows' orders differ, let them have pses of their own: kWeber by maximum
+  /// likelihood without lapses only. Else the orders are pooled.
+  bool by_order = false;
   int num_bootstrap = 0;  ///< Refits of the bootstrap; 0 leaves it out.
   BootstrapKind bootstrap_kind = BootstrapKind::kParametric;
   bool diagnostics = false;  ///< Residuals and overdispersion.
@@ -110,6 +116,8 @@ struct PsychometricFit {
   std::optional<double> deviance;        ///< Twice what the saturated model gains, >= 0.
   std::optional<double> pse;
   std::optional<Interval> pse_ci95;  ///< Absent if the pse was not free.
+  /// ln pse, test second, less ln pse, test first; with `by_order` alone.
+  std::optional<double> order_effect_ln;
   std::optional<double> lapse_rate;
   std::optional<double> r_squared;  ///< lsq: 1 - sse / sst about the mean proportion.
   BootstrapInterval bootstrap;
@@ -141,7 +149,7 @@ struct PsychometricFit {
 /// it takes to tell the free parameters apart, or with a pse that is not > 0, to which no
 /// fraction is relative. A lapse rate on its bound 0 is an optimum. Throws `core::Error` for a
 /// reference not > 0, an intensity not finite and >= 0, or counts that are not 0 <= num_yes <=
-/// num_trials. Not real time.
+/// num_trials, or `by_order` with what it does not take. Not real time.
 [[nodiscard]] PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                                                const PsychometricOptions& options);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/fits/interval_order_fit.h"
 #include "analysis/fits/psychometric_model.h"
 #include "analysis/groups/hierarchical_search.h"
 #include "core/error.h"
@@ -22,6 +23,7 @@ struct Arranged {
   std::vector<std::vector<AnswerCount>> pooled;  ///< Rows of each condition.
   std::vector<int> num_in_condition;
   bool yes_at_zero = false;
+  bool has_orders = false;  ///< Some rows differ in the order of the intervals.
 };
 
 template <typename Name>
@@ -34,9 +36,21 @@ std::size_t place_of(std::vector<Name>& names, const Name& name) {
 Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
   Arranged all;
   for (const ParticipantAnswers& one : answers) {
-    const PsychometricLevels levels = pooled_levels(one.rows, one.reference, false);
-    all.yes_at_zero = all.yes_at_zero || levels.zero_yes > 0.0;
-    if (levels.size() == 0) continue;
+    std::map<double, std::vector<AnswerCount>> by_order;
+    for (const AnswerCount& row : one.rows) by_order[row.order].push_back(row);
+    all.has_orders = all.has_orders || orders_vary(one.rows);
+    HierarchicalCell cell;
+    for (const auto& [order, rows] : by_order) {
+      const PsychometricLevels levels = pooled_levels(rows, one.reference, false);
+      all.yes_at_zero = all.yes_at_zero || levels.zero_yes > 0.0;
+      for (std::size_t level = 0; level < levels.size(); ++level) {
+        cell.log_ratio.push_back(levels.abscissa[level] * levels.unit);
+        cell.num_yes.push_back(levels.num_yes[level]);
+        cell.num_no.push_back(levels.num_trials[level] - levels.num_yes[level]);
+        cell.order.push_back(order);
+      }
+    }
+    if (cell.log_ratio.empty()) continue;
     const std::size_t condition = place_of(all.conditions, one.condition);
     const std::size_t person = place_of(all.participants, one.participant);
     all.reference.resize(all.conditions.size(), one.reference);
@@ -46,12 +60,7 @@ Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
     core::require(one.reference == all.reference[condition], "reference",
                   "the same for everybody in condition \"" + one.condition + "\"",
                   one.reference);
-    HierarchicalCell cell{.condition = static_cast<int>(condition)};
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-      cell.log_ratio.push_back(levels.abscissa[level] * levels.unit);
-      cell.num_yes.push_back(levels.num_yes[level]);
-      cell.num_no.push_back(levels.num_trials[level] - levels.num_yes[level]);
-    }
+    cell.condition = static_cast<int>(condition);
     ++all.num_in_condition[condition];
     all.people[person].push_back(std::move(cell));
     all.pooled[condition].insert(all.pooled[condition].end(), one.rows.begin(), one.rows.end());
@@ -59,10 +68,12 @@ Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
   return all;
 }
 
-HierarchicalStructure structure_of(int num_conditions, const HierarchicalOptions& options) {
+HierarchicalStructure structure_of(int num_conditions, bool has_orders,
+                                   const HierarchicalOptions& options) {
   HierarchicalStructure structure{.link = options.link,
                                   .num_conditions = num_conditions,
-                                  .has_places = options.pse != HierarchicalPse::kReference};
+                                  .has_places = options.pse != HierarchicalPse::kReference,
+                                  .has_orders = has_orders};
   int parameter = structure.num_numbers();
   const bool correlated =
       options.slopes == HierarchicalSlopes::kCorrelated && num_conditions == 2;
@@ -76,13 +87,16 @@ HierarchicalStructure structure_of(int num_conditions, const HierarchicalOptions
     }
     parameter += 1;
   }
+  // With either interval, what is a person's own is the bias for one of them.
+  const bool personal = options.pse == HierarchicalPse::kPersonal ||
+                        (has_orders && options.pse == HierarchicalPse::kReference);
   const auto add_place = [&](int condition) {
     structure.loadings.push_back(
-        {num_conditions + condition, structure.num_random_effects, parameter});
+        {structure.own_place_at(condition), structure.num_random_effects, parameter});
   };
   for (int condition = 0; condition < num_conditions; ++condition) {
     if (options.pse == HierarchicalPse::kShared) add_place(condition);
-    if (options.pse != HierarchicalPse::kPersonal) continue;
+    if (!personal) continue;
     add_place(condition);
     ++parameter;
     ++structure.num_random_effects;
@@ -106,12 +120,13 @@ std::optional<Eigen::VectorXd> start_of(const Arranged& all,
                                         const HierarchicalStructure& structure,
                                         std::string& reason) {
   constexpr double kSlopeSd = 0.2, kPlaceSd = 0.1;
-  Eigen::VectorXd start(structure.num_parameters);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(structure.num_parameters);
   for (int condition = 0; condition < structure.num_conditions; ++condition) {
     const auto at = static_cast<std::size_t>(condition);
     const PsychometricFit pooled =
         fit_psychometric(all.pooled[at], {.reference = all.reference[at],
                                           .free_pse = structure.has_places,
+                                          .by_order = true,
                                           .intervals = false,
                                           .solver = Solver::kNewton});
     if (pooled.status != FitStatus::kOk) {
@@ -124,13 +139,17 @@ std::optional<Eigen::VectorXd> start_of(const Arranged& all,
     const double place = std::log(*pooled.pse / all.reference[at]);
     const bool linear = structure.link == HierarchicalLink::kLinear;
     start(condition) = linear ? slope : std::log(slope);
-    if (structure.has_places) {
-      start(structure.num_conditions + condition) = linear ? -slope * place : place;
-    }
     const double scale = linear ? slope : 1.0;
+    if (structure.has_places) {
+      start(structure.place_at(condition)) = linear ? -slope * place : place;
+    }
+    if (structure.has_orders) {
+      start(structure.order_at(condition)) =
+          (linear ? -slope : 1.0) * pooled.order_effect_ln.value_or(0.0);
+    }
     for (const HierarchicalStructure::Loading& one : structure.loadings) {
       if (one.number == condition) start(one.parameter) = kSlopeSd * scale;
-      if (one.number == structure.num_conditions + condition) {
+      if (one.number == structure.own_place_at(condition)) {
         start(one.parameter) = kPlaceSd * scale;
       }
     }
@@ -160,7 +179,7 @@ double pse_of(HierarchicalLink link, double reference, double slope_number, doub
 /// The pse's interval: on ln pse, for a linear one by the delta method.
 Interval pse_interval(const HierarchicalStructure& structure, const HierarchicalOptimum& found,
                       int condition, double pse, int num_participants) {
-  const int place_at = structure.num_conditions + condition;
+  const int place_at = structure.place_at(condition);
   Eigen::VectorXd by_parameter = Eigen::VectorXd::Zero(structure.num_parameters);
   by_parameter(place_at) = 1.0;
   if (structure.link == HierarchicalLink::kLinear) {
@@ -191,7 +210,7 @@ void fill_conditions(HierarchicalFit& fit, const Arranged& all,
     }
     one.pse = all.reference[at];
     if (structure.has_places) {
-      const int place_at = structure.num_conditions + condition;
+      const int place_at = structure.place_at(condition);
       one.place_number = found.parameters(place_at);
       one.place_standard_error = std::sqrt(found.covariance(place_at, place_at));
       one.pse = pse_of(options.link, all.reference[at], one.slope_number, one.place_number);
@@ -203,9 +222,7 @@ void fill_conditions(HierarchicalFit& fit, const Arranged& all,
     for (const HierarchicalStructure::Loading& loading : structure.loadings) {
       const double value = found.parameters(loading.parameter);
       if (loading.number == condition) slope_variance += value * value;
-      if (loading.number == structure.num_conditions + condition) {
-        one.place_sd = std::fabs(value);
-      }
+      if (loading.number == structure.own_place_at(condition)) one.place_sd = std::fabs(value);
     }
     one.slope_sd = std::sqrt(slope_variance);
     fit.conditions.push_back(std::move(one));
@@ -295,17 +312,31 @@ void leave_out_single_people(HierarchicalFit& fit) {
   }
 }
 
-std::string method_of(const HierarchicalOptions& options, int num_nodes) {
-  std::string words = options.link == HierarchicalLink::kLogSlope
-                          ? "probit, ln slope normal between people"
-                          : "probit, slope normal between people";
-  words += options.pse == HierarchicalPse::kReference ? ", pse = reference"
-           : options.pse == HierarchicalPse::kCommon  ? ", pse free, common"
-           : options.pse == HierarchicalPse::kShared  ? ", pse free, one shift a person"
-                                                     : ", pse free, personal in each condition";
-  return words + (num_nodes == 1 ? ", Laplace"
-                                 : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
-                                       " nodes a dimension");
+std::string pse_words(HierarchicalPse pse, bool has_orders) {
+  switch (pse) {
+    case HierarchicalPse::kReference:
+      return has_orders ? "pse = reference, personal bias for an interval in each condition"
+                        : "pse = reference";
+    case HierarchicalPse::kCommon:
+      return has_orders ? "pse and order of the intervals free, common" : "pse free, common";
+    case HierarchicalPse::kShared:
+      return has_orders ? "pse free, one bias for an interval a person"
+                        : "pse free, one shift a person";
+    case HierarchicalPse::kPersonal:
+      break;
+  }
+  return has_orders ? "pse free, personal bias for an interval in each condition"
+                    : "pse free, personal in each condition";
+}
+
+std::string method_of(const HierarchicalOptions& options, bool has_orders, int num_nodes) {
+  return std::string(options.link == HierarchicalLink::kLogSlope
+                         ? "probit, ln slope normal between people, "
+                         : "probit, slope normal between people, ") +
+         pse_words(options.pse, has_orders) +
+         (num_nodes == 1 ? ", Laplace"
+                         : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
+                               " nodes a dimension");
 }
 
 }  // namespace
@@ -316,13 +347,13 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   HierarchicalFit fit;
   fit.num_participants = static_cast<int>(all.people.size());
   const auto num_conditions = static_cast<int>(all.conditions.size());
-  const int most_conditions = options.slopes == HierarchicalSlopes::kCorrelated ? 2
-                              : options.pse == HierarchicalPse::kPersonal       ? 4
-                                                                                : 8;
+  const int most_conditions = options.slopes == HierarchicalSlopes::kCorrelated             ? 2
+                              : options.pse == HierarchicalPse::kPersonal || all.has_orders ? 4
+                                                                                            : 8;
   if (num_conditions > most_conditions) {
     throw core::Error(
         "conditions: expected one or two, up to four with shared slopes, or up to eight where "
-        "nobody has a pse in each, found " +
+        "nobody has a pse or a bias in each, found " +
         std::to_string(num_conditions));
   }
   fit.status = FitStatus::kDegenerate;
@@ -336,10 +367,10 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   }
   fit.reason = why_no_curve(all);
   if (!fit.reason.empty()) return fit;
-  const HierarchicalStructure structure = structure_of(num_conditions, options);
+  const HierarchicalStructure structure = structure_of(num_conditions, all.has_orders, options);
   fit.num_nodes =
       options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
-  fit.method = method_of(options, fit.num_nodes);
+  fit.method = method_of(options, all.has_orders, fit.num_nodes);
   const std::optional<Eigen::VectorXd> start = start_of(all, structure, fit.reason);
   if (!start) return fit;
   const HierarchicalLikelihood likelihood(structure, all.people, fit.num_nodes);

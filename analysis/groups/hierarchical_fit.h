@@ -51,7 +51,8 @@ struct HierarchicalCondition {
   std::optional<double> place_standard_error;
   /// Between people, of a: with kLogSlope the sd of ln ln(1 + w).
   double slope_sd = 0.0;
-  double place_sd = 0.0;  ///< Between people, of p; 0 unless personal.
+  /// Between people, of p, or of q where there is one; 0 unless personal.
+  double place_sd = 0.0;
 };
 
 /// The second condition's slope number minus the first's, negated with kLogSlope: then it is
@@ -90,6 +91,9 @@ struct HierarchicalFit {
 /// Gauss-Hermite quadrature. The estimand is the median person's Weber fraction, which the
 /// pooled curve's is not: pooling people who differ flattens the curve. Perfectly separated or
 /// flat participants take part, for it needs no fit of their own.
+///
+/// Where rows differ in the order of the intervals, each order has a place of its own, and what
+/// people differ by is that: the bias for an interval. The pse is then one for all.
 ///
 /// Intervals are Wald's on the slope number with Student's t at participants - 1 and its error
 /// grown by sqrt(n / (n - 1)), because maximum likelihood has the spread of few people too

@@ -49,12 +49,16 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
                                               Numbers* score) const noexcept {
   double value = 0.0;
   for (const HierarchicalCell& cell : person) {
-    const int place_at = structure_.num_conditions + cell.condition;
+    const int place_at = structure_.place_at(cell.condition);
+    const int order_at = structure_.order_at(cell.condition);
     const double slope = slope_of(structure_.link, numbers(cell.condition));
     const double place = structure_.has_places ? numbers(place_at) : 0.0;
-    double by_slope = 0.0, by_place = 0.0;
+    const double by_interval = structure_.has_orders ? numbers(order_at) : 0.0;
+    double by_slope = 0.0, by_place = 0.0, by_order = 0.0;
     for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
-      const Predictor at = predictor(structure_.link, slope, place, cell.log_ratio[level]);
+      const double order = structure_.has_orders ? cell.order[level] : 0.0;
+      const Predictor at =
+          predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
       const LogNormalTails tails = log_normal_tails(at.z);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
       // A zero count contributes nothing, even where its logarithm is infinite.
@@ -63,10 +67,12 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
       const double by_z = yes * tails.mills_lower - no * tails.mills_upper;
       by_slope += by_z * at.by_slope;
       by_place += by_z * at.by_place;
+      by_order += by_z * at.by_place * order;
     }
     if (score == nullptr) continue;
     (*score)(cell.condition) += by_slope;
     if (structure_.has_places) (*score)(place_at) += by_place;
+    if (structure_.has_orders) (*score)(order_at) += by_order;
   }
   return value;
 }
@@ -78,13 +84,21 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
   const Curvature prior = Curvature::Identity(at.size(), at.size());
   JointDerivatives joint{-at, prior, prior};
   for (const HierarchicalCell& cell : person) {
-    const int place_at = structure_.num_conditions + cell.condition;
+    const int place_at = structure_.place_at(cell.condition);
+    const int order_at = structure_.order_at(cell.condition);
     const double slope = slope_of(structure_.link, numbers(cell.condition));
-    const double place = structure_.has_places ? numbers(place_at) : 0.0;
     const RandomEffects slope_row = loadings.row(cell.condition).transpose();
-    RandomEffects place_row = RandomEffects::Zero(at.size());
-    if (structure_.has_places) place_row = loadings.row(place_at).transpose();
     for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
+      double place = 0.0;
+      RandomEffects place_row = RandomEffects::Zero(at.size());
+      if (structure_.has_places) {
+        place = numbers(place_at);
+        place_row = loadings.row(place_at).transpose();
+      }
+      if (structure_.has_orders) {
+        place += cell.order[level] * numbers(order_at);
+        place_row += cell.order[level] * loadings.row(order_at).transpose();
+      }
       const Predictor here = predictor(structure_.link, slope, place, cell.log_ratio[level]);
       const LogNormalTails tails = log_normal_tails(here.z);
       const double yes = cell.num_yes[level], no = cell.num_no[level];

@@ -7,8 +7,9 @@
 
 namespace jnd::analysis {
 
-/// How a person's curve follows from the person's own numbers: two per condition, a slope
-/// number a and a place number p, at u = ln(x / reference).
+/// How a person's curve follows from the person's own numbers: three per condition, a slope
+/// number a, a place number p and, where either interval may hold the test, an order number q
+/// that moves the place to p + q o (o: `AnswerCount::order`), at u = ln(x / reference).
 enum class HierarchicalLink {
   /// z = e^a (u - p): people differ by factors, a is -ln ln(1 + w), p is ln(pse / reference).
   kLogSlope,
@@ -20,16 +21,18 @@ enum class HierarchicalLink {
 struct HierarchicalCell {
   int condition = 0;
   std::vector<double> log_ratio, num_yes, num_no;
+  std::vector<double> order;  ///< As `AnswerCount::order`.
 };
 using HierarchicalPerson = std::vector<HierarchicalCell>;
 
 /// Which numbers there are and how they vary. The parameters, in this order: a of each
-/// condition, p of each condition if `has_places`, then the loadings' parameters. A person's
-/// numbers are those of the median person plus loadings times standard normal numbers.
+/// condition, p of each if `has_places`, q of each if `has_orders`, then the loadings'. A
+/// person's numbers are those of the median person plus loadings times standard normal numbers.
 struct HierarchicalStructure {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   int num_conditions = 1;
   bool has_places = false;  ///< Otherwise every p is 0.
+  bool has_orders = false;  ///< Otherwise every q is 0.
   struct Loading {
     int number;         ///< Row: the person's number it moves.
     int random_effect;  ///< Column.
@@ -40,7 +43,17 @@ struct HierarchicalStructure {
   int num_parameters = 2;
 
   [[nodiscard]] int num_numbers() const noexcept {
-    return num_conditions * (has_places ? 2 : 1);
+    return num_conditions * (1 + (has_places ? 1 : 0) + (has_orders ? 1 : 0));
+  }
+  [[nodiscard]] int place_at(int condition) const noexcept {
+    return num_conditions + condition;
+  }
+  [[nodiscard]] int order_at(int condition) const noexcept {
+    return num_conditions * (has_places ? 2 : 1) + condition;
+  }
+  /// Of the number that is a person's own beside the slope.
+  [[nodiscard]] int own_place_at(int condition) const noexcept {
+    return has_orders ? order_at(condition) : place_at(condition);
   }
 };
 

@@ -36,6 +36,7 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
           fit_psychometric(corrected ? with_half_an_answer(answers.counts) : answers.counts,
                            {.reference = block.reference,
                             .free_pse = analysis.free_pse,
+                            .by_order = true,
                             .intervals = false,
                             .solver = Solver::kNewton})
               .weber_fraction);
@@ -206,12 +207,13 @@ std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
   const std::string how = what + (analysis.paired ? ", paired" : ", unpaired, Welch") +
                           (analysis.free_pse ? ", pse free" : ", pse at the reference");
   std::vector<PlannedName> names = {
-      {how + ", without degenerate participants", "primary"},
+      {how + ", without degenerate participants",
+       analysis.hierarchical ? "" : kStandsForPrimary},
       {how + ", with degenerate participants (half an answer added)", ""}};
   if (analysis.hierarchical) {
     names.push_back({what + " of the median person, hierarchical" +
                          (analysis.free_pse ? ", pse free" : ", pse at the reference"),
-                     ""});
+                     analysis.free_pse ? kPrimaryTest : ""});
   }
   return names;
 }

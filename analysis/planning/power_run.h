@@ -44,7 +44,10 @@ struct PlannedName {
   std::size_t block = 0;  ///< Of an estimate: its place in `blocks`.
 };
 [[nodiscard]] std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis);
-/// The first is the primary one.
+/// The meaning of the test to plan by: that of the hierarchical fit, as in the results, or,
+/// without it, what stands for it.
+inline constexpr char kPrimaryTest[] = "primary";
+inline constexpr char kStandsForPrimary[] = "quick, in place of the primary, hierarchical one";
 [[nodiscard]] std::vector<PlannedName> test_names(const PlannedAnalysis& analysis);
 
 /// One participant's answers in one block, without any if the block was not for them.
@@ -80,8 +83,9 @@ using PlannedRun = std::vector<PlannedSize>;
 ///
 /// The fast route to the median person's Weber fraction: the mean of the individual
 /// ln ln(1 + w) with Student's interval, transformed back, of participants with a fit of their
-/// own. The primary test is Student's t on the same numbers (Welch's where nobody gets both
-/// blocks), as in `discrimination_comparison`; the second one adds half an answer to everybody
+/// own. The quick test is Student's t on the same numbers (Welch's where nobody gets both
+/// blocks), as in `discrimination_comparison`, where it comes after the hierarchical fit's; the
+/// second one adds half an answer to everybody
 /// (`with_half_an_answer`), so that nobody is left out: more power, but where levels lie
 /// differently about two references that half moves their fractions differently.
 /// `people` are as many as the largest size. Not real time.

@@ -39,6 +39,10 @@ std::optional<double> quantile(std::vector<double> values, double probability) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+std::string percent_words(double share) {
+  return std::to_string(std::lround(100.0 * share)) + " %";
+}
+
 PlannedPrecision precision_of(const std::vector<PlannedRun>& runs, std::size_t size,
                               std::size_t estimate, const PlannedBlock& block,
                               std::size_t place) {
@@ -69,6 +73,8 @@ PlannedPrecision precision_of(const std::vector<PlannedRun>& runs, std::size_t s
   precision.half_width_90 = quantile(half_widths, 0.9);
   if (num_intervals > 0) {
     precision.coverage = static_cast<double>(num_holding) / static_cast<double>(num_intervals);
+    std::tie(precision.coverage_low, precision.coverage_high) =
+        wilson_interval(num_holding, num_intervals);
   }
   if (num_people > 0) {
     precision.degenerate =
@@ -98,6 +104,37 @@ std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
     }
   }
   return summaries;
+}
+
+std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
+                                         const std::vector<PlannedSummary>& summaries,
+                                         bool null_hypothesis) {
+  constexpr double kTooRarely = 0.93, kTooOften = 0.07;
+  const PlannedSummary& largest = summaries.back();
+  const std::string at =
+      ": with " + std::to_string(largest.num_participants) + " participants ";
+  std::vector<std::string> doubts;
+  const std::vector<PlannedName> estimates = estimate_names(analysis);
+  for (std::size_t place = 0; place < estimates.size(); ++place) {
+    const PlannedPrecision& one = largest.estimates[place];
+    if (!one.coverage || one.coverage_high >= kTooRarely) continue;
+    doubts.push_back(estimates[place].name + at + "the interval holds the true value in " +
+                     percent_words(*one.coverage) +
+                     " of the studies, not in 95 %. People of this laboratory do what the fit "
+                     "does not know (lapses, drift), and these levels let it count: plan on "
+                     "neither this half width nor this power, and try levels nearer the "
+                     "reference.");
+  }
+  const std::vector<PlannedName> tests = test_names(analysis);
+  for (std::size_t place = 0; null_hypothesis && place < tests.size(); ++place) {
+    const PlannedPower& one = largest.tests[place];
+    if (one.power_low <= kTooOften) continue;
+    doubts.push_back(tests[place].name + at + "it finds a difference where there is none in " +
+                     percent_words(one.power) +
+                     " of the studies, not in 5 %: the blocks are not measured alike, and this "
+                     "test must not compare them.");
+  }
+  return doubts;
 }
 
 }  // namespace jnd::analysis

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/planning/power_run.h"
@@ -28,7 +29,8 @@ struct PlannedPrecision {
   /// Half width of the 95 % interval over participants: in the median run, and what nine runs
   /// in ten stay below; none where that many intervals are open.
   std::optional<double> half_width_median, half_width_90;
-  std::optional<double> coverage;    ///< Share of intervals that hold the true value.
+  std::optional<double> coverage;  ///< Share of intervals that hold the true value.
+  double coverage_low = 0.0, coverage_high = 1.0;  ///< 95 %, Wilson: how well the runs tell it.
   std::optional<double> degenerate;  ///< Share of participants without a fit of their own.
 };
 
@@ -42,5 +44,12 @@ struct PlannedSummary {
 /// numbers to the last bit. Throws `core::Error` without runs. Not real time.
 [[nodiscard]] std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
                                                           const std::vector<PlannedRun>& runs);
+
+/// What not to plan on, a sentence each: intervals that hold the true value too rarely, and
+/// under the null hypothesis tests that find a difference too often, where the runs are enough
+/// to tell. Of every estimate and test the largest size speaks.
+[[nodiscard]] std::vector<std::string> planning_doubts(
+    const PlannedAnalysis& analysis, const std::vector<PlannedSummary>& summaries,
+    bool null_hypothesis);
 
 }  // namespace jnd::analysis

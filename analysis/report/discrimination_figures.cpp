@@ -2,12 +2,12 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/fits/interval_order_fit.h"
 #include "analysis/groups/summary.h"
 #include "analysis/groups/wilson_interval.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"
-#include "core/psychometric_function.h"
 
 namespace jnd::analysis {
 namespace {
@@ -26,6 +26,7 @@ struct OwnAnswers {
   const ParticipantEstimate* fraction = nullptr;  ///< With the pse at the reference.
   const ParticipantEstimate* free_fraction = nullptr;
   const ParticipantEstimate* pse = nullptr;  ///< Of the latter.
+  double order_effect_ln = 0.0, free_order_effect_ln = 0.0;
 };
 
 struct BlockAnswers {
@@ -34,6 +35,10 @@ struct BlockAnswers {
   std::vector<OwnAnswers> participants;  ///< Those who answered.
   std::vector<double> levels;            ///< Ascending.
 };
+
+double value_or_0(const ParticipantEstimate* own) {
+  return own == nullptr ? 0.0 : own->value.value_or(0.0);
+}
 
 BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
   BlockAnswers all{.block = block.block,
@@ -57,10 +62,19 @@ BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
     own.fraction = value("weber_fraction");
     own.free_fraction = value("weber_fraction_free_pse");
     own.pse = value("pse");
+    own.order_effect_ln = value_or_0(value("order_effect_ln_at_reference"));
+    own.free_order_effect_ln = value_or_0(source.own(
+        block.block + "_intervals", participant.participant, block.block + ".order_effect_ln"));
     all.participants.push_back(std::move(own));
   }
   for (const auto& [level, count] : levels) all.levels.push_back(level);
   return all;
+}
+
+bool have_orders(const BlockAnswers& answers) {
+  return std::ranges::any_of(answers.participants, [](const OwnAnswers& own) {
+    return own.order_effect_ln != 0.0 || own.free_order_effect_ln != 0.0;
+  });
 }
 
 AxisRange intensity_range(const BlockAnswers& answers) {
@@ -72,14 +86,13 @@ AxisRange intensity_range(const BlockAnswers& answers) {
 }
 
 std::vector<std::pair<double, double>> curve(const BlockAnswers& answers, double pse,
-                                             double fraction) {
-  const core::PsychometricFunction function{.pse = pse, .weber_fraction = fraction};
+                                             double fraction, double order_effect_ln) {
   const AxisRange range = intensity_range(answers);
   std::vector<std::pair<double, double>> points;
   constexpr int kPoints = 120;
   for (int i = 0; i <= kPoints; ++i) {
     const double intensity = range.low + (range.high - range.low) * i / kPoints;
-    points.emplace_back(intensity, function.probability(intensity));
+    points.emplace_back(intensity, mean_over_orders(pse, fraction, order_effect_ln, intensity));
   }
   return points;
 }
@@ -110,7 +123,7 @@ FigureTable curves_table(const BlockAnswers& answers) {
     ++series;
     if (own.fraction == nullptr || !own.fraction->value) continue;
     for (const auto& [intensity, ratio] :
-         curve(answers, answers.reference, *own.fraction->value)) {
+         curve(answers, answers.reference, *own.fraction->value, own.order_effect_ln)) {
       table.rows.push_back({series, own.participant, intensity, ratio});
     }
   }
@@ -130,7 +143,7 @@ FigureTable free_curves_table(const BlockAnswers& answers) {
     ++series;
     if (!has_free_curve(own)) continue;
     for (const auto& [intensity, ratio] :
-         curve(answers, *own.pse->value, *own.free_fraction->value)) {
+         curve(answers, *own.pse->value, *own.free_fraction->value, own.free_order_effect_ln)) {
       table.rows.push_back({series, own.participant, intensity, ratio});
     }
   }
@@ -171,10 +184,15 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
                 .tables = {means_table(answers), curves_table(answers)}};
   const Estimate* const pooled = source.results.find(answers.block + ".weber_fraction");
   const bool has_curve = pooled != nullptr && pooled->value;
+  const Estimate* const effect =
+      source.results.find(answers.block + ".weber_fraction_order_effect_ln");
+  const bool by_order = effect != nullptr && effect->value;
+  const double order_effect_ln = by_order ? *effect->value : 0.0;
   FigureTable group{.name = file_word(answers.block) + "_group_curve",
                     .columns = {"intensity", "ratio"}};
   if (has_curve) {
-    for (const auto& [intensity, ratio] : curve(answers, answers.reference, *pooled->value)) {
+    for (const auto& [intensity, ratio] :
+         curve(answers, answers.reference, *pooled->value, order_effect_ln)) {
       group.rows.push_back({intensity, ratio});
     }
   }
@@ -193,7 +211,7 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
   }
   if (has_curve) {
     const double at = answers.reference * (1.0 + *pooled->value);
-    if (at < range.high) {
+    if (at < range.high && !by_order) {
       const std::string x = plot_number(at);
       figure.plot += "  set arrow 2 from first " + x + ",graph 0 to first " + x +
                      ",first 0.8413 nohead ls 12\n  set arrow 3 from graph 0,first 0.8413 to "
@@ -210,14 +228,18 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
   figure.caption =
       "Mean proportion of answers “more than the reference” and standard deviation between " +
       counted_words(std::ssize(answers.participants), "participant") +
-      " at each level; the pooled curve (least squares, point of subjective equality at the "
-      "reference) in black, " +
-      "each participant’s own (maximum likelihood) in grey. Dashed: the reference, " +
+      " at each level; the pooled curve (" +
+      (by_order ? "maximum likelihood, each order of the intervals with a point of subjective "
+                  "equality of its own, drawn as the mean of both"
+                : "least squares, point of subjective equality at the reference") +
+      ") in black, each participant’s own (maximum likelihood) in grey. Dashed: the "
+      "reference, " +
       number_words(answers.reference) + " " + quantity_unit(answers.quantity) +
-      (has_curve
-           ? ", and where the pooled curve reaches 84.13 %, which is the Weber fraction w "
-             "above it."
-           : ". The pooled answers have no curve.");
+      (!has_curve ? ". The pooled answers have no curve."
+       : by_order
+           ? "."
+           : ", and where the pooled curve reaches 84.13 %, which is the Weber fraction w "
+             "above it.");
   figure.tables.push_back(std::move(group));
   return figure;
 }
@@ -272,7 +294,9 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
     figure.caption =
         "Proportion of answers “more than the reference” with Wilson’s 95 % interval, and the "
         "curves of maximum likelihood, where they exist: black, with its Weber fraction w, the "
-        "point of subjective equality at the reference, as published; dashed, it is free. "
+        "point of subjective equality at the reference, as published; dashed, it is free. " +
+        std::string(have_orders(answers) ? "Drawn is the mean of both orders of the intervals. "
+                                         : "") +
         "Vertical: the reference. The values of every participant say which curves the answers "
         "reject.";
     figure.tables = {points, curves};

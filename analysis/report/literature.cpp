@@ -82,6 +82,9 @@ constexpr Work kWorks[] = {
      "What if there were no significance tests? Erlbaum, 221-257."},
     {"Stevens 1957",
      "Stevens, S. S. (1957). On the psychophysical law. Psychological Review 64, 153-181."},
+    {"Ulrich and Vorberg 2009",
+     "Ulrich, R., Vorberg, D. (2009). Estimating the difference limen in 2AFC tasks: pitfalls "
+     "and improved estimators. Attention, Perception, & Psychophysics 71, 1219-1227."},
     {"Watson 2017",
      "Watson, A. B. (2017). QUEST+: a general multidimensional Bayesian adaptive psychometric "
      "method. Journal of Vision 17(3), 10."},

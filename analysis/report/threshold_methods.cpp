@@ -94,11 +94,17 @@ void add_threshold_methods(
   }
   if (any(data, [&](const BlockDesign& block) { return has_intervals(data, block); })) {
     add("Order of the intervals",
-        "Interval bias: the share of answers that choose the second interval, both orders "
-        "weighed equally, less one half. Order effect: P(test chosen) = Φ(b₀ ln(x / reference) "
-        "+ b₁ + b₂ o), o = ±1/2 for the test second or first; the points of subjective "
+        "Where either interval may hold the test, each order has a point of subjective "
         "equality "
-        "of the orders lie −b₂ / b₀ apart in ln. Tests of both are t tests against 0.");
+        "of its own, and one Weber fraction serves both: P(test chosen) = Φ((ln(x / PSE) − o "
+        "q) "
+        "/ ln(1 + w)), o = ±1/2 for the test second or first. q is the order effect, always "
+        "free; the mean of both orders would have too large a Weber fraction (" +
+            cite("Ulrich and Vorberg 2009") +
+            "). In the hierarchical model q is what people differ by, and the point of "
+            "subjective equality is the same for all. Interval bias: the share of answers that "
+            "choose the second interval, both orders weighed equally, less one half. Tests of "
+            "both are t tests against 0.");
   }
   if (any(data, [](const BlockDesign& block) {
         return block.detects() || block.tells_apart() || is_adaptive(block);

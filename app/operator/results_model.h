@@ -47,12 +47,14 @@ struct PsychometricFigure {
   std::vector<Proportion> points;
   std::optional<double> weber_fraction;
   analysis::Interval ci95;
-  std::string reason;  ///< Why there is no curve; "" if there is one.
+  double order_effect_ln = 0.0;  ///< Where either interval may hold the test; else 0.
+  std::string reason;            ///< Why there is no curve; "" if there is one.
   std::vector<Point> curve;
   /// Between the curves with the ends of `ci95` for the Weber fraction, the point of subjective
   /// equality held at the reference, where both meet. An open end is a step, or a flat line.
   std::vector<BandPoint> band;
-  std::optional<double> weber_line;  ///< reference (1 + w): answered "more" in 84 %.
+  /// reference (1 + w): answered "more" in 84 %. None with an order effect.
+  std::optional<double> weber_line;
 };
 
 /// A block with a reference.

@@ -3,10 +3,10 @@
 #include <limits>
 #include <tuple>
 
+#include "analysis/fits/interval_order_fit.h"
 #include "analysis/groups/wilson_interval.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
-#include "core/psychometric_function.h"
 
 namespace jnd::app {
 namespace {
@@ -44,26 +44,28 @@ std::vector<Proportion> proportions(const Counts& counts) {
 }
 
 /// With the limits that an open interval stands for: a step at 0, a flat line at infinity.
-double probability(double reference, double weber_fraction, double intensity) {
+double probability(double reference, double weber_fraction, double order_effect_ln,
+                   double intensity) {
   if (!std::isfinite(weber_fraction)) return 0.5;
   if (weber_fraction <= 0.0) {
     return intensity < reference ? 0.0 : (intensity > reference ? 1.0 : 0.5);
   }
-  return core::PsychometricFunction{.pse = reference, .weber_fraction = weber_fraction}
-      .probability(intensity);
+  return analysis::mean_over_orders(reference, weber_fraction, order_effect_ln, intensity);
 }
 
 void draw_curve(PsychometricFigure& figure, double reference, double low, double high) {
   if (!figure.weber_fraction) return;
-  figure.weber_line = reference * (1.0 + *figure.weber_fraction);
+  const double q = figure.order_effect_ln;
+  // Of two orders drawn as their mean, no place shows the Weber fraction.
+  if (q == 0.0) figure.weber_line = reference * (1.0 + *figure.weber_fraction);
   const bool has_band = figure.ci95.low || figure.ci95.high;
   const double least = figure.ci95.low.value_or(0.0);
   const double most = figure.ci95.high.value_or(std::numeric_limits<double>::infinity());
   for (const double x : logarithmic_grid(low, high)) {
-    figure.curve.push_back({x, probability(reference, *figure.weber_fraction, x)});
+    figure.curve.push_back({x, probability(reference, *figure.weber_fraction, q, x)});
     if (!has_band) continue;
-    const double steep = probability(reference, least, x);
-    const double flat = probability(reference, most, x);
+    const double steep = probability(reference, least, q, x);
+    const double flat = probability(reference, most, q, x);
     figure.band.push_back({x, std::min(steep, flat), std::max(steep, flat)});
   }
 }
@@ -77,6 +79,11 @@ std::string pooled_reason(const analysis::ResultsSection& section, const std::st
     }
   }
   return "no value";
+}
+
+template <typename Value>
+double value_or_0(const Value* found) {
+  return found == nullptr ? 0.0 : found->value.value_or(0.0);
 }
 
 /// For whoever answered, not for whoever fits.
@@ -119,16 +126,20 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
       .points = proportions(all),
       .weber_fraction = pooled->value,
       .ci95 = pooled->ci95,
+      .order_effect_ln = value_or_0(source.results.find(name + "_order_effect_ln")),
       .reason = pooled->value ? "" : in_plain_words(pooled_reason(*section, name))};
   draw_curve(figure.pooled, figure.reference, low, high);
   for (const auto& [participant, counted] : own) {
     const analysis::ParticipantEstimate* estimate = source.own(block.block, participant, name);
     if (estimate == nullptr) continue;
-    PsychometricFigure one{.who = participant,
-                           .points = proportions(counted.first),
-                           .weber_fraction = estimate->value,
-                           .ci95 = estimate->ci95,
-                           .reason = in_plain_words(estimate->reason)};
+    PsychometricFigure one{
+        .who = participant,
+        .points = proportions(counted.first),
+        .weber_fraction = estimate->value,
+        .ci95 = estimate->ci95,
+        .order_effect_ln = value_or_0(source.own(
+            block.block, participant, block.block + ".order_effect_ln_at_reference")),
+        .reason = in_plain_words(estimate->reason)};
     draw_curve(one, counted.second, low, high);
     figure.participants.push_back(std::move(one));
   }

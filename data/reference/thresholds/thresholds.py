@@ -138,6 +138,33 @@ def same_different(name, reference, data):
     }
 
 
+def by_order(name, reference, free_pse, data):
+    """Weber curve with a pse for each order of the intervals; order -0.5: test first."""
+    x, order, yes, n = np.array(data, float).T
+    u = np.log(x / reference)
+
+    def cost(theta):
+        z = np.exp(theta[0]) * (u - theta[1] * order - (theta[2] if free_pse else 0.0))
+        return -float(np.sum(yes * special.log_ndtr(z) + (n - yes) * special.log_ndtr(-z)))
+
+    starts = [[np.log(s), q, 0.0][: 3 if free_pse else 2] for s in (1.0, 4.0) for q in (-0.2, 0.2)]
+    at, least = minimum(cost, starts)
+    slope = interval(cost, at, least, 0, starts)
+    place = interval(cost, at, least, 2, starts) if free_pse else None
+    return {
+        "name": name, "reference": reference, "free_pse": free_pse, "data": data,
+        "expected": {
+            "weber_fraction": float(np.expm1(np.exp(-at[0]))),
+            "weber_fraction_ci95":
+                [None if e is None else float(np.expm1(np.exp(-e))) for e in reversed(slope)],
+            "order_effect_ln": float(at[1]),
+            "pse": float(reference * np.exp(at[2] if free_pse else 0.0)),
+            "pse_ci95": None if place is None else [float(reference * np.exp(e)) for e in place],
+            "log_likelihood": -least,
+        },
+    }
+
+
 def detection_theory(hits, signals, false_alarms, catch):
     h = stats.norm.ppf((hits + 0.5) / (signals + 1))
     f = stats.norm.ppf((false_alarms + 0.5) / (catch + 1))
@@ -180,6 +207,20 @@ json.dump(
             ]),
             same_different("lax criterion", 1.5, [
                 [1.5, 17, 30], [1.0, 19, 20], [1.8, 12, 20], [2.4, 18, 20],
+            ]),
+        ],
+        "by_order": [
+            by_order("a bias for the first interval", 6.0, True, [
+                [4.0, -0.5, 2, 10], [5.0, -0.5, 5, 10], [7.0, -0.5, 8, 10], [9.0, -0.5, 10, 10],
+                [4.0, 0.5, 0, 10], [5.0, 0.5, 1, 10], [7.0, 0.5, 5, 10], [9.0, 0.5, 8, 10],
+            ]),
+            by_order("the same, pse at the reference", 6.0, False, [
+                [4.0, -0.5, 2, 10], [5.0, -0.5, 5, 10], [7.0, -0.5, 8, 10], [9.0, -0.5, 10, 10],
+                [4.0, 0.5, 0, 10], [5.0, 0.5, 1, 10], [7.0, 0.5, 5, 10], [9.0, 0.5, 8, 10],
+            ]),
+            by_order("uneven numbers", 1.0, True, [
+                [0.7, -0.5, 3, 12], [0.9, -0.5, 4, 9], [1.2, -0.5, 7, 8],
+                [0.7, 0.5, 4, 11], [0.9, 0.5, 8, 12], [1.2, 0.5, 9, 10], [1.5, 0.5, 5, 5],
             ]),
         ],
         "signal_detection": [

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/fits/detection_fit.h"
+#include "analysis/fits/psychometric_fit.h"
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/fits/signal_detection.h"
 #include "analysis/threshold_group.h"
@@ -71,6 +72,25 @@ TEST(ThresholdReference, EverySameDifferentFitAgreesWithScipy) {
     expect_close(fit.criterion_ln_ci95, expected.at("criterion_ln_ci95"), name + ": k");
     expect_close(fit.false_alarm_rate, expected.at("false_alarm_rate"), name + ": F");
     expect_close(fit.log_likelihood, expected.at("log_likelihood"), name + ": likelihood");
+  }
+}
+
+TEST(ThresholdReference, EveryFitByIntervalOrderAgreesWithScipy) {
+  for (const json& c : reference().at("by_order")) {
+    std::vector<AnswerCount> rows;
+    for (const json& row : c.at("data")) rows.push_back({row[0], row[2], row[3], row[1]});
+    const PsychometricFit fit = fit_psychometric(
+        rows, {.reference = c.at("reference"), .free_pse = c.at("free_pse"), .by_order = true});
+    const json& expected = c.at("expected");
+    const std::string name = c.at("name");
+    ASSERT_EQ(fit.status, FitStatus::kOk) << name << ": " << fit.reason;
+    expect_close(fit.weber_fraction, expected.at("weber_fraction"), name + ": w");
+    expect_close(fit.weber_fraction_ci95, expected.at("weber_fraction_ci95"), name + ": w");
+    expect_close(fit.order_effect_ln, expected.at("order_effect_ln"), name + ": order");
+    expect_close(fit.pse, expected.at("pse"), name + ": pse");
+    expect_close(fit.log_likelihood, expected.at("log_likelihood"), name + ": likelihood");
+    ASSERT_EQ(fit.pse_ci95.has_value(), !expected.at("pse_ci95").is_null()) << name;
+    if (fit.pse_ci95) expect_close(*fit.pse_ci95, expected.at("pse_ci95"), name + ": pse");
   }
 }
 

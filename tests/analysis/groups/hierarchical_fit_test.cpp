@@ -226,6 +226,54 @@ TEST(HierarchicalFit, WhatHasNoValueSaysWhy) {
   EXPECT_NE(reason(zero).find("intensity 0"), std::string::npos);
 }
 
+/// People who favour the second interval by more or less, each with a Weber fraction of 0.3.
+std::vector<ParticipantAnswers> people_with_interval_biases(bool mirrored) {
+  std::vector<ParticipantAnswers> all;
+  for (const double bias : {-0.25, -0.1, 0.0, 0.05, 0.2, 0.4}) {
+    ParticipantAnswers one{"P" + std::to_string(all.size() + 1), "", 1.0, {}};
+    for (const double order : {kTestFirst, kTestSecond}) {
+      for (const double x : {0.5, 0.7, 0.9, 1.1, 1.4, 2.0}) {
+        const double z = (std::log(x) - 2.0 * order * bias) / std::log1p(0.3);
+        const std::int64_t num_yes = std::llround(400.0 * core::standard_normal_cdf(z));
+        if (mirrored && order == kTestFirst) {
+          one.rows.push_back({1.0 / x, 400 - num_yes, 400});
+        } else {
+          one.rows.push_back({x, num_yes, 400, mirrored ? 0.0 : order});
+        }
+      }
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+TEST(HierarchicalFit, ABiasForAnIntervalIsAPersonsOwnAndLeavesTheWeberFractionAlone) {
+  const HierarchicalFit fit = fit_hierarchical(people_with_interval_biases(false), {});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.3, 2e-3);
+  EXPECT_NEAR(*fit.conditions[0].pse, 1.0, 2e-3);
+  EXPECT_NE(fit.method.find("bias for an interval"), std::string::npos) << fit.method;
+  // Both orders taken for one.
+  std::vector<ParticipantAnswers> pooled = people_with_interval_biases(false);
+  for (ParticipantAnswers& one : pooled) {
+    for (AnswerCount& row : one.rows) row.order = 0.0;
+  }
+  EXPECT_GT(*fit_hierarchical(pooled, {}).conditions[0].weber_fraction, 0.36);
+}
+
+/// A place of q o with o = +-1/2 is one of q / 2 in answers whose first order is mirrored.
+TEST(HierarchicalFit, AnIntervalBiasIsThePseOfMirroredAnswers) {
+  const HierarchicalFit found =
+      fit_hierarchical(people_with_interval_biases(false), kAtReference);
+  const HierarchicalFit other = fit_hierarchical(people_with_interval_biases(true), {});
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  EXPECT_NEAR(*found.log_likelihood, *other.log_likelihood, 1e-6);
+  EXPECT_NEAR(*found.conditions[0].weber_fraction, *other.conditions[0].weber_fraction, 1e-7);
+  EXPECT_NEAR(*found.conditions[0].weber_fraction_ci95.low,
+              *other.conditions[0].weber_fraction_ci95.low, 1e-5);
+  EXPECT_NEAR(found.conditions[0].place_sd, 2.0 * other.conditions[0].place_sd, 1e-5);
+}
+
 TEST(HierarchicalFit, ReferencesThatDifferAndTooManyConditionsAreRefused) {
   std::vector<ParticipantAnswers> all = differing_people(10);
   all[1].reference = 2.0;

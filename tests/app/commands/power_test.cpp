@@ -49,7 +49,8 @@ TEST_F(PowerCommandTest, PrintsPowerPrecisionAndDurationOfEverySize) {
   double before = 0.0;
   for (const auto& size : json["sizes"]) {
     const auto& test = size["tests"][0];
-    EXPECT_EQ(test["primary"], true);
+    EXPECT_EQ(test["primary"], false);
+    EXPECT_EQ(test["meaning"], "quick, in place of the primary, hierarchical one");
     EXPECT_LE(test["power_ci95"][0], test["power"]);
     EXPECT_GE(test["power_ci95"][1], test["power"]);
     ASSERT_EQ(size["estimates"].size(), 2U);
@@ -63,7 +64,8 @@ TEST_F(PowerCommandTest, PrintsPowerPrecisionAndDurationOfEverySize) {
   }
   const ProgramOutcome table = power({"--runs", "60"});
   for (const char* part : {"SIMULATED", "paired, pse free, without degenerate participants",
-                           "(primary)", "true value 0.3751", "min per participant"}) {
+                           "(quick, in place of the primary, hierarchical one)",
+                           "true value 0.3751", "min per participant"}) {
     EXPECT_NE(table.out.find(part), std::string::npos) << part << " in\n" << table.out;
   }
 }

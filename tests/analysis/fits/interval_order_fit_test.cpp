@@ -1,0 +1,135 @@
+#include "analysis/fits/interval_order_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/psychometric_function.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// Answers of somebody who favours the first interval.
+std::vector<AnswerCount> biased_answers() {
+  return {{4.0, 2, 10, kTestFirst},  {5.0, 5, 10, kTestFirst},  {7.0, 8, 10, kTestFirst},
+          {9.0, 10, 10, kTestFirst}, {4.0, 0, 10, kTestSecond}, {5.0, 1, 10, kTestSecond},
+          {7.0, 5, 10, kTestSecond}, {9.0, 8, 10, kTestSecond}};
+}
+
+/// With the test first, "the test is more, at x" said as "the reference is more, at its mirror
+/// image": then an order effect q is a pse of exp(q / 2) in ordinary answers.
+std::vector<AnswerCount> mirrored(const std::vector<AnswerCount>& rows, double reference) {
+  std::vector<AnswerCount> all;
+  for (const AnswerCount& row : rows) {
+    if (row.order == kTestSecond) {
+      all.push_back({row.intensity, row.num_yes, row.num_trials});
+    } else {
+      all.push_back({reference * reference / row.intensity, row.num_trials - row.num_yes,
+                     row.num_trials});
+    }
+  }
+  return all;
+}
+
+TEST(IntervalOrderFit, IsTheFreePseOfMirroredAnswers) {
+  const std::vector<AnswerCount> rows = biased_answers();
+  const PsychometricFit found = fit_psychometric(rows, {.reference = 6.0, .by_order = true});
+  const PsychometricFit other =
+      fit_psychometric(mirrored(rows, 6.0), {.reference = 6.0, .free_pse = true});
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  EXPECT_NEAR(*found.weber_fraction, *other.weber_fraction, 1e-9);
+  EXPECT_NEAR(*found.standard_error, *other.standard_error, 1e-6);
+  EXPECT_NEAR(*found.weber_fraction_ci95.low, *other.weber_fraction_ci95.low, 1e-7);
+  EXPECT_NEAR(*found.weber_fraction_ci95.high, *other.weber_fraction_ci95.high, 1e-7);
+  EXPECT_NEAR(*found.order_effect_ln, 2.0 * std::log(*other.pse / 6.0), 1e-8);
+  EXPECT_NEAR(*found.log_likelihood, *other.log_likelihood, 1e-9);
+  EXPECT_DOUBLE_EQ(*found.pse, 6.0);
+  EXPECT_FALSE(found.pse_ci95);
+}
+
+TEST(IntervalOrderFit, ABiasForAnIntervalLeavesTheWeberFractionAlone) {
+  constexpr double kTrue = 0.25, kBias = 0.3;
+  std::vector<AnswerCount> rows;
+  for (const double order : {kTestFirst, kTestSecond}) {
+    for (const double x : {0.5, 0.7, 0.85, 1.2, 1.5, 2.0}) {
+      const double z = (std::log(x) - 2.0 * order * kBias) / std::log1p(kTrue);
+      rows.push_back({x, std::llround(10000.0 * core::standard_normal_cdf(z)), 10000, order});
+    }
+  }
+  const PsychometricFit apart =
+      fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .by_order = true});
+  ASSERT_EQ(apart.status, FitStatus::kOk) << apart.reason;
+  EXPECT_NEAR(*apart.weber_fraction, kTrue, 1e-3);
+  EXPECT_NEAR(*apart.order_effect_ln, 2.0 * kBias, 1e-3);
+  EXPECT_NEAR(*apart.pse, 1.0, 1e-3);
+  // What the mean of two curves would say.
+  const PsychometricFit pooled = fit_psychometric(rows, {.reference = 1.0, .free_pse = true});
+  EXPECT_GT(*pooled.weber_fraction, 1.4 * kTrue);
+}
+
+TEST(IntervalOrderFit, RowsOfOneOrderAreAnOrdinaryFit) {
+  std::vector<AnswerCount> rows = biased_answers();
+  rows.resize(4);
+  const PsychometricFit apart =
+      fit_psychometric(rows, {.reference = 6.0, .free_pse = true, .by_order = true});
+  const PsychometricFit plain = fit_psychometric(rows, {.reference = 6.0, .free_pse = true});
+  EXPECT_EQ(apart.weber_fraction, plain.weber_fraction);
+  EXPECT_FALSE(apart.order_effect_ln);
+}
+
+TEST(IntervalOrderFit, AnswersOfTheCurveAreBorneAndOthersAreNot) {
+  const PsychometricOptions options = {
+      .reference = 6.0, .by_order = true, .diagnostics = true, .num_goodness = 200};
+  const PsychometricFit good = fit_psychometric(biased_answers(), options);
+  EXPECT_EQ(good.goodness.degrees_of_freedom, 6);
+  EXPECT_GT(*good.goodness.p_value, 0.2);
+  EXPECT_EQ(fit_psychometric(biased_answers(), options).goodness.p_value,
+            good.goodness.p_value);
+  std::vector<AnswerCount> strange = biased_answers();
+  strange[3].num_yes = 0;
+  const PsychometricFit bad = fit_psychometric(strange, options);
+  ASSERT_EQ(bad.status, FitStatus::kOk);
+  EXPECT_LT(*bad.goodness.p_value, 0.02);
+}
+
+TEST(IntervalOrderFit, WhatHasNoValueSaysWhy) {
+  const auto reason = [](const std::vector<AnswerCount>& rows) {
+    const PsychometricFit fit =
+        fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .by_order = true});
+    EXPECT_EQ(fit.status, FitStatus::kDegenerate);
+    EXPECT_FALSE(fit.weber_fraction);
+    return fit.reason;
+  };
+  EXPECT_NE(reason({{0.5, 0, 5, kTestFirst},
+                    {2.0, 5, 5, kTestFirst},
+                    {0.5, 0, 5, kTestSecond},
+                    {2.0, 5, 5, kTestSecond}})
+                .find("separated"),
+            std::string::npos);
+  EXPECT_NE(reason({{0.5, 4, 5, kTestFirst},
+                    {2.0, 1, 5, kTestFirst},
+                    {0.5, 3, 5, kTestSecond},
+                    {2.0, 2, 5, kTestSecond}})
+                .find("inverted"),
+            std::string::npos);
+  EXPECT_NE(reason({{0.0, 1, 5, kTestFirst},
+                    {2.0, 4, 5, kTestFirst},
+                    {0.5, 1, 5, kTestSecond},
+                    {2.0, 3, 5, kTestSecond}})
+                .find("impossible"),
+            std::string::npos);
+}
+
+TEST(IntervalOrderFit, TakesTheWeberCurveByMaximumLikelihoodAlone) {
+  PsychometricOptions options = {.reference = 6.0, .by_order = true};
+  options.method = PsychometricMethod::kLeastSquares;
+  EXPECT_THROW((void)fit_psychometric(biased_answers(), options), core::Error);
+  options.method = PsychometricMethod::kMaximumLikelihood;
+  options.free_lapse = true;
+  EXPECT_THROW((void)fit_psychometric(biased_answers(), options), core::Error);
+}
+
+}  // namespace
+}  // namespace jnd::analysis
