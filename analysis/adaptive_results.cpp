@@ -87,6 +87,12 @@ class Writer {
     add_median_fraction(section_, full(name), {.name = full(name), .meaning = meaning}, values);
   }
   void tell_tracks(const AdaptiveRun& run);
+  /// What the rules of staircases and of QUEST+ know nothing of.
+  [[nodiscard]] std::string of_both_orders() const {
+    return has_intervals(data_, block_) ? "; too large where people favour an interval, for "
+                                          "both orders are taken for one"
+                                        : "";
+  }
 
   const StudyData& data_;
   const BlockDesign& block_;
@@ -123,14 +129,15 @@ void Writer::write_staircase() {
     if (w.value) fractions[run->participant] = *w.value;
   }
   if (rule.empty()) return;
+  const std::string more = block_.compares() ? "\"more\"" : "\"yes\"";
   section_.estimates.push_back(
       {.name = full("staircase_target_probability"),
        .value = target,
        .unit = "1",
-       .meaning = "share of \"yes\" at the level that the staircase converges to: " + rule,
+       .meaning = "share of " + more + " at the level that the staircase converges to: " + rule,
        .n = static_cast<int>(thresholds.size())});
   add_level("staircase_threshold",
-            "level answered \"yes\" in " + percent_words(target) + " (" + rule +
+            "level answered " + more + " in " + percent_words(target) + " (" + rule +
                 "): mean of the last reversals, then of interleaved staircases; geometric mean "
                 "over participants",
             thresholds);
@@ -138,7 +145,8 @@ void Writer::write_staircase() {
                "w = (threshold / reference)^(1 / z) - 1 with z = " +
                    number_words(core::standard_normal_quantile(target), 4) +
                    " of that share, the pse at the reference: so that (1 + w) is where the "
-                   "curve is 84.13 %; median person",
+                   "curve is 84.13 %; median person" +
+                   of_both_orders(),
                fractions);
 }
 
@@ -195,8 +203,10 @@ void Writer::write_quest_plus() {
         ": mean of the posterior at the end, with its central 95 % for "
         "each participant; ";
     if (name == "quest_plus_weber_fraction") {
-      add_fraction(
-          name, "w of the curve that is 84.13 % at pse (1 + w)" + end + "median person", own);
+      add_fraction(name,
+                   "w of the curve that is 84.13 % at pse (1 + w)" + end + "median person" +
+                       of_both_orders(),
+                   own);
     } else if (name == "quest_plus_slope") {
       add_geometric_mean(section_,
                          {.name = full(name),

@@ -169,7 +169,7 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
   std::vector<ExcludedParticipant> named_before;
   const Everybody all = discrimination_answers(data, block, false, named_before);
   const Target target{section, block, options, "", ""};
-  add_pooled_at_reference(target, all, ", as published");
+  add_pooled_at_reference(target, all, ", as Schmidt (2018)");
   if (!have_orders(all)) {
     add_pooled(target, all, "weber_fraction_ml", PsychometricMethod::kMaximumLikelihood, false,
                "maximum likelihood, pse at the reference");
@@ -209,8 +209,9 @@ void add_trial_trends(ResultsSection& section, const Everybody& all, const Block
     if (trend.learning) learning.push_back(*trend.learning);
   }
   section.comparisons.push_back(
-      {.name = block.block + ": \"yes\" becomes more frequent over the trials, exploratory "
-                             "(mean of participants' z)",
+      {.name = block.block +
+               ": the test is called more more often over the trials, exploratory "
+               "(mean of participants' z)",
        .comparison = one_sample_t_test(drift),
        .family = kTrialTrendsFamily});
   section.comparisons.push_back(

@@ -13,7 +13,8 @@ inline constexpr double kRejectedBelow = 0.05;
 /// Adds what every participant of a block has of their own: the Weber fraction with the pse at
 /// the reference (as published), and with a free pse; the pse; of both fits how often answers
 /// redrawn from the curve lie at least as far off it (Wichmann and Hill 2001; `seed` of the
-/// options); of the first its order effect, where either interval may hold the test. A fraction that absorbs a bias is told by the last. Not real time.
+/// options); of the first its order effect, where either interval may hold the test. A fraction
+/// that absorbs a bias is told by the last. Not real time.
 void add_own_values(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
                     const BlockDesign& block, const ResultsOptions& options);
 

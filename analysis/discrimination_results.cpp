@@ -111,10 +111,11 @@ void add_individual(ResultsSection& section, const Everybody& all, const BlockDe
     }
     section.estimates.push_back(std::move(estimate));
   };
-  add("median", "median of the participants' own fractions (the published one is a mean)",
+  add("median", "median of the participants' own fractions (Schmidt (2018) gives a mean)",
       [&](const std::vector<std::size_t>& drawn) { return quantile(drawn, 0.5); });
   add("robust_sd",
-      "interquartile range / 1.349 of the participants' own fractions (the published one is a "
+      "interquartile range / 1.349 of the participants' own fractions (that of Schmidt (2018) "
+      "is a "
       "plain standard deviation, which one flat curve can make as large as it likes)",
       [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
         const auto low = quantile(drawn, 0.25);
@@ -185,7 +186,7 @@ void add_own_fraction_tests(ResultsSection& section, const std::map<std::string,
   if (free_pse) return;
   add("ln ln(1 + w), unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
   add("w, unpaired, Welch", welch_t_test(values_of(a), values_of(b)));
-  add("w, unpaired, pooled variance, as published", pooled(values_of(a), values_of(b)));
+  add("w, unpaired, pooled variance, as Schmidt (2018)", pooled(values_of(a), values_of(b)));
 }
 
 /// With a free pse or with that at the reference; where somebody has no fraction, both without

@@ -16,6 +16,8 @@ ProtocolBlock block_of(const json& stage) {
   ProtocolBlock block;
   block.task = word_at(stage, "task", block.task);
   block.is_practice = stage.contains("practice");
+  const auto feedback = stage.find("feedback");
+  block.feedback = feedback != stage.end() && feedback->is_boolean() && feedback->get<bool>();
   block.modulus = word_at(stage, "modulus", block.modulus);
   const auto number = stage.find("modulus_value");
   if (number != stage.end() && number->is_number() && number->get<double>() > 0.0) {
@@ -41,7 +43,9 @@ void add_blocks(const json& object, const char* key,
   for (const json& stage : *found) {
     if (!stage.is_object()) continue;
     if (word_at(stage, "kind", "") == "block") {
-      blocks[word_at(stage, "name", "")] = block_of(stage);
+      ProtocolBlock block = block_of(stage);
+      block.place = static_cast<int>(blocks.size());
+      blocks[word_at(stage, "name", "")] = std::move(block);
     }
     for (const char* nested : {"arms", "stages", "between"}) add_blocks(stage, nested, blocks);
   }

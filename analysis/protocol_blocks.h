@@ -8,10 +8,12 @@ namespace jnd::analysis {
 
 /// What a study file says of a block and no row of its trials does.
 struct ProtocolBlock {
+  int place = 0;  ///< In the file, from 0.
   /// "reminder", "yes_no", "two_interval" or "same_different"; where none stands in the file, a
   /// reminder, which magnitudes are not asked by.
   std::string task = "reminder";
   bool is_practice = false;       ///< Its trials are no data.
+  bool feedback = false;          ///< Participants were told whether an answer was right.
   std::string standard_medium;    ///< "water"; "" for a block without a standard.
   std::string standard_quantity;  ///< What its reference intensities are: "scale".
   /// Of a magnitude estimation: "water_is_100", "standard" or "free".

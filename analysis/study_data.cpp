@@ -84,7 +84,10 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
     std::set<std::int64_t> standing;
     for (core::TrialRow& trial : store.trials(session.session)) {
       standing.insert(trial.trial);
-      if (is_practice(trial.block)) continue;
+      if (is_practice(trial.block)) {
+        participant.practice_trials.push_back(std::move(trial));
+        continue;
+      }
       if (trial.reference_intensity) {
         blocks[trial.block].reference_intensity = trial.reference_intensity;
       }
@@ -112,6 +115,8 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
               return a.participant < b.participant;
             });
   for (auto& [name, block] : blocks) data.blocks.push_back(std::move(block));
+  std::ranges::stable_sort(data.blocks, {},
+                           [](const BlockDesign& block) { return block.protocol.place; });
   for (BlockDesign& block : data.blocks) bring_to_common_modulus(data, block);
   return data;
 }

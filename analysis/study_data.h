@@ -19,6 +19,7 @@ struct ParticipantData {
   std::vector<core::TrialRow> trials;           ///< Catch trials and practice left out.
   std::vector<core::TrialRow> catch_trials;     ///< For how often "yes" is said without cause.
   std::vector<core::TrialRow> excluded_trials;  ///< Set aside by hand, otherwise complete.
+  std::vector<core::TrialRow> practice_trials;  ///< No data: how people came to know the task.
   std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
   std::string cells;                     ///< Counterbalancing, as a session keeps it.
   std::vector<core::AnswerRow> answers;  ///< Outside of trials, in the order of the sessions.
@@ -54,6 +55,13 @@ struct BlockDesign {
   [[nodiscard]] bool tells_apart() const { return protocol.task == "same_different"; }
 };
 
+/// How one participant's practice ended.
+struct PracticeRun {
+  std::string participant, block;
+  int num_trials = 0;
+  std::string words;  ///< "practice over after 14 trials: 8 of the last 10 answers were right".
+};
+
 /// A whole study, ready for analysis. Pilot sessions and practice blocks are left out.
 struct StudyData {
   std::string study;  ///< Name in its file.
@@ -63,11 +71,12 @@ struct StudyData {
   std::string laboratory;                           ///< Name; "" with persons.
   std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
   std::vector<ParticipantData> participants;        ///< By pseudonym.
-  std::vector<BlockDesign> blocks;                  ///< By name.
+  std::vector<BlockDesign> blocks;                  ///< As the study file has them.
   std::vector<QuestionnaireItem> items;             ///< In the order of the study file.
   /// Of blocks whose procedure has a rule of its own; by whoever reads that from the study
   /// file.
   std::vector<AdaptiveRun> runs;
+  std::vector<PracticeRun> practice;  ///< By the same.
 };
 
 /// Reads the folder's database. Nothing is computed yet, but that answers of an estimation come

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "analysis/exploratory_results.h"
+#include "analysis/primary_results.h"
 #include "analysis/questionnaire_results.h"
 #include "analysis/test_families.h"
 #include "analysis/threshold_results.h"
@@ -28,6 +29,19 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
   if (block.compares() && has_intervals(data, block)) {
     sections.push_back(interval_results(data, block));
   }
+}
+
+/// How many trials everybody practised, and whether that was enough.
+ResultsSection practice_results(const StudyData& data) {
+  ResultsSection section{.name = "practice"};
+  for (const PracticeRun& run : data.practice) {
+    section.participants.push_back({run.participant,
+                                    run.block + ".num_trials",
+                                    static_cast<double>(run.num_trials),
+                                    {},
+                                    run.words});
+  }
+  return section;
 }
 
 /// The laboratory names an estimate alone, or with its study before a slash where two studies
@@ -89,8 +103,10 @@ StudyResults results_of(const StudyData& data, const Published& published,
       !exploratory.estimates.empty() || !exploratory.comparisons.empty()) {
     results.sections.push_back(std::move(exploratory));
   }
+  if (!data.practice.empty()) results.sections.push_back(practice_results(data));
   if (!data.items.empty()) results.sections.push_back(questionnaire_results(data));
 
+  mark_primary(results, data);
   mark_movement_family(results.sections);
   adjust_by_family(results.sections);
   for (ResultsSection& section : results.sections) {

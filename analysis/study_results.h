@@ -24,6 +24,7 @@ struct Estimate {
   bool published_positive = false;  ///< Published as above zero, without a number.
   bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
   bool implied = false;     ///< It follows, nearly or wholly, from values that were.
+  bool primary = false;     ///< It answers what its block asks; see `mark_primary`.
   int n = 0;                ///< Participants it rests on.
 };
 
@@ -48,6 +49,7 @@ struct NamedComparison {
   /// Adjusted by Holm (1979) for the tests of its family; absent where none was made.
   std::optional<double> p_value_holm;
   std::string family;  ///< "exploratory, movement"; "" with a test that stands alone.
+  bool primary = false;
 };
 
 /// What a participant said in words of their own.

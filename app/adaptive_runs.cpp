@@ -4,6 +4,9 @@
 #include <iterator>
 #include <string>
 
+#include "analysis/report/study_words.h"
+#include "app/block_words.h"
+
 #include "core/error.h"
 #include "experiments/adaptive/level_scale.h"
 #include "experiments/procedures/adaptive_trial.h"
@@ -160,8 +163,10 @@ void run_quest_plus(const Block& block, const std::vector<LevelTrial>& trials,
 
 AdaptiveRun adaptive_run_of(const Block& block, const std::vector<core::TrialRow>& trials,
                             const std::vector<bool>& set_aside) {
-  AdaptiveRun run{.procedure = block.procedure,
-                  .num_set_aside = static_cast<int>(std::ranges::count(set_aside, true))};
+  AdaptiveRun run{
+      .procedure = block.procedure,
+      .design = adaptive_design_words(block, analysis::quantity_unit(block.quantity)),
+      .num_set_aside = static_cast<int>(std::ranges::count(set_aside, true))};
   const std::vector<LevelTrial> own = level_trials(trials, set_aside);
   if (own.empty()) {
     run.problem = "no answers";

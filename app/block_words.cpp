@@ -75,4 +75,14 @@ std::vector<std::string> adaptive_level_words(const Block& block, const std::str
   return lines;
 }
 
+std::string adaptive_design_words(const Block& block, const std::string& unit) {
+  std::string words = adaptive_words(block);
+  if (block.procedure == "staircase") {
+    words += fmt::format(", the last {} reversals averaged",
+                         block.settings.integer("num_reversals_averaged"));
+  }
+  for (const std::string& line : adaptive_level_words(block, unit)) words += "; " + line;
+  return words;
+}
+
 }  // namespace jnd::app

@@ -22,4 +22,8 @@ namespace jnd::app {
 [[nodiscard]] std::vector<std::string> adaptive_level_words(const experiments::Block& block,
                                                             const std::string& unit);
 
+/// All of it in one line, as a report's methods have it.
+[[nodiscard]] std::string adaptive_design_words(const experiments::Block& block,
+                                                const std::string& unit);
+
 }  // namespace jnd::app

@@ -71,6 +71,7 @@ json to_json(const analysis::StudyResults& results) {
            {"basis", results.simulated && is_published(estimate) ? json(basis_of(estimate))
                                                                  : json(nullptr)},
            {"published_inside_ci95", inside ? json(*inside) : json(nullptr)},
+           {"primary", estimate.primary},
            {"n", estimate.n}});
     }
     json comparisons = json::array();
@@ -87,6 +88,7 @@ json to_json(const analysis::StudyResults& results) {
                              {"p_value", number(c.p_value)},
                              {"p_value_holm", number(named.p_value_holm)},
                              {"family", named.family},
+                             {"primary", named.primary},
                              {"cohen_dz", number(c.cohen_dz)},
                              {"cohen_dz_ci95", interval(c.cohen_dz_ci95)},
                              {"hedges_g", number(c.hedges_g)},

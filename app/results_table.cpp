@@ -114,6 +114,25 @@ std::string comparison_row(const analysis::NamedComparison& named) {
   return line + "\n";
 }
 
+/// What each block was asked for, before everything else.
+std::string in_short(const analysis::StudyResults& results) {
+  std::string table;
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (!estimate.primary) continue;
+      table += fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}\n", estimate.name,
+                           text(estimate.value), text(estimate.ci95, estimate.value),
+                           estimate.unit == "1" ? "" : estimate.unit, estimate.n);
+    }
+  }
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const analysis::NamedComparison& named : section.comparisons) {
+      if (named.primary) table += comparison_row(named);
+    }
+  }
+  return table.empty() ? "" : "\nin short: the primary values, explained below\n" + table;
+}
+
 /// Names of numbers that nobody has an interval or a reason for: they fit into columns.
 std::vector<std::string> plain_names(const analysis::ResultsSection& section) {
   std::vector<std::string> names;
@@ -194,7 +213,7 @@ std::string note_of(const std::string& table) {
 }  // namespace
 
 std::string to_table(const analysis::StudyResults& results) {
-  std::string table = heading(results);
+  std::string table = heading(results) + in_short(results);
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n", section.name);
     for (const Estimate& estimate : section.estimates) table += explained_row(estimate);

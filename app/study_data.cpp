@@ -7,13 +7,16 @@
 #include "app/adaptive_runs.h"
 #include "app/session_setup.h"
 #include "core/error.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
 namespace {
 
 using analysis::ParticipantData;
+using experiments::AnsweredTrial;
 using experiments::Block;
+using experiments::PlannedTrial;
 using experiments::Stage;
 
 /// Blocks of the study files that sessions were begun with, each file read once.
@@ -76,11 +79,42 @@ analysis::AdaptiveRun run_of(StoredBlocks& blocks, std::int64_t session,
   }
 }
 
+/// One entry for each practice block that a participant has trials in.
+void add_practice(analysis::StudyData& data, StoredBlocks& blocks,
+                  const ParticipantData& participant) {
+  std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered;
+  for (const core::TrialRow& row : participant.practice_trials) {
+    if (!row.response) continue;
+    PlannedTrial planned{.intensity = row.intensity,
+                         .reference_intensity = row.reference_intensity,
+                         .is_catch = row.is_catch};
+    if (row.test_interval) planned.test_interval = static_cast<int>(*row.test_interval);
+    answered[{row.session, row.block}].push_back({planned, *row.response});
+  }
+  for (const auto& [key, trials] : answered) {
+    analysis::PracticeRun run{.participant = participant.participant,
+                              .block = key.second,
+                              .num_trials = static_cast<int>(trials.size())};
+    try {
+      const Block* const block = blocks.find(key.first, key.second);
+      if (block != nullptr && block->practice) {
+        run.words = practice_words(*block, practice_state(*block, trials));
+      }
+    } catch (const core::Error& error) {
+      run.words = error.what();
+    }
+    data.practice.push_back(std::move(run));
+  }
+}
+
 }  // namespace
 
 analysis::StudyData load_study_data(const core::StudyStore& store, bool with_pilots) {
   analysis::StudyData data = analysis::load_study(store, with_pilots);
   StoredBlocks blocks(store);
+  for (const ParticipantData& participant : data.participants) {
+    add_practice(data, blocks, participant);
+  }
   for (const analysis::BlockDesign& design : data.blocks) {
     if (!analysis::is_adaptive(design)) continue;
     for (const ParticipantData& participant : data.participants) {

@@ -294,7 +294,7 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
     figure.caption =
         "Proportion of answers “more than the reference” with Wilson’s 95 % interval, and the "
         "curves of maximum likelihood, where they exist: black, with its Weber fraction w, the "
-        "point of subjective equality at the reference, as published; dashed, it is free. " +
+        "point of subjective equality at the reference; dashed, it is free. " +
         std::string(have_orders(answers) ? "Drawn is the mean of both orders of the intervals. "
                                          : "") +
         "Vertical: the reference. The values of every participant say which curves the answers "

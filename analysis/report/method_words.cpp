@@ -108,8 +108,8 @@ void Writer::write_psychometric() {
           "): 50 % at the point of subjective equality PSE, 84.13 % at PSE (1 + w), w being "
           "the "
           "Weber fraction. There are no lapses in it (lapse rate 0). “PSE at the reference” "
-          "fixes PSE = reference, as published; otherwise it is free. Group curves “as "
-          "published” are unweighted least squares on the proportions pooled over "
+          "fixes PSE = reference; otherwise it is free. Group curves “as Schmidt (2018)” are "
+          "unweighted least squares on the proportions pooled over "
           "participants, one term a level; all others are of maximum likelihood, answers being "
           "binomial. Intervals of one participant’s w and PSE are those of the likelihood "
           "ratio, profiled over the other parameter: all values whose log-likelihood is at "
@@ -178,7 +178,8 @@ void Writer::write_power_laws() {
   }
   if (has_procedure("magnitude_production")) {
     text +=
-        " Production: the magnitude asked for over the mean intensity set, as published; "
+        " Production: the magnitude asked for over the mean intensity set, as in Schmidt "
+        "(2018); "
         "“intensity_on_magnitude” is instead the line ln I = c + d ln S, what was set on what "
         "was asked, turned around to a = 1 / d and k = e^(−c / d).";
   }
@@ -245,7 +246,7 @@ void Writer::write_tests() {
   if (has_kind(Kind::kWelch)) {
     also("Welch’s for unequal variances (" + cite("Welch 1947") + ")");
   }
-  if (has_kind(Kind::kPooled)) also("with pooled variance, the published one");
+  if (has_kind(Kind::kPooled)) also("with pooled variance, as Schmidt (2018) has them");
   if (!t_tests.empty()) text += " t tests: " + t_tests + "; the statistic is t.";
   if (has_kind(Kind::kWilcoxon)) {
     text += " Wilcoxon’s signed ranks (" + cite("Wilcoxon 1945") +

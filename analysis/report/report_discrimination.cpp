@@ -69,7 +69,7 @@ bool write_own_fractions(HtmlText& html, const ResultsSection& section) {
   HtmlTable table{
       .caption =
           "Values of every participant, with 95 % intervals: Weber fraction w with the "
-          "PSE at the reference, as published, and with a free PSE",
+          "PSE at the reference and with a free PSE",
       .columns = {{"Participant"},
                   {"w, PSE at the reference", true},
                   {"Goodness p", true},

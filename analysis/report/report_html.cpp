@@ -19,11 +19,12 @@ std::vector<core::SessionRow> analysed_sessions(const ReportSource& source) {
 class FigureChapters {
  public:
   FigureChapters(HtmlText& html, const std::vector<Figure>& figures,
-                 const std::vector<DrawnFigure>& drawn, bool simulated)
+                 const std::vector<DrawnFigure>& drawn, const StudyResults& results)
       : html_(html),
         figures_(figures),
         drawn_(drawn),
-        simulated_(simulated),
+        simulated_(results.simulated),
+        of_thesis_(!results.citation.empty()),
         numbers_(figures.size(), 0) {}
 
   /// Of this section of the results; "" those of none.
@@ -50,14 +51,19 @@ class FigureChapters {
         "Beside this report, in the folder figures, each figure lies as NAME.svg and NAME.pdf "
         "with the gnuplot script that draws it, NAME.gp, and the tables it is drawn from.");
     HtmlTable table{
-        .caption = "Figures, the figures of the thesis that they answer, and files",
-        .columns = {{"Figure", true}, {"Title"}, {"Thesis"}, {"Name", false, true}}};
+        .caption = of_thesis_ ? "Figures, those of Schmidt (2018) that they answer, and files"
+                              : "Figures and files",
+        .columns = {{"Figure", true}, {"Title"}}};
+    if (of_thesis_) table.columns.push_back({"Schmidt (2018)"});
+    table.columns.push_back({"Name", false, true});
     for (int number = 1; number <= static_cast<int>(figures_.size()); ++number) {
       for (std::size_t i = 0; i < figures_.size(); ++i) {
         if (numbers_[i] != number) continue;
         const Figure& figure = figures_[i];
-        table.rows.push_back({std::to_string(number), figure.title,
-                              figure.thesis.empty() ? "–" : figure.thesis, figure.name});
+        auto& row = table.rows.emplace_back();
+        row = {std::to_string(number), figure.title};
+        if (of_thesis_) row.push_back(figure.thesis.empty() ? "–" : figure.thesis);
+        row.push_back(figure.name);
       }
     }
     html_.table(table);
@@ -67,7 +73,9 @@ class FigureChapters {
   void write(std::size_t i) {
     const Figure& figure = figures_[i];
     std::string caption = figure.caption;
-    if (!figure.thesis.empty()) caption += " Thesis: " + figure.thesis + ".";
+    if (of_thesis_ && !figure.thesis.empty()) {
+      caption += " Schmidt (2018): " + figure.thesis + ".";
+    }
     if (simulated_) caption += " SIMULATED data.";
     if (drawn_[i].svg.empty()) caption += " Not drawn: " + drawn_[i].problem + ".";
     numbers_[i] = html_.figure(figure.name, drawn_[i].svg, figure.title, caption);
@@ -77,6 +85,7 @@ class FigureChapters {
   const std::vector<Figure>& figures_;
   const std::vector<DrawnFigure>& drawn_;
   bool simulated_;
+  bool of_thesis_;            ///< The study has published values to stand beside.
   std::vector<int> numbers_;  ///< In the report; 0 of those that are not written yet.
 };
 
@@ -122,7 +131,7 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   const ChapterSource chapters{source, words, sessions, quality};
   const bool simulated = source.results.simulated;
   HtmlText html;
-  FigureChapters figure_chapters(html, figures, drawn, simulated);
+  FigureChapters figure_chapters(html, figures, drawn, source.results);
   write_published(html, source.results);
   figure_chapters.write_section("");
   write_methods(html, chapters);

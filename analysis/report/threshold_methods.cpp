@@ -57,6 +57,26 @@ void add_threshold_methods(
             "Weber fraction of a comparison with the point of subjective equality at the "
             "reference. Pairs that were the same take part with d = 0.");
   }
+  std::string with_feedback;
+  for (const BlockDesign& block : data.blocks) {
+    if (block.protocol.feedback) {
+      with_feedback += (with_feedback.empty() ? "" : ", ") + block.block;
+    }
+  }
+  if (!with_feedback.empty()) {
+    add("Feedback", "Participants were told after every answer whether it was right in " +
+                        with_feedback + ".");
+  }
+  if (!data.practice.empty()) {
+    add("Practice",
+        "How many trials everybody practised and with what success is listed among the "
+        "results; practice is no data.");
+  }
+  for (const BlockDesign& block : data.blocks) {
+    const auto run = std::ranges::find(data.runs, block.block, &AdaptiveRun::block);
+    if (run == data.runs.end() || run->design.empty()) continue;
+    add("Levels of " + block.block, run->design + ".");
+  }
   if (has("staircase")) {
     add("Staircases",
         "The level fell after “yes” and rose after “no” by the rule given with each estimate "

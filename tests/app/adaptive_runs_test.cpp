@@ -60,6 +60,10 @@ TEST(AdaptiveRuns, AStaircaseIsTheMeanOfItsLastReversalsAndOfThoseInterleaved) {
                                                      {4, false, 2}});
   EXPECT_EQ(run.problem, "");
   EXPECT_EQ(run.rule, "1 up, 1 down; Levitt 1971");
+  EXPECT_EQ(
+      run.design,
+      "2 staircases, 1 up 1 down, each to 10 reversals or 60 trials, the last 2 reversals "
+      "averaged; from 1 to 64 Pa s; starting at 16, 4 Pa s; steps by the factors 2");
   EXPECT_NEAR(*run.target_probability, 0.5, 1e-12);
   EXPECT_TRUE(run.is_logarithmic);
   ASSERT_EQ(run.tracks.size(), 2U);

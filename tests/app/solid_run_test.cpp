@@ -11,6 +11,7 @@
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
 #include "support/places.h"
+#include "support/sanitizer.h"
 
 namespace jnd::app {
 namespace {
@@ -36,7 +37,7 @@ Laboratory laboratory() {
 
 class SolidRun : public ::testing::Test {
  protected:
-  SolidRun() {
+  void simulate() {
     laboratory_.arm.home_s = 0.1;
     sessions_ = add_sessions(store_,
                              {.study = study_,
@@ -61,6 +62,8 @@ class SolidRun : public ::testing::Test {
 };
 
 TEST_F(SolidRun, TheSamePersonsAnswerAlikeWithAndWithoutADevice) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
+  simulate();
   const AnswerSimulator simulator(study_, laboratory_);
   int num_alike = 0, num_trials = 0;
   for (const std::int64_t session : sessions_) {
@@ -78,6 +81,8 @@ TEST_F(SolidRun, TheSamePersonsAnswerAlikeWithAndWithoutADevice) {
 }
 
 TEST_F(SolidRun, APressIsNoStroke) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
+  simulate();
   for (const core::PresentationRow& row : store_.presentations(sessions_.front())) {
     EXPECT_EQ(row.num_strokes, 0);
     EXPECT_FALSE(row.stroke_width_m);
@@ -97,6 +102,7 @@ TEST_F(SolidRun, APressIsNoStroke) {
 }
 
 TEST_F(SolidRun, VerifiesAndHasAWeberFraction) {
+  simulate();
   core::Integrity integrity = core::verify(store_);
   check_replay(store_, integrity);
   EXPECT_TRUE(integrity.complete);

@@ -266,7 +266,7 @@ TEST(ResultsModel, BoxesAndTableHoldWhatTheMeansOfMovementRestOn) {
   });
   ASSERT_NE(speed, model.boxes.end());
   EXPECT_EQ(speed->boxes.size(), 3U);
-  EXPECT_EQ(speed->boxes[0].label, "Comparison");
+  EXPECT_EQ(speed->boxes[0].label, "Estimation") << "as the study file has them";
   EXPECT_EQ(speed->boxes[0].n, 5);
   const auto column = std::find_if(model.columns.begin(), model.columns.end(),
                                    [](const auto& one) { return one.title == "Speed"; }) -

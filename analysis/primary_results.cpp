@@ -1,0 +1,47 @@
+#include "analysis/primary_results.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace jnd::analysis {
+namespace {
+
+/// Ends of names, after the block's.
+std::vector<std::string> primary_names(const BlockDesign& block) {
+  if (block.procedure == "magnitude_estimation") return {".k", ".a"};
+  if (block.procedure == "magnitude_production") return {".k", ".a"};
+  if (block.procedure == "matching") return {".ratio_to_standard"};
+  if (block.procedure == "limits") return {".limits_threshold"};
+  // Of any procedure the same, as the tests between blocks have it.
+  if (block.compares()) return {".weber_fraction_median_person"};
+  if (block.procedure == "quest_plus") return {".quest_plus_threshold"};
+  if (block.procedure == "staircase") return {".staircase_threshold"};
+  if (block.detects()) return {".threshold"};
+  if (block.tells_apart()) return {".weber_fraction"};
+  return {};
+}
+
+bool is_primary(const std::string& name, const StudyData& data) {
+  if (name == "combined.k" || name == "combined.a") return true;
+  return std::ranges::any_of(data.blocks, [&](const BlockDesign& block) {
+    return std::ranges::any_of(primary_names(block), [&](const std::string& end) {
+      return name == block.block + end;
+    });
+  });
+}
+
+}  // namespace
+
+void mark_primary(StudyResults& results, const StudyData& data) {
+  for (ResultsSection& section : results.sections) {
+    for (Estimate& estimate : section.estimates) {
+      estimate.primary = is_primary(estimate.name, data);
+    }
+    for (NamedComparison& named : section.comparisons) {
+      named.primary = named.name.ends_with("(primary)");
+    }
+  }
+}
+
+}  // namespace jnd::analysis
