@@ -38,7 +38,12 @@ int run(const Options& options) {
   for (const std::string& name : options.files) {
     std::vector<experiments::StudyProblem> found =
         problems_of(user_or_shipped(name, "protocols"), options);
-    if (!options.json && found.empty()) fmt::print("{}: no problem\n", name);
+    if (!options.json && found.empty()) {
+      fmt::print("{}: no problem{}\n", name,
+                 options.device.empty()
+                     ? "; --device NAME tells whether that device can render it"
+                     : " on " + options.device);
+    }
     problems.insert(problems.end(), std::make_move_iterator(found.begin()),
                     std::make_move_iterator(found.end()));
   }

@@ -9,6 +9,7 @@
 #include "experiments/order/square_rows.h"
 #include "experiments/order/stimulus_order.h"
 #include "experiments/study/parameter_table.h"
+#include "experiments/study/study_problem.h"
 
 namespace jnd::experiments {
 namespace {
@@ -169,6 +170,14 @@ FieldValues field_values(const Study& study, const Cell& cell) {
 }
 
 std::string field_problem(const Study& study, const FieldValues& values) {
+  std::vector<std::string> names;
+  for (const ParticipantField& field : study.participant_fields) names.push_back(field.name);
+  // A misspelt name first: the field it was meant for is then without a value, too.
+  for (const auto& [name, value] : values) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    return "expected a field of the study `" + study.name + "`, found `" + name + '`' +
+           did_you_mean(name, names);
+  }
   for (const ParticipantField& field : study.participant_fields) {
     const auto given = values.find(field.name);
     const bool is_known =
@@ -178,13 +187,6 @@ std::string field_problem(const Study& study, const FieldValues& values) {
     if (is_known) continue;
     return "expected `" + field.name + "=VALUE`, VALUE being " + values_words(field) +
            ", found " + (given == values.end() ? "nothing" : '`' + given->second + '`');
-  }
-  for (const auto& [name, value] : values) {
-    if (std::none_of(
-            study.participant_fields.begin(), study.participant_fields.end(),
-            [&wanted = name](const ParticipantField& field) { return field.name == wanted; })) {
-      return "expected a field of the study `" + study.name + "`, found `" + name + '`';
-    }
   }
   return "";
 }

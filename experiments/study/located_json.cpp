@@ -105,6 +105,20 @@ std::string wrong_token(const std::string& found, const std::string& expected,
   return "expected " + wanted + ", found " + token_words(found) + hint;
 }
 
+/// Just behind the value before the token that ends at `byte`: where a comma is missing.
+std::size_t behind_value_before(std::string_view text, std::size_t byte) {
+  if (text[byte] == '"') {
+    do {
+      byte = text.rfind('"', byte - 1);
+    } while (byte != text.npos && byte > 0 && text[byte - 1] == '\\');
+  } else if (text[byte] != '{' && text[byte] != '[') {
+    (void)word_at(text, byte);
+  }
+  const std::size_t last =
+      byte == text.npos || byte == 0 ? text.npos : text.find_last_not_of(" \t\r\n", byte - 1);
+  return last == text.npos ? byte : last + 1;
+}
+
 /// What the library says went wrong, in the words of this program. `byte` is moved to where the
 /// author has to look.
 std::string worded(const std::string& what, std::string_view text, std::size_t& byte) {
@@ -118,8 +132,19 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
   const std::size_t unexpected = said.find("unexpected ");
   const std::size_t expected = said.find("; expected ");
   if (unexpected != std::string::npos && expected != std::string::npos) {
-    return wrong_token(said.substr(unexpected + 11, expected - unexpected - 11),
-                       said.substr(expected + 11), word);
+    const std::string found = said.substr(unexpected + 11, expected - unexpected - 11);
+    const std::string wanted = said.substr(expected + 11);
+    const bool is_value = found == "string literal" || found == "number literal" ||
+                          found == "'{'" || found == "'['";
+    // "060" is one number to whoever wrote it, not two without a comma.
+    const bool is_one_word =
+        found == "number literal" && word.size() > 1 && word.starts_with('0');
+    if (is_value && !is_one_word && (wanted == "'}'" || wanted == "']'")) {
+      byte = behind_value_before(text, byte);
+      return "expected `,` or " + token_words(wanted) + " behind this value, found " +
+             token_words(found);
+    }
+    return wrong_token(found, wanted, word);
   }
   if (const std::size_t at = said.find("invalid string: "); at != std::string::npos) {
     return "expected a text in quotes that is whole, found an error in it: " +

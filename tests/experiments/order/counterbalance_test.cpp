@@ -198,6 +198,9 @@ TEST(Counterbalance, RefusesParticipantsOfWhomSomethingIsNotKnown) {
   const Study study = stratified_study();
   EXPECT_THROW((void)least_filled_cell(study, {}, 1, 0), core::Error);
   EXPECT_EQ(field_problem(study, {{"sex", "female"}}), "");
+  EXPECT_NE(field_problem(study, {{"sexx", "female"}}).find("`sexx`; did you mean `sex`?"),
+            std::string::npos)
+      << field_problem(study, {{"sexx", "female"}});
   EXPECT_EQ(field_problem(study, {}),
             "expected `sex=VALUE`, VALUE being `female` or `male`, found nothing");
   EXPECT_EQ(field_problem(study, {{"sex", "woman"}}),

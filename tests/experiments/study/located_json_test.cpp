@@ -72,7 +72,7 @@ TEST(LocatedJson, SaysWhatIsWrongWithTheSyntaxAndWhere) {
   EXPECT_EQ(problems_in("{\"a\": 1,}"),
             "x:1:9: /: expected a key in quotes, found `}` (is there a comma too many?)");
   EXPECT_EQ(problems_in("{\"a\": 1 \"b\": 2}"),
-            "x:1:11: /a: expected `,` or `}`, found a text in quotes");
+            "x:1:8: /a: expected `,` or `}` behind this value, found a text in quotes");
   EXPECT_EQ(problems_in("{\"a\": 'x'}"),
             "x:1:7: /a: expected a value or a text in double quotes, found `'x'`");
   EXPECT_EQ(
