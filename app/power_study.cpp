@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/command.h"
+#include "app/plan_statistics.h"
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -203,14 +204,15 @@ std::optional<double> noise_free_value(const Study& study, const Laboratory& lab
   return std::nullopt;
 }
 
-std::vector<PlannedDuration> durations_of(const Study& study, const PowerRequest& request) {
+/// As `jnd plan` tells them: of adaptive blocks, what simulated participants take.
+std::vector<PlannedDuration> durations_of(const Study& study, const Laboratory& laboratory,
+                                          const PowerRequest& request) {
   PlanRequest plan{
       .participants = next_participants(std::set<std::string>{}, request.sizes.back()),
       .seed = request.seed};
-  std::vector<double> each_s;
-  for (const ParticipantPlan& one : plan_participants(study, plan)) {
-    each_s.push_back(one.duration_s);
-  }
+  const std::vector<double> each_s =
+      plan_statistics(study, plan_participants(study, plan), laboratory, request.seed)
+          .durations_s;
   std::vector<PlannedDuration> durations;
   for (const int size : request.sizes) {
     PlannedDuration duration;
@@ -288,7 +290,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
              .program_version = JND_VERSION,
              .request = request,
              .analysis = std::move(planned),
-             .durations = durations_of(study, request)};
+             .durations = durations_of(study, laboratory, request)};
   if (design_.analysis.compared) {
     const auto& [a, b] = *design_.analysis.compared;
     design_.request.compare = {blocks[a]->name, blocks[b]->name};

@@ -57,7 +57,7 @@ std::string power_table(const PowerDesign& design,
                            one.degenerate ? percent(*one.degenerate) : "-");
     }
   }
-  table += fmt::format("\nExpected duration by the plan\n  {:>12} {:>22} {:>10}\n",
+  table += fmt::format("\nExpected duration, as `jnd plan` has it\n  {:>12} {:>22} {:>10}\n",
                        "participants", "min per participant", "h in all");
   for (std::size_t size = 0; size < summaries.size(); ++size) {
     table += fmt::format("  {:>12} {:>22.0f} {:>10.1f}\n", summaries[size].num_participants,

@@ -14,6 +14,9 @@
 namespace jnd::analysis {
 namespace {
 
+/// A spread between people that is less is none.
+constexpr double kNoSpread = 1e-6;
+
 /// The answers as the model takes them.
 struct Arranged {
   std::vector<std::string> conditions;  ///< In the order of their first answers.
@@ -225,6 +228,7 @@ void fill_conditions(HierarchicalFit& fit, const Arranged& all,
       if (loading.number == structure.own_place_at(condition)) one.place_sd = std::fabs(value);
     }
     one.slope_sd = std::sqrt(slope_variance);
+    if (one.slope_sd <= kNoSpread) one.slope_sd = 0.0;  // As the note then says.
     fit.conditions.push_back(std::move(one));
   }
 }
@@ -257,10 +261,10 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
 /// Correlation of the slopes in two conditions, and a word on spreads that ended at 0.
 void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
                  const HierarchicalOptimum& found) {
-  constexpr double kNone = 1e-6;
   const bool correlated = structure.num_conditions == 2 && structure.loadings.size() >= 3 &&
                           structure.loadings[1].parameter != structure.loadings[0].parameter;
-  if (correlated && fit.conditions[0].slope_sd > kNone && fit.conditions[1].slope_sd > kNone) {
+  if (correlated && fit.conditions[0].slope_sd > kNoSpread &&
+      fit.conditions[1].slope_sd > kNoSpread) {
     const double own = found.parameters(structure.loadings[0].parameter);
     const double shared = found.parameters(structure.loadings[1].parameter);
     fit.correlation = std::copysign(1.0, own) * shared / fit.conditions[1].slope_sd;
@@ -273,7 +277,7 @@ void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
   }
   const bool none =
       std::any_of(fit.conditions.begin(), fit.conditions.end(),
-                  [](const HierarchicalCondition& one) { return one.slope_sd <= kNone; });
+                  [](const HierarchicalCondition& one) { return one.slope_sd <= kNoSpread; });
   if (none) {
     fit.note =
         "the spread of the slopes between people is at its bound 0: the answers show none "

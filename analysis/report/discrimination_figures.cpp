@@ -34,6 +34,12 @@ struct BlockAnswers {
   double reference = 0.0;
   std::vector<OwnAnswers> participants;  ///< Those who answered.
   std::vector<double> levels;            ///< Ascending.
+
+  /// Or as many as the answers led to, with one or two answers each.
+  [[nodiscard]] bool has_fixed_levels() const {
+    constexpr std::size_t kMostFixed = 20;
+    return levels.size() <= kMostFixed;
+  }
 };
 
 double value_or_0(const ParticipantEstimate* own) {
@@ -168,6 +174,29 @@ FigureTable means_table(const BlockAnswers& answers) {
   return table;
 }
 
+/// Of everybody together; the more answers, the larger the point.
+FigureTable shares_table(const BlockAnswers& answers) {
+  FigureTable table{.name = file_word(answers.block) + "_shares",
+                    .columns = {"intensity", "num_yes", "num_trials", "ratio", "size"}};
+  std::map<double, LevelAnswers> pooled;
+  std::int64_t most = 1;
+  for (const OwnAnswers& own : answers.participants) {
+    for (const auto& [intensity, level] : own.levels) {
+      LevelAnswers& sum = pooled[intensity];
+      sum.num_yes += level.num_yes;
+      sum.num_trials += level.num_trials;
+      most = std::max(most, sum.num_trials);
+    }
+  }
+  for (const auto& [intensity, level] : pooled) {
+    const double share = static_cast<double>(level.num_trials) / static_cast<double>(most);
+    table.rows.push_back({intensity, static_cast<double>(level.num_yes),
+                          static_cast<double>(level.num_trials), level.ratio(),
+                          0.2 + std::sqrt(share)});
+  }
+  return table;
+}
+
 std::string reference_line(const BlockAnswers& answers) {
   const std::string x = plot_number(answers.reference);
   return "  set arrow 1 from " + x + ",graph 0 to " + x + ",graph 1 nohead ls 12\n";
@@ -175,13 +204,15 @@ std::string reference_line(const BlockAnswers& answers) {
 
 /// Fig. 5 and D.23: the group's answers, its curve, everybody's curve behind.
 Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
-  Figure figure{.name = file_word(answers.block) + "_psychometric",
-                .section = answers.block,
-                .title = "Psychometric function, " + answers.title,
-                .thesis = "Fig. 5, D.6 and D.23",
-                .width_in = 5.2,
-                .height_in = 3.3,
-                .tables = {means_table(answers), curves_table(answers)}};
+  Figure figure{
+      .name = file_word(answers.block) + "_psychometric",
+      .section = answers.block,
+      .title = "Psychometric function, " + answers.title,
+      .thesis = "Fig. 5, D.6 and D.23",
+      .width_in = 5.2,
+      .height_in = 3.3,
+      .tables = {answers.has_fixed_levels() ? means_table(answers) : shares_table(answers),
+                 curves_table(answers)}};
   const Estimate* const pooled = source.results.find(answers.block + ".weber_fraction");
   const bool has_curve = pooled != nullptr && pooled->value;
   const Estimate* const effect =
@@ -222,11 +253,18 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
             gnuplot_quoted("fit to all, w = " + number_words(pooled->value, 3)) + ", ";
   }
   plot += from_table(figure.tables[0]) +
-          "'intensity':'mean_ratio':'low':'high' with yerrorbars ls 11 lc rgb '#0072B2' ps 0.8 "
-          "title 'mean ± sd'\n";
+          (answers.has_fixed_levels()
+               ? "'intensity':'mean_ratio':'low':'high' with yerrorbars ls 11 lc rgb '#0072B2' "
+                 "ps 0.8 title 'mean ± sd'\n"
+               : "'intensity':'ratio':'size' with points pt 7 ps variable lc rgb '#0072B2' "
+                 "title 'all answers'\n");
   figure.plot += plot;
   figure.caption =
-      "Mean proportion of answers “more than the reference” and standard deviation between " +
+      (answers.has_fixed_levels()
+           ? "Mean proportion of answers “more than the reference” and standard deviation "
+             "between "
+           : "Proportion of answers “more than the reference”, the larger a point the more "
+             "answers, of ") +
       counted_words(std::ssize(answers.participants), "participant") +
       " at each level; the pooled curve (" +
       (by_order ? "maximum likelihood, each order of the intervals with a point of subjective "
@@ -285,15 +323,19 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
                       " with lines lt 2 lw 1.3, ";
       }
       panel.plot += from_table(points) + "'intensity':" + if_series(series, "ratio") +
-                    ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' lw 1 pt "
-                    "7 ps 0.4";
+                    (answers.has_fixed_levels()
+                         ? ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' "
+                           "lw 1 pt 7 ps 0.4"
+                         : " with points pt 7 ps 0.3 lc rgb '#0072B2'");
       panels.push_back(std::move(panel));
     }
     figure.height_in = grid_height_in(grid, panels.size(), 1.15);
     figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
     figure.caption =
-        "Proportion of answers “more than the reference” with Wilson’s 95 % interval, and the "
-        "curves of maximum likelihood, where they exist: black, with its Weber fraction w, the "
+        std::string("Proportion of answers “more than the reference”") +
+        (answers.has_fixed_levels() ? " with Wilson’s 95 % interval" : "") +
+        ", and the curves of maximum likelihood, where they exist: black, with its Weber "
+        "fraction w, the "
         "point of subjective equality at the reference; dashed, it is free. " +
         std::string(have_orders(answers) ? "Drawn is the mean of both orders of the intervals. "
                                          : "") +

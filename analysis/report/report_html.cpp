@@ -132,7 +132,7 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   const bool simulated = source.results.simulated;
   HtmlText html;
   FigureChapters figure_chapters(html, figures, drawn, source.results);
-  write_published(html, source.results);
+  write_at_a_glance(html, source.results);
   figure_chapters.write_section("");
   write_methods(html, chapters);
   write_participants(html, chapters);

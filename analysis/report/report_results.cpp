@@ -1,6 +1,7 @@
 #include "analysis/report/report_results.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -252,6 +253,64 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
   }
 }
 
+/// What each block was asked for.
+HtmlTable primary_table(const StudyResults& results) {
+  HtmlTable table{.caption = "Primary values",
+                  .columns = {{"Estimate, and what it is", false, true},
+                              {"Value", true},
+                              {"95 % interval", true},
+                              {"Unit"},
+                              {"n", true}}};
+  for (const ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (!estimate.primary) continue;
+      table.rows.push_back({estimate.name + "\n" + estimate.meaning,
+                            number_words(estimate.value),
+                            interval_words(estimate.ci95, estimate.value),
+                            unit_words(estimate.unit), std::to_string(estimate.n)});
+    }
+  }
+  return table;
+}
+
+ResultsSection primary_comparisons(const StudyResults& results) {
+  ResultsSection planned;
+  for (const ResultsSection& section : results.sections) {
+    std::ranges::copy_if(section.comparisons, std::back_inserter(planned.comparisons),
+                         &NamedComparison::primary);
+  }
+  return planned;
+}
+
+HtmlTable published_table(const StudyResults& results) {
+  HtmlTable table{.caption = "Ours beside the published values",
+                  .columns = {{"Estimate", false, true},
+                              {"Value", true},
+                              {"95 % interval", true},
+                              {"Unit"},
+                              {"Published", true}}};
+  std::vector<const Estimate*> published;
+  if (results.simulated) table.columns.push_back({"Basis"});
+  for (const ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (!is_published(estimate)) continue;
+      published.push_back(&estimate);
+      std::vector<std::string> row = {estimate.name, number_words(estimate.value),
+                                      interval_words(estimate.ci95, estimate.value),
+                                      unit_words(estimate.unit), published_words(estimate)};
+      if (results.simulated) row.push_back(basis_words(estimate));
+      table.rows.push_back(std::move(row));
+    }
+  }
+  table.notes = published_notes(published);
+  if (results.simulated) {
+    table.notes.emplace_back(
+        "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "
+        "follows from values that were. Held out: the laboratory knows nothing of it.");
+  }
+  return table;
+}
+
 }  // namespace
 
 std::string published_statistic(const Estimate& estimate) {
@@ -283,35 +342,15 @@ std::string section_title(const StudyWords& words, const std::string& name) {
   return title;
 }
 
-void write_published(HtmlText& html, const StudyResults& results) {
-  HtmlTable table{.caption = "Ours beside the published values",
-                  .columns = {{"Estimate", false, true},
-                              {"Value", true},
-                              {"95 % interval", true},
-                              {"Unit"},
-                              {"Published", true}}};
-  std::vector<const Estimate*> published;
-  if (results.simulated) table.columns.push_back({"Basis"});
-  for (const ResultsSection& section : results.sections) {
-    for (const Estimate& estimate : section.estimates) {
-      if (!is_published(estimate)) continue;
-      published.push_back(&estimate);
-      std::vector<std::string> row = {estimate.name, number_words(estimate.value),
-                                      interval_words(estimate.ci95, estimate.value),
-                                      unit_words(estimate.unit), published_words(estimate)};
-      if (results.simulated) row.push_back(basis_words(estimate));
-      table.rows.push_back(std::move(row));
-    }
-  }
-  if (table.rows.empty()) return;
-  table.notes = published_notes(published);
-  if (results.simulated) {
-    table.notes.emplace_back(
-        "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "
-        "follows from values that were. Held out: the laboratory knows nothing of it.");
-  }
+void write_at_a_glance(HtmlText& html, const StudyResults& results) {
+  const HtmlTable primary = primary_table(results);
+  const HtmlTable published = published_table(results);
+  const ResultsSection planned = primary_comparisons(results);
+  if (primary.rows.empty() && published.rows.empty()) return;
   html.heading(2, "At a glance");
-  html.table(table);
+  if (!primary.rows.empty()) html.table(primary);
+  if (!planned.comparisons.empty()) write_comparisons(html, planned);
+  if (!published.rows.empty()) html.table(published);
 }
 
 void write_section(HtmlText& html, const StudyData& data, const StudyResults& results,

@@ -10,8 +10,9 @@ namespace jnd::analysis {
 /// "app. D; printed as a mean"; "" if both are the same.
 [[nodiscard]] std::string published_statistic(const Estimate& estimate);
 
-/// Everything that has a published value, before all else; nothing without any.
-void write_published(HtmlText& html, const StudyResults& results);
+/// Before all else what each block was asked for, the tests planned between blocks, and
+/// everything that has a published value.
+void write_at_a_glance(HtmlText& html, const StudyResults& results);
 
 /// One section of the results: estimates, comparisons, who was left out and why, everybody's
 /// own values, answers in their own words. Whatever is in the section is shown.

@@ -111,8 +111,8 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   }
   figure.plot += plot + "\n";
   figure.caption =
-      "Maximum likelihood. Full marks: point of subjective equality (PSE) at the reference, as "
-      "published, with 95 % likelihood-ratio intervals, which go to the edge where the data do "
+      "Maximum likelihood. Full marks: point of subjective equality (PSE) at the reference, "
+      "with 95 % likelihood-ratio intervals, which go to the edge where the data do "
       "not bound them, and medians as horizontal lines. Open marks beside them: PSE free. ";
   for (const BlockDesign& block : blocks) {
     const FitsBorne borne = fits_borne(*source.section(block.block), block.block);
@@ -152,20 +152,20 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
   if (values.empty()) return std::nullopt;
   const std::string& quantity = blocks.front().quantity;
   const std::string unit = quantity_unit(quantity);
-  Figure figure{
-      .name = "absolute_thresholds",
-      .section =
-          blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block : blocks[0].block,
-      .title = "Difference thresholds (in the thesis: absolute thresholds)",
-      .caption =
-          "The difference from the reference that is told in 84.13 % of trials: "
-          "Weber fraction, with the point of subjective equality at the reference as "
-          "published, times the reference. One circle a participant; boxes: quartiles "
-          "and median, whiskers to the last value within 1.5 interquartile ranges. "
-          "Logarithmic axis.",
-      .thesis = "Fig. D.22",
-      .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
-      .height_in = 3.0};
+  Figure figure{.name = "absolute_thresholds",
+                .section = blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block
+                                             : blocks[0].block,
+                .title = "Difference thresholds",
+                .caption =
+                    "The difference from the reference that is told in 84.13 % of trials: "
+                    "Weber fraction, with the point of subjective equality at the reference, "
+                    "times the reference (Schmidt 2018 calls it the absolute threshold). One "
+                    "circle a participant; boxes: quartiles "
+                    "and median, whiskers to the last value within 1.5 interquartile ranges. "
+                    "Logarithmic axis.",
+                .thesis = "Fig. D.22",
+                .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
+                .height_in = 3.0};
   FigureTable boxes = box_table("absolute_thresholds_boxes", groups);
   FigureTable points = box_values_table("absolute_thresholds_values", groups);
   figure.plot =

@@ -258,8 +258,14 @@ void print_range(const Outcome& outcome, const Options& options) {
 }
 
 void print(const Outcome& outcome, const Options& options) {
-  fmt::print("{}: {} participants, seed {}, about {:.0f} min each\n\n", outcome.study.name,
-             outcome.plans.size(), options.seed, std::ceil(outcome.duration_s / 60.0));
+  const double mean_s = spread_of(outcome.statistics.durations_s).mean;
+  fmt::print("{}: {} participants, seed {}, about {:.0f} min each", outcome.study.name,
+             outcome.plans.size(), options.seed, std::ceil(mean_s / 60.0));
+  if (outcome.statistics.adapts) {
+    fmt::print(", {:.0f} min with all trials that adaptive blocks may take",
+               std::ceil(outcome.duration_s / 60.0));
+  }
+  fmt::print("\n\n");
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
     fmt::print("  {} {}\n", plan.participant, to_string(plan.cell));
     for (const experiments::PlannedBlock& block : plan.blocks) print_order(block);

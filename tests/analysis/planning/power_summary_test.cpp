@@ -48,5 +48,41 @@ TEST(PowerSummary, CountsByHand) {
   EXPECT_THROW((void)summary_of_runs(small(), {}), core::Error);
 }
 
+/// Of a hundred runs, in how many the interval holds 0.3 and the first test finds something.
+std::vector<PlannedRun> hundred_runs(int num_holding, int num_significant) {
+  std::vector<PlannedRun> runs;
+  for (int run = 0; run < 100; ++run) {
+    runs.push_back(run_of(run < num_significant ? 0.01 : 0.5, 0.4,
+                          run < num_holding ? Interval{0.2, 0.5} : Interval{0.35, 0.5}));
+  }
+  return runs;
+}
+
+TEST(PowerSummary, IntervalsThatHoldTheTruthTooRarelyAreADoubt) {
+  const auto doubts = [](int num_holding) {
+    return planning_doubts(small(), summary_of_runs(small(), hundred_runs(num_holding, 5)),
+                           /*null_hypothesis=*/false);
+  };
+  ASSERT_EQ(doubts(69).size(), 1U);
+  EXPECT_EQ(doubts(69).front().find("a.weber_fraction: with 4 participants the interval holds "
+                                    "the true value in 69 % of the studies, not in 95 %"),
+            0U)
+      << doubts(69).front();
+  EXPECT_TRUE(doubts(95).empty());
+  EXPECT_TRUE(doubts(91).empty()) << "so few runs may hold 95 %";
+}
+
+TEST(PowerSummary, ATestThatFindsWhatIsNotThereIsADoubtUnderTheNullHypothesisAlone) {
+  const auto doubts = [](int num_significant, bool null_hypothesis) {
+    return planning_doubts(small(), summary_of_runs(small(), hundred_runs(95, num_significant)),
+                           null_hypothesis);
+  };
+  ASSERT_EQ(doubts(27, true).size(), 1U);
+  EXPECT_NE(doubts(27, true).front().find("in 27 % of the studies, not in 5 %"),
+            std::string::npos);
+  EXPECT_TRUE(doubts(27, false).empty()) << "that is power";
+  EXPECT_TRUE(doubts(8, true).empty());
+}
+
 }  // namespace
 }  // namespace jnd::analysis
