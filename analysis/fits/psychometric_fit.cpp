@@ -164,6 +164,13 @@ void add_warnings(PsychometricFit& fit, const PsychometricLevels& levels,
         "bootstrap intervals cover less than 95 % at so few answers a level (79 to 93 % at "
         "five): rather use the likelihood ratio's");
   }
+  const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;
+  if (free_pse && options.intervals && options.method == kMaximumLikelihood &&
+      most_trials < kFewTrials) {
+    fit.warnings.emplace_back(
+        "with a free pse and so few answers a level, likelihood-ratio intervals hold the truth "
+        "somewhat too rarely (92 % at five answers a level, not 95 %)");
+  }
   if (options.method == PsychometricMethod::kLeastSquares) {
     fit.warnings.emplace_back(
         "least squares takes every level's proportion as equally precise, which they are not: "

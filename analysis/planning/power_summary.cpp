@@ -121,7 +121,8 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
     doubts.push_back(estimates[place].name + at + "the interval holds the true value in " +
                      percent_words(*one.coverage) +
                      " of the studies, not in 95 %. People of this laboratory do what the fit "
-                     "does not know (lapses, drift), and these levels let it count: plan on "
+                     "does not know (lapses, drift, a device with a viscosity of its own), and "
+                     "these levels let it count: plan on "
                      "neither this half width nor this power, and try levels nearer the "
                      "reference.");
   }

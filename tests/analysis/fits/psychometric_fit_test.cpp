@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -374,6 +375,21 @@ TEST(PsychometricFit, DoubtfulValuesCarryANote) {
   EXPECT_THAT(jumps, HasSubstr("beyond the stimuli"));
   EXPECT_THAT(jumps, HasSubstr("farther from the curve"));
   EXPECT_EQ(notes({{1, 2, 20}, {2, 10, 20}, {3, 15, 20}, {4, 19, 20}}), "");
+}
+
+TEST(PsychometricFit, AFreePseWithFewAnswersALevelIsSaidToCoverLess) {
+  const auto says_so = [](std::int64_t times, bool free_pse, bool intervals) {
+    const PsychometricFit found = fit_psychometric(
+        {{1, 1 * times, 5 * times}, {2, 2 * times, 5 * times}, {4, 4 * times, 5 * times}},
+        {.reference = 2.0, .free_pse = free_pse, .intervals = intervals});
+    return std::ranges::any_of(found.warnings, [](const std::string& warning) {
+      return warning.find("92 % at five answers a level") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says_so(1, true, true));
+  EXPECT_FALSE(says_so(1, false, true)) << "94 % and more there";
+  EXPECT_FALSE(says_so(13, true, true));
+  EXPECT_FALSE(says_so(1, true, false)) << "there is no interval to doubt";
 }
 
 TEST(PsychometricFit, WithAFixedPseTooFewLevelsAreToldOfSlopeAndLapseAlone) {
