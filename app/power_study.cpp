@@ -277,7 +277,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
     PlannedBlock one{.name = stage->name, .quantity = quantity_of(block_of(*stage))};
     if (one.quantity == PlannedQuantity::kWeberFraction) {
       one.reference = block_of(*stage).reference_intensity.value_or(0.0);
-      one.true_value = median_weber_fraction(laboratory_, block_of(*stage), map.get());
+      one.true_value = median_curve_fraction(laboratory_, block_of(*stage), map.get());
     } else {
       one.true_value = noise_free_value(study, laboratory_, one);
     }

@@ -1,5 +1,7 @@
 #include "experiments/participants/median_person.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "experiments/participants/calculated_stroke.h"
 #include "experiments/session/stimulus.h"
@@ -23,28 +25,66 @@ Laboratory without_noise(Laboratory laboratory) {
   return laboratory;
 }
 
+namespace {
+
+/// What the median person feels in a block of fluids.
+class Felt {
+ public:
+  Felt(const Laboratory& laboratory, const Block& block, const core::ForceMap* map)
+      : laboratory_(laboratory), block_(block), map_(map) {
+    if (!block.reference_intensity || !(*block.reference_intensity > 0.0)) {
+      throw core::Error("block: expected a reference > 0 for a Weber fraction, found none");
+    }
+  }
+
+  /// N s/m, that of the device included.
+  double operator()(double intensity) const {
+    return laboratory_.device.mechanical_viscosity_n_s_per_m +
+           calculated_stroke(laboratory_, laboratory_.strokes_for(block_.procedure).amplitude_m,
+                             laboratory_.movement.max_speed_m_per_s,
+                             amounts_of(setting_of(block_, "test", intensity)), map_)
+               .delivered_damping_n_s_per_m;
+  }
+
+  /// Where that much is felt, between these two, of which the first feels less.
+  [[nodiscard]] double intensity_at(double wanted, double low, double high) const {
+    for (int halving = 0; halving < 100; ++halving) {
+      const double middle = 0.5 * (low + high);
+      ((*this)(middle) < wanted ? low : high) = middle;
+    }
+    return low;
+  }
+
+ private:
+  const Laboratory& laboratory_;
+  const Block& block_;
+  const core::ForceMap* map_;
+};
+
+}  // namespace
+
 double median_weber_fraction(const Laboratory& laboratory, const Block& block,
                              const core::ForceMap* map) {
-  if (!block.reference_intensity || !(*block.reference_intensity > 0.0)) {
-    throw core::Error("block: expected a reference > 0 for a Weber fraction, found none");
-  }
+  const Felt felt(laboratory, block, map);
   if (block.is_solid()) return laboratory.pressing.value().weber_fraction;
-  const double amplitude_m = laboratory.strokes_for(block.procedure).amplitude_m;
-  const auto felt = [&](double intensity) {
-    return laboratory.device.mechanical_viscosity_n_s_per_m +
-           calculated_stroke(laboratory, amplitude_m, laboratory.movement.max_speed_m_per_s,
-                             amounts_of(setting_of(block, "test", intensity)), map)
-               .delivered_damping_n_s_per_m;
-  };
   const double reference = *block.reference_intensity;
   const double wanted = (1.0 + laboratory.perceiver.weber_fraction) * felt(reference);
-  double low = reference, high = 2.0 * reference;
+  double high = 2.0 * reference;
   while (felt(high) < wanted && high < 1e9 * reference) high *= 2.0;
-  for (int halving = 0; halving < 100; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (felt(middle) < wanted ? low : high) = middle;
-  }
-  return low / reference - 1.0;
+  return felt.intensity_at(wanted, reference, high) / reference - 1.0;
+}
+
+double median_curve_fraction(const Laboratory& laboratory, const Block& block,
+                             const core::ForceMap* map) {
+  const double up = median_weber_fraction(laboratory, block, map);
+  if (block.is_solid()) return up;
+  const Felt felt(laboratory, block, map);
+  const double reference = *block.reference_intensity;
+  const double wanted = felt(reference) / (1.0 + laboratory.perceiver.weber_fraction);
+  const double least = 1e-9 * reference;
+  if (!(felt(least) < wanted)) return up;
+  const double down = reference / felt.intensity_at(wanted, least, reference);
+  return std::sqrt((1.0 + up) * down) - 1.0;
 }
 
 }  // namespace jnd::experiments

@@ -24,4 +24,16 @@ namespace jnd::experiments {
 [[nodiscard]] double median_weber_fraction(const Laboratory& laboratory, const Block& block,
                                            const core::ForceMap* map = nullptr);
 
+/// What a curve that is even in ln of the intensity has for it, as fitted ones are: half the
+/// distance in ln between where the median person is felt right in 84.13 % below and above the
+/// reference,
+///
+///     ln(1 + w) = (ln(x_up / reference) + ln(reference / x_down)) / 2,
+///     felt(x_up) = (1 + w0) felt(reference),   felt(x_down) = felt(reference) / (1 + w0).
+///
+/// A device with a viscosity of its own makes the step down the larger one. The step up alone
+/// where nothing is felt as that little. Throws as `median_weber_fraction`.
+[[nodiscard]] double median_curve_fraction(const Laboratory& laboratory, const Block& block,
+                                           const core::ForceMap* map = nullptr);
+
 }  // namespace jnd::experiments

@@ -140,6 +140,18 @@ TEST(MedianPerson, TheWeberFractionGrowsByTheShareOfTheDevice) {
       Laboratory ideal = there;
       ideal.device.mechanical_viscosity_n_s_per_m = 0.0;
       EXPECT_NEAR(median_weber_fraction(ideal, block), 0.152, 1e-9);
+      // The step down: c x = (c reference + b) / (1 + w0) - b.
+      const double reference = *block.reference_intensity;
+      const double down = ((1.776 * reference + 4.83) / 1.152 - 4.83) / 1.776;
+      const double up = 1.0 + median_weber_fraction(there, block);
+      EXPECT_GT(reference / down, up) << "the device hides what becomes less";
+      EXPECT_NEAR(median_curve_fraction(there, block), std::sqrt(up * reference / down) - 1.0,
+                  1e-9);
+      EXPECT_NEAR(median_curve_fraction(ideal, block), 0.152, 1e-9);
+      // Of a fluid so thin that even none at all is not that much less, the step up.
+      Block thin = block;
+      thin.reference_intensity = 0.1;
+      EXPECT_EQ(median_curve_fraction(there, thin), median_weber_fraction(there, thin));
     }
   }
 }
