@@ -120,9 +120,11 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
     for (const analysis::NamedComparison& named : section.comparisons) {
       model.comparisons.push_back({.name = with_titles(source, named.name),
                                    .estimate = named.comparison.estimate,
-                                   .detail = comparison_words(named)});
+                                   .detail = comparison_words(named),
+                                   .is_primary = named.primary});
     }
   }
+  std::ranges::stable_partition(model.comparisons, &ComparisonLine::is_primary);
 }
 
 std::string counted(std::int64_t count, const std::string& one, const std::string& many) {

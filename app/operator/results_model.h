@@ -168,6 +168,7 @@ struct ComparisonLine {
   std::string name;  ///< "Group D - Group E: ln ln(1 + w), paired"
   std::optional<double> estimate;
   std::string detail;  ///< "95 % 0.38 to 1.04, t(11) = 4.70, p = 0.0006"; or why there is none.
+  bool is_primary = false;  ///< Planned between blocks.
 };
 
 /// One number with what was published.
@@ -199,7 +200,7 @@ struct ResultsModel {
   std::vector<results::BoxFigure> boxes;
   std::vector<results::TableColumn> columns;
   std::vector<results::TableRow> rows;
-  std::vector<results::ComparisonLine> comparisons;
+  std::vector<results::ComparisonLine> comparisons;  ///< Primary ones first.
   std::vector<results::NumberLine> numbers;
   std::vector<results::QualityChip> quality;
 };

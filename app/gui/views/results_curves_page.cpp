@@ -87,8 +87,8 @@ void add_number(const ResultsModel& results, const std::string& name, const std:
 
 std::vector<KeyFigure> key_figures(const ResultsModel& results) {
   std::vector<KeyFigure> figures;
-  // The first compares what the study is about where there are curves; else movements.
-  if (!results.discriminations.empty() && !results.comparisons.empty() &&
+  // What the study is about, where blocks are compared.
+  if (!results.comparisons.empty() && results.comparisons.front().is_primary &&
       results.num_participants > 1) {
     const ComparisonLine& first = results.comparisons.front();
     // Who is left out of it stands on the page of tests.

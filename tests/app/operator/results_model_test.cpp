@@ -341,6 +341,8 @@ TEST(ResultsModel, ComparisonsAreInWordsWithTheTitlesOfBlocks) {
   }
   const ResultsModel model = model_of(study.folder());
   ASSERT_FALSE(model.comparisons.empty());
+  EXPECT_TRUE(model.comparisons.front().is_primary) << model.comparisons.front().name;
+  EXPECT_TRUE(model.comparisons.front().name.starts_with("Group D - Group E"));
   const auto of_groups =
       std::ranges::find_if(model.comparisons, [](const ComparisonLine& line) {
         return line.name.starts_with("Group D - Group E: ln ln(1 + w), paired");
