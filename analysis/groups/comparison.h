@@ -23,8 +23,8 @@ struct Comparison {
 
   FitStatus status = FitStatus::kNotRun;
   Kind kind = Kind::kPaired;
-  std::string reason;               ///< Why a value is undefined; "" if all are defined.
-  std::string method;               ///< The test in words, with the approximation if any.
+  std::string reason;  ///< Why a value is undefined; "" if all are defined.
+  std::string method;  ///< The test in words, with the approximation if any.
   /// Mean of a - b (also of the rank tests, which test `hodges_lehmann`), of the values, or
   /// the correlation.
   std::optional<double> estimate;

@@ -30,8 +30,8 @@ std::vector<ParticipantAnswers> group_of_thirteen() {
   return all;
 }
 
-/// Both conditions at once, slopes correlated. 0: pse at the reference, 1: common, 2: one shift a
-/// person, 3: personal in each condition, which is what results call primary.
+/// Both conditions at once, slopes correlated. 0: pse at the reference, 1: common, 2: one shift
+/// a person, 3: personal in each condition, which is what results call primary.
 void hierarchical_fit(benchmark::State& state) {
   const std::vector<ParticipantAnswers> answers = group_of_thirteen();
   const auto pse = static_cast<HierarchicalPse>(state.range(0));

@@ -43,9 +43,9 @@ void check_plan(const Study& study) {
     fuzz::property(std::isfinite(plan.duration_s) && plan.duration_s >= 0.0,
                    "a duration is finite");
     for (const PlannedBlock& block : plan.blocks) {
-      fuzz::property(!block.trials.empty() &&
-                         static_cast<int>(block.trials.size()) <= block.num_trials,
-                     "trials are drawn, at most those expected");
+      fuzz::property(
+          !block.trials.empty() && static_cast<int>(block.trials.size()) <= block.num_trials,
+          "trials are drawn, at most those expected");
     }
   }
   for (const RangeEntry& entry :

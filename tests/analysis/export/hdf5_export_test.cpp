@@ -216,9 +216,9 @@ TEST_F(Hdf5ExportTest, OctaveLoadsIt) {
                              "'); one = s.session_0001; disp(one.tick(8)); "
                              "disp(one.trials.participant(:)'); disp(s.sessions.simulated); "
                              "disp(one.trials.block(:)');";
-  (void)std::system(
-      ("octave --no-gui --quiet --norc --eval \"" + script + "\" >'" + said.string() + "' 2>/dev/null")
-          .c_str());
+  (void)std::system(("octave --no-gui --quiet --norc --eval \"" + script + "\" >'" +
+                     said.string() + "' 2>/dev/null")
+                        .c_str());
   std::ifstream stream(said);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "9\nP01\n1\nestimation\n");
 }
