@@ -124,7 +124,8 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
                                    .is_primary = named.primary});
     }
   }
-  std::ranges::stable_partition(model.comparisons, &ComparisonLine::is_primary);
+  std::stable_partition(model.comparisons.begin(), model.comparisons.end(),
+                        [](const ComparisonLine& line) { return line.is_primary; });
 }
 
 std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
