@@ -113,9 +113,10 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
   const std::string name =
       free_pse ? "weber_fraction_median_person" : "weber_fraction_median_person_at_reference";
   const HierarchicalFit fit =
-      fit_hierarchical(participant_answers(all, target.block.block), {.pse = pse});
+      fit_hierarchical(participant_answers(all, target.block.block),
+                       {.pse = pse, .lapses = HierarchicalLapses::kCommon});
   Estimate fraction{.unit = "1"}, place{.unit = unit_of(target.block)};
-  Estimate spread{.unit = "1"};
+  Estimate spread{.unit = "1"}, lapses{.unit = "1"};
   if (fit.status == FitStatus::kOk) {
     const HierarchicalCondition& one = fit.conditions.front();
     fraction.value = one.weber_fraction;
@@ -123,6 +124,7 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
     place.value = one.pse;
     place.ci95 = one.pse_ci95.value_or(Interval{});
     spread.value = one.slope_sd;
+    lapses.value = fit.lapse_rate;
   } else {
     no_value(target, name, fit.reason);
   }
@@ -135,6 +137,8 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
   add(target, spread, "slope_sd_between_people",
       "sd of ln ln(1 + w) between people: " + method +
           (fit.note.empty() ? "" : "; " + fit.note),
+      all.size());
+  add(target, lapses, "lapse_rate", "half the share of random answers, of everybody: " + method,
       all.size());
 }
 
@@ -228,7 +232,8 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   const std::vector<ParticipantAnswers> others =
       participant_answers(second_answers, second.block);
   both.insert(both.end(), others.begin(), others.end());
-  const HierarchicalFit fit = fit_hierarchical(both, {.pse = pse});
+  const HierarchicalFit fit =
+      fit_hierarchical(both, {.pse = pse, .lapses = HierarchicalLapses::kCommon});
   Comparison comparison{.status = fit.status, .reason = fit.reason, .method = fit.method};
   if (!fit.note.empty()) comparison.method += " (" + fit.note + ")";
   comparison.num_a = static_cast<int>(first_answers.size());

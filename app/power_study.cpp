@@ -190,16 +190,23 @@ bool somebody_gets_both(const Study& study, const std::string& first,
   return false;
 }
 
-/// What the same fit makes of the median person without noise.
-std::optional<double> noise_free_value(const Study& study, const Laboratory& laboratory,
-                                       const PlannedBlock& block) {
-  const Laboratory quiet = without_noise(laboratory);
-  const AnswerSimulator simulator(study, quiet);
-  const PlannedAnalysis alone{.blocks = {block}, .sizes = {1}};
+/// What the same fit makes of very many people of the laboratory. Unlike a Weber fraction, an
+/// exponent is not a person's own apart from its procedure: noise, lapses and settings that end
+/// short of the target (Stevens and Greenbaum 1966) belong to what is measured.
+std::optional<double> value_of_everybody(const Study& study, const Laboratory& laboratory,
+                                         const PlannedBlock& block) {
+  constexpr std::uint64_t kPeople = 1000;
+  const AnswerSimulator simulator(study, laboratory);
+  const PlannedAnalysis of_all{.blocks = {block}, .sizes = {static_cast<int>(kPeople)}};
   for (const Cell& cell : cells_of(study)) {
-    const PlannedPerson person = person_of(alone, simulator.answers(stages_of(study, cell), 1));
-    if (person.front().magnitudes.empty()) continue;
-    return analysis::analyse_run(alone, {person}).front().estimates.front().value;
+    const std::vector<StageInstance> stages = stages_of(study, cell);
+    std::vector<PlannedPerson> people;
+    for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
+      people.push_back(person_of(of_all, simulator.answers(stages, seed)));
+      if (people.front().front().magnitudes.empty()) break;
+    }
+    if (people.size() < kPeople) continue;
+    return analysis::analyse_run(of_all, people).front().estimates.front().value;
   }
   return std::nullopt;
 }
@@ -279,7 +286,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
       one.reference = block_of(*stage).reference_intensity.value_or(0.0);
       one.true_value = median_curve_fraction(laboratory_, block_of(*stage), map.get());
     } else {
-      one.true_value = noise_free_value(study, laboratory_, one);
+      one.true_value = value_of_everybody(study, laboratory_, one);
     }
     planned.blocks.push_back(std::move(one));
   }

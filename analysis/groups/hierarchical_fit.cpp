@@ -108,7 +108,8 @@ HierarchicalStructure structure_of(int num_conditions, bool has_orders,
     ++parameter;
     ++structure.num_random_effects;
   }
-  structure.num_parameters = parameter;
+  structure.has_lapses = options.lapses == HierarchicalLapses::kCommon;
+  structure.num_parameters = parameter + (structure.has_lapses ? 1 : 0);
   return structure;
 }
 
@@ -117,13 +118,14 @@ int usual_num_nodes(int num_random_effects) {
   return kNodes[num_random_effects - 1];
 }
 
-/// Where the search starts: the pooled curves, and people who differ by a fifth. Absent, with a
-/// reason, where a condition's pooled answers have no curve.
+/// Where the search starts: the pooled curves, people who differ by a fifth, and a lapse in a
+/// hundred. Absent, with a reason, where a condition's pooled answers have no curve.
 std::optional<Eigen::VectorXd> start_of(const Arranged& all,
                                         const HierarchicalStructure& structure,
                                         std::string& reason) {
-  constexpr double kSlopeSd = 0.2, kPlaceSd = 0.1;
+  constexpr double kSlopeSd = 0.2, kPlaceSd = 0.1, kLapseAngle = 0.15;
   Eigen::VectorXd start = Eigen::VectorXd::Zero(structure.num_parameters);
+  if (structure.has_lapses) start(structure.angle_at()) = kLapseAngle;
   for (int condition = 0; condition < structure.num_conditions; ++condition) {
     const auto at = static_cast<std::size_t>(condition);
     const PsychometricFit pooled =
@@ -285,6 +287,19 @@ void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
   }
 }
 
+void fill_lapse_rate(HierarchicalFit& fit, const HierarchicalStructure& structure,
+                     const HierarchicalOptimum& found) {
+  if (!structure.has_lapses) return;
+  constexpr double kManyLapses = 0.1;
+  fit.lapse_rate = structure.lapse_rate(found.parameters);
+  if (*fit.lapse_rate < kManyLapses) return;
+  fit.note += fit.note.empty() ? "" : "; ";
+  fit.note +=
+      "more than one answer in five looks random: somebody may have had another task, or "
+      "turned "
+      "the answers round";
+}
+
 /// Why a condition's answers have no curve, whatever its pse; "" if nothing forbids one.
 std::string why_no_curve(const Arranged& all) {
   for (std::size_t condition = 0; condition < all.conditions.size(); ++condition) {
@@ -334,10 +349,11 @@ std::string pse_words(HierarchicalPse pse, bool has_orders) {
 }
 
 std::string method_of(const HierarchicalOptions& options, bool has_orders, int num_nodes) {
+  const bool lapses = options.lapses == HierarchicalLapses::kCommon;
   return std::string(options.link == HierarchicalLink::kLogSlope
                          ? "probit, ln slope normal between people, "
                          : "probit, slope normal between people, ") +
-         pse_words(options.pse, has_orders) +
+         pse_words(options.pse, has_orders) + (lapses ? ", one lapse rate for everybody" : "") +
          (num_nodes == 1 ? ", Laplace"
                          : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
                                " nodes a dimension");
@@ -362,7 +378,10 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   }
   fit.status = FitStatus::kDegenerate;
   if (all.yes_at_zero) {
-    fit.reason = "impossible: a yes at intensity 0 has probability 0 without lapses";
+    fit.reason =
+        "impossible: a yes at intensity 0 has probability 0 on every curve; leave the trials "
+        "at "
+        "intensity 0 out";
     return fit;
   }
   if (fit.num_participants < 2) {
@@ -383,10 +402,11 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   fit.reason = found.reason;
   if (found.status != FitStatus::kOk) return fit;
 
-  fit.log_likelihood = found.log_likelihood;
+  fit.log_likelihood = found.log_likelihood - structure.log_prior(found.parameters);
   fill_conditions(fit, all, structure, found, options);
   fill_differences(fit, found, options.link);
   fill_spread(fit, structure, found);
+  fill_lapse_rate(fit, structure, found);
   leave_out_single_people(fit);
   const std::vector<Eigen::VectorXd> modes = likelihood.modes(found.parameters);
   for (std::size_t person = 0; person < all.people.size(); ++person) {

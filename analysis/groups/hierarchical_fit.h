@@ -28,10 +28,16 @@ enum class HierarchicalSlopes {
   kCorrelated,  ///< A deviation in each of two conditions, correlated. With one, as shared.
 };
 
+enum class HierarchicalLapses {
+  kNone,    ///< Every answer is one of discrimination.
+  kCommon,  ///< A lapse rate, the same for everybody in everything; see `log_prior`.
+};
+
 struct HierarchicalOptions {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   HierarchicalPse pse = HierarchicalPse::kPersonal;
   HierarchicalSlopes slopes = HierarchicalSlopes::kCorrelated;
+  HierarchicalLapses lapses = HierarchicalLapses::kNone;
   /// A dimension of how people differ; 0: 15 in one, 9 in two, 5 in three, 3 in more. 1
   /// is Laplace.
   int num_nodes = 0;
@@ -79,6 +85,7 @@ struct HierarchicalFit {
   int num_participants = 0;
   int num_nodes = 0;
   std::vector<HierarchicalCondition> conditions;
+  std::optional<double> lapse_rate;                 ///< Absent unless it was free.
   std::optional<double> correlation;                ///< Of the deviations in two conditions.
   std::vector<HierarchicalDifference> differences;  ///< Of each condition to the first.
   std::vector<HierarchicalPersonEstimate> participants;
@@ -94,6 +101,9 @@ struct HierarchicalFit {
 ///
 /// Where rows differ in the order of the intervals, each order has a place of its own, and what
 /// people differ by is that: the bias for an interval. The pse is then one for all.
+///
+/// A lapse, an answer at random, counts for much where it is in a very easy comparison; without
+/// lapses in the model a few of them make everybody's curve flatter (Wichmann and Hill 2001).
 ///
 /// Intervals are Wald's on the slope number with Student's t at participants - 1 and its error
 /// grown by sqrt(n / (n - 1)), because maximum likelihood has the spread of few people too

@@ -21,18 +21,14 @@ Json sentence(const std::string& text) { return text.empty() ? Json(nullptr) : J
 }  // namespace
 
 Json to_json(const HierarchicalFit& fit) {
-  Json json = {{"status", to_string(fit.status)},
-               {"reason", sentence(fit.reason)},
-               {"method", sentence(fit.method)},
-               {"estimand", "median person"},
-               {"note", sentence(fit.note)},
-               {"num_participants", fit.num_participants},
-               {"num_nodes", fit.num_nodes},
-               {"log_likelihood", number(fit.log_likelihood)},
-               {"correlation", number(fit.correlation)},
-               {"conditions", Json::array()},
-               {"differences", Json::array()},
-               {"participants", Json::array()}};
+  Json json = {
+      {"status", to_string(fit.status)},      {"reason", sentence(fit.reason)},
+      {"method", sentence(fit.method)},       {"estimand", "median person"},
+      {"note", sentence(fit.note)},           {"num_participants", fit.num_participants},
+      {"num_nodes", fit.num_nodes},           {"log_likelihood", number(fit.log_likelihood)},
+      {"lapse_rate", number(fit.lapse_rate)}, {"correlation", number(fit.correlation)},
+      {"conditions", Json::array()},          {"differences", Json::array()},
+      {"participants", Json::array()}};
   for (const HierarchicalCondition& one : fit.conditions) {
     json["conditions"].push_back(
         {{"condition", one.condition},

@@ -25,7 +25,39 @@ double slope_of(HierarchicalLink link, double number) noexcept {
   return link == HierarchicalLink::kLinear ? number : std::exp(number);
 }
 
+/// A level's two probabilities, f of a yes and g of a no, as the likelihood needs them.
+struct AnswerProbabilities {
+  double log_yes, log_no;                    ///< ln f, ln g
+  double by_z_yes, by_z_no;                  ///< d ln f / dz > 0, -d ln g / dz > 0
+  double by_lapse_yes = 0, by_lapse_no = 0;  ///< d ln f / d lapse, d ln g / d lapse
+};
+
+AnswerProbabilities answer_probabilities(double z, double lapse_rate) noexcept {
+  if (lapse_rate == 0.0) {
+    const LogNormalTails tails = log_normal_tails(z);
+    return {tails.log_lower, tails.log_upper, tails.mills_lower, tails.mills_upper};
+  }
+  const NormalTails tails = normal_tails(z);
+  const double share = 1.0 - 2.0 * lapse_rate;
+  const double yes = lapse_rate + share * tails.lower, no = lapse_rate + share * tails.upper;
+  const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
+  return {std::log(yes), std::log(no), by_z / yes, by_z / no, by_lapse / yes, -by_lapse / no};
+}
+
+/// Of a share of attentive answers: its density is that to this.
+constexpr double kPriorPower = 19.0;
+
 }  // namespace
+
+double HierarchicalStructure::lapse_rate(const Eigen::VectorXd& parameters) const noexcept {
+  if (!has_lapses) return 0.0;
+  const double sine = std::sin(parameters(angle_at()));
+  return 0.5 * sine * sine;
+}
+
+double HierarchicalStructure::log_prior(const Eigen::VectorXd& parameters) const noexcept {
+  return has_lapses ? kPriorPower * std::log1p(-2.0 * lapse_rate(parameters)) : 0.0;
+}
 
 HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& structure,
                                                const std::vector<HierarchicalPerson>& people,
@@ -35,19 +67,22 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
       grid_(gauss_hermite_grid(num_nodes, structure.num_random_effects)),
       last_(people.size(), RandomEffects::Zero(structure.num_random_effects)) {}
 
-HierarchicalLikelihood::Loadings HierarchicalLikelihood::loadings_of(
+HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
     const Eigen::VectorXd& parameters) const {
-  Loadings loadings = Loadings::Zero(structure_.num_numbers(), structure_.num_random_effects);
+  Population population{
+      .median = parameters.head(structure_.num_numbers()),
+      .loadings = Loadings::Zero(structure_.num_numbers(), structure_.num_random_effects),
+      .lapse_rate = structure_.lapse_rate(parameters)};
   for (const HierarchicalStructure::Loading& one : structure_.loadings) {
-    loadings(one.number, one.random_effect) = parameters(one.parameter);
+    population.loadings(one.number, one.random_effect) = parameters(one.parameter);
   }
-  return loadings;
+  return population;
 }
 
 double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
-                                              const Numbers& numbers,
-                                              Numbers* score) const noexcept {
-  double value = 0.0;
+                                              const Numbers& numbers, double lapse_rate,
+                                              Score* score) const noexcept {
+  double value = 0.0, by_lapse = 0.0;
   for (const HierarchicalCell& cell : person) {
     const int place_at = structure_.place_at(cell.condition);
     const int order_at = structure_.order_at(cell.condition);
@@ -59,28 +94,31 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
       const double order = structure_.has_orders ? cell.order[level] : 0.0;
       const Predictor at =
           predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
-      const LogNormalTails tails = log_normal_tails(at.z);
+      const AnswerProbabilities answer = answer_probabilities(at.z, lapse_rate);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
       // A zero count contributes nothing, even where its logarithm is infinite.
-      if (yes > 0.0) value += yes * tails.log_lower;
-      if (no > 0.0) value += no * tails.log_upper;
-      const double by_z = yes * tails.mills_lower - no * tails.mills_upper;
+      if (yes > 0.0) value += yes * answer.log_yes;
+      if (no > 0.0) value += no * answer.log_no;
+      const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
+      by_lapse += yes * answer.by_lapse_yes + no * answer.by_lapse_no;
       by_slope += by_z * at.by_slope;
       by_place += by_z * at.by_place;
       by_order += by_z * at.by_place * order;
     }
     if (score == nullptr) continue;
-    (*score)(cell.condition) += by_slope;
-    if (structure_.has_places) (*score)(place_at) += by_place;
-    if (structure_.has_orders) (*score)(order_at) += by_order;
+    score->numbers(cell.condition) += by_slope;
+    if (structure_.has_places) score->numbers(place_at) += by_place;
+    if (structure_.has_orders) score->numbers(order_at) += by_order;
   }
+  if (score != nullptr) score->lapse_rate += by_lapse;
   return value;
 }
 
 HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivatives(
-    const HierarchicalPerson& person, const Numbers& median, const Loadings& loadings,
+    const HierarchicalPerson& person, const Population& population,
     const RandomEffects& at) const {
-  const Numbers numbers = median + loadings * at;
+  const Numbers numbers = population.at(at);
+  const Loadings& loadings = population.loadings;
   const Curvature prior = Curvature::Identity(at.size(), at.size());
   JointDerivatives joint{-at, prior, prior};
   for (const HierarchicalCell& cell : person) {
@@ -100,15 +138,15 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
         place_row += cell.order[level] * loadings.row(order_at).transpose();
       }
       const Predictor here = predictor(structure_.link, slope, place, cell.log_ratio[level]);
-      const LogNormalTails tails = log_normal_tails(here.z);
+      const AnswerProbabilities answer = answer_probabilities(here.z, population.lapse_rate);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
-      const double by_z = yes * tails.mills_lower - no * tails.mills_upper;
+      const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
       const RandomEffects by_effect = here.by_slope * slope_row + here.by_place * place_row;
       const Curvature outer = by_effect * by_effect.transpose();
       joint.gradient += by_z * by_effect;
-      joint.expected += (yes + no) * tails.mills_lower * tails.mills_upper * outer;
-      joint.observed += (yes * tails.mills_lower * (here.z + tails.mills_lower) +
-                         no * tails.mills_upper * (tails.mills_upper - here.z)) *
+      joint.expected += (yes + no) * answer.by_z_yes * answer.by_z_no * outer;
+      joint.observed += (yes * answer.by_z_yes * (here.z + answer.by_z_yes) +
+                         no * answer.by_z_no * (answer.by_z_no - here.z)) *
                         outer;
       if (structure_.link == HierarchicalLink::kLinear) continue;
       const Curvature mixed = slope_row * place_row.transpose();
@@ -120,18 +158,18 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
 }
 
 HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalPerson& person,
-                                                             const Numbers& median,
-                                                             const Loadings& loadings,
+                                                             const Population& population,
                                                              const RandomEffects& start) const {
   constexpr int kMaxIterations = 200, kMaxHalvings = 40;
   constexpr double kSmallStep = 1e-12;
   const auto log_density = [&](const RandomEffects& at) {
-    return log_likelihood(person, median + loadings * at, nullptr) - 0.5 * at.squaredNorm();
+    return log_likelihood(person, population.at(at), population.lapse_rate, nullptr) -
+           0.5 * at.squaredNorm();
   };
   Mode mode{start, {}};
   double value = log_density(mode.at);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const JointDerivatives joint = joint_derivatives(person, median, loadings, mode.at);
+    const JointDerivatives joint = joint_derivatives(person, population, mode.at);
     mode.information = joint.expected;
     // Newton's step where the density is log-concave, else Fisher's, which always rises.
     const Eigen::LLT<Curvature> newton(joint.observed);
@@ -154,26 +192,27 @@ HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalP
 
 double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
                                           Eigen::VectorXd* gradient) const {
-  const Numbers median = parameters.head(structure_.num_numbers());
-  const Loadings loadings = loadings_of(parameters);
+  const Population population = population_of(parameters);
   if (gradient != nullptr) gradient->setZero(structure_.num_parameters);
   std::vector<double> log_term(grid_.node.size());
   std::vector<RandomEffects> effects(grid_.node.size());
-  std::vector<Numbers> score(grid_.node.size());
+  std::vector<Score> score(grid_.node.size());
+  double by_lapse_rate = 0.0;
   double total = 0.0;
   for (std::size_t person = 0; person < people_.size(); ++person) {
-    const Mode mode = mode_of(people_[person], median, loadings, last_[person]);
+    const Mode mode = mode_of(people_[person], population, last_[person]);
     last_[person] = mode.at;
     const Eigen::LLT<Curvature> root(mode.information);
     const Curvature lower = root.matrixL();
     double largest = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < grid_.node.size(); ++k) {
       effects[k] = mode.at + RandomEffects(root.matrixU().solve(grid_.node[k]));
-      score[k] = Numbers::Zero(structure_.num_numbers());
-      log_term[k] = log_likelihood(people_[person], median + loadings * effects[k],
-                                   gradient != nullptr ? &score[k] : nullptr) +
-                    0.5 * (grid_.node[k].squaredNorm() - effects[k].squaredNorm()) +
-                    std::log(grid_.weight[k]);
+      score[k] = {.numbers = Numbers::Zero(structure_.num_numbers())};
+      log_term[k] =
+          log_likelihood(people_[person], population.at(effects[k]), population.lapse_rate,
+                         gradient != nullptr ? &score[k] : nullptr) +
+          0.5 * (grid_.node[k].squaredNorm() - effects[k].squaredNorm()) +
+          std::log(grid_.weight[k]);
       largest = std::max(largest, log_term[k]);
     }
     double sum = 0.0;
@@ -183,25 +222,30 @@ double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
     for (std::size_t k = 0; k < grid_.node.size(); ++k) {
       const double share = std::exp(log_term[k] - largest) / sum;
       for (int number = 0; number < structure_.num_numbers(); ++number) {
-        (*gradient)(number) += share * score[k](number);
+        (*gradient)(number) += share * score[k].numbers(number);
       }
       for (const HierarchicalStructure::Loading& one : structure_.loadings) {
         (*gradient)(one.parameter) +=
-            share * score[k](one.number) * effects[k](one.random_effect);
+            share * score[k].numbers(one.number) * effects[k](one.random_effect);
       }
+      by_lapse_rate += share * score[k].lapse_rate;
     }
   }
-  return total;
+  if (gradient != nullptr && population.lapse_rate > 0.0) {
+    const double angle = parameters(structure_.angle_at());
+    (*gradient)(structure_.angle_at()) =
+        0.5 * std::sin(2.0 * angle) * by_lapse_rate - 2.0 * kPriorPower * std::tan(angle);
+  }
+  return total + structure_.log_prior(parameters);
 }
 
 std::vector<Eigen::VectorXd> HierarchicalLikelihood::modes(
     const Eigen::VectorXd& parameters) const {
-  const Numbers median = parameters.head(structure_.num_numbers());
-  const Loadings loadings = loadings_of(parameters);
+  const Population population = population_of(parameters);
   std::vector<Eigen::VectorXd> numbers;
   for (std::size_t person = 0; person < people_.size(); ++person) {
-    const Mode mode = mode_of(people_[person], median, loadings, last_[person]);
-    numbers.emplace_back(median + loadings * mode.at);
+    const Mode mode = mode_of(people_[person], population, last_[person]);
+    numbers.emplace_back(population.at(mode.at));
   }
   return numbers;
 }

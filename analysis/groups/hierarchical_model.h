@@ -26,13 +26,16 @@ struct HierarchicalCell {
 using HierarchicalPerson = std::vector<HierarchicalCell>;
 
 /// Which numbers there are and how they vary. The parameters, in this order: a of each
-/// condition, p of each if `has_places`, q of each if `has_orders`, then the loadings'. A
-/// person's numbers are those of the median person plus loadings times standard normal numbers.
+/// condition, p of each if `has_places`, q of each if `has_orders`, then the loadings' and, if
+/// `has_lapses`, an angle v: a share sin^2 v of everybody's answers is random, half of it a
+/// yes, so that P(yes) = lapse + (1 - 2 lapse) Phi(z), lapse = sin^2 v / 2. A person's numbers
+/// are those of the median person plus loadings times standard normal numbers.
 struct HierarchicalStructure {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   int num_conditions = 1;
   bool has_places = false;  ///< Otherwise every p is 0.
   bool has_orders = false;  ///< Otherwise every q is 0.
+  bool has_lapses = false;  ///< Otherwise the lapse rate is 0.
   struct Loading {
     int number;         ///< Row: the person's number it moves.
     int random_effect;  ///< Column.
@@ -55,6 +58,14 @@ struct HierarchicalStructure {
   [[nodiscard]] int own_place_at(int condition) const noexcept {
     return has_orders ? order_at(condition) : place_at(condition);
   }
+  [[nodiscard]] int angle_at() const noexcept { return num_parameters - 1; }
+  /// Half the share of random answers; 0 without lapses.
+  [[nodiscard]] double lapse_rate(const Eigen::VectorXd& parameters) const noexcept;
+  /// ln density of the share of random answers, Beta(1, 20) but for a constant: a twentieth is
+  /// expected. Answers to comparisons that are all hard say next to nothing of lapses, and
+  /// would else now and then have a flat curve taken for a steep one with many (a Beta prior
+  /// for the same reason: Schuett, Harmeling, Macke and Wichmann 2016).
+  [[nodiscard]] double log_prior(const Eigen::VectorXd& parameters) const noexcept;
 };
 
 /// The likelihood of everybody's answers, integrated over how people differ, by Gauss and
@@ -66,9 +77,9 @@ class HierarchicalLikelihood {
   HierarchicalLikelihood(const HierarchicalStructure& structure,
                          const std::vector<HierarchicalPerson>& people, int num_nodes);
 
-  /// Log-likelihood without binomial coefficients. `gradient`, where wanted, is the mean of the
-  /// score over what the answers leave open of each person (Fisher's identity): that of the
-  /// exact integral, near the rule's own.
+  /// Log-likelihood without binomial coefficients, and log prior. `gradient`, where wanted, is
+  /// the mean of the score over what the answers leave open of each person (Fisher's identity):
+  /// that of the exact integral, near the rule's own.
   [[nodiscard]] double operator()(const Eigen::VectorXd& parameters,
                                   Eigen::VectorXd* gradient = nullptr) const;
 
@@ -85,6 +96,16 @@ class HierarchicalLikelihood {
                                  kMostRandomEffects>;
   using Curvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRandomEffects,
                                   kMostRandomEffects>;
+  /// What the parameters say, before anybody's own deviations.
+  struct Population {
+    Numbers median;
+    Loadings loadings;
+    double lapse_rate = 0.0;
+
+    [[nodiscard]] Numbers at(const RandomEffects& effects) const {
+      return median + loadings * effects;
+    }
+  };
   struct Mode {
     RandomEffects at;
     Curvature information;  ///< Expected, prior included.
@@ -96,16 +117,21 @@ class HierarchicalLikelihood {
     Curvature expected, observed;
   };
 
-  [[nodiscard]] Loadings loadings_of(const Eigen::VectorXd& parameters) const;
+  /// Derivatives of a person's log-likelihood.
+  struct Score {
+    Numbers numbers;
+    double lapse_rate = 0.0;
+  };
+
+  [[nodiscard]] Population population_of(const Eigen::VectorXd& parameters) const;
   /// Log-likelihood of a person with these numbers; its derivatives are added to `score`.
   [[nodiscard]] double log_likelihood(const HierarchicalPerson& person, const Numbers& numbers,
-                                      Numbers* score) const noexcept;
+                                      double lapse_rate, Score* score) const noexcept;
   [[nodiscard]] JointDerivatives joint_derivatives(const HierarchicalPerson& person,
-                                                   const Numbers& median,
-                                                   const Loadings& loadings,
+                                                   const Population& population,
                                                    const RandomEffects& at) const;
-  [[nodiscard]] Mode mode_of(const HierarchicalPerson& person, const Numbers& median,
-                             const Loadings& loadings, const RandomEffects& start) const;
+  [[nodiscard]] Mode mode_of(const HierarchicalPerson& person, const Population& population,
+                             const RandomEffects& start) const;
 
   HierarchicalStructure structure_;
   std::vector<HierarchicalPerson> people_;

@@ -11,13 +11,13 @@ struct HierarchicalOptimum {
   FitStatus status = FitStatus::kNotRun;
   std::string reason;  ///< "" where there is an optimum.
   Eigen::VectorXd parameters;
-  Eigen::MatrixXd covariance;  ///< Inverse of the observed information.
-  double log_likelihood = 0.0;
+  Eigen::MatrixXd covariance;   ///< Inverse of the observed information.
+  double log_likelihood = 0.0;  ///< And log prior.
 };
 
-/// The largest integrated likelihood near `start`: Ceres by Fisher's gradient, then Newton on
-/// the rule's own value, whose derivatives are differences of it. A loading that ends at 0 is
-/// an optimum there: the likelihood is even in it.
+/// The largest integrated likelihood (times prior) near `start`: Ceres by Fisher's gradient,
+/// then Newton on the rule's own value, whose derivatives are differences of it. A loading that
+/// ends at 0 is an optimum there: the likelihood is even in it.
 [[nodiscard]] HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
                                               const Eigen::VectorXd& start);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "analysis/discrimination_answers.h"
 #include "analysis/groups/comparison.h"
@@ -13,7 +15,7 @@ namespace jnd::analysis {
 namespace {
 
 /// A participant's own number in a block, where it is normally distributed over people:
-/// ln ln(1 + w), the exponent, or ln(match).
+/// ln ln(1 + w), the exponent, in production 1 / exponent, or ln(match).
 struct OwnNumber {
   bool answered = false;
   std::optional<double> plain;      ///< None of a degenerate participant.
@@ -52,16 +54,18 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
     own.plain = summary_of(means).mean;
     return own;
   }
-  own.plain =
-      (block.quantity == PlannedQuantity::kEstimationExponent ? fit_log_estimation(logs)
-                                                              : fit_log_production(logs))
-          .a;
+  // Production is answered with an intensity: the slope of ln I over ln S, 1 / exponent.
+  own.plain = fit_log_estimation(logs).a;
   return own;
 }
 
 /// Back from where it is normally distributed.
 double quantity_at(double number, PlannedQuantity quantity) {
   if (quantity == PlannedQuantity::kWeberFraction) return std::expm1(std::exp(number));
+  if (quantity == PlannedQuantity::kProductionExponent) {
+    // No power function sets less for more; an end there is open.
+    return number > 0.0 ? 1.0 / number : std::numeric_limits<double>::infinity();
+  }
   return quantity == PlannedQuantity::kMatch ? std::exp(number) : number;
 }
 
@@ -73,6 +77,10 @@ PlannedEstimate mean_of(const std::vector<double>& numbers, PlannedQuantity quan
     if (!*end) continue;
     const double value = quantity_at(**end, quantity);
     *end = std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
+  // Turned round, the lower end is the upper one.
+  if (quantity == PlannedQuantity::kProductionExponent) {
+    std::swap(estimate.ci95.low, estimate.ci95.high);
   }
   return estimate;
 }
@@ -152,7 +160,8 @@ class SizeAnalysis {
     }
     if (answers.empty()) return {};
     return fit_hierarchical(answers, {.pse = analysis_.free_pse ? HierarchicalPse::kPersonal
-                                                                : HierarchicalPse::kReference});
+                                                                : HierarchicalPse::kReference,
+                                      .lapses = HierarchicalLapses::kCommon});
   }
 
   [[nodiscard]] PlannedTest hierarchical_test() const {
@@ -184,7 +193,9 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
     }
     if (block.quantity != PlannedQuantity::kWeberFraction) {
       names.push_back({block.name + ".a",
-                       "mean of the participants' own exponents, lines through the logarithms",
+                       block.quantity == PlannedQuantity::kEstimationExponent
+                           ? "mean of the participants' own slopes of ln S over ln I"
+                           : "1 / mean of the participants' own slopes of ln I over ln S",
                        place});
       continue;
     }

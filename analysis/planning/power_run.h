@@ -24,7 +24,7 @@ struct PlannedBlock {
   std::string name;  ///< "group_d"
   PlannedQuantity quantity = PlannedQuantity::kWeberFraction;
   double reference = 0.0;            ///< Of a discrimination, > 0.
-  std::optional<double> true_value;  ///< In the simulated laboratory, of the median person.
+  std::optional<double> true_value;  ///< In the simulated laboratory.
 };
 
 /// What simulated studies are analysed for.

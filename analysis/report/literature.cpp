@@ -75,6 +75,12 @@ constexpr Work kWorks[] = {
      "the "
      "nonlinear mixed-effects model. Journal of Computational and Graphical Statistics 4, "
      "12-35."},
+    {"Schütt et al. 2016",
+     "Schütt, H. H., Harmeling, S., Macke, J. H., Wichmann, F. A. (2016). Painfree and "
+     "accurate "
+     "Bayesian estimation of psychometric functions for (potentially) overdispersed data. "
+     "Vision "
+     "Research 122, 105-123."},
     {"Steiger and Fouladi 1997",
      "Steiger, J. H., Fouladi, R. T. (1997). Noncentrality interval estimation and the "
      "evaluation of statistical models. In: Harlow, L. L., Mulaik, S. A., Steiger, J. H. "

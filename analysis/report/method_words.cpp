@@ -140,14 +140,21 @@ void Writer::write_hierarchical() {
       });
   if (!any) return;
   add("Hierarchical model",
-      "Everybody’s answers at once: participant i says “more” with probability Φ(e^a_i (ln(x / "
-      "reference) − p_i)), with a_i = −ln ln(1 + w_i) and p_i = ln(PSE_i / reference). Over "
+      "Everybody’s answers at once: participant i says “more” with probability λ + (1 − 2λ) "
+      "Φ(e^a_i "
+      "(ln(x / reference) − p_i)), with a_i = −ln ln(1 + w_i) and p_i = ln(PSE_i / reference). "
+      "Over "
       "people a and p are normal. The a of two conditions have a spread each and are "
       "correlated; each condition’s p has its own spread and is independent of all others. "
       "“PSE at the reference” sets every p to 0. The likelihood, integrated over people by "
       "adaptive Gauss-Hermite quadrature (" +
           cite("Pinheiro and Bates 1995") +
-          "), is maximised. The estimand is the median person’s Weber fraction, which a curve "
+          "), is maximised. The lapse rate λ, one for everybody, keeps the few slips in very "
+          "easy "
+          "comparisons from flattening every curve; the share of random answers, 2λ, has the "
+          "prior Beta(1, 20), as answers to hard comparisons alone cannot tell it (" +
+          cite("Schütt et al. 2016") +
+          "). The estimand is the median person’s Weber fraction, which a curve "
           "through pooled answers flattens. Intervals and tests are Wald’s on ln ln(1 + w), "
           "with the standard error times √(n / (n − 1)) and Student’s t with n − 1 degrees of "
           "freedom, n being the number of participants; nobody with answers is left out.");

@@ -25,6 +25,7 @@ using analysis::FitStatus;
 
 struct Options {
   std::string csv, link = "log-slope", pse = "personal", slopes = "correlated";
+  std::vector<std::string> free;
   std::optional<double> reference;
   int num_nodes = 0;
   bool json = false;
@@ -61,6 +62,9 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
                  number(one.place_sd));
     }
   }
+  if (fit.lapse_rate) {
+    fmt::print("  lapse rate      {:<8}  of everybody\n", number(fit.lapse_rate));
+  }
   if (fit.correlation) fmt::print("  correlation of the slopes  {}\n", number(fit.correlation));
   for (const analysis::HierarchicalDifference& one : fit.differences) {
     fmt::print("  {} - {}: {}  95 % {}, t({:.0f}) = {}, p = {}\n", one.second, one.first,
@@ -83,6 +87,8 @@ int fit_hierarchical(const Options& options) {
                                          : analysis::HierarchicalPse::kPersonal,
        .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
                                             : analysis::HierarchicalSlopes::kCorrelated,
+       .lapses = options.free.empty() ? analysis::HierarchicalLapses::kNone
+                                      : analysis::HierarchicalLapses::kCommon,
        .num_nodes = options.num_nodes});
   if (options.json) {
     fmt::print("{}\n", json_text(analysis::to_json(fit)));
@@ -177,6 +183,11 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
   group.add_option("--slopes", options->slopes, "of one person in two conditions")
       ->check(CLI::IsMember({"shared", "correlated"}))
       ->capture_default_str();
+  group
+      .add_option("--free", options->free,
+                  "lapse: one rate of answers at random for everybody, up to one in five; "
+                  "without it none")
+      ->check(CLI::IsMember({"lapse"}));
   group
       .add_option("--nodes", options->num_nodes,
                   "of the quadrature, a dimension; 1 is Laplace (default: by dimension)")

@@ -230,7 +230,7 @@ void cover_group(const Population& population, int num_people, int num_sets,
   const double truth = population.weber_fraction;
   const double pooled = pooled_truth(population, false);
   const double pooled_free = pooled_truth(population, true);
-  GroupEstimate of_pooled, of_pooled_free, of_median, of_median_reference;
+  GroupEstimate of_pooled, of_pooled_free, of_median, of_median_lapses, of_median_reference;
   for (int set = 0; set < num_sets; ++set) {
     Group group;
     for (int person = 0; person < num_people; ++person) {
@@ -241,16 +241,17 @@ void cover_group(const Population& population, int num_people, int num_sets,
     const auto own_seed = seed + static_cast<std::uint64_t>(set);
     add_pooled(of_pooled, group, false, pooled, own_seed);
     add_pooled(of_pooled_free, group, true, pooled_free, own_seed);
-    for (const HierarchicalPse pse :
-         {HierarchicalPse::kPersonal, HierarchicalPse::kReference}) {
-      const HierarchicalFit fit = fit_hierarchical(group, {.pse = pse});
-      GroupEstimate& to = pse == HierarchicalPse::kPersonal ? of_median : of_median_reference;
+    const auto add_median = [&](GroupEstimate& to, const HierarchicalOptions& options) {
+      const HierarchicalFit fit = fit_hierarchical(group, options);
       if (fit.status == FitStatus::kOk) {
         to.add(fit.conditions[0].weber_fraction, fit.conditions[0].weber_fraction_ci95, truth);
       } else {
         to.add(std::nullopt, {}, truth);
       }
-    }
+    };
+    add_median(of_median_lapses, {.lapses = HierarchicalLapses::kCommon});
+    add_median(of_median, {});
+    add_median(of_median_reference, {.pse = HierarchicalPse::kReference});
   }
   const auto cell = [](const GroupEstimate& one) {
     std::string words = one.coverage.words() + ", " + one.bias();
@@ -259,8 +260,9 @@ void cover_group(const Population& population, int num_people, int num_sets,
     }
     return words;
   };
-  print_row({population.words, std::to_string(num_people), cell(of_median),
-             cell(of_median_reference), cell(of_pooled_free), cell(of_pooled)});
+  print_row({population.words, std::to_string(num_people), cell(of_median_lapses),
+             cell(of_median), cell(of_median_reference), cell(of_pooled_free),
+             cell(of_pooled)});
   std::fflush(stdout);
 }
 
@@ -272,9 +274,10 @@ void cover_groups(int num_sets, std::uint64_t seed) {
       "a median person's value:\nthat w. Truth of a pooled curve's: what endlessly many people "
       "would give it, which is larger the more they differ.\nBias: of the geometric mean.\n\n",
       num_sets);
-  print_row({"people differ", "n", "median person, pse free", "median person, pse = reference",
+  print_row({"people differ", "n", "median person, pse and lapse rate free",
+             "median person, pse free", "median person, pse = reference",
              "pooled curve, pse free", "pooled curve, pse = reference"});
-  std::printf("| --- | --- | --- | --- | --- | --- |\n");
+  std::printf("| --- | --- | --- | --- | --- | --- | --- |\n");
   for (const double spread : {0.25, 0.4}) {
     for (const double place : {0.0, 0.15}) {
       char words[96];
@@ -285,6 +288,13 @@ void cover_groups(int num_sets, std::uint64_t seed) {
   }
   cover_group({.words = "by 0.40 in ln, pse by 0.15", .spread_ln = 0.4, .place_sd_ln = 0.15},
               26, num_sets, seed);
+  for (const double lapse : {0.01, 0.03}) {
+    char words[96];
+    std::snprintf(words, sizeof words, "by 0.25 in ln, pse by 0.15, %.0f %% lapses",
+                  100.0 * lapse);
+    cover_group({.words = words, .spread_ln = 0.25, .place_sd_ln = 0.15, .lapse = lapse}, 13,
+                num_sets, seed);
+  }
   cover_group({.words = "misspecified: Weibull noise, drift 0.2 in ln, 5 % lapses",
                .spread_ln = 0.25,
                .place_sd_ln = 0.15,
@@ -302,7 +312,8 @@ void cover_difference(int num_sets, std::uint64_t seed) {
       "\n## Two conditions of the same 13 people: difference of ln ln(1 + w)\n\n"
       "%d studies a row, w = 0.7 and 0.3, people differ by 0.3 in ln, pse by 0.15.\n\n",
       num_sets);
-  print_row({"slopes change between conditions by", "pse", "hierarchical, pse free", "bias"});
+  print_row({"slopes change between conditions by", "pse",
+             "hierarchical, pse and lapse rate free", "bias"});
   std::printf("| --- | --- | --- | --- |\n");
   const double truth = std::log(std::log1p(0.3)) - std::log(std::log1p(0.7));
   struct Change {
@@ -329,7 +340,8 @@ void cover_difference(int num_sets, std::uint64_t seed) {
                            answers_of(drawn, 5, random)});
         }
       }
-      const HierarchicalFit fit = fit_hierarchical(group, {});
+      const HierarchicalFit fit =
+          fit_hierarchical(group, {.lapses = HierarchicalLapses::kCommon});
       const bool exists = fit.status == FitStatus::kOk;
       coverage.add(exists, exists ? fit.differences[0].ci95 : Interval{}, truth);
       if (exists) errors.push_back(fit.differences[0].estimate - truth);

@@ -200,6 +200,66 @@ TEST(HierarchicalFit, ACorrelationAtItsBoundIsSaid) {
   EXPECT_NE(fit.note.find("correlation"), std::string::npos) << fit.note;
 }
 
+TEST(HierarchicalFit, ALapseRateIsToldFromFlatCurves) {
+  constexpr double kLapse = 0.02;
+  std::vector<ParticipantAnswers> answers = differing_people(4000);
+  for (ParticipantAnswers& one : answers) {
+    for (AnswerCount& row : one.rows) {
+      const auto n = static_cast<double>(row.num_trials);
+      row.num_yes =
+          std::llround(kLapse * n + (1.0 - 2.0 * kLapse) * static_cast<double>(row.num_yes));
+    }
+  }
+  HierarchicalOptions options = kAtReference;
+  const HierarchicalFit without = fit_hierarchical(answers, options);
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit with = fit_hierarchical(answers, options);
+  ASSERT_EQ(with.status, FitStatus::kOk) << with.reason;
+  EXPECT_NEAR(*with.lapse_rate, kLapse, 1e-4);
+  EXPECT_NEAR(*with.conditions[0].weber_fraction, 0.5, 0.01);
+  EXPECT_GT(*without.conditions[0].weber_fraction, 0.53);
+  EXPECT_FALSE(without.lapse_rate);
+  EXPECT_NE(with.method.find("lapse rate"), std::string::npos) << with.method;
+}
+
+TEST(HierarchicalFit, AnswersWithoutLapsesGiveALapseRateOfNothingAndTheSameValues) {
+  const std::vector<ParticipantAnswers> answers = differing_people(4000);
+  HierarchicalOptions options = kAtReference;
+  const HierarchicalFit without = fit_hierarchical(answers, options);
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit with = fit_hierarchical(answers, options);
+  ASSERT_EQ(with.status, FitStatus::kOk) << with.reason;
+  EXPECT_NEAR(*with.lapse_rate, 0.0, 1e-5);
+  EXPECT_NEAR(*with.conditions[0].weber_fraction, *without.conditions[0].weber_fraction, 1e-4);
+  EXPECT_NEAR(*with.conditions[0].weber_fraction_ci95.high,
+              *without.conditions[0].weber_fraction_ci95.high, 1e-3);
+}
+
+TEST(HierarchicalFit, ManyLapsesAreSaid) {
+  std::vector<ParticipantAnswers> answers = differing_people(4000);
+  for (ParticipantAnswers& one : answers) {
+    for (AnswerCount& row : one.rows) row.num_yes = 800 + row.num_yes * 6 / 10;
+  }
+  HierarchicalOptions options = kAtReference;
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit fit = fit_hierarchical(answers, options);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.lapse_rate, 0.2, 1e-3);
+  EXPECT_NE(fit.note.find("looks random"), std::string::npos) << fit.note;
+}
+
+TEST(HierarchicalFit, FewAnswersToHardComparisonsAreNotTakenForLapses) {
+  // Flat curves, five answers a level, none of which is easy.
+  const std::vector<ParticipantAnswers> answers = differing_people(5);
+  HierarchicalOptions options = kAtReference;
+  const HierarchicalFit without = fit_hierarchical(answers, options);
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit with = fit_hierarchical(answers, options);
+  ASSERT_EQ(with.status, FitStatus::kOk) << with.reason;
+  EXPECT_NEAR(*with.conditions[0].weber_fraction / *without.conditions[0].weber_fraction, 1.0,
+              0.05);
+}
+
 TEST(HierarchicalFit, WhatHasNoValueSaysWhy) {
   const auto reason = [](const std::vector<ParticipantAnswers>& all) {
     const HierarchicalFit fit = fit_hierarchical(all, kAtReference);

@@ -98,6 +98,35 @@ TEST(HierarchicalReference, LogSlopeFitsAgreeWithTheIntegralOnAFineGrid) {
   }
 }
 
+TEST(HierarchicalReference, AFitWithLapsesAgreesWithTheIntegralOnAFineGrid) {
+  std::ifstream in(test_support::source_folder().string() +
+                   "/data/reference/hierarchical/hierarchical_lapses.json");
+  const json one = json::parse(in);
+  std::vector<ParticipantAnswers> answers;
+  for (const json& row : one.at("rows")) {
+    if (answers.empty() || answers.back().participant != row[0]) {
+      answers.push_back({row[0], "", one.at("reference"), {}});
+    }
+    answers.back().rows.push_back({row[1], row[2], row[3]});
+  }
+  const HierarchicalFit fit = fit_hierarchical(answers, {.pse = HierarchicalPse::kCommon,
+                                                         .lapses = HierarchicalLapses::kCommon,
+                                                         .num_nodes = 41});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  const json& expected = one.at("expected");
+  const auto near = [&](double found, const char* key) {
+    const double wanted = expected.at(key);
+    EXPECT_NEAR(found, wanted, 2e-6 * std::max(std::fabs(wanted), 0.1)) << key;
+  };
+  near(fit.conditions[0].slope_number, "slope");
+  near(*fit.conditions[0].slope_standard_error, "slope_standard_error");
+  near(fit.conditions[0].place_number, "place");
+  near(*fit.conditions[0].place_standard_error, "place_standard_error");
+  near(fit.conditions[0].slope_sd, "slope_sd");
+  near(*fit.lapse_rate, "lapse_rate");
+  near(*fit.log_likelihood, "log_likelihood");
+}
+
 TEST(HierarchicalReference, TheUsualNumberOfNodesIsNearTheIntegral) {
   for (const json& one : reference().at("cases")) {
     if (one.at("link") != "linear") expect_fit(one, 0, 3e-3);

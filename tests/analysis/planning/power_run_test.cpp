@@ -121,13 +121,13 @@ TEST(PowerRun, ExponentsAreMeansOfLinesThroughLogarithms) {
       .blocks = {{.name = "me", .quantity = PlannedQuantity::kEstimationExponent},
                  {.name = "mp", .quantity = PlannedQuantity::kProductionExponent}},
       .sizes = {2}};
-  // S = I^0.5 and I^0.7; production: I set for S as I^2 = S, so a = 2.
+  // S = I^0.5 and I^0.7; production: I set for S as S^0.4 and S^0.6, at the mean S^0.5 = I.
   std::vector<PlannedPerson> everybody(2);
   for (std::size_t i = 0; i < 2; ++i) {
     everybody[i].resize(2);
     for (const double x : {1.0, 2.0, 4.0}) {
       everybody[i][0].magnitudes[x] = {std::pow(x, i == 0 ? 0.5 : 0.7)};
-      everybody[i][1].magnitudes[100.0 * x] = {std::sqrt(x)};
+      everybody[i][1].magnitudes[100.0 * x] = {std::pow(x, i == 0 ? 0.4 : 0.6)};
     }
   }
   const PlannedRun run = analyse_run(planned, everybody);
@@ -135,6 +135,8 @@ TEST(PowerRun, ExponentsAreMeansOfLinesThroughLogarithms) {
   EXPECT_NEAR(*run[0].estimates[1].value, 2.0, 1e-12);
   // Student's t with one degree of freedom, 12.7062, of sd 0.1414 / sqrt 2 = 0.1.
   EXPECT_NEAR(*run[0].estimates[0].ci95.high, 0.6 + 1.27062, 1e-5);
+  EXPECT_NEAR(*run[0].estimates[1].ci95.low, 1.0 / (0.5 + 1.27062), 1e-5);
+  EXPECT_FALSE(run[0].estimates[1].ci95.high) << "open: a slope of 0 is in the interval";
   EXPECT_TRUE(run[0].tests.empty());
 }
 
