@@ -202,7 +202,7 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
     names.push_back({block.name + ".weber_fraction",
                      "median person's w by the fast route: mean of individual ln ln(1 + w), " +
                          pse + ", without degenerate participants, transformed back",
-                     place});
+                     place, /*quick=*/true});
     if (!analysis.hierarchical) continue;
     names.push_back({block.name + ".weber_fraction_hierarchical",
                      "median person's w: hierarchical probit, " + pse, place});

@@ -42,6 +42,7 @@ struct PlannedName {
   std::string name;
   std::string meaning;
   std::size_t block = 0;  ///< Of an estimate: its place in `blocks`.
+  bool quick = false;     ///< It stands for the hierarchical fit's, lapses left out.
 };
 [[nodiscard]] std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis);
 /// The meaning of the test to plan by: that of the hierarchical fit, as in the results, or,

@@ -118,13 +118,17 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
   for (std::size_t place = 0; place < estimates.size(); ++place) {
     const PlannedPrecision& one = largest.estimates[place];
     if (!one.coverage || one.coverage_high >= kTooRarely) continue;
-    doubts.push_back(estimates[place].name + at + "the interval holds the true value in " +
-                     percent_words(*one.coverage) +
-                     " of the studies, not in 95 %. People of this laboratory do what the fit "
-                     "does not know (lapses, drift, a device with a viscosity of its own), and "
-                     "these levels let it count: plan on "
-                     "neither this half width nor this power, and try levels nearer the "
-                     "reference.");
+    if (estimates[place].quick && analysis.hierarchical) continue;  // That one is beside it.
+    doubts.push_back(
+        estimates[place].name + at + "the interval holds the true value in " +
+        percent_words(*one.coverage) + " of the studies, not in 95 %. " +
+        (estimates[place].quick
+             ? "This is the quick estimate, which knows no lapses: plan with --hierarchical, "
+               "the "
+               "fit that the results will have."
+             : "People of this laboratory do what the fit does not know (drift, learning, "
+               "fatigue), and these stimuli let it count: plan on neither this half width nor "
+               "this power, and try other stimuli, of a comparison nearer the reference."));
   }
   const std::vector<PlannedName> tests = test_names(analysis);
   for (std::size_t place = 0; null_hypothesis && place < tests.size(); ++place) {

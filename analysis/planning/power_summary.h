@@ -47,7 +47,8 @@ struct PlannedSummary {
 
 /// What not to plan on, a sentence each: intervals that hold the true value too rarely, and
 /// under the null hypothesis tests that find a difference too often, where the runs are enough
-/// to tell. Of every estimate and test the largest size speaks.
+/// to tell. Of every estimate and test the largest size speaks; of a quick estimate only where
+/// the hierarchical one is not beside it.
 [[nodiscard]] std::vector<std::string> planning_doubts(
     const PlannedAnalysis& analysis, const std::vector<PlannedSummary>& summaries,
     bool null_hypothesis);

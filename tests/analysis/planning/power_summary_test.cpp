@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -70,6 +72,22 @@ TEST(PowerSummary, IntervalsThatHoldTheTruthTooRarelyAreADoubt) {
       << doubts(69).front();
   EXPECT_TRUE(doubts(95).empty());
   EXPECT_TRUE(doubts(91).empty()) << "so few runs may hold 95 %";
+}
+
+TEST(PowerSummary, AQuickEstimateIsNoDoubtWhereTheHierarchicalOneIsBesideIt) {
+  PlannedAnalysis both = small();
+  both.hierarchical = true;
+  std::vector<PlannedRun> runs = hundred_runs(69, 5);
+  for (PlannedRun& run : runs) {
+    std::vector<PlannedEstimate>& all = run.front().estimates;
+    all = {all[0], {.value = 0.3, .ci95 = {0.2, 0.4}}, all[1], {}};
+    run.front().tests.push_back({});
+  }
+  EXPECT_TRUE(planning_doubts(both, summary_of_runs(both, runs), false).empty());
+  for (PlannedRun& run : runs) std::swap(run.front().estimates[0], run.front().estimates[1]);
+  const auto doubts = planning_doubts(both, summary_of_runs(both, runs), false);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_EQ(doubts.front().find("a.weber_fraction_hierarchical: "), 0U) << doubts.front();
 }
 
 TEST(PowerSummary, ATestThatFindsWhatIsNotThereIsADoubtUnderTheNullHypothesisAlone) {
