@@ -72,10 +72,10 @@ class Detection {
              std::string("threshold corrected for false alarms: geometric mean; ") + kModel,
          .unit = unit},
         corrected_);
-    add_mean(section,
-             {.name = name("false_alarm_rate"),
-              .meaning = "\"yes\" to catch trials: mean over participants"},
-             false_alarms_);
+    add_mean_rate(section,
+                  {.name = name("false_alarm_rate"),
+                   .meaning = "\"yes\" to catch trials: mean over participants"},
+                  false_alarms_);
     add_mean(section,
              {.name = name("d_prime"),
               .meaning = "d' = z(H) - z(F), all stimuli of the block against catch trials, "

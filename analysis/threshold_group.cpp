@@ -1,5 +1,6 @@
 #include "analysis/threshold_group.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -66,6 +67,14 @@ void add_mean(ResultsSection& section, const GroupName& group, const OwnNumbers&
   if (values.empty()) return;
   const auto same = [](double value) { return value; };
   section.estimates.push_back(mean_estimate(group, summary_in(values, same), same));
+}
+
+void add_mean_rate(ResultsSection& section, const GroupName& group, const OwnNumbers& rates) {
+  if (rates.empty()) return;
+  add_mean(section, group, rates);
+  Interval& ci95 = section.estimates.back().ci95;
+  if (ci95.low) ci95.low = std::max(*ci95.low, 0.0);
+  if (ci95.high) ci95.high = std::min(*ci95.high, 1.0);
 }
 
 std::string unit_of_quantity(const std::string& quantity) {

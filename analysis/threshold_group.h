@@ -32,6 +32,9 @@ void add_median_fraction(ResultsSection& section, const std::string& block,
 /// Adds the mean with Student's interval.
 void add_mean(ResultsSection& section, const GroupName& group, const OwnNumbers& values);
 
+/// The same of rates: between 0 and 1, however far Student's interval would reach.
+void add_mean_rate(ResultsSection& section, const GroupName& group, const OwnNumbers& rates);
+
 /// "Pa s"; "1" of a ratio.
 [[nodiscard]] std::string unit_of_quantity(const std::string& quantity);
 

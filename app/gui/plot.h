@@ -31,6 +31,7 @@ struct PlotSeries {
   std::vector<double> x, y;
   std::vector<double> low, high;
   std::vector<std::string> names;  ///< Of single points, for the mouse: "P05".
+  std::vector<float> radii;        ///< Of single points, logical pixels; else all alike.
   bool hollow = true;              ///< Points: rings, with ink around the card's colour.
   bool dashed = false;             ///< Lines.
   float thickness = 2.0f;          ///< Lines.

@@ -144,16 +144,19 @@ void draw_points(Ui& ui, const PlotArea& area, const PlotSeries& series) {
   for (std::size_t i = 0; i < count; ++i) {
     if (!area.can_show(series.x[i], series.y[i])) continue;
     const ImVec2 centre(ui.px(area.x(series.x[i])), ui.px(area.y(series.y[i])));
+    const float radius = i < series.radii.size() ? series.radii[i]
+                         : series.hollow         ? 4.5f
+                                                 : 3.5f;
     if (!series.hollow) {
-      ui.draw_list().AddCircleFilled(centre, ui.px(3.5f),
+      ui.draw_list().AddCircleFilled(centre, ui.px(radius),
                                      ui.theme().line_rgba(series.colour, series.alpha));
       continue;
     }
-    ui.draw_list().AddCircleFilled(centre, ui.px(4.5f), ui.rgba(Colour::kCard));
+    ui.draw_list().AddCircleFilled(centre, ui.px(radius), ui.rgba(Colour::kCard));
     // Answers are ink; who draws a second kind of points tells it by its colour.
     const bool is_plain = series.colour == Colour::kBlue;
     ui.draw_list().AddCircle(
-        centre, ui.px(4.5f),
+        centre, ui.px(radius),
         is_plain ? ui.rgba(Colour::kInk) : ui.theme().line_rgba(series.colour), 0, ui.px(1.6f));
   }
 }

@@ -197,7 +197,9 @@ PreflightLine loop_line(const LoopTest& test) {
     return line;
   }
   const std::string missed =
-      test.missed_ticks == 0 ? "none" : fmt::format("{} ticks", test.missed_ticks);
+      test.missed_ticks == 0
+          ? "none"
+          : fmt::format("{} {}", test.missed_ticks, test.missed_ticks == 1 ? "tick" : "ticks");
   line.found =
       test.lateness_p99_us < 10.0
           ? fmt::format("{} missed, 99 % within {:.1f} µs", missed, test.lateness_p99_us)

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 #include <set>
 
 #include "analysis/groups/summary.h"
@@ -44,6 +46,39 @@ void add_box(BoxFigure& figure, const std::string& label, const Values& values) 
   if (!values.empty()) figure.boxes.push_back(box_of(label, values));
 }
 
+/// Own matches by their standard, as estimates are named: "match_at_8".
+std::map<std::string, Values> matches_of(const ResultsSource& source,
+                                         const std::string& block) {
+  std::map<std::string, Values> matches;
+  const analysis::ResultsSection* section = source.section(block);
+  if (section == nullptr) return matches;
+  const std::string start = block + ".match_at_";
+  for (const analysis::ParticipantEstimate& own : section->participants) {
+    if (!own.name.starts_with(start) || !own.value) continue;
+    matches[own.name.substr(start.size())].emplace_back(own.participant, *own.value);
+  }
+  return matches;
+}
+
+/// A box for each standard, the blocks one after the other.
+void add_matches(const ResultsSource& source, const BlockDesign& block, BoxFigure& figure) {
+  const auto num_blocks =
+      std::ranges::count(source.data.blocks, "matching", &BlockDesign::procedure);
+  const std::string title = short_title(source.title(block.block));
+  const std::string unit = quantity_unit(block.quantity);
+  figure.unit = figure.unit.empty() || figure.unit == unit ? unit : "";
+  std::vector<std::pair<double, std::string>> standards;
+  const std::map<std::string, Values> matches = matches_of(source, block.block);
+  for (const auto& [standard, values] : matches) {
+    standards.emplace_back(std::strtod(standard.c_str(), nullptr), standard);
+  }
+  std::ranges::sort(standards);
+  for (const auto& [number, standard] : standards) {
+    const std::string label = "to " + standard;
+    add_box(figure, num_blocks > 1 ? title + ", " + label : label, matches.at(standard));
+  }
+}
+
 std::optional<double> whole_movement(const ParticipantData& participant,
                                      MovementColumn column) {
   std::vector<core::PresentationRow> all;
@@ -57,6 +92,11 @@ bool is_magnitude(const BlockDesign& block) {
   return block.procedure == "magnitude_estimation" || block.procedure == "magnitude_production";
 }
 
+/// Whether match and standard have one quantity.
+bool has_ratio(const BlockDesign& block) {
+  return block.protocol.standard_quantity == block.quantity;
+}
+
 /// "w Group D", "a estimation": the number, then what tells it from the others of its kind.
 std::string column_title(const ResultsSource& source, const BlockDesign& block) {
   const auto same = std::count_if(
@@ -64,6 +104,9 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
       [&](const BlockDesign& other) { return other.procedure == block.procedure; });
   const std::string title = short_title(source.title(block.block));
   if (block.detects()) return title;
+  if (block.procedure == "matching") {
+    return (has_ratio(block) ? "ratio " : "a ") + title;
+  }
   if (!is_magnitude(block)) return "w " + title;
   if (same > 1) return "a " + title;
   return block.procedure == "magnitude_estimation" ? "a estimation" : "a production";
@@ -73,6 +116,7 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
 std::string column_estimate(const BlockDesign& block) {
   if (block.compares() || block.tells_apart()) return ".weber_fraction";
   if (block.detects()) return ".threshold";
+  if (block.procedure == "matching") return has_ratio(block) ? ".ratio_to_standard" : ".a";
   return is_magnitude(block) ? ".a" : "";
 }
 
@@ -116,6 +160,7 @@ Box box_of(const std::string& label, const Values& values) {
 std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
   BoxFigure weber{.name = "weber_fraction", .title = "Weber fraction", .unit = ""};
   BoxFigure exponent{.name = "exponent", .title = "Exponent", .unit = ""};
+  BoxFigure match{.name = "match", .title = "Match to a standard", .unit = ""};
   BoxFigure stroke{.name = "stroke_width_m", .title = "Stroke width", .unit = "m"};
   BoxFigure speed{.name = "max_speed_m_per_s", .title = "Largest speed", .unit = "m/s"};
   for (const BlockDesign& block : source.data.blocks) {
@@ -126,13 +171,14 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
     if (is_magnitude(block)) {
       add_box(exponent, label, own_values(source, block.block, block.block + ".a"));
     }
+    if (block.procedure == "matching") add_matches(source, block, match);
     add_box(stroke, label,
             movement_values(source, block.block, &core::PresentationRow::stroke_width_m));
     add_box(speed, label,
             movement_values(source, block.block, &core::PresentationRow::max_speed_m_per_s));
   }
   std::vector<BoxFigure> figures;
-  for (BoxFigure* figure : {&weber, &exponent, &stroke, &speed}) {
+  for (BoxFigure* figure : {&weber, &exponent, &match, &stroke, &speed}) {
     if (!figure->boxes.empty()) figures.push_back(std::move(*figure));
   }
   return figures;

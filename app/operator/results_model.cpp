@@ -90,16 +90,23 @@ std::string with_titles(const ResultsSource& source, std::string name) {
          name.substr(colon);
 }
 
-/// A block's title; what another section is called in words.
+/// A block's title; "Low: staircase" for "low_staircase", what else is reckoned of the block
+/// "low"; what another section is called in words.
 std::string section_words(const ResultsSource& source, const std::string& name) {
   const auto found = source.titles.find(name);
-  return found == source.titles.end() ? name_words(name, /*as_title=*/true) : found->second;
+  if (found != source.titles.end()) return found->second;
+  for (const auto& [block, title] : source.titles) {
+    if (!name.starts_with(block + "_")) continue;
+    return title + ": " + name_words(name.substr(block.size() + 1), /*as_title=*/false);
+  }
+  return name_words(name, /*as_title=*/true);
 }
 
-/// "group_d.weber_fraction" within its section.
-std::string label_of(const std::string& section, const std::string& name) {
-  const bool is_own = name.starts_with(section + ".");
-  return name_words(is_own ? name.substr(section.size() + 1) : name, /*as_title=*/true);
+/// "group_d.weber_fraction" without its block, which stands above it.
+std::string label_of(const ResultsSource& source, const std::string& name) {
+  const std::size_t dot = name.find('.');
+  const bool is_own = dot != std::string::npos && source.titles.contains(name.substr(0, dot));
+  return name_words(is_own ? name.substr(dot + 1) : name, /*as_title=*/true);
 }
 
 void add_numbers(const ResultsSource& source, ResultsModel& model) {
@@ -107,7 +114,7 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
     for (const Estimate& estimate : section.estimates) {
       model.numbers.push_back(
           {.section = section_words(source, section.name),
-           .label = label_of(section.name, estimate.name),
+           .label = label_of(source, estimate.name),
            .name = estimate.name,
            .value = estimate.value && std::isfinite(*estimate.value)
                         ? number(*estimate.value, estimate.unit)

@@ -60,11 +60,14 @@ struct PsychometricFigure {
 /// A block with a reference.
 struct Discrimination {
   std::string block, title;
-  std::string quantity, unit;  ///< "viscosity", "Pa s".
+  std::string quantity, unit;    ///< "viscosity", "Pa s".
+  std::string answer;            ///< "“yes”", "test chosen".
+  bool has_fixed_levels = true;  ///< Else so many that each has few answers.
   double reference = 0.0;
-  /// By least squares on the proportions, its interval over resampled participants: as
-  /// published values are.
+  /// By least squares on the proportions, as published values are, or, with two orders of the
+  /// intervals, by maximum likelihood; its interval over resampled participants.
   PsychometricFigure pooled;
+  bool pooled_by_maximum_likelihood = false;
   /// By maximum likelihood, with likelihood-ratio intervals; by pseudonym.
   std::vector<PsychometricFigure> participants;
   std::optional<double> published, published_sd;
@@ -89,10 +92,11 @@ struct ThresholdFigure {
 /// A block that asks for a threshold otherwise than by comparisons, or its tracks.
 struct Threshold {
   std::string block, title;
-  std::string quantity, unit;  ///< "viscosity", "Pa s".
-  std::string answer;          ///< "yes", "different".
-  bool has_tracks = false;     ///< Levels over trials, not answers over levels.
-  bool is_logarithmic = true;  ///< The axis of levels.
+  std::string quantity, unit;    ///< "viscosity", "Pa s".
+  std::string answer;            ///< "“yes”", "“different”".
+  bool has_fixed_levels = true;  ///< Else so many that each has few answers.
+  bool has_tracks = false;       ///< Levels over trials, not answers over levels.
+  bool is_logarithmic = true;    ///< The axis of levels.
   std::optional<double> reference;
   ThresholdFigure pooled;
   std::vector<ThresholdFigure> participants;  ///< By pseudonym.
@@ -147,7 +151,8 @@ struct Box {
   int n = 0;
 };
 
-/// Boxes that share an axis: Weber fraction, exponent, stroke width or largest speed by block.
+/// Boxes that share an axis: Weber fraction, exponent, matches, stroke width or largest speed
+/// by block.
 struct BoxFigure {
   std::string name;  ///< "weber_fraction"
   std::string title, unit;
@@ -231,6 +236,8 @@ struct ResultsSource {
 
 [[nodiscard]] std::vector<results::Discrimination> discriminations_of(
     const ResultsSource& source);
+/// Whether all answers of a block are to a few levels; those of staircases are not.
+[[nodiscard]] bool has_fixed_levels(const analysis::BlockDesign& block);
 /// Yes-no and same-different blocks with their answers, and adaptive ones with their tracks.
 [[nodiscard]] std::vector<results::Threshold> thresholds_of(const ResultsSource& source);
 [[nodiscard]] std::vector<results::Magnitude> magnitudes_of(const ResultsSource& source);

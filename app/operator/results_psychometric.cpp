@@ -100,12 +100,15 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
   const std::string name = block.block + ".weber_fraction";
   const Estimate* pooled = source.results.find(name);
   if (section == nullptr || pooled == nullptr) return std::nullopt;
-  Discrimination figure{.block = block.block,
-                        .title = source.title(block.block),
-                        .quantity = quantity_words(block.quantity),
-                        .unit = quantity_unit(block.quantity),
-                        .published = pooled->published,
-                        .published_sd = pooled->published_sd};
+  Discrimination figure{
+      .block = block.block,
+      .title = source.title(block.block),
+      .quantity = quantity_words(block.quantity),
+      .unit = quantity_unit(block.quantity),
+      .answer = block.protocol.task == "two_interval" ? "test chosen" : "“yes”",
+      .has_fixed_levels = has_fixed_levels(block),
+      .published = pooled->published,
+      .published_sd = pooled->published_sd};
   Counts all;
   std::map<std::string, std::pair<Counts, double>> own;
   for (const ParticipantData& participant : source.data.participants) {
@@ -128,6 +131,8 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
       .ci95 = pooled->ci95,
       .order_effect_ln = value_or_0(source.results.find(name + "_order_effect_ln")),
       .reason = pooled->value ? "" : in_plain_words(pooled_reason(*section, name))};
+  figure.pooled_by_maximum_likelihood =
+      source.results.find(name + "_order_effect_ln") != nullptr;
   draw_curve(figure.pooled, figure.reference, low, high);
   for (const auto& [participant, counted] : own) {
     const analysis::ParticipantEstimate* estimate = source.own(block.block, participant, name);

@@ -132,7 +132,8 @@ Threshold threshold_of(const ResultsSource& source, const BlockDesign& block) {
           .title = source.title(block.block),
           .quantity = quantity_words(block.quantity),
           .unit = quantity_unit(block.quantity),
-          .answer = block.tells_apart() ? "different" : "yes",
+          .answer = block.tells_apart() ? "“different”" : "“yes”",
+          .has_fixed_levels = has_fixed_levels(block),
           .reference = block.reference_intensity};
 }
 
@@ -195,6 +196,10 @@ std::optional<Threshold> tracks_of(const ResultsSource& source, const BlockDesig
 }
 
 }  // namespace
+
+bool has_fixed_levels(const BlockDesign& block) {
+  return !analysis::is_adaptive(block) || block.procedure == "limits";
+}
 
 std::vector<Threshold> thresholds_of(const ResultsSource& source) {
   std::vector<Threshold> figures;

@@ -35,11 +35,11 @@ PracticeState practice_state(const Block& block, const std::vector<AnsweredTrial
 
 std::string practice_words(const Block& block, const PracticeState& state) {
   const Practice& practice = block.practice.value();
+  const int num_needed = num_correct_needed(practice);
   return "practice over after " + std::to_string(state.num_trials) +
          " trials: " + std::to_string(state.num_correct) + " of the last " +
-         std::to_string(state.num_judged) + " answers were right, " +
-         std::to_string(num_correct_needed(practice)) + " of " +
-         std::to_string(practice.num_trials_judged) + " were to be";
+         std::to_string(state.num_judged) + " answers were right, at least " +
+         std::to_string(num_needed) + (num_needed == 1 ? " was" : " were") + " asked for";
 }
 
 std::vector<PlannedTrial> next_trials(const Block& block,

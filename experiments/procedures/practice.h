@@ -20,8 +20,8 @@ struct PracticeState {
 [[nodiscard]] PracticeState practice_state(const Block& block,
                                            const std::vector<AnsweredTrial>& answered);
 
-/// "practice over after 14 trials: 8 of the last 10 answers were right, as were to be", in one
-/// sentence without a full stop.
+/// "practice over after 14 trials: 8 of the last 10 answers were right, at least 8 were
+/// asked for", in one sentence without a full stop.
 [[nodiscard]] std::string practice_words(const Block& block, const PracticeState& state);
 
 /// What a session runs next: the trials that the block's procedure draws, none once a practice

@@ -96,6 +96,22 @@ TEST(DetectionResults, AThresholdIsWhereHalfOfTheStimuliAreFelt) {
   EXPECT_EQ(results.find("felt.weber_fraction"), nullptr) << "there is no reference";
 }
 
+TEST(DetectionResults, AMeanRateStaysBetween0And1) {
+  HandMadeStudy study(kProtocol);
+  for (const int num_false : {0, 6}) {
+    study.add(num_false == 0 ? "P01" : "P02");
+    felt(study, about(0.2));
+    felt(study, {{0.0, num_false, 20}}, /*is_catch=*/true);
+  }
+  const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
+  const Estimate* rate = results.find("felt.false_alarm_rate");
+  ASSERT_NE(rate, nullptr);
+  EXPECT_NEAR(*rate->value, 0.15, 1e-12);
+  // Student's would reach 12.7 times 0.15 to either side.
+  EXPECT_EQ(rate->ci95.low, 0.0);
+  EXPECT_EQ(rate->ci95.high, 1.0);
+}
+
 TEST(DetectionResults, FalseAlarmsAreToldAndCorrectedFor) {
   HandMadeStudy study(kProtocol);
   study.add("P01");

@@ -57,7 +57,7 @@ void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareVi
   if (problem.empty()) {
     words = model.study.hides_levels ? "Order assigned, but hidden."
             : state.fields.size() < model.fields.size()
-                ? "The order depends on the answers below."
+                ? "Order: as chosen below."
             : model.assigned.empty() ? "The same order for everyone."
                                      : "Order: " + model.assigned + ".";
   }

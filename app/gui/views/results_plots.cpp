@@ -1,5 +1,6 @@
 #include "app/gui/views/results_plots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,9 +71,30 @@ void add_power_curve(PlotModel& plot, const std::optional<results::PowerCurve>& 
 
 }  // namespace
 
+PlotSeries answer_points(const std::vector<results::Proportion>& proportions,
+                         bool has_fixed_levels) {
+  PlotSeries points{.style = PlotSeries::Style::kPoints, .colour = Colour::kInk};
+  std::int64_t most = 1;
+  for (const results::Proportion& one : proportions) most = std::max(most, one.num_trials);
+  for (const results::Proportion& one : proportions) {
+    points.x.push_back(one.intensity);
+    points.y.push_back(kPercent * one.ratio);
+    points.names.push_back(std::to_string(one.num_yes) + " of " +
+                           std::to_string(one.num_trials));
+    if (has_fixed_levels) {
+      points.low.push_back(kPercent * one.low);
+      points.high.push_back(kPercent * one.high);
+    } else {
+      const double share = static_cast<double>(one.num_trials) / static_cast<double>(most);
+      points.radii.push_back(1.5f + 5.0f * static_cast<float>(std::sqrt(share)));
+    }
+  }
+  return points;
+}
+
 PlotModel psychometric_plot(const results::Discrimination& block,
                             const results::PsychometricFigure& figure) {
-  PlotModel plot{.title = block.title, .unit = "“yes” in percent"};
+  PlotModel plot{.title = block.title, .unit = block.answer + " in percent"};
   plot.x = {
       .label = axis_label("test", block.quantity), .unit = block.unit, .logarithmic = true};
   plot.y = {.minimum = 0.0, .maximum = kPercent};
@@ -90,16 +112,7 @@ PlotModel psychometric_plot(const results::Discrimination& block,
     plot.series.push_back(std::move(band));
   }
   if (!figure.curve.empty()) plot.series.push_back(curve_series(figure.curve, kPercent));
-  PlotSeries points{.style = PlotSeries::Style::kPoints, .colour = Colour::kInk};
-  for (const results::Proportion& one : figure.points) {
-    points.x.push_back(one.intensity);
-    points.y.push_back(kPercent * one.ratio);
-    points.low.push_back(kPercent * one.low);
-    points.high.push_back(kPercent * one.high);
-    points.names.push_back(std::to_string(one.num_yes) + " of " +
-                           std::to_string(one.num_trials));
-  }
-  plot.series.push_back(std::move(points));
+  plot.series.push_back(answer_points(figure.points, block.has_fixed_levels));
   plot.marks.push_back({.at = block.reference});
   // One beyond the stimuli would stretch the axis until nothing else can be seen.
   const double most = figure.curve.empty() ? 0.0 : figure.curve.back().x;

@@ -7,6 +7,9 @@ namespace jnd::app::gui {
 
 // What the results view plots, from its model.
 
+/// In percent: rings with intervals, or where levels are many rings that grow with the answers.
+[[nodiscard]] PlotSeries answer_points(const std::vector<results::Proportion>& proportions,
+                                       bool has_fixed_levels);
 [[nodiscard]] PlotModel psychometric_plot(const results::Discrimination& block,
                                           const results::PsychometricFigure& figure);
 [[nodiscard]] PlotModel threshold_plot(const results::Threshold& block,

@@ -52,7 +52,7 @@ void add_points(PlotModel& plot, const std::vector<Point>& points, PlotSeries lo
 }
 
 PlotModel answers_plot(const Threshold& block, const ThresholdFigure& figure) {
-  PlotModel plot{.title = block.title, .unit = "“" + block.answer + "” in percent"};
+  PlotModel plot{.title = block.title, .unit = block.answer + " in percent"};
   plot.x = {.label = "test " + block.quantity, .unit = block.unit, .logarithmic = true};
   plot.y = {.minimum = 0.0, .maximum = kPercent};
   for (const int percent : {0, 25, 50, 75, 100}) {
@@ -61,16 +61,7 @@ PlotModel answers_plot(const Threshold& block, const ThresholdFigure& figure) {
   plot.legend = false;
   add_points(plot, figure.curve, {.style = PlotSeries::Style::kLine, .thickness = 2.5f},
              kPercent);
-  PlotSeries points{.style = PlotSeries::Style::kPoints, .colour = Colour::kInk};
-  for (const Proportion& one : figure.points) {
-    points.x.push_back(one.intensity);
-    points.y.push_back(kPercent * one.ratio);
-    points.low.push_back(kPercent * one.low);
-    points.high.push_back(kPercent * one.high);
-    points.names.push_back(std::to_string(one.num_yes) + " of " +
-                           std::to_string(one.num_trials));
-  }
-  plot.series.push_back(std::move(points));
+  plot.series.push_back(answer_points(figure.points, block.has_fixed_levels));
   if (block.reference) plot.marks.push_back({.at = *block.reference});
   if (figure.line) {
     plot.marks.push_back({.at = *figure.line,

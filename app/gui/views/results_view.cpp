@@ -120,9 +120,15 @@ void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
   result.cancel = draw_work(ui, inside.middle(inside.width, 42), model.work);
 }
 
-std::string method_words(const ResultsViewState& state) {
-  return state.participant == 0 ? "least squares, participants resampled"
-                                : "maximum likelihood, likelihood-ratio intervals";
+/// Of the curves that are shown; of other pages every number's meaning tells.
+std::string method_words(const ResultsModel& results, ResultsPage page,
+                         const ResultsViewState& state) {
+  if (page != ResultsPage::kCurves && page != ResultsPage::kMagnitudes) return "";
+  if (page == ResultsPage::kMagnitudes) return "least squares, participants resampled";
+  if (state.participant > 0) return "maximum likelihood, likelihood-ratio intervals";
+  return results.discriminations.front().pooled_by_maximum_likelihood
+             ? "maximum likelihood, participants resampled"
+             : "least squares, participants resampled";
 }
 
 }  // namespace
@@ -130,6 +136,7 @@ std::string method_words(const ResultsViewState& state) {
 ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                                     ResultsViewState& state) {
   ResultsViewResult result;
+  std::string method;
   Rect rest = ui.screen();
   const StudyHeader header = draw_study_header(ui, rest.take_top(kHeaderHeight), model.study,
                                                StudyTab::kResults, own_width(ui));
@@ -153,9 +160,9 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                       results.simulated && !header.shows_marks, state);
     draw_strip(ui, rest.take_top(40, kGap), pages, results, state, result);
     draw_results_page(ui, rest, results, pages[state.page].page, state);
+    method = method_words(results, pages[state.page].page, state);
   }
-  draw_study_footer(ui, footer, model.work.outcome.sentence,
-                    model.results == nullptr ? "" : method_words(state));
+  draw_study_footer(ui, footer, model.work.outcome.sentence, method);
   if (state.asks_to_unblind) draw_unblind_dialog(ui, state, result);
   return result;
 }

@@ -57,6 +57,8 @@ TEST_F(ResultsThresholdsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
   EXPECT_EQ(answers.title, "Felt");
   EXPECT_EQ(answers.unit, "Pa s");
   EXPECT_FALSE(answers.has_tracks);
+  EXPECT_EQ(answers.answer, "“yes”");
+  EXPECT_FALSE(answers.has_fixed_levels) << "a staircase has few answers a level";
   ASSERT_EQ(answers.participants.size(), 2U);
   const ThresholdFigure& own = answers.participants[0];
   EXPECT_EQ(own.value, "0.2 Pa s");
@@ -90,6 +92,40 @@ TEST_F(ResultsThresholdsTest, TheTableHasAColumnOfThresholds) {
   EXPECT_EQ(model.columns.front().unit, "Pa s");
   EXPECT_NEAR(model.rows[0].values[0].value(), 0.2, 1e-9);
   EXPECT_FALSE(model.rows[1].values[0].has_value());
+}
+
+TEST(ResultsBoxes, OfMatchesStandByTheirStandardsFromTheLeast) {
+  analysis::HandMadeStudy study(R"({"name": "by_hand", "stages": [{"kind": "block",
+    "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [16, 2]}]})");
+  for (const char* person : {"P01", "P02", "P03"}) {
+    study.add(person);
+    for (const double standard : {16.0, 2.0}) {
+      const double set = standard * (std::string(person) == "P02" ? 1.5 : 1.0);
+      (void)study.answer({.block = "match",
+                          .procedure = "matching",
+                          .quantity = "viscosity_pa_s",
+                          .repetition = 1,
+                          .intensity = set,
+                          .reference_intensity = standard,
+                          .starting_intensity = 1.0,
+                          .response = set});
+    }
+  }
+  const analysis::StudyData data = analysis::load_study(study.store());
+  const analysis::StudyResults results = analysis::results_of(data, {}, {.num_resamples = 50});
+  const ResultsSource source{data, results, {{"match", "Match it"}}};
+  const std::vector<BoxFigure> figures = boxes_of(source);
+  ASSERT_FALSE(figures.empty());
+  EXPECT_EQ(figures[0].name, "match");
+  EXPECT_EQ(figures[0].unit, "Pa s");
+  ASSERT_EQ(figures[0].boxes.size(), 2U);
+  EXPECT_EQ(figures[0].boxes[0].label, "to 2");
+  EXPECT_EQ(figures[0].boxes[1].label, "to 16");
+  EXPECT_NEAR(figures[0].boxes[1].median, 16.0, 1e-9);
+  ResultsModel model;
+  add_table(source, model);
+  EXPECT_EQ(model.columns.front().title, "ratio Match it");
+  EXPECT_NEAR(model.rows[1].values[0].value(), 1.5, 1e-9);
 }
 
 }  // namespace

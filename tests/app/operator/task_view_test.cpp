@@ -198,7 +198,8 @@ TEST_F(TaskViewTest, APracticeSaysWhatItCameToAndGoesOnAfterAnUndo) {
   SessionView now = view();
   EXPECT_EQ(now.step, Step::kStageDone);
   const std::string over =
-      "practice over after 4 trials: 4 of the last 4 answers were right, 3 of 4 were to be";
+      "practice over after 4 trials: 4 of the last 4 answers were right, at least 3 were asked "
+      "for";
   EXPECT_EQ(now.practice, over);
   EXPECT_EQ(now.sentence, "Done: " + over + ". Go on?");
   EXPECT_EQ(now.say, "That was right.");

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "app/window/window_fixture.h"
 #include "support/places.h"
@@ -55,6 +57,15 @@ class PicturesWindowTest : public WindowTest {
   void close() {
     window_->press_close_button();
     EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
+  }
+
+  /// What stands there but for numbers, which change all the time.
+  static std::vector<std::string> words_of(const Screen& screen) {
+    std::vector<std::string> words;
+    for (const std::string& text : screen.texts) {
+      if (text.find_first_of("0123456789") == std::string::npos) words.push_back(text);
+    }
+    return words;
   }
 
   static nlohmann::json shipped(const std::string& name) {

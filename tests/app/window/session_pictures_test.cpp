@@ -50,15 +50,6 @@ class SessionPicturesTest : public PicturesWindowTest {
     return study.dump(1);
   }
 
-  /// What stands there but for numbers, which change all the time.
-  static std::vector<std::string> words_of(const Screen& screen) {
-    std::vector<std::string> words;
-    for (const std::string& text : screen.texts) {
-      if (text.find_first_of("0123456789") == std::string::npos) words.push_back(text);
-    }
-    return words;
-  }
-
   /// Does what the card asks for, after a picture of every kind of card; false at the end.
   bool step_on() {
     static const std::vector<std::string> kCards = {

@@ -61,5 +61,31 @@ TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles
   close();
 }
 
+TEST_F(StudyPicturesTest, OfResultsOfThresholdsStaircasesAndMatches) {
+  window_->start();
+  for (const char* study :
+       {"viscosity_threshold", "viscosity_staircase", "viscosity_matching"}) {
+    const fs::path folder = path(std::string(study) + ".study");
+    ASSERT_EQ(
+        jnd({"simulate", study, "--participants", "4", "--fast", "--study", folder.string()})
+            .exit_code,
+        0);
+    open(folder);
+    window_->wait_for_view("sessions");
+    window_->use("tab_results");
+    const Screen results = window_->wait_for("export");
+    for (const Screen::Widget& widget : results.widgets) {
+      if (!widget.name.starts_with("page_")) continue;
+      window_->use(widget.name);
+      take(std::string("results-") + study + "-" + widget.name.substr(5), 1);
+    }
+    window_->use("tab_study");
+    window_->wait_for_view("study");
+    take(std::string("study-") + study, 1);
+    window_->use("tab_start");
+  }
+  close();
+}
+
 }  // namespace
 }  // namespace jnd::app

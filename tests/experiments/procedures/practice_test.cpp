@@ -58,8 +58,8 @@ TEST(Practice, EndsAfterTheMostTrialsInAnyCase) {
   EXPECT_TRUE(state.is_over);
   EXPECT_FALSE(state.criterion_is_met);
   EXPECT_EQ(practice_words(block, state),
-            "practice over after 8 trials: 0 of the last 4 answers were right, 3 of 4 were to "
-            "be");
+            "practice over after 8 trials: 0 of the last 4 answers were right, at least 3 were "
+            "asked for");
 }
 
 TEST(Practice, SevenTenthsOfTenAreSeven) {

@@ -291,7 +291,7 @@ TEST_F(TaskSessionTest, PracticeEndsAtItsCriterionWithANote) {
   ASSERT_EQ(s.state().notes.size(), 1U);
   EXPECT_EQ(s.state().notes[0],
             "practice over after " + std::to_string(num_trials) +
-                " trials: 4 of the last 4 answers were right, 3 of 4 were to be");
+                " trials: 4 of the last 4 answers were right, at least 3 were asked for");
   s.complete();
 }
 

@@ -127,7 +127,7 @@ TEST_F(PrepareViewTest, WhatTheStudyStratifiesByIsAskedBeforeTheStart) {
   model_.assigned = "";
   EXPECT_FALSE(after_key({Key::kEnter}).start);
   EXPECT_TRUE(ui_.drawn().shows("Choose first: Which hand?"));
-  EXPECT_TRUE(ui_.drawn().shows("The order depends on the answers below."));
+  EXPECT_TRUE(ui_.drawn().shows("Order: as chosen below."));
   EXPECT_TRUE(after_key({letter('F')}).fields_changed);
   EXPECT_EQ(state_.fields.at("handedness"), "right");
   EXPECT_TRUE(after_key({letter('F')}).fields_changed);
