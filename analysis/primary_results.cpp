@@ -11,7 +11,14 @@ namespace {
 std::vector<std::string> primary_names(const BlockDesign& block) {
   if (block.procedure == "magnitude_estimation") return {".k", ".a"};
   if (block.procedure == "magnitude_production") return {".k", ".a"};
-  if (block.procedure == "matching") return {".ratio_to_standard"};
+  if (block.procedure == "matching") {
+    const bool of_one_quantity = block.protocol.standard_quantity == block.quantity;
+    return of_one_quantity ? std::vector<std::string>{".ratio_to_standard"}
+                           : std::vector<std::string>{".k", ".a"};
+  }
+  if (block.procedure == "limits" && block.compares()) {
+    return {".limits_threshold", ".weber_fraction_median_person"};
+  }
   if (block.procedure == "limits") return {".limits_threshold"};
   // Of any procedure the same, as the tests between blocks have it.
   if (block.compares()) return {".weber_fraction_median_person"};

@@ -143,6 +143,46 @@ void add_goodness(PsychometricFit& fit, const Cells& cells, const LikelihoodOpti
   fit.goodness.p_value = (1.0 + num_as_far) / (1.0 + options.num_goodness);
 }
 
+/// The order whose answers are all alike, if there is one alone.
+std::optional<double> order_all_alike(const Cells& cells) {
+  std::optional<double> found;
+  for (const double order : {kTestFirst, kTestSecond}) {
+    const auto is_other = [&](const Cell& cell) { return cell.order != order; };
+    const bool alike =
+        std::ranges::all_of(
+            cells, [&](const Cell& cell) { return is_other(cell) || cell.num_yes == 0.0; }) ||
+        std::ranges::all_of(cells, [&](const Cell& cell) {
+          return is_other(cell) || cell.num_yes == cell.num_trials;
+        });
+    if (!alike) continue;
+    if (found) return std::nullopt;
+    found = order;
+  }
+  return found;
+}
+
+/// With a free pse, answers all alike are explained best by an endless order effect and then
+/// say nothing of the slope: it is that of the other order, whose place is free. Neither pse
+/// nor order effect has a value.
+PsychometricFit fit_of_other_order(const std::vector<AnswerCount>& data, double alike,
+                                   const PsychometricOptions& options) {
+  std::vector<AnswerCount> rows;
+  for (const AnswerCount& row : data) {
+    if (row.order != alike) rows.push_back(row);
+  }
+  PsychometricOptions alone = options;
+  alone.by_order = false;
+  PsychometricFit fit = fit_psychometric(rows, alone);
+  if (fit.status != FitStatus::kOk) return fit;
+  fit.pse.reset();
+  fit.pse_ci95 = Interval{};
+  fit.warnings.push_back(std::string("with the test ") +
+                         (alike == kTestFirst ? "first" : "second") +
+                         " every answer is the same: the Weber fraction is that of the other "
+                         "order, and the order effect has no value");
+  return fit;
+}
+
 }  // namespace
 
 bool orders_vary(const std::vector<AnswerCount>& data) noexcept {
@@ -170,7 +210,11 @@ PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
   }
   const ProbitRegression found = regression_of(cells, options.free_pse);
   fit.reason = found.reason;
-  if (found.status != FitStatus::kOk) return fit;
+  if (found.status != FitStatus::kOk) {
+    const std::optional<double> alike =
+        options.free_pse ? order_all_alike(cells) : std::nullopt;
+    return alike ? fit_of_other_order(data, *alike, options) : fit;
+  }
   const double slope = found.coefficients(0);
   const double fraction = std::expm1(1.0 / slope);
   if (!(slope > 0.0 && std::isfinite(fraction))) {
@@ -203,6 +247,10 @@ PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
 double mean_over_orders(double pse, double weber_fraction, double order_effect_ln,
                         double intensity) noexcept {
   const auto at = [&](double order) {
+    if (!(weber_fraction > 0.0)) {
+      const double place = pse * std::exp(order * order_effect_ln);
+      return intensity < place ? 0.0 : intensity > place ? 1.0 : 0.5;
+    }
     return core::PsychometricFunction{.pse = pse * std::exp(order * order_effect_ln),
                                       .weber_fraction = weber_fraction}
         .probability(intensity);

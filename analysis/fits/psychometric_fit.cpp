@@ -196,8 +196,9 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                       options.num_bootstrap == 0 && !options.posterior,
                   "by_order", "the Weber curve by maximum likelihood alone", 1.0);
     PsychometricFit fit = fit_by_interval_order(data, options);
-    if (fit.status == FitStatus::kOk)
-      add_doubts(fit, data, levels, fit.num_levels - (options.free_pse ? 3 : 2));
+    if (fit.status != FitStatus::kOk || !fit.order_effect_ln) return fit;
+    add_warnings(fit, levels, options);
+    add_doubts(fit, data, levels, fit.num_levels - (options.free_pse ? 3 : 2));
     return fit;
   }
   PsychometricFit fit;

@@ -8,6 +8,7 @@
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/fits/psychometric_model.h"
 #include "analysis/groups/hierarchical_search.h"
+#include "analysis/groups/hierarchical_words.h"
 #include "core/error.h"
 #include "core/require.h"
 
@@ -26,7 +27,7 @@ struct Arranged {
   std::vector<std::vector<AnswerCount>> pooled;  ///< Rows of each condition.
   std::vector<int> num_in_condition;
   bool yes_at_zero = false;
-  bool has_orders = false;  ///< Some rows differ in the order of the intervals.
+  std::vector<bool> has_orders_in;  ///< Of each condition: rows differ in the order.
 };
 
 template <typename Name>
@@ -41,7 +42,6 @@ Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
   for (const ParticipantAnswers& one : answers) {
     std::map<double, std::vector<AnswerCount>> by_order;
     for (const AnswerCount& row : one.rows) by_order[row.order].push_back(row);
-    all.has_orders = all.has_orders || orders_vary(one.rows);
     HierarchicalCell cell;
     for (const auto& [order, rows] : by_order) {
       const PsychometricLevels levels = pooled_levels(rows, one.reference, false);
@@ -63,20 +63,30 @@ Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
     core::require(one.reference == all.reference[condition], "reference",
                   "the same for everybody in condition \"" + one.condition + "\"",
                   one.reference);
+    all.has_orders_in.resize(all.conditions.size());
+    if (orders_vary(one.rows)) all.has_orders_in[condition] = true;
     cell.condition = static_cast<int>(condition);
     ++all.num_in_condition[condition];
     all.people[person].push_back(std::move(cell));
     all.pooled[condition].insert(all.pooled[condition].end(), one.rows.begin(), one.rows.end());
   }
+  // One order alone is none.
+  for (HierarchicalPerson& person : all.people) {
+    for (HierarchicalCell& cell : person) {
+      if (all.has_orders_in[static_cast<std::size_t>(cell.condition)]) continue;
+      std::fill(cell.order.begin(), cell.order.end(), 0.0);
+    }
+  }
   return all;
 }
 
-HierarchicalStructure structure_of(int num_conditions, bool has_orders,
+HierarchicalStructure structure_of(const std::vector<bool>& has_orders_in,
                                    const HierarchicalOptions& options) {
+  const auto num_conditions = static_cast<int>(has_orders_in.size());
   HierarchicalStructure structure{.link = options.link,
                                   .num_conditions = num_conditions,
                                   .has_places = options.pse != HierarchicalPse::kReference,
-                                  .has_orders = has_orders};
+                                  .has_orders_in = has_orders_in};
   int parameter = structure.num_numbers();
   const bool correlated =
       options.slopes == HierarchicalSlopes::kCorrelated && num_conditions == 2;
@@ -90,23 +100,25 @@ HierarchicalStructure structure_of(int num_conditions, bool has_orders,
     }
     parameter += 1;
   }
-  // With either interval, what is a person's own is the bias for one of them.
-  const bool personal = options.pse == HierarchicalPse::kPersonal ||
-                        (has_orders && options.pse == HierarchicalPse::kReference);
-  const auto add_place = [&](int condition) {
-    structure.loadings.push_back(
-        {structure.own_place_at(condition), structure.num_random_effects, parameter});
-  };
-  for (int condition = 0; condition < num_conditions; ++condition) {
-    if (options.pse == HierarchicalPse::kShared) add_place(condition);
-    if (!personal) continue;
-    add_place(condition);
-    ++parameter;
-    ++structure.num_random_effects;
-  }
-  if (options.pse == HierarchicalPse::kShared) {
-    ++parameter;
-    ++structure.num_random_effects;
+  // With either interval, what is a person's own is the bias for one of them: one of each kind
+  // a person where it is shared, one a condition where it is personal.
+  for (const bool has_orders : {false, true}) {
+    bool any = false;
+    for (int condition = 0; condition < num_conditions; ++condition) {
+      if (has_orders_in[static_cast<std::size_t>(condition)] != has_orders) continue;
+      const bool personal = options.pse == HierarchicalPse::kPersonal ||
+                            (has_orders && options.pse == HierarchicalPse::kReference);
+      const bool shared = options.pse == HierarchicalPse::kShared;
+      if (!personal && !shared) continue;
+      structure.loadings.push_back(
+          {structure.own_place_at(condition), structure.num_random_effects, parameter});
+      any = true;
+      if (personal) ++parameter, ++structure.num_random_effects;
+    }
+    if (any && options.pse == HierarchicalPse::kShared) {
+      ++parameter;
+      ++structure.num_random_effects;
+    }
   }
   structure.has_lapses = options.lapses == HierarchicalLapses::kCommon;
   structure.num_parameters = parameter + (structure.has_lapses ? 1 : 0);
@@ -141,14 +153,14 @@ std::optional<Eigen::VectorXd> start_of(const Arranged& all,
       return std::nullopt;
     }
     const double slope = 1.0 / std::log1p(*pooled.weber_fraction);
-    const double place = std::log(*pooled.pse / all.reference[at]);
+    const double place = std::log(pooled.pse.value_or(all.reference[at]) / all.reference[at]);
     const bool linear = structure.link == HierarchicalLink::kLinear;
     start(condition) = linear ? slope : std::log(slope);
     const double scale = linear ? slope : 1.0;
     if (structure.has_places) {
       start(structure.place_at(condition)) = linear ? -slope * place : place;
     }
-    if (structure.has_orders) {
+    if (structure.has_orders()) {
       start(structure.order_at(condition)) =
           (linear ? -slope : 1.0) * pooled.order_effect_ln.value_or(0.0);
     }
@@ -331,34 +343,6 @@ void leave_out_single_people(HierarchicalFit& fit) {
   }
 }
 
-std::string pse_words(HierarchicalPse pse, bool has_orders) {
-  switch (pse) {
-    case HierarchicalPse::kReference:
-      return has_orders ? "pse = reference, personal bias for an interval in each condition"
-                        : "pse = reference";
-    case HierarchicalPse::kCommon:
-      return has_orders ? "pse and order of the intervals free, common" : "pse free, common";
-    case HierarchicalPse::kShared:
-      return has_orders ? "pse free, one bias for an interval a person"
-                        : "pse free, one shift a person";
-    case HierarchicalPse::kPersonal:
-      break;
-  }
-  return has_orders ? "pse free, personal bias for an interval in each condition"
-                    : "pse free, personal in each condition";
-}
-
-std::string method_of(const HierarchicalOptions& options, bool has_orders, int num_nodes) {
-  const bool lapses = options.lapses == HierarchicalLapses::kCommon;
-  return std::string(options.link == HierarchicalLink::kLogSlope
-                         ? "probit, ln slope normal between people, "
-                         : "probit, slope normal between people, ") +
-         pse_words(options.pse, has_orders) + (lapses ? ", one lapse rate for everybody" : "") +
-         (num_nodes == 1 ? ", Laplace"
-                         : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
-                               " nodes a dimension");
-}
-
 }  // namespace
 
 HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
@@ -367,9 +351,10 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   HierarchicalFit fit;
   fit.num_participants = static_cast<int>(all.people.size());
   const auto num_conditions = static_cast<int>(all.conditions.size());
-  const int most_conditions = options.slopes == HierarchicalSlopes::kCorrelated             ? 2
-                              : options.pse == HierarchicalPse::kPersonal || all.has_orders ? 4
-                                                                                            : 8;
+  const bool has_orders = std::ranges::count(all.has_orders_in, true) > 0;
+  const int most_conditions = options.slopes == HierarchicalSlopes::kCorrelated         ? 2
+                              : options.pse == HierarchicalPse::kPersonal || has_orders ? 4
+                                                                                        : 8;
   if (num_conditions > most_conditions) {
     throw core::Error(
         "conditions: expected one or two, up to four with shared slopes, or up to eight where "
@@ -390,10 +375,10 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   }
   fit.reason = why_no_curve(all);
   if (!fit.reason.empty()) return fit;
-  const HierarchicalStructure structure = structure_of(num_conditions, all.has_orders, options);
+  const HierarchicalStructure structure = structure_of(all.has_orders_in, options);
   fit.num_nodes =
       options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
-  fit.method = method_of(options, all.has_orders, fit.num_nodes);
+  fit.method = method_words(options, all.has_orders_in, fit.num_nodes);
   const std::optional<Eigen::VectorXd> start = start_of(all, structure, fit.reason);
   if (!start) return fit;
   const HierarchicalLikelihood likelihood(structure, all.people, fit.num_nodes);

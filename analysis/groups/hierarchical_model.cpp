@@ -63,6 +63,7 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
                                                const std::vector<HierarchicalPerson>& people,
                                                int num_nodes)
     : structure_(structure),
+      has_orders_(structure.has_orders()),
       people_(people),
       grid_(gauss_hermite_grid(num_nodes, structure.num_random_effects)),
       last_(people.size(), RandomEffects::Zero(structure.num_random_effects)) {}
@@ -88,10 +89,10 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
     const int order_at = structure_.order_at(cell.condition);
     const double slope = slope_of(structure_.link, numbers(cell.condition));
     const double place = structure_.has_places ? numbers(place_at) : 0.0;
-    const double by_interval = structure_.has_orders ? numbers(order_at) : 0.0;
+    const double by_interval = has_orders_ ? numbers(order_at) : 0.0;
     double by_slope = 0.0, by_place = 0.0, by_order = 0.0;
     for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
-      const double order = structure_.has_orders ? cell.order[level] : 0.0;
+      const double order = has_orders_ ? cell.order[level] : 0.0;
       const Predictor at =
           predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
       const AnswerProbabilities answer = answer_probabilities(at.z, lapse_rate);
@@ -108,7 +109,7 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
     if (score == nullptr) continue;
     score->numbers(cell.condition) += by_slope;
     if (structure_.has_places) score->numbers(place_at) += by_place;
-    if (structure_.has_orders) score->numbers(order_at) += by_order;
+    if (has_orders_) score->numbers(order_at) += by_order;
   }
   if (score != nullptr) score->lapse_rate += by_lapse;
   return value;
@@ -133,7 +134,7 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
         place = numbers(place_at);
         place_row = loadings.row(place_at).transpose();
       }
-      if (structure_.has_orders) {
+      if (has_orders_) {
         place += cell.order[level] * numbers(order_at);
         place_row += cell.order[level] * loadings.row(order_at).transpose();
       }

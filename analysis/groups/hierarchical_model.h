@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "analysis/groups/hierarchical_quadrature.h"
@@ -26,15 +27,16 @@ struct HierarchicalCell {
 using HierarchicalPerson = std::vector<HierarchicalCell>;
 
 /// Which numbers there are and how they vary. The parameters, in this order: a of each
-/// condition, p of each if `has_places`, q of each if `has_orders`, then the loadings' and, if
-/// `has_lapses`, an angle v: a share sin^2 v of everybody's answers is random, half of it a
+/// condition, p of each if `has_places`, q of each if any has orders, then the loadings' and,
+/// if `has_lapses`, an angle v: a share sin^2 v of everybody's answers is random, half of it a
 /// yes, so that P(yes) = lapse + (1 - 2 lapse) Phi(z), lapse = sin^2 v / 2. A person's numbers
 /// are those of the median person plus loadings times standard normal numbers.
 struct HierarchicalStructure {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   int num_conditions = 1;
   bool has_places = false;  ///< Otherwise every p is 0.
-  bool has_orders = false;  ///< Otherwise every q is 0.
+  /// Of each condition whether either interval may hold the test; else its q is 0.
+  std::vector<bool> has_orders_in = {false};
   bool has_lapses = false;  ///< Otherwise the lapse rate is 0.
   struct Loading {
     int number;         ///< Row: the person's number it moves.
@@ -45,8 +47,11 @@ struct HierarchicalStructure {
   int num_random_effects = 1;
   int num_parameters = 2;
 
+  [[nodiscard]] bool has_orders() const noexcept {
+    return std::find(has_orders_in.begin(), has_orders_in.end(), true) != has_orders_in.end();
+  }
   [[nodiscard]] int num_numbers() const noexcept {
-    return num_conditions * (1 + (has_places ? 1 : 0) + (has_orders ? 1 : 0));
+    return num_conditions * (1 + (has_places ? 1 : 0) + (has_orders() ? 1 : 0));
   }
   [[nodiscard]] int place_at(int condition) const noexcept {
     return num_conditions + condition;
@@ -56,15 +61,16 @@ struct HierarchicalStructure {
   }
   /// Of the number that is a person's own beside the slope.
   [[nodiscard]] int own_place_at(int condition) const noexcept {
-    return has_orders ? order_at(condition) : place_at(condition);
+    return has_orders_in[static_cast<std::size_t>(condition)] ? order_at(condition)
+                                                              : place_at(condition);
   }
   [[nodiscard]] int angle_at() const noexcept { return num_parameters - 1; }
   /// Half the share of random answers; 0 without lapses.
   [[nodiscard]] double lapse_rate(const Eigen::VectorXd& parameters) const noexcept;
-  /// ln density of the share of random answers, Beta(1, 20) but for a constant: a twentieth is
-  /// expected. Answers to comparisons that are all hard say next to nothing of lapses, and
-  /// would else now and then have a flat curve taken for a steep one with many (a Beta prior
-  /// for the same reason: Schuett, Harmeling, Macke and Wichmann 2016).
+  /// ln density of the share of random answers, Beta(1, 20) but for a constant: its mean is
+  /// a twentieth, and none is likeliest. Answers to comparisons that are all hard say next to
+  /// nothing of lapses, and would else now and then have a flat curve taken for a steep one
+  /// with many (a Beta prior for the same reason: Schuett, Harmeling, Macke and Wichmann 2016).
   [[nodiscard]] double log_prior(const Eigen::VectorXd& parameters) const noexcept;
 };
 
@@ -134,6 +140,7 @@ class HierarchicalLikelihood {
                              const RandomEffects& start) const;
 
   HierarchicalStructure structure_;
+  bool has_orders_ = false;  ///< In any condition.
   std::vector<HierarchicalPerson> people_;
   GaussHermiteGrid grid_;
   mutable std::vector<RandomEffects>

@@ -218,13 +218,14 @@ std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
   const std::string how = what + (analysis.paired ? ", paired" : ", unpaired, Welch") +
                           (analysis.free_pse ? ", pse free" : ", pse at the reference");
   std::vector<PlannedName> names = {
-      {how + ", without degenerate participants",
-       analysis.hierarchical ? "" : kStandsForPrimary},
+      {how + ", without degenerate participants", !analysis.free_pse      ? kSecondary
+                                                  : analysis.hierarchical ? ""
+                                                                          : kStandsForPrimary},
       {how + ", with degenerate participants (half an answer added)", ""}};
   if (analysis.hierarchical) {
     names.push_back({what + " of the median person, hierarchical" +
                          (analysis.free_pse ? ", pse free" : ", pse at the reference"),
-                     analysis.free_pse ? kPrimaryTest : ""});
+                     analysis.free_pse ? kPrimaryTest : kSecondary});
   }
   return names;
 }

@@ -49,6 +49,8 @@ struct PlannedName {
 /// without it, what stands for it.
 inline constexpr char kPrimaryTest[] = "primary";
 inline constexpr char kStandsForPrimary[] = "quick, in place of the primary, hierarchical one";
+/// With the pse at the reference.
+inline constexpr char kSecondary[] = "secondary in the results";
 [[nodiscard]] std::vector<PlannedName> test_names(const PlannedAnalysis& analysis);
 
 /// One participant's answers in one block, without any if the block was not for them.

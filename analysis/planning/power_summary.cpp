@@ -119,6 +119,8 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
     const PlannedPrecision& one = largest.estimates[place];
     if (!one.coverage || one.coverage_high >= kTooRarely) continue;
     if (estimates[place].quick && analysis.hierarchical) continue;  // That one is beside it.
+    const bool of_comparison =
+        analysis.blocks[estimates[place].block].quantity == PlannedQuantity::kWeberFraction;
     doubts.push_back(
         estimates[place].name + at + "the interval holds the true value in " +
         percent_words(*one.coverage) + " of the studies, not in 95 %. " +
@@ -128,7 +130,8 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
                "fit that the results will have."
              : "People of this laboratory do what the fit does not know (drift, learning, "
                "fatigue), and these stimuli let it count: plan on neither this half width nor "
-               "this power, and try other stimuli, of a comparison nearer the reference."));
+               "this power, and try other stimuli" +
+                   std::string(of_comparison ? ", nearer the reference." : ".")));
   }
   const std::vector<PlannedName> tests = test_names(analysis);
   for (std::size_t place = 0; null_hypothesis && place < tests.size(); ++place) {

@@ -184,9 +184,10 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
       ->check(CLI::IsMember({"shared", "correlated"}))
       ->capture_default_str();
   group
-      .add_option("--free", options->free,
-                  "lapse: one rate of answers at random for everybody, up to one in five; "
-                  "without it none")
+      .add_option(
+          "--free", options->free,
+          "lapse: one rate for everybody, half the share of random answers, with a prior "
+          "that expects few; without it none")
       ->check(CLI::IsMember({"lapse"}));
   group
       .add_option("--nodes", options->num_nodes,

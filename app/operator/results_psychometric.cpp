@@ -47,9 +47,6 @@ std::vector<Proportion> proportions(const Counts& counts) {
 double probability(double reference, double weber_fraction, double order_effect_ln,
                    double intensity) {
   if (!std::isfinite(weber_fraction)) return 0.5;
-  if (weber_fraction <= 0.0) {
-    return intensity < reference ? 0.0 : (intensity > reference ? 1.0 : 0.5);
-  }
   return analysis::mean_over_orders(reference, weber_fraction, order_effect_ln, intensity);
 }
 

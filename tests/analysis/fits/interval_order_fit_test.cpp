@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -47,6 +48,51 @@ TEST(IntervalOrderFit, IsTheFreePseOfMirroredAnswers) {
   EXPECT_NEAR(*found.log_likelihood, *other.log_likelihood, 1e-9);
   EXPECT_DOUBLE_EQ(*found.pse, 6.0);
   EXPECT_FALSE(found.pse_ci95);
+}
+
+TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeLeavesTheSlopeToTheOther) {
+  const std::vector<AnswerCount> second = {{0.5, 1, 10, kTestSecond},
+                                           {0.8, 3, 10, kTestSecond},
+                                           {1.3, 7, 10, kTestSecond},
+                                           {2.0, 9, 10, kTestSecond}};
+  std::vector<AnswerCount> rows = second;
+  rows.push_back({1.3, 1, 1, kTestFirst});
+  const PsychometricFit fit =
+      fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .by_order = true});
+  const PsychometricFit alone = fit_psychometric(second, {.reference = 1.0, .free_pse = true});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_DOUBLE_EQ(*fit.weber_fraction, *alone.weber_fraction);
+  EXPECT_FALSE(fit.order_effect_ln);
+  EXPECT_FALSE(fit.pse) << "that of one order alone";
+  ASSERT_FALSE(fit.warnings.empty());
+  EXPECT_NE(fit.warnings.back().find("with the test first every answer is the same"),
+            std::string::npos);
+  // At the reference both orders have one place between them, and the fit is that of both.
+  EXPECT_TRUE(fit_psychometric(rows, {.reference = 1.0, .by_order = true}).order_effect_ln);
+  for (AnswerCount& row : rows) row.num_yes = row.num_trials;
+  EXPECT_EQ(
+      fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .by_order = true}).status,
+      FitStatus::kDegenerate);
+}
+
+TEST(IntervalOrderFit, FewAnswersAreWarnedOfAsInOtherFits) {
+  const auto has_warning = [](const PsychometricFit& fit) {
+    return std::ranges::any_of(fit.warnings, [](const std::string& warning) {
+      return warning.find("with a free pse and so few answers") != std::string::npos;
+    });
+  };
+  std::vector<AnswerCount> rows = biased_answers();
+  for (AnswerCount& row : rows) row.num_yes = std::min<std::int64_t>(row.num_yes, 5);
+  for (AnswerCount& row : rows) row.num_trials = 7;
+  EXPECT_TRUE(has_warning(
+      fit_psychometric(rows, {.reference = 6.0, .free_pse = true, .by_order = true})));
+}
+
+TEST(IntervalOrderFit, WithoutAWeberFractionTheMeanOfBothOrdersIsTwoSteps) {
+  // Steps of a half at exp(-0.3) and exp(0.3).
+  EXPECT_EQ(mean_over_orders(1.0, 0.0, 0.6, 0.7), 0.0);
+  EXPECT_EQ(mean_over_orders(1.0, 0.0, 0.6, 1.0), 0.5);
+  EXPECT_EQ(mean_over_orders(1.0, 0.0, 0.6, 1.4), 1.0);
 }
 
 TEST(IntervalOrderFit, ABiasForAnIntervalLeavesTheWeberFractionAlone) {

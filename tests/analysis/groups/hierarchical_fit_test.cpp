@@ -307,6 +307,28 @@ std::vector<ParticipantAnswers> people_with_interval_biases(bool mirrored) {
   return all;
 }
 
+TEST(HierarchicalFit, AConditionWithoutOrdersKeepsItsOwnPseBesideOneWithOrders) {
+  // The same Weber fraction in both; here people favour an interval, there they differ in pse.
+  std::vector<ParticipantAnswers> both;
+  int number = 0;
+  for (ParticipantAnswers one : people_with_interval_biases(false)) {
+    const double pse = std::exp(0.15 * (number - 2.5));
+    one.condition = "two_interval";
+    both.push_back(one);
+    both.push_back(exact_answers(one.participant, 0.3, pse, 800, "reminder"));
+    ++number;
+  }
+  for (const HierarchicalPse pse : {HierarchicalPse::kPersonal, HierarchicalPse::kShared}) {
+    const HierarchicalFit fit = fit_hierarchical(both, {.pse = pse});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.3, 3e-3);
+    EXPECT_NEAR(*fit.conditions[1].weber_fraction, 0.3, 3e-3);
+    EXPECT_NEAR(fit.differences[0].estimate, 0.0, 0.02);
+    EXPECT_NEAR(fit.conditions[1].place_sd, 0.15 * std::sqrt(35.0 / 12.0), 0.01);
+    EXPECT_NE(fit.method.find("or bias for an interval"), std::string::npos) << fit.method;
+  }
+}
+
 TEST(HierarchicalFit, ABiasForAnIntervalIsAPersonsOwnAndLeavesTheWeberFractionAlone) {
   const HierarchicalFit fit = fit_hierarchical(people_with_interval_biases(false), {});
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
