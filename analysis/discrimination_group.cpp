@@ -75,6 +75,11 @@ void no_value(const Target& target, const std::string& name, const std::string& 
       {"everyone", target.block.block + "." + name + target.suffix + ": no value, " + reason});
 }
 
+bool have_orders(const Everybody& all) {
+  return std::ranges::any_of(
+      all, [](const DiscriminationAnswers& one) { return orders_vary(one.rows()); });
+}
+
 void add_pooled(const Target& target, const Everybody& all, const std::string& name,
                 PsychometricMethod method, bool free_pse, const std::string& meaning) {
   std::vector<std::size_t> everyone(all.size());
@@ -109,9 +114,12 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
 }
 
 void add_median_person(const Target& target, const Everybody& all, HierarchicalPse pse) {
+  const bool is_primary = pse == primary_pse(all);
   const bool free_pse = pse == HierarchicalPse::kPersonal;
   const std::string name =
-      free_pse ? "weber_fraction_median_person" : "weber_fraction_median_person_at_reference";
+      std::string("weber_fraction_median_person") + (is_primary ? ""
+                                                     : free_pse ? "_free_pse"
+                                                                : "_at_reference");
   const HierarchicalFit fit =
       fit_hierarchical(participant_answers(all, target.block.block),
                        {.pse = pse, .lapses = HierarchicalLapses::kCommon});
@@ -131,20 +139,18 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
   const std::string method =
       "hierarchical " + (fit.method.empty() ? std::string("probit") : fit.method);
   add(target, fraction, name,
-      "median person's w: " + method + (free_pse ? " (primary)" : " (secondary)"), all.size());
-  if (!free_pse) return;
-  add(target, place, "pse_median_person", "median person's pse: " + method, all.size());
+      "median person's w: " + method + (is_primary ? " (primary)" : " (secondary)"),
+      all.size());
+  if (free_pse) {
+    add(target, place, "pse_median_person", "median person's pse: " + method, all.size());
+  }
+  if (!is_primary) return;
   add(target, spread, "slope_sd_between_people",
       "sd of ln ln(1 + w) between people: " + method +
           (fit.note.empty() ? "" : "; " + fit.note),
       all.size());
   add(target, lapses, "lapse_rate", "half the share of random answers, of everybody: " + method,
       all.size());
-}
-
-bool have_orders(const Everybody& all) {
-  return std::ranges::any_of(
-      all, [](const DiscriminationAnswers& one) { return orders_vary(one.rows()); });
 }
 
 /// As published, or, where that would take both orders of the intervals for one, with the
@@ -163,10 +169,19 @@ void add_pooled_at_reference(const Target& target, const Everybody& all,
 /// What is shown again for another set of people or trials.
 void add_main(const Target& target, const Everybody& all) {
   add_pooled_at_reference(target, all, "");
-  add_median_person(target, all, HierarchicalPse::kPersonal);
+  add_median_person(target, all, primary_pse(all));
 }
 
 }  // namespace
+
+HierarchicalPse primary_pse(const Everybody& answers) {
+  return have_orders(answers) ? HierarchicalPse::kReference : HierarchicalPse::kPersonal;
+}
+
+HierarchicalPse primary_pse(const Everybody& first, const Everybody& second) {
+  return have_orders(first) && have_orders(second) ? HierarchicalPse::kReference
+                                                   : HierarchicalPse::kPersonal;
+}
 
 void add_group_estimates(ResultsSection& section, const StudyData& data,
                          const BlockDesign& block, const ResultsOptions& options) {
@@ -180,8 +195,11 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
   }
   add_pooled(target, all, "weber_fraction_free_pse", PsychometricMethod::kMaximumLikelihood,
              true, "maximum likelihood, pse free");
-  add_median_person(target, all, HierarchicalPse::kPersonal);
-  add_median_person(target, all, HierarchicalPse::kReference);
+  const bool first_at_reference = primary_pse(all) == HierarchicalPse::kReference;
+  for (const bool at_reference : {first_at_reference, !first_at_reference}) {
+    add_median_person(target, all,
+                      at_reference ? HierarchicalPse::kReference : HierarchicalPse::kPersonal);
+  }
 
   Everybody with_own_fit;
   for (const DiscriminationAnswers& one : all) {

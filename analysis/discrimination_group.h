@@ -4,9 +4,18 @@
 
 namespace jnd::analysis {
 
+/// The pse of the primary analysis: free, and personal in each condition. But where either
+/// interval may hold the test, in both blocks if there are two, nothing besides the order tells
+/// test and reference apart when they are alike, so that they are answered half and half over
+/// the orders: then the pse is at the reference, and people differ by their bias for an
+/// interval.
+[[nodiscard]] HierarchicalPse primary_pse(const std::vector<DiscriminationAnswers>& answers);
+[[nodiscard]] HierarchicalPse primary_pse(const std::vector<DiscriminationAnswers>& first,
+                                          const std::vector<DiscriminationAnswers>& second);
+
 /// Adds the pooled curve's and the median person's Weber fraction and pse of one block, each
-/// with its estimand in `meaning`: with a free pse (primary) and with the pse at the reference;
-/// and, where somebody is degenerate or a trial was set aside, without and with those.
+/// with its estimand in `meaning`: with the pse free and at the reference, one of which is
+/// primary; and, where somebody is degenerate or a trial was set aside, without and with those.
 void add_group_estimates(ResultsSection& section, const StudyData& data,
                          const BlockDesign& block, const ResultsOptions& options);
 

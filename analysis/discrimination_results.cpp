@@ -233,10 +233,12 @@ ResultsSection discrimination_comparison(const StudyData& data, const BlockDesig
   const Everybody second_answers =
       discrimination_answers(data, second, false, section.excluded);
   const std::string pair = first.block + " - " + second.block + ": ";
-  for (const bool free_pse : {true, false}) {
+  const bool frees = primary_pse(first_answers, second_answers) == HierarchicalPse::kPersonal;
+  for (const bool free_pse : {frees, !frees}) {
     section.comparisons.push_back(
         {pair + "ln ln(1 + w) of the median person, hierarchical, " +
-             (free_pse ? "pse free (primary)" : "pse at the reference (secondary)"),
+             (free_pse ? "pse free" : "pse at the reference") +
+             (free_pse == frees ? " (primary)" : " (secondary)"),
          median_person_difference(
              first_answers, first, second_answers, second,
              free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference)});

@@ -96,6 +96,7 @@ ordered_json to_json(const PowerDesign& design) {
     blocks.push_back({{"name", block.name},
                       {"quantity", word_of(block.quantity)},
                       {"reference", block.reference},
+                      {"either_interval", block.either_interval},
                       {"true_value", number(block.true_value)}});
   }
   json["blocks"] = std::move(blocks);
@@ -124,6 +125,7 @@ PowerDesign power_design_of(const ordered_json& json) {
     design.analysis.blocks.push_back({.name = block.at("name"),
                                       .quantity = quantity_of(block.at("quantity")),
                                       .reference = block.at("reference"),
+                                      .either_interval = block.at("either_interval"),
                                       .true_value = number_of(block.at("true_value"))});
   }
   const auto place_of = [&](const std::string& name) {

@@ -284,6 +284,8 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
     PlannedBlock one{.name = stage->name, .quantity = quantity_of(block_of(*stage))};
     if (one.quantity == PlannedQuantity::kWeberFraction) {
       one.reference = block_of(*stage).reference_intensity.value_or(0.0);
+      one.either_interval =
+          experiments::task_of(block_of(*stage)) == experiments::Task::kTwoInterval;
       one.true_value = median_curve_fraction(laboratory_, block_of(*stage), map.get());
     } else {
       one.true_value = value_of_everybody(study, laboratory_, one);

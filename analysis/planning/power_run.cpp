@@ -28,6 +28,12 @@ std::optional<double> log_log(const std::optional<double>& weber_fraction) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+bool frees_pse(const PlannedAnalysis& analysis, const PlannedBlock& block) {
+  return analysis.free_pse && !block.either_interval;
+}
+
+std::string pse_words(bool free_pse) { return free_pse ? "pse free" : "pse at the reference"; }
+
 OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
                      const PlannedAnswers& answers) {
   OwnNumber own{.answered = !answers.counts.empty() || !answers.magnitudes.empty()};
@@ -37,7 +43,7 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
       return log_log(
           fit_psychometric(corrected ? with_half_an_answer(answers.counts) : answers.counts,
                            {.reference = block.reference,
-                            .free_pse = analysis.free_pse,
+                            .free_pse = frees_pse(analysis, block),
                             .by_order = true,
                             .intervals = false,
                             .solver = Solver::kNewton})
@@ -159,9 +165,12 @@ class SizeAnalysis {
       }
     }
     if (answers.empty()) return {};
-    return fit_hierarchical(answers, {.pse = analysis_.free_pse ? HierarchicalPse::kPersonal
-                                                                : HierarchicalPse::kReference,
-                                      .lapses = HierarchicalLapses::kCommon});
+    const bool free_pse = std::ranges::any_of(blocks, [&](std::size_t block) {
+      return frees_pse(analysis_, analysis_.blocks[block]);
+    });
+    return fit_hierarchical(
+        answers, {.pse = free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference,
+                  .lapses = HierarchicalLapses::kCommon});
   }
 
   [[nodiscard]] PlannedTest hierarchical_test() const {
@@ -182,7 +191,6 @@ class SizeAnalysis {
 
 std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
   std::vector<PlannedName> names;
-  const std::string pse = analysis.free_pse ? "pse free" : "pse at the reference";
   for (std::size_t place = 0; place < analysis.blocks.size(); ++place) {
     const PlannedBlock& block = analysis.blocks[place];
     if (block.quantity == PlannedQuantity::kMatch) {
@@ -192,13 +200,17 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
       continue;
     }
     if (block.quantity != PlannedQuantity::kWeberFraction) {
-      names.push_back({block.name + ".a",
-                       block.quantity == PlannedQuantity::kEstimationExponent
-                           ? "mean of the participants' own slopes of ln S over ln I"
-                           : "1 / mean of the participants' own slopes of ln I over ln S",
-                       place});
+      names.push_back(
+          {block.name + ".own_exponents",
+           block.quantity == PlannedQuantity::kEstimationExponent
+               ? "mean of the participants' own slopes of ln S over ln I, in place of the "
+                 "curve through the means"
+               : "1 / mean of the participants' own slopes of ln I over ln S, in place of "
+                 "the curve through the means",
+           place});
       continue;
     }
+    const std::string pse = pse_words(frees_pse(analysis, block));
     names.push_back({block.name + ".weber_fraction",
                      "median person's w by the fast route: mean of individual ln ln(1 + w), " +
                          pse + ", without degenerate participants, transformed back",
@@ -214,18 +226,22 @@ std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
   if (!analysis.compared) return {};
   const std::string pair = analysis.blocks[analysis.compared->first].name + " - " +
                            analysis.blocks[analysis.compared->second].name;
+  const PlannedBlock& first = analysis.blocks[analysis.compared->first];
+  const PlannedBlock& second = analysis.blocks[analysis.compared->second];
+  const bool free_pse = frees_pse(analysis, first) || frees_pse(analysis, second);
+  // As the results have it; with all at the reference it is secondary there.
+  const bool is_primary = free_pse || (first.either_interval && second.either_interval);
   const std::string what = pair + ": ln ln(1 + w)";
-  const std::string how = what + (analysis.paired ? ", paired" : ", unpaired, Welch") +
-                          (analysis.free_pse ? ", pse free" : ", pse at the reference");
+  const std::string how =
+      what + (analysis.paired ? ", paired, " : ", unpaired, Welch, ") + pse_words(free_pse);
   std::vector<PlannedName> names = {
-      {how + ", without degenerate participants", !analysis.free_pse      ? kSecondary
+      {how + ", without degenerate participants", !is_primary             ? kSecondary
                                                   : analysis.hierarchical ? ""
                                                                           : kStandsForPrimary},
       {how + ", with degenerate participants (half an answer added)", ""}};
   if (analysis.hierarchical) {
-    names.push_back({what + " of the median person, hierarchical" +
-                         (analysis.free_pse ? ", pse free" : ", pse at the reference"),
-                     analysis.free_pse ? kPrimaryTest : kSecondary});
+    names.push_back({what + " of the median person, hierarchical, " + pse_words(free_pse),
+                     is_primary ? kPrimaryTest : kSecondary});
   }
   return names;
 }

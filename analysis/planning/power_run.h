@@ -23,7 +23,9 @@ enum class PlannedQuantity {
 struct PlannedBlock {
   std::string name;  ///< "group_d"
   PlannedQuantity quantity = PlannedQuantity::kWeberFraction;
-  double reference = 0.0;            ///< Of a discrimination, > 0.
+  double reference = 0.0;  ///< Of a discrimination, > 0.
+  /// Either interval holds the test: its pse is at the reference then, see `primary_pse`.
+  bool either_interval = false;
   std::optional<double> true_value;  ///< In the simulated laboratory.
 };
 
@@ -33,7 +35,7 @@ struct PlannedAnalysis {
   std::optional<std::pair<std::size_t, std::size_t>> compared;  ///< Places of discriminations.
   bool paired = true;         ///< Some participants get both of these blocks.
   std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
-  bool free_pse = true;       ///< Else the pse is at the reference.
+  bool free_pse = true;       ///< But for blocks of two intervals. Else at the reference.
   bool hierarchical = false;  ///< Also the hierarchical fit: a thousand times slower.
 };
 

@@ -121,8 +121,10 @@ void add_threshold_methods(
         "/ ln(1 + w)), o = ±1/2 for the test second or first. q is the order effect, always "
         "free; the mean of both orders would have too large a Weber fraction (" +
             cite("Ulrich and Vorberg 2009") +
-            "). In the hierarchical model q is what people differ by, and the point of "
-            "subjective equality is the same for all. Interval bias: the share of answers that "
+            "). In the hierarchical model q is what people differ by. Primary is the "
+            "analysis with the point of subjective equality at the reference: two stimuli that "
+            "are alike differ in nothing but their order, so over both orders either is chosen "
+            "in half of the trials. Interval bias: the share of answers that "
             "choose the second interval, both orders weighed equally, less one half. Tests of "
             "both are t tests against 0.");
   }

@@ -68,6 +68,9 @@ struct Discrimination {
   /// intervals, by maximum likelihood; its interval over resampled participants.
   PsychometricFigure pooled;
   bool pooled_by_maximum_likelihood = false;
+  /// The median person's Weber fraction, the study's primary value.
+  std::optional<double> median_person;
+  analysis::Interval median_person_ci95;
   /// By maximum likelihood, with likelihood-ratio intervals; by pseudonym.
   std::vector<PsychometricFigure> participants;
   std::optional<double> published, published_sd;

@@ -130,6 +130,10 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
       .reason = pooled->value ? "" : in_plain_words(pooled_reason(*section, name))};
   figure.pooled_by_maximum_likelihood =
       source.results.find(name + "_order_effect_ln") != nullptr;
+  if (const Estimate* person = source.results.find(name + "_median_person")) {
+    figure.median_person = person->value;
+    figure.median_person_ci95 = person->ci95;
+  }
   draw_curve(figure.pooled, figure.reference, low, high);
   for (const auto& [participant, counted] : own) {
     const analysis::ParticipantEstimate* estimate = source.own(block.block, participant, name);

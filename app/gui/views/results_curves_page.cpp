@@ -56,6 +56,15 @@ void draw_discrimination(Ui& ui, const Rect& place, const Discrimination& block,
   }
   const Rect value = inside.take_bottom(30, 4);
   (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
+  // What was published is of the pooled curve; else the primary value goes before it.
+  if (who == kEveryone && !block.published && block.median_person) {
+    const analysis::Interval ci95 =
+        analysis::bounded_by_data(block.median_person_ci95, block.median_person);
+    draw_value(ui, value, "w = " + two_digits(*block.median_person),
+               joined({interval_words(ci95), "median person",
+                       "pooled " + two_digits(*figure->weber_fraction)}));
+    return;
+  }
   std::string published;
   if (block.published && who == kEveryone)
     published = "published " + two_digits(*block.published);

@@ -61,7 +61,8 @@ class ResultsViewTest : public ::testing::Test {
 TEST_F(ResultsViewTest, ShowsTheFractionWithItsIntervalAndTheTable) {
   (void)draw(ui_);
   const auto& figure = results().discriminations.front();
-  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*figure.pooled.weber_fraction)));
+  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*figure.median_person)));
+  EXPECT_TRUE(ui_.drawn().shows("pooled " + two_digits(*figure.pooled.weber_fraction)));
   for (const char* words : {"All participants", "P01", "P04", "p (1 + w)"}) {
     EXPECT_TRUE(ui_.drawn().shows(words)) << words;
   }
