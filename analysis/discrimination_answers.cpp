@@ -5,7 +5,7 @@
 namespace jnd::analysis {
 namespace {
 
-void count(AnswerCount& count, double intensity, bool yes) {
+void add_answer(AnswerCount& count, double intensity, bool yes) {
   count.intensity = intensity;
   count.num_yes += yes ? 1 : 0;
   ++count.num_trials;
@@ -15,16 +15,14 @@ void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
   if (!trial.intensity || !trial.response || !trial.reference_intensity) return;
   const bool yes = *trial.response > 0.5;
   answers.reference = *trial.reference_intensity;
-  count(answers.levels[*trial.intensity], *trial.intensity, yes);
+  add_answer(answers.levels[*trial.intensity], *trial.intensity, yes);
   const double order = order_of(trial);
   AnswerCount& cell = answers.cells[{*trial.intensity, order}];
-  count(cell, *trial.intensity, yes);
+  add_answer(cell, *trial.intensity, yes);
   cell.order = order;
-  OrderedAnswers& one =
-      answers.in_order.emplace_back(OrderedAnswers{.intensity = *trial.intensity,
-                                                   .num_yes = yes ? 1.0 : 0.0,
-                                                   .trial = static_cast<double>(trial.trial)});
-  if (trial.test_interval) one.test_first = *trial.test_interval == 1;
+  answers.in_order.push_back({.intensity = *trial.intensity,
+                              .num_yes = yes ? 1.0 : 0.0,
+                              .trial = static_cast<double>(trial.trial)});
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ struct PracticeRun {
   std::string words;  ///< "practice over after 14 trials: 8 of the last 10 answers were right".
 };
 
-/// A whole study, ready for analysis. Pilot sessions and practice blocks are left out.
+/// A whole study, ready for analysis. Pilot sessions are left out, and practice but for how it
+/// went.
 struct StudyData {
   std::string study;  ///< Name in its file.
   std::string protocol_sha256;

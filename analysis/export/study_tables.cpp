@@ -76,7 +76,11 @@ const std::vector<CsvColumn>& trial_columns() {
        "Percent, or a number in another modulus; 1: yes, different, or the interval of the "
        "test, 0: otherwise; of an adjustment the value set",
        kReal},
-      {"response_time_s", "s", "From the start of the last stimulus to the answer", kReal},
+      {"response_time_s", "s",
+       "From the start of the last stimulus to the answer; where one is adjusted, from the "
+       "start "
+       "of that",
+       kReal},
       {"num_presentations", "", "Stimuli felt in this attempt", kCount},
       {"num_steps", "", "Production and matching: steps of adjustment", kCount},
       {"first_tick", "tick", "First sample of the trial in the recording", kCount},

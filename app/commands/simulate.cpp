@@ -43,6 +43,7 @@ int run(const Options& options) {
       "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
+  const std::size_t num_before = store.sessions().size();
   const std::vector<std::string> participants = next_participants(store, options.participants);
   const std::vector<std::int64_t> sessions = add_sessions(store,
                                                           {.study = study,
@@ -80,9 +81,11 @@ int run(const Options& options) {
                                      {"simulated_s", simulated_s},   {"elapsed_s", elapsed_s}};
     std::puts(json_text(document).c_str());
   } else {
-    std::printf("%s: %d simulated sessions, %.0f s at the device in %.1f s, stored in %s\n",
+    const std::string beside =
+        num_before == 0 ? "" : ", beside " + std::to_string(num_before) + " from before";
+    std::printf("%s: %d simulated sessions, %.0f s at the device in %.1f s, stored in %s%s\n",
                 study.name.c_str(), options.participants, simulated_s, elapsed_s,
-                options.folder.c_str());
+                options.folder.c_str(), beside.c_str());
   }
   return kDone;
 }
