@@ -49,6 +49,19 @@ TEST_F(FitGroupCommandTest, HierarchicalPrintsTheMedianPersonOfEachConditionAndT
   EXPECT_EQ(json["participants"].size(), 6U);
 }
 
+TEST_F(FitGroupCommandTest, ALapseRateIsFreeOnRequest) {
+  table("g.csv", kGroup);
+  const std::vector<std::string> fixed = {"hierarchical", "--csv", "g.csv", "--reference", "8"};
+  EXPECT_TRUE(document(fit(fixed).out)["lapse_rate"].is_null());
+  std::vector<std::string> free = fixed;
+  free.insert(free.end(), {"--free", "lapse"});
+  const auto json = document(fit(free).out);
+  EXPECT_GE(json["lapse_rate"], 0.0);
+  EXPECT_LT(json["lapse_rate"], 0.1);
+  EXPECT_NE(json["method"].get<std::string>().find("lapse rate"), std::string::npos);
+  EXPECT_NE(fit(free, /*as_json=*/false).out.find("lapse rate"), std::string::npos);
+}
+
 TEST_F(FitGroupCommandTest, AColumnReferenceGoesBeforeTheOption) {
   table("g.csv",
         "participant,reference,intensity,num_yes,num_trials\n"
