@@ -231,6 +231,10 @@ bool is_adaptive(const BlockDesign& block) {
          block.procedure == "quest_plus";
 }
 
+bool has_fixed_levels(const BlockDesign& block) {
+  return !is_adaptive(block) || block.procedure == "limits";
+}
+
 ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block) {
   Writer writer(data, block);
   if (block.procedure == "staircase") writer.write_staircase();

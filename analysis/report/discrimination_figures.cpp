@@ -8,6 +8,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"
+#include "analysis/threshold_results.h"
 
 namespace jnd::analysis {
 namespace {
@@ -34,12 +35,7 @@ struct BlockAnswers {
   double reference = 0.0;
   std::vector<OwnAnswers> participants;  ///< Those who answered.
   std::vector<double> levels;            ///< Ascending.
-
-  /// Or as many as the answers led to, with one or two answers each.
-  [[nodiscard]] bool has_fixed_levels() const {
-    constexpr std::size_t kMostFixed = 20;
-    return levels.size() <= kMostFixed;
-  }
+  bool has_fixed_levels = true;          ///< See `has_fixed_levels`.
 };
 
 double value_or_0(const ParticipantEstimate* own) {
@@ -49,7 +45,8 @@ double value_or_0(const ParticipantEstimate* own) {
 BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
   BlockAnswers all{.block = block.block,
                    .title = source.words.title_of(block.block),
-                   .quantity = block.quantity};
+                   .quantity = block.quantity,
+                   .has_fixed_levels = has_fixed_levels(block)};
   std::map<double, int> levels;
   for (const ParticipantData& participant : source.data.participants) {
     OwnAnswers own{.participant = participant.participant};
@@ -211,7 +208,7 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
       .thesis = "Fig. 5, D.6 and D.23",
       .width_in = 5.2,
       .height_in = 3.3,
-      .tables = {answers.has_fixed_levels() ? means_table(answers) : shares_table(answers),
+      .tables = {answers.has_fixed_levels ? means_table(answers) : shares_table(answers),
                  curves_table(answers)}};
   const Estimate* const pooled = source.results.find(answers.block + ".weber_fraction");
   const bool has_curve = pooled != nullptr && pooled->value;
@@ -253,14 +250,14 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
             gnuplot_quoted("fit to all, w = " + number_words(pooled->value, 3)) + ", ";
   }
   plot += from_table(figure.tables[0]) +
-          (answers.has_fixed_levels()
+          (answers.has_fixed_levels
                ? "'intensity':'mean_ratio':'low':'high' with yerrorbars ls 11 lc rgb '#0072B2' "
                  "ps 0.8 title 'mean ± sd'\n"
                : "'intensity':'ratio':'size' with points pt 7 ps variable lc rgb '#0072B2' "
                  "title 'all answers'\n");
   figure.plot += plot;
   figure.caption =
-      (answers.has_fixed_levels()
+      (answers.has_fixed_levels
            ? "Mean proportion of answers “more than the reference” and standard deviation "
              "between "
            : "Proportion of answers “more than the reference”, the larger a point the more "
@@ -323,7 +320,7 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
                       " with lines lt 2 lw 1.3, ";
       }
       panel.plot += from_table(points) + "'intensity':" + if_series(series, "ratio") +
-                    (answers.has_fixed_levels()
+                    (answers.has_fixed_levels
                          ? ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' "
                            "lw 1 pt 7 ps 0.4"
                          : " with points pt 7 ps 0.3 lc rgb '#0072B2'");
@@ -333,7 +330,7 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
     figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
     figure.caption =
         std::string("Proportion of answers “more than the reference”") +
-        (answers.has_fixed_levels() ? " with Wilson’s 95 % interval" : "") +
+        (answers.has_fixed_levels ? " with Wilson’s 95 % interval" : "") +
         ", and the curves of maximum likelihood, where they exist: black, with its Weber "
         "fraction w, the "
         "point of subjective equality at the reference; dashed, it is free. " +

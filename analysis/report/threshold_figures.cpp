@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/groups/wilson_interval.h"
@@ -9,6 +8,7 @@
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"
 #include "analysis/threshold_answers.h"
+#include "analysis/threshold_results.h"
 #include "core/psychometric_function.h"
 
 namespace jnd::analysis {
@@ -25,7 +25,7 @@ struct BlockCurves {
   const BlockDesign& block;
   std::vector<OwnCurve> participants;
   AxisRange range;
-  bool has_fixed_levels = true;  ///< Or as many as the answers led to, with one or two each.
+  bool has_fixed_levels = true;  ///< See `has_fixed_levels`.
 };
 
 std::optional<double> own_value(const FigureSource& source, const std::string& block,
@@ -58,7 +58,7 @@ void add_difference_curve(const FigureSource& source, const BlockDesign& block, 
 }
 
 BlockCurves curves_of(const FigureSource& source, const BlockDesign& block) {
-  BlockCurves curves{.block = block};
+  BlockCurves curves{.block = block, .has_fixed_levels = has_fixed_levels(block)};
   std::vector<ExcludedParticipant> without_answers;
   std::vector<double> intensities;
   for (ThresholdAnswers& answers :
@@ -72,9 +72,6 @@ BlockCurves curves_of(const FigureSource& source, const BlockDesign& block) {
     }
     curves.participants.push_back(std::move(own));
   }
-  constexpr std::size_t kMostFixed = 20;
-  curves.has_fixed_levels =
-      std::set<double>(intensities.begin(), intensities.end()).size() <= kMostFixed;
   curves.range = axis_range(intensities, /*logarithmic=*/true);
   return curves;
 }

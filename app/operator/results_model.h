@@ -239,8 +239,6 @@ struct ResultsSource {
 
 [[nodiscard]] std::vector<results::Discrimination> discriminations_of(
     const ResultsSource& source);
-/// Whether all answers of a block are to a few levels; those of staircases are not.
-[[nodiscard]] bool has_fixed_levels(const analysis::BlockDesign& block);
 /// Yes-no and same-different blocks with their answers, and adaptive ones with their tracks.
 [[nodiscard]] std::vector<results::Threshold> thresholds_of(const ResultsSource& source);
 [[nodiscard]] std::vector<results::Magnitude> magnitudes_of(const ResultsSource& source);

@@ -133,7 +133,7 @@ Threshold threshold_of(const ResultsSource& source, const BlockDesign& block) {
           .quantity = quantity_words(block.quantity),
           .unit = quantity_unit(block.quantity),
           .answer = block.tells_apart() ? "“different”" : "“yes”",
-          .has_fixed_levels = has_fixed_levels(block),
+          .has_fixed_levels = analysis::has_fixed_levels(block),
           .reference = block.reference_intensity};
 }
 
@@ -196,10 +196,6 @@ std::optional<Threshold> tracks_of(const ResultsSource& source, const BlockDesig
 }
 
 }  // namespace
-
-bool has_fixed_levels(const BlockDesign& block) {
-  return !analysis::is_adaptive(block) || block.procedure == "limits";
-}
 
 std::vector<Threshold> thresholds_of(const ResultsSource& source) {
   std::vector<Threshold> figures;

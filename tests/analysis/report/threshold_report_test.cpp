@@ -69,6 +69,7 @@ TEST_F(ThresholdReportTest, DrawsEveryonesAnswersAndTheCurvesThatExist) {
   EXPECT_NE(figure.plot.find("P01   0.200 Pa s"), std::string::npos) << figure.plot;
   EXPECT_NE(figure.plot.find("P02   no fit"), std::string::npos);
   for (const auto& row : figure.tables[1].rows) EXPECT_EQ(row[1].text, "P01");
+  EXPECT_EQ(figure.plot.find("yerrorbars"), std::string::npos) << "levels of a staircase";
 }
 
 TEST_F(ThresholdReportTest, DrawsStaircasesWithTheirReversals) {
