@@ -59,7 +59,10 @@ struct BlockDesign {
 struct PracticeRun {
   std::string participant, block;
   int num_trials = 0;
-  std::string words;  ///< "practice over after 14 trials: 8 of the last 10 answers were right".
+  int num_judged = 0;   ///< The last answers, at most as many as the criterion is of.
+  int num_correct = 0;  ///< Of those.
+  bool criterion_met = false;
+  std::string problem;  ///< Why success cannot be told; "" if it can.
 };
 
 /// A whole study, ready for analysis. Pilot sessions are left out, and practice but for how it

@@ -31,15 +31,22 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
   }
 }
 
-/// How many trials everybody practised, and whether that was enough.
+/// How many trials everybody practised, how many of the last ones were right, and whether that
+/// was enough.
 ResultsSection practice_results(const StudyData& data) {
   ResultsSection section{.name = "practice"};
   for (const PracticeRun& run : data.practice) {
-    section.participants.push_back({run.participant,
-                                    run.block + ".num_trials",
-                                    static_cast<double>(run.num_trials),
-                                    {},
-                                    run.words});
+    const auto add = [&](const std::string& name, double value, const std::string& problem) {
+      section.participants.push_back({run.participant,
+                                      run.block + "." + name,
+                                      problem.empty() ? std::optional(value) : std::nullopt,
+                                      {},
+                                      problem});
+    };
+    add("num_trials", run.num_trials, "");
+    add("num_judged", run.num_judged, run.problem);
+    add("num_correct", run.num_correct, run.problem);
+    add("criterion_met", run.criterion_met ? 1.0 : 0.0, run.problem);
   }
   return section;
 }

@@ -17,6 +17,7 @@ using analysis::ParticipantData;
 using experiments::AnsweredTrial;
 using experiments::Block;
 using experiments::PlannedTrial;
+using experiments::PracticeState;
 using experiments::Stage;
 
 /// Blocks of the study files that sessions were begun with, each file read once.
@@ -98,10 +99,15 @@ void add_practice(analysis::StudyData& data, StoredBlocks& blocks,
     try {
       const Block* const block = blocks.find(key.first, key.second);
       if (block != nullptr && block->practice) {
-        run.words = practice_words(*block, practice_state(*block, trials));
+        const PracticeState state = practice_state(*block, trials);
+        run.num_judged = state.num_judged;
+        run.num_correct = state.num_correct;
+        run.criterion_met = state.criterion_is_met;
+      } else {
+        run.problem = "its study file has no such practice";
       }
     } catch (const core::Error& error) {
-      run.words = error.what();
+      run.problem = error.what();
     }
     data.practice.push_back(std::move(run));
   }

@@ -69,8 +69,9 @@ void add_threshold_methods(
   }
   if (!data.practice.empty()) {
     add("Practice",
-        "How many trials everybody practised and with what success is listed among the "
-        "results; practice is no data.");
+        "Listed among the results are the trials that everybody practised (num_trials), how "
+        "many of the last ones that count (num_judged) were right (num_correct), and whether "
+        "that met the criterion (criterion_met, 1 or 0). Practice is no data.");
   }
   for (const BlockDesign& block : data.blocks) {
     const auto run = std::ranges::find(data.runs, block.block, &AdaptiveRun::block);

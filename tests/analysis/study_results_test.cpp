@@ -393,6 +393,44 @@ TEST(StudyResults, FingersTrailBehindThePalmOfADeviceThatHasThem) {
   EXPECT_NEAR(value(results(study), "finger_lag_s"), 0.5 * (0.012 + 0.020), 1e-12);
 }
 
+TEST(StudyResults, PracticeIsToldInNumbersOrWithTheReasonWhyNot) {
+  HandMadeStudy study;
+  study.add("P01");
+  study.compare_ten("group_d", 8);
+  StudyData data = load_study(study.store());
+  data.practice = {{.participant = "P01",
+                    .block = "warm_up",
+                    .num_trials = 14,
+                    .num_judged = 10,
+                    .num_correct = 8,
+                    .criterion_met = true},
+                   {.participant = "P02",
+                    .block = "warm_up",
+                    .num_trials = 3,
+                    .problem = "its study file has no such practice"}};
+  const StudyResults all = results_of(data, {}, {.num_resamples = 50});
+  const auto practice = std::ranges::find(all.sections, "practice", &ResultsSection::name);
+  ASSERT_NE(practice, all.sections.end());
+  const auto own = [&](const std::string& participant, const std::string& name) {
+    for (const ParticipantEstimate& one : practice->participants) {
+      if (one.participant == participant && one.name == "warm_up." + name) return one;
+    }
+    ADD_FAILURE() << participant << ' ' << name;
+    return ParticipantEstimate{};
+  };
+  EXPECT_EQ(own("P01", "num_trials").value, 14.0);
+  EXPECT_EQ(own("P01", "num_judged").value, 10.0);
+  EXPECT_EQ(own("P01", "num_correct").value, 8.0);
+  EXPECT_EQ(own("P01", "criterion_met").value, 1.0);
+  EXPECT_EQ(own("P01", "num_trials").reason, "");
+  EXPECT_EQ(own("P02", "num_trials").value, 3.0);
+  EXPECT_EQ(own("P02", "num_trials").reason, "");
+  for (const char* name : {"num_judged", "num_correct", "criterion_met"}) {
+    EXPECT_FALSE(own("P02", name).value) << name;
+    EXPECT_EQ(own("P02", name).reason, "its study file has no such practice") << name;
+  }
+}
+
 TEST(StudyResults, TheSameSeedGivesTheSameIntervals) {
   HandMadeStudy study;
   for (int person = 1; person <= 6; ++person) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "analysis/study_results.h"
@@ -159,14 +160,28 @@ TEST_F(TaskRunTest, AnalysesGetNeitherPracticeNorCatchTrials) {
   const analysis::PracticeRun& practice = data.practice.front();
   EXPECT_EQ(practice.block, "practice");
   EXPECT_EQ(practice.num_trials, std::ssize(person.practice_trials));
-  EXPECT_EQ(practice.words.find("practice over after " + std::to_string(practice.num_trials)),
-            0U)
-      << practice.words;
+  EXPECT_EQ(practice.problem, "");
+  constexpr int kJudged = 4;  // As the study has it, with 3 right ones asked for.
+  std::vector<bool> right;
+  for (const core::TrialRow& trial : person.practice_trials) {
+    right.push_back((*trial.intensity > *trial.reference_intensity) == (trial.response == 1.0));
+  }
+  ASSERT_GE(right.size(), 4U);
+  const auto num_right = std::count(right.end() - kJudged, right.end(), true);
   const analysis::StudyResults results = analysis::results_of(data, {}, {.num_resamples = 50});
   const auto section =
       std::ranges::find(results.sections, "practice", &analysis::ResultsSection::name);
   ASSERT_NE(section, results.sections.end());
-  EXPECT_EQ(section->participants.front().name, "practice.num_trials");
+  std::map<std::string, std::optional<double>> told;
+  for (const analysis::ParticipantEstimate& own : section->participants) {
+    EXPECT_EQ(own.participant, "P01");
+    EXPECT_EQ(own.reason, "") << own.name << ": reasons are of values that are not there";
+    told[own.name] = own.value;
+  }
+  EXPECT_EQ(told["practice.num_trials"], static_cast<double>(right.size()));
+  EXPECT_EQ(told["practice.num_judged"], kJudged);
+  EXPECT_EQ(told["practice.num_correct"], static_cast<double>(num_right));
+  EXPECT_EQ(told["practice.criterion_met"], num_right >= 3 ? 1.0 : 0.0);
 }
 
 }  // namespace
