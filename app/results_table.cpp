@@ -20,6 +20,18 @@ std::string text(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.4f}", *value) : "-";
 }
 
+/// "num_zeros" of "match.num_zeros", "criterion_met": a whole number, or the mean of some.
+bool is_count(const std::string& name) {
+  const std::string last = name.substr(name.rfind('.') + 1);
+  return last.starts_with("num_") || last == "criterion_met";
+}
+
+/// Of the number of this name: a count that is whole has no decimals.
+std::string text_of(const std::string& name, const std::optional<double>& value) {
+  const bool is_whole = value && std::isfinite(*value) && *value == std::floor(*value);
+  return is_whole && is_count(name) ? fmt::format("{:.0f}", *value) : text(value);
+}
+
 std::string text(const Interval& whole, const std::optional<double>& value) {
   const Interval ci95 = analysis::bounded_by_data(whole, value);
   if (!ci95.low && !ci95.high) return "-";
@@ -59,7 +71,7 @@ std::string header() {
 
 std::string row(const Estimate& estimate) {
   const std::optional<bool> inside = holds_published(estimate);
-  return fmt::format(kRow, estimate.name, text(estimate.value),
+  return fmt::format(kRow, estimate.name, text_of(estimate.name, estimate.value),
                      text(estimate.ci95, estimate.value),
                      estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
                      inside ? (*inside ? "yes" : "no") : "");
@@ -69,7 +81,7 @@ std::string row(const Estimate& estimate) {
 std::string explained_row(const Estimate& estimate) {
   std::string line =
       fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name,
-                  text(estimate.value), text(estimate.ci95, estimate.value),
+                  text_of(estimate.name, estimate.value), text(estimate.ci95, estimate.value),
                   estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
   if (is_published(estimate)) line += "; published " + published_text(estimate);
   return line + "\n";
@@ -121,7 +133,8 @@ std::string in_short(const analysis::StudyResults& results) {
     for (const Estimate& estimate : section.estimates) {
       if (!estimate.primary) continue;
       table += fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}\n", estimate.name,
-                           text(estimate.value), text(estimate.ci95, estimate.value),
+                           text_of(estimate.name, estimate.value),
+                           text(estimate.ci95, estimate.value),
                            estimate.unit == "1" ? "" : estimate.unit, estimate.n);
     }
   }
@@ -176,7 +189,8 @@ std::string columns_of(const analysis::ResultsSection& section,
   for (const std::string& participant : participants) {
     table += fmt::format("\n  {:<12}", participant);
     for (const std::string& name : names) {
-      table += fmt::format("{:>{}}", text(values[{participant, name}]), width_of(name));
+      table +=
+          fmt::format("{:>{}}", text_of(name, values[{participant, name}]), width_of(name));
     }
   }
   return table + "\n";
@@ -189,7 +203,7 @@ std::string participants_rows(const analysis::ResultsSection& section) {
   for (const analysis::ParticipantEstimate& own : section.participants) {
     if (std::ranges::find(plain, own.name) != plain.end()) continue;
     table += fmt::format("  {:<46} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
-                         text(own.value), text(own.ci95, own.value), own.reason);
+                         text_of(own.name, own.value), text(own.ci95, own.value), own.reason);
   }
   for (std::size_t first = 0; first < plain.size();) {
     std::size_t end = first + 1;

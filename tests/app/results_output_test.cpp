@@ -124,6 +124,20 @@ TEST(ResultsOutput, TheTablePutsPlainNumbersInColumnsAndSaysWhatWasSaid) {
   EXPECT_NE(table.find("rank-biserial r 1.0000\n"), std::string::npos) << table;
 }
 
+TEST(ResultsOutput, CountsAreWholeNumbers) {
+  analysis::ResultsSection section{.name = "match"};
+  section.estimates = {{.name = "match.num_zeros", .value = 3.0, .unit = "1"},
+                       {.name = "match.ratio", .value = 3.0, .unit = "1"}};
+  section.participants = {{"P01", "practice.num_trials", 14.0, {}, ""},
+                          {"P01", "practice.criterion_met", 1.0, {}, ""}};
+  const std::string table = to_table({.study = "honey", .sections = {section}});
+  EXPECT_EQ(table.find("14.0"), std::string::npos) << table;
+  EXPECT_EQ(table.find("1.0000"), std::string::npos) << table;
+  EXPECT_NE(table.find(" 14 "), std::string::npos) << table;
+  EXPECT_EQ(table.find("3.0000"), table.rfind("3.0000")) << "of the ratio alone\n" << table;
+  EXPECT_NE(table.find("3.0000"), std::string::npos);
+}
+
 TEST(ResultsOutput, AnEndThatIsNoStatementIsPrintedAsOpenAndKeptInJson) {
   analysis::StudyResults results{.study = "honey", .num_participants = 1};
   analysis::ResultsSection section{.name = "group_d"};
