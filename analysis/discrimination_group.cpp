@@ -232,7 +232,7 @@ void add_trial_trends(ResultsSection& section, const Everybody& all, const Block
   }
   section.comparisons.push_back(
       {.name = block.block +
-               ": the test is called more more often over the trials, exploratory "
+               ": the test is called \"more\" more often over the trials, exploratory "
                "(mean of participants' z)",
        .comparison = one_sample_t_test(drift),
        .family = kTrialTrendsFamily});

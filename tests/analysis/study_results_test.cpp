@@ -393,6 +393,18 @@ TEST(StudyResults, FingersTrailBehindThePalmOfADeviceThatHasThem) {
   EXPECT_NEAR(value(results(study), "finger_lag_s"), 0.5 * (0.012 + 0.020), 1e-12);
 }
 
+TEST(StudyResults, ATrendOverTheTrialsNamesTheAnswerItIsOf) {
+  HandMadeStudy study;
+  study.add("P01");
+  study.compare_ten("group_d", 8);
+  const StudyResults all = results(study);
+  const auto& comparisons = all.sections.front().comparisons;
+  EXPECT_TRUE(std::ranges::any_of(comparisons, [](const NamedComparison& one) {
+    return one.name.starts_with(
+        "group_d: the test is called \"more\" more often over the trials, exploratory");
+  }));
+}
+
 TEST(StudyResults, PracticeIsToldInNumbersOrWithTheReasonWhyNot) {
   HandMadeStudy study;
   study.add("P01");
