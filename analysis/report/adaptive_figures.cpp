@@ -79,10 +79,11 @@ std::string horizontal(int number, double level, const std::string& style) {
 std::string axes(const std::vector<PlottedRun>& runs, const BlockDesign& block) {
   const bool logarithmic = runs.front().run->is_logarithmic;
   const AxisRange trials{0.0, last_trial(runs) + 1.0};
+  const AxisRange levels = level_range(runs, logarithmic);
   std::string words = "  set xrange " + range_words(trials) + "\n  set yrange " +
-                      range_words(level_range(runs, logarithmic)) + "\n" +
-                      small_tics("x", trials) + "  set ytics font small\n";
-  if (logarithmic) words += "  set logscale y\n";
+                      range_words(levels) + "\n" + small_tics("x", trials);
+  words += logarithmic ? "  set logscale y\n" + log_tics("y", levels, /*small=*/true)
+                       : small_tics("y", levels);
   if (block.reference_intensity) words += horizontal(1, *block.reference_intensity, "ls 12");
   return words;
 }

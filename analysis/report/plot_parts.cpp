@@ -95,6 +95,41 @@ std::string small_tics(const std::string& axis, const AxisRange& range) {
   return "  set " + axis + "tics " + plot_number(step) + " font small\n";
 }
 
+std::string log_tics(const std::string& axis, const AxisRange& range, bool small) {
+  const std::string end = small ? " font small\n" : "\n";
+  const std::string start = "  set " + axis + "tics ";
+  if (!(range.low > 0.0) || !(range.high > range.low) || !std::isfinite(range.high)) {
+    return start + "autofreq" + end;
+  }
+  const std::vector<std::vector<double>> digits_of_a_decade = {
+      {1.0}, {1.0, 3.0}, {1.0, 2.0, 5.0}, {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}};
+  constexpr std::size_t kFewest = 3;
+  const int first = static_cast<int>(std::floor(std::log10(range.low)));
+  const int last = static_cast<int>(std::floor(std::log10(range.high)));
+  std::vector<double> places;
+  for (const std::vector<double>& digits : digits_of_a_decade) {
+    places.clear();
+    for (int decade = first; decade <= last; ++decade) {
+      for (const double digit : digits) {
+        // As written, 1.5e-1 is 0.15 to the last digit.
+        const double place =
+            decade < 0 ? digit / std::pow(10.0, -decade) : digit * std::pow(10.0, decade);
+        if (place >= range.low && place <= range.high) places.push_back(place);
+      }
+    }
+    if (places.size() >= kFewest) break;
+  }
+  // So narrow that equal steps do.
+  if (places.size() < kFewest) return small_tics(axis, range);
+  constexpr std::size_t kMost = 6;
+  const std::size_t step = (places.size() + kMost - 1) / kMost;
+  std::string tics;
+  for (std::size_t i = 0; i < places.size(); i += step) {
+    tics += (tics.empty() ? "" : ", ") + plot_number(places[i]);
+  }
+  return start + "(" + tics + ")" + end;
+}
+
 std::string named_tics(const std::string& axis, const std::vector<std::string>& names,
                        bool upright) {
   std::string tics = "  set " + axis + "tics (";

@@ -51,6 +51,11 @@ struct AxisRange {
 /// "set xtics 0.5 font small": at most five tics, at round numbers, for a small panel.
 [[nodiscard]] std::string small_tics(const std::string& axis, const AxisRange& range);
 
+/// "set ytics (3.0, 5.0, 7.0) font small" of a logarithmic axis: three to six round numbers
+/// within, where gnuplot itself may label one; equal steps in a narrow range.
+[[nodiscard]] std::string log_tics(const std::string& axis, const AxisRange& range,
+                                   bool small = false);
+
 /// "set xtics ('P01' 1, 'P02' 2)", standing on end where there are many.
 [[nodiscard]] std::string named_tics(const std::string& axis,
                                      const std::vector<std::string>& names, bool upright);

@@ -144,8 +144,8 @@ Figure figure_of(const FigureSource& source, const BlockCurves& curves, std::siz
                 .before = rate_line(own.answers.catches)};
     if (i == first) {
       panel.before += "  set logscale x\n  set xrange " + range_words(curves.range) +
-                      "\n  set yrange [-0.06:1.06]\n  set ytics 0.5 font small\n"
-                      "  set xtics font small\n";
+                      "\n  set yrange [-0.06:1.06]\n  set ytics 0.5 font small\n" +
+                      log_tics("x", curves.range, /*small=*/true);
     }
     panel.plot = "plot ";
     if (own.probability) {

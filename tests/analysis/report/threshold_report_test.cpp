@@ -86,6 +86,8 @@ TEST_F(ThresholdReportTest, DrawsStaircasesWithTheirReversals) {
   EXPECT_FALSE(table.rows[0][reversal].number.has_value());
   EXPECT_EQ(table.rows[1][reversal].number, 0.2);
   EXPECT_EQ(table.rows[3][0].number, 2.0) << "a series a track, over all participants";
+  EXPECT_NE(figure.plot.find("set logscale y\n  set ytics (0.2, 0.3, 0.5)"), std::string::npos)
+      << figure.plot;
 }
 
 TEST_F(ThresholdReportTest, SectionsOfAProcedureAreTitledByIt) {

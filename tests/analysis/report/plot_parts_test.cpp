@@ -1,0 +1,33 @@
+#include "analysis/report/plot_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace jnd::analysis {
+namespace {
+
+TEST(LogTics, AreRoundNumbersWithinAndNoFewerThanThree) {
+  EXPECT_EQ(log_tics("y", {2.4, 7.9}), "  set ytics (3.0, 5.0, 7.0)\n");
+  EXPECT_EQ(log_tics("x", {0.9, 11.0}, /*small=*/true),
+            "  set xtics (1.0, 3.0, 10.0) font small\n");
+  EXPECT_EQ(log_tics("y", {0.09, 0.31}), "  set ytics (0.1, 0.15, 0.2, 0.3)\n");
+  EXPECT_EQ(log_tics("y", {0.5, 2000.0}), "  set ytics (1.0, 10.0, 100.0, 1000.0)\n");
+}
+
+TEST(LogTics, OfManyDecadesAreNotTooMany) {
+  const std::string tics = log_tics("y", {1e-9, 1e9});
+  EXPECT_LE(std::count(tics.begin(), tics.end(), ','), 6) << tics;
+}
+
+TEST(LogTics, OfANarrowRangeAreEqualSteps) {
+  EXPECT_EQ(log_tics("y", {8.1, 9.4}), small_tics("y", {8.1, 9.4}));
+}
+
+TEST(LogTics, OfARangeThatIsNoneAreLeftToGnuplot) {
+  EXPECT_EQ(log_tics("y", {0.0, 2.0}), "  set ytics autofreq\n");
+  EXPECT_EQ(log_tics("y", {2.0, 2.0}), "  set ytics autofreq\n");
+}
+
+}  // namespace
+}  // namespace jnd::analysis
