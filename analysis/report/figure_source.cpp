@@ -28,4 +28,8 @@ std::vector<std::string> FigureSource::participants() const {
   return names;
 }
 
+bool is_of_thesis(const StudyResults& results) {
+  return results.citation.starts_with("Schmidt, A. (2018)");
+}
+
 }  // namespace jnd::analysis

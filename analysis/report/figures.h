@@ -25,12 +25,17 @@ struct FigureSource {
   [[nodiscard]] std::vector<std::string> participants() const;
 };
 
+/// Whether the study is one of the thesis', by its published values: figures answer some of
+/// Schmidt (2018), and words of that author have a meaning.
+[[nodiscard]] bool is_of_thesis(const StudyResults& results);
+
 // One function a kind of data; each gives the figures there are data for, in the order of the
 // report. Not real time.
 
 /// Psychometric curves (fig. 5, D.5, D.6, D.20, D.23 of the thesis).
 [[nodiscard]] std::vector<Figure> discrimination_figures(const FigureSource& source);
-/// Weber fractions (D.21) and difference thresholds (D.22: absolute ones) of every block.
+/// Weber fractions (D.21) and difference thresholds (D.22, which calls them absolute ones) of
+/// every block.
 [[nodiscard]] std::vector<Figure> weber_figures(const FigureSource& source);
 
 /// Answers of yes-no and same-different blocks with their curves.
@@ -41,6 +46,9 @@ struct FigureSource {
 /// Curves of estimation and production (fig. 4a and b, D.3, D.9, D.12, D.14), repetitions
 /// (D.8), boxes (D.1, D.2, D.10, D.11), ratios of productions (D.13).
 [[nodiscard]] std::vector<Figure> magnitude_figures(const FigureSource& source);
+/// Matches over standards, with the matching function.
+[[nodiscard]] std::vector<Figure> matching_figures(const FigureSource& source);
+
 /// The power laws of both and between them (fig. 4c, D.4, D.15).
 [[nodiscard]] std::vector<Figure> combined_figures(const FigureSource& source);
 

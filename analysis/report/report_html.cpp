@@ -1,3 +1,4 @@
+#include "analysis/report/figures.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
 #include "analysis/report/report_methods.h"
@@ -24,7 +25,7 @@ class FigureChapters {
         figures_(figures),
         drawn_(drawn),
         simulated_(results.simulated),
-        of_thesis_(!results.citation.empty()),
+        of_thesis_(is_of_thesis(results)),
         numbers_(figures.size(), 0) {}
 
   /// Of this section of the results; "" those of none.
@@ -85,7 +86,7 @@ class FigureChapters {
   const std::vector<Figure>& figures_;
   const std::vector<DrawnFigure>& drawn_;
   bool simulated_;
-  bool of_thesis_;            ///< The study has published values to stand beside.
+  bool of_thesis_;            ///< See `is_of_thesis`.
   std::vector<int> numbers_;  ///< In the report; 0 of those that are not written yet.
 };
 

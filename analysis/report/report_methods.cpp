@@ -1,10 +1,14 @@
 #include "analysis/report/report_methods.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "analysis/groups/summary.h"
 #include "analysis/report/method_words.h"
 #include "analysis/report/report_words.h"
+#include "analysis/threshold_results.h"
 #include "core/storage/sha256.h"
 
 namespace jnd::analysis {
@@ -35,6 +39,48 @@ std::string reference_words(const BlockDesign& block, const std::set<double>& re
               : "");
 }
 
+/// How many trials people ran. Where the answers decide it, as the data have it.
+std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
+  if (!is_adaptive(block)) return counted_words(block.num_trials, "trial") + " a participant";
+  const auto count = [&](const std::vector<core::TrialRow>& trials) {
+    return std::ranges::count(trials, block.block, &core::TrialRow::block);
+  };
+  std::vector<double> counts;
+  for (const ParticipantData& one : data.participants) {
+    const auto num = count(one.trials) + count(one.catch_trials) + count(one.excluded_trials);
+    if (num > 0) counts.push_back(static_cast<double>(num));
+  }
+  if (counts.empty()) return "no trials";
+  const auto [least, most] = std::ranges::minmax(counts);
+  if (least == most) {
+    return counted_words(static_cast<std::int64_t>(least), "trial") + " a participant";
+  }
+  return "trials a participant as the answers led to: mean " +
+         number_words(summary_of(counts).mean, 1) + ", from " + shortest_words(least) + " to " +
+         shortest_words(most);
+}
+
+std::string practice_words(const PracticeWords& practice) {
+  const auto list = [](const std::vector<double>& numbers) {
+    return std::set<double>(numbers.begin(), numbers.end());
+  };
+  const std::string unit = quantity_unit(practice.quantity);
+  std::string words = "practice, no data; " +
+                      procedure_words(practice.procedure, practice.task) + "; " +
+                      quantity_words(practice.quantity);
+  if (!practice.levels.empty()) words += "; levels " + joined(list(practice.levels), unit);
+  if (!practice.references.empty()) {
+    words += "; reference " + joined(list(practice.references), unit);
+  }
+  words += practice.feedback
+               ? "; participants were told after every answer whether it was right"
+               : "; without feedback";
+  return words + "; until " +
+         shortest_words(std::round(1000.0 * practice.min_correct_ratio) / 10.0) +
+         " % of the last " + counted_words(practice.num_trials_judged, "answer") +
+         " were right, at most " + counted_words(practice.max_trials, "trial") + ".";
+}
+
 /// What a block presented, from its answered trials.
 std::string block_words(const StudyData& data, const BlockDesign& block) {
   std::set<double> intensities;
@@ -58,9 +104,10 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
   std::string words = procedure_words(block.procedure, block.protocol.task) + "; " +
                       quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
-  constexpr std::size_t kMostListed = 20;  // An adaptive procedure makes up its levels.
-  if (intensities.size() > kMostListed) {
-    words += "; " + std::to_string(intensities.size()) + " levels from " +
+  constexpr std::size_t kMostListed = 20;
+  const bool are_listed = has_fixed_levels(block) && intensities.size() <= kMostListed;
+  if (!intensities.empty() && !are_listed) {
+    words += "; " + counted_words(std::ssize(intensities), "level") + " from " +
              number_words(*intensities.begin()) + " to " + number_words(*intensities.rbegin()) +
              ' ' + unit;
   } else if (!intensities.empty()) {
@@ -70,9 +117,9 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
   if (block.protocol.modulus == "free") words += "; numbers of everybody’s own choice";
   if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");
   if (!starts.empty()) words += "; starting from " + joined(starts, unit);
-  words += "; " + counted_words(repetitions, "repetition") + ", " +
-           counted_words(block.num_trials, "trial") + " a participant.";
-  return words;
+  words += "; ";
+  if (has_fixed_levels(block)) words += counted_words(repetitions, "repetition") + ", ";
+  return words + num_trials_words(data, block) + ".";
 }
 
 std::string design_words(const ChapterSource& source) {
@@ -133,6 +180,9 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
   html.heading(2, "Methods");
   html.paragraph_about("Study", design_words(source));
   std::vector<std::string> blocks;
+  for (const PracticeWords& practice : source.words.practice) {
+    blocks.push_back(source.words.title_of(practice.block) + ": " + practice_words(practice));
+  }
   for (const BlockDesign& block : source.report.data.blocks) {
     blocks.push_back(source.words.title_of(block.block) + ": " +
                      block_words(source.report.data, block));

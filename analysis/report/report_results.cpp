@@ -82,8 +82,13 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
     return {name, std::string(to_string(c.status)) + ": " + c.reason, "–", "–", "–", "–", "–",
             "–"};
   }
+  using Kind = Comparison::Kind;
+  const bool are_two_groups =
+      c.kind == Kind::kWelch || c.kind == Kind::kPooled || c.kind == Kind::kRankSum;
   std::string count = std::to_string(c.num_a);
-  if (c.num_b != c.num_a && c.num_b > 0) count += ", " + std::to_string(c.num_b);
+  if (c.num_b > 0 && (are_two_groups || c.num_b != c.num_a)) {
+    count += ", " + std::to_string(c.num_b);
+  }
   // What the test is about: of ranks the median of pairwise differences, else the mean.
   return {name,
           c.hodges_lehmann

@@ -21,6 +21,45 @@ std::string text_in(const json& object, const char* key) {
 
 void collect(const json& list, StudyWords& words);
 
+std::vector<double> numbers_of(const json& value) {
+  std::vector<double> numbers;
+  if (value.is_number()) numbers.push_back(value.get<double>());
+  if (!value.is_array()) return numbers;
+  for (const json& one : value) {
+    if (one.is_number()) numbers.push_back(one.get<double>());
+  }
+  return numbers;
+}
+
+double number_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
+void collect_practice(const json& block, StudyWords& words) {
+  const auto practice = block.find("practice");
+  if (practice == block.end() || !practice->is_object()) return;
+  const auto feedback = block.find("feedback");
+  PracticeWords found{
+      .block = text_in(block, "name"),
+      .procedure = text_in(block, "procedure"),
+      .task = text_in(block, "task"),
+      .min_correct_ratio = number_in(*practice, "min_correct_ratio"),
+      .num_trials_judged = static_cast<int>(number_in(*practice, "num_trials_judged")),
+      .max_trials = static_cast<int>(number_in(*practice, "max_trials")),
+      .feedback = feedback != block.end() && feedback->is_boolean() && feedback->get<bool>()};
+  if (found.task.empty()) found.task = "reminder";
+  // A quantity is the key of the levels, and of the reference with a word before it.
+  for (const char* quantity : {"scale", "viscosity_pa_s", "stiffness_n_per_m"}) {
+    if (!block.contains(quantity)) continue;
+    found.quantity = quantity;
+    found.levels = numbers_of(block[quantity]);
+    const std::string reference = "reference_" + found.quantity;
+    if (block.contains(reference)) found.references = numbers_of(block[reference]);
+  }
+  words.practice.push_back(std::move(found));
+}
+
 void collect_stage(const json& stage, StudyWords& words) {
   if (!stage.is_object()) return;
   const std::string name = text_in(stage, "name");
@@ -28,6 +67,7 @@ void collect_stage(const json& stage, StudyWords& words) {
   if (!name.empty() && !title.empty()) words.titles.emplace(name, title);
   const std::string question = text_in(stage, "question");
   if (!name.empty() && !question.empty()) words.questions.emplace(name, question);
+  collect_practice(stage, words);
   for (const char* key : {"stages", "items", "arms", "between"}) {
     if (stage.contains(key)) collect(stage[key], words);
   }

@@ -6,6 +6,17 @@
 
 namespace jnd::analysis {
 
+/// A block that people practise in, as the study file has it.
+struct PracticeWords {
+  std::string block, procedure, task;
+  std::string quantity;        ///< Of its levels: "viscosity_pa_s".
+  std::vector<double> levels;  ///< In the order of the file.
+  std::vector<double> references;
+  double min_correct_ratio = 0.0;
+  int num_trials_judged = 0, max_trials = 0;
+  bool feedback = false;
+};
+
 /// What a study file says of itself to readers, in English where it has it.
 struct StudyWords {
   std::string title;  ///< Its name where it has no title.
@@ -13,6 +24,8 @@ struct StudyWords {
   std::vector<std::string> authors;
   std::map<std::string, std::string> titles;     ///< Of stages, by name.
   std::map<std::string, std::string> questions;  ///< Of blocks and items, by name.
+
+  std::vector<PracticeWords> practice;  ///< In the order of the file.
 
   /// The title of a block; its name where it has none.
   [[nodiscard]] std::string title_of(const std::string& block) const;

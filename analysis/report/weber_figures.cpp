@@ -152,28 +152,29 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
   if (values.empty()) return std::nullopt;
   const std::string& quantity = blocks.front().quantity;
   const std::string unit = quantity_unit(quantity);
-  Figure figure{.name = "absolute_thresholds",
-                .section = blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block
-                                             : blocks[0].block,
-                .title = "Difference thresholds",
-                .caption =
-                    "The difference from the reference that is told in 84.13 % of trials: "
-                    "Weber fraction, with the point of subjective equality at the reference, "
-                    "times the reference (Schmidt 2018 calls it the absolute threshold). One "
-                    "circle a participant; boxes: quartiles "
-                    "and median, whiskers to the last value within 1.5 interquartile ranges. "
-                    "Logarithmic axis.",
-                .thesis = "Fig. D.22",
-                .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
-                .height_in = 3.0};
-  FigureTable boxes = box_table("absolute_thresholds_boxes", groups);
-  FigureTable points = box_values_table("absolute_thresholds_values", groups);
+  const bool of_thesis = is_of_thesis(source.results);
+  Figure figure{
+      .name = of_thesis ? "absolute_thresholds" : "difference_thresholds",
+      .section =
+          blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block : blocks[0].block,
+      .title = "Difference thresholds",
+      .caption =
+          "The difference from the reference that is told in 84.13 % of trials: "
+          "Weber fraction, with the point of subjective equality at the reference, "
+          "times the reference" +
+          std::string(of_thesis ? " (Schmidt 2018 calls it the absolute threshold)" : "") +
+          ". One circle a participant; boxes: quartiles and median, whiskers to the "
+          "last value within 1.5 interquartile ranges. Logarithmic axis.",
+      .thesis = "Fig. D.22",
+      .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
+      .height_in = 3.0};
+  FigureTable boxes = box_table(figure.name + "_boxes", groups);
+  FigureTable points = box_values_table(figure.name + "_values", groups);
   figure.plot =
       "  set logscale y\n  set yrange " +
       range_words(axis_range(values, /*logarithmic=*/true)) +
       "\n  set xrange [0.4:" + plot_number(static_cast<double>(blocks.size()) + 0.6) + "]\n" +
-      named_tics("x", titles, false) +
-      "  set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n"
+      named_tics("x", titles, false) + log_tics("y", axis_range(values, /*logarithmic=*/true)) +
       "  set ylabel " +
       gnuplot_quoted("Difference threshold" + (unit.empty() ? "" : " [" + unit + "]")) +
       "\n  plot " + box_plot_commands(boxes, points, 0.45) + "\n";

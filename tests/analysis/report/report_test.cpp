@@ -10,6 +10,7 @@
 #include "analysis/report/data_quality.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/html_text.h"
+#include "analysis/report/report_results.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -201,10 +202,84 @@ TEST_F(ReportTest, HasTheFiguresThatThereAreDataForAndTheirTables) {
        {"published", "estimation_curves", "estimation_boxes", "estimation_repetitions",
         "production_curves", "production_boxes", "production_ratios", "power_laws",
         "group_d_psychometric", "group_d_participants", "group_e_psychometric",
-        "weber_fractions", "absolute_thresholds"}) {
+        "weber_fractions", "difference_thresholds"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_FALSE(names.contains("joint_angles")) << "nothing was recorded";
+}
+
+TEST_F(ReportTest, WordsOfTheThesisStandInItsOwnStudiesAlone) {
+  const StudyData data = load_study(study_.store());
+  const StudyWords words;
+  const auto figure_of = [&](const std::string& citation) {
+    const StudyResults results =
+        results_of(data, {.citation = citation}, {.num_resamples = 50});
+    return weber_figures({.data = data, .results = results, .words = words}).at(1);
+  };
+  const Figure thesis = figure_of("Schmidt, A. (2018). Viscosity Perception.");
+  EXPECT_EQ(thesis.name, "absolute_thresholds");
+  EXPECT_TRUE(has(thesis.caption, "(Schmidt 2018 calls it the absolute threshold). One"));
+  for (const char* other : {"", "Jones, L. A. (1993). After Schmidt, A. (2018)."}) {
+    const Figure figure = figure_of(other);
+    EXPECT_EQ(figure.name, "difference_thresholds");
+    EXPECT_EQ(figure.tables.front().name, "difference_thresholds_boxes");
+    EXPECT_FALSE(has(figure.caption, "Schmidt")) << figure.caption;
+    EXPECT_TRUE(has(figure.caption, "times the reference. One circle")) << figure.caption;
+  }
+  EXPECT_FALSE(has(read(report(out()).html), "<th>Schmidt (2018)")) << "of Somebody (2018)";
+}
+
+TEST_F(ReportTest, TellsBothNumbersOfTwoGroupsAndOneOfPairs) {
+  const StudyData data = load_study(study_.store());
+  Comparison welch = welch_t_test({1.0, 2.0, 4.0}, {2.0, 3.0, 6.0});
+  Comparison paired = paired_t_test({1.0, 2.0, 4.0}, {2.0, 3.0, 6.0});
+  const StudyResults results{.study = "by_hand"};
+  const auto written = [&](const Comparison& comparison) {
+    HtmlText html;
+    write_section(html, data, results,
+                  {.name = "x", .comparisons = {{.name = "test", .comparison = comparison}}});
+    return html.text();
+  };
+  EXPECT_TRUE(has(written(welch), ">3, 3<")) << written(welch);
+  EXPECT_FALSE(has(written(paired), ">3, 3<"));
+  EXPECT_TRUE(has(written(paired), ">3<"));
+}
+
+TEST_F(ReportTest, OfAdaptiveBlocksTellsWhatWasRunAndOfPracticeWhatItWas) {
+  HandMadeStudy study(R"json({"name": "by_hand", "stages": [
+    {"kind": "block", "name": "warm_up", "procedure": "constant_stimuli",
+     "task": "two_interval", "feedback": true, "viscosity_pa_s": [16, 4],
+     "reference_viscosity_pa_s": 8,
+     "practice": {"min_correct_ratio": 0.8, "num_trials_judged": 5, "max_trials": 20}},
+    {"kind": "block", "name": "thicker"}]})json");
+  for (const auto& [name, num] : {std::pair("P01", 4), std::pair("P02", 7)}) {
+    (void)study.add(name, false, kLaboratory);
+    for (int i = 0; i < num; ++i) {
+      (void)study.answer({.block = "thicker",
+                          .procedure = "staircase",
+                          .quantity = "viscosity_pa_s",
+                          .repetition = 1,
+                          .intensity = 9.0 + i,
+                          .reference_intensity = 8.0,
+                          .response = i % 2});
+    }
+  }
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 50});
+  const std::string html = without_breaks(report_html({.store = study.store(),
+                                                       .data = data,
+                                                       .results = results,
+                                                       .results_options = {},
+                                                       .movement = {},
+                                                       .program_version = "1"},
+                                                      {}, {}));
+  EXPECT_TRUE(has(html, "trials a participant as the answers led to: mean 5.5, from 4 to 7."));
+  EXPECT_FALSE(has(html, "7 trials a participant"));
+  EXPECT_TRUE(has(html, "; 7 levels from 9 to 15 Pa s; reference 8 Pa s; trials"));
+  EXPECT_TRUE(has(html,
+                  "as a two-interval task (order drawn); viscosity; levels 4, 16 Pa s; "
+                  "reference 8 Pa s; participants were told after every answer whether it was "
+                  "right; until 80 % of the last 5 answers were right, at most 20 trials."));
 }
 
 TEST_F(ReportTest, DegenerateDataAreSaidToBeSoAndNoNumberIsMadeUp) {
