@@ -199,6 +199,15 @@ std::string reference_line(const BlockAnswers& answers) {
   return "  set arrow 1 from " + x + ",graph 0 to " + x + ",graph 1 nohead ls 12\n";
 }
 
+/// What the pooled curve is flatter than; "" without.
+std::string median_person_words(const FigureSource& source, const std::string& block) {
+  const Estimate* const person = source.results.find(block + ".weber_fraction_median_person");
+  if (person == nullptr || !person->value) return "";
+  return " Pooling people who differ flattens a curve: the median person’s Weber fraction, the "
+         "primary value, is " +
+         number_words(person->value, 3) + ".";
+}
+
 /// Fig. 5 and D.23: the group's answers, its curve, everybody's curve behind.
 Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
   Figure figure{
@@ -247,7 +256,7 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
                      x + ",first 0.8413 nohead ls 12\n";
     }
     plot += from_table(group) + "'intensity':'ratio' with lines ls 11 title " +
-            gnuplot_quoted("fit to all, w = " + number_words(pooled->value, 3)) + ", ";
+            gnuplot_quoted("fit to all pooled, w = " + number_words(pooled->value, 3)) + ", ";
   }
   plot += from_table(figure.tables[0]) +
           (answers.has_fixed_levels
@@ -274,7 +283,8 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
        : by_order
            ? "."
            : ", and where the pooled curve reaches 84.13 %, which is the Weber fraction w "
-             "above it.");
+             "above it.") +
+      median_person_words(source, answers.block);
   figure.tables.push_back(std::move(group));
   return figure;
 }
