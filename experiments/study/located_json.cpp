@@ -49,6 +49,9 @@ std::string token_words(const std::string& token) {
       {"'[', '{', or a literal", "a value"},
       {"string literal", "a text in quotes"},
       {"number literal", "a number"},
+      {"true literal", "`true`"},
+      {"false literal", "`false`"},
+      {"null literal", "`null`"},
       {"'}'", "`}`"},
       {"']'", "`]`"},
       {"'{'", "`{`"},
@@ -86,6 +89,12 @@ std::string not_a_token(std::string_view what, const std::string& word, std::str
   return "expected a value or a text in double quotes" + found;
 }
 
+/// "060", "-07": a number to whoever wrote it, several to JSON.
+bool has_leading_zero(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9';
+}
+
 /// A token of JSON where another one belongs; both in the library's words.
 std::string wrong_token(const std::string& found, const std::string& expected,
                         std::string_view word) {
@@ -98,7 +107,7 @@ std::string wrong_token(const std::string& found, const std::string& expected,
     hint = " (is there a comma too many?)";
   } else if (is_number && wanted == "a key in quotes") {
     hint = " (decimals have a point, not a comma)";
-  } else if (is_number && word.size() > 1 && word.starts_with('0')) {
+  } else if (is_number && has_leading_zero(word)) {
     hint = " (a number begins with 0 only before a point)";
   }
   if (wanted == "`}`" || wanted == "`]`") wanted = "`,` or " + wanted;
@@ -134,11 +143,13 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
   if (unexpected != std::string::npos && expected != std::string::npos) {
     const std::string found = said.substr(unexpected + 11, expected - unexpected - 11);
     const std::string wanted = said.substr(expected + 11);
-    const bool is_value = found == "string literal" || found == "number literal" ||
-                          found == "'{'" || found == "'['";
-    // "060" is one number to whoever wrote it, not two without a comma.
+    const bool is_literal = found.ends_with(" literal");  // As texts and numbers are, too.
+    const bool is_value = is_literal || found == "'{'" || found == "'['";
+    // "060" and "1true" are one word to whoever wrote them, not two values without a comma.
     const bool is_one_word =
-        found == "number literal" && word.size() > 1 && word.starts_with('0');
+        found == "number literal"
+            ? has_leading_zero(word)
+            : is_literal && found != "string literal" && !found.starts_with(word);
     if (is_value && !is_one_word && (wanted == "'}'" || wanted == "']'")) {
       byte = behind_value_before(text, byte);
       return "expected `,` or " + token_words(wanted) + " behind this value, found " +

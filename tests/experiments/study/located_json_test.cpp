@@ -106,6 +106,30 @@ TEST(LocatedJson, SaysWhatBelongsThereAndGuessesWhatWasMeant) {
             "`\xE2\x80\x9Eno\xE2\x80\x9C` (write the straight quotes of the keyboard)");
 }
 
+TEST(LocatedJson, PlacesAMissingCommaBehindTheValueBefore) {
+  EXPECT_EQ(problems_in("[0.5 0.75, 1]"),
+            "x:1:5: /1: expected `,` or `]` behind this value, found a number");
+  EXPECT_EQ(problems_in("[1 0e1]"),
+            "x:1:3: /1: expected `,` or `]` behind this value, found a number");
+  EXPECT_EQ(problems_in("[1 0]"),
+            "x:1:3: /1: expected `,` or `]` behind this value, found a number");
+  EXPECT_EQ(
+      problems_in("[-060]"),
+      "x:1:5: /1: expected `,` or `]`, found a number (a number begins with 0 only before "
+      "a point)");
+}
+
+TEST(LocatedJson, NamesTheWordsOfJsonAsTheyAreWritten) {
+  EXPECT_EQ(problems_in("[1 true]"),
+            "x:1:3: /1: expected `,` or `]` behind this value, found `true`");
+  EXPECT_EQ(problems_in("{\"a\": 1\nfalse}"),
+            "x:1:8: /a: expected `,` or `}` behind this value, found `false`");
+  EXPECT_EQ(problems_in("{null: 1}"), "x:1:5: /: expected a key in quotes, found `null`");
+  EXPECT_EQ(problems_in("[1true]"), "x:1:6: /1: expected `,` or `]`, found `true`");
+  EXPECT_EQ(problems_in("[true 1]"),
+            "x:1:6: /1: expected `,` or `]` behind this value, found a number");
+}
+
 TEST(LocatedJson, KnowsNoNumbersThatAreNotFinite) {
   EXPECT_EQ(problems_in("{\"a\": [0, NaN]}"),
             "x:1:11: /a/1: expected a value or a text in double quotes, found `NaN`");
