@@ -74,6 +74,9 @@ class Procedure {
                                                              const PlannedTrial&) const {
     return std::nullopt;
   }
+  /// Throws `Error`, "staircase.highest: expected ...", where a block whose trials can be drawn
+  /// cannot come to what it is for; the name behind the dot is that of a key.
+  virtual void check(const Block&) const {}
   /// How many trials to expect, for progress and planning.
   [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
 };

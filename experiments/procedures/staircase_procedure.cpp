@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "experiments/adaptive/interleave.h"
 #include "experiments/procedures/adaptive_trial.h"
+#include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
 namespace {
@@ -41,6 +43,35 @@ std::vector<BlockKey> step_size_keys() {
                                .max_items = 20,
                                .only_where = {{"level_scale", {"logarithmic"}}}}};
   return {linear, ratio};
+}
+
+/// Of so many reversals: each turns between a run of `num_up` and one of `num_down` trials.
+int least_trials(int num_up, int num_down, int num_reversals) {
+  const int num_pairs = (num_reversals + 1) / 2;
+  const int rest = num_reversals % 2 == 0 ? std::min(num_up, num_down) : 0;
+  return num_pairs * (num_up + num_down) + rest;
+}
+
+std::string up_down_words(const StaircaseRule& rule) {
+  return std::to_string(rule.num_up) + " up and " + std::to_string(rule.num_down) + " down";
+}
+
+/// The levels have to be where the rule aims, seen from the reference.
+void check_side(double target, double reference, const StaircaseRule& rule) {
+  constexpr double kRounding = 1e-9;
+  const auto refuse = [&](const char* key, const char* side, double found) {
+    throw core::Error(std::string("staircase.") + key + ": expected a level " + side +
+                      " the reference (" + plain_number(reference) +
+                      "), as the staircase aims at the one that is called more in " +
+                      plain_number(std::round(1000.0 * target) / 10.0) +
+                      " % of trials, found " + plain_number(found));
+  };
+  if (target > 0.5 - kRounding && rule.highest <= reference) {
+    refuse("highest", "above", rule.highest);
+  }
+  if (target < 0.5 + kRounding && rule.lowest >= reference) {
+    refuse("lowest", "below", rule.lowest);
+  }
 }
 
 int num_series(const Block& block) {
@@ -129,6 +160,25 @@ std::vector<PlannedTrial> StaircaseProcedure::draw_next(
   if (!next) return {};
   return {adaptive_trial(block, answered, states[*next].next_level, static_cast<int>(*next) + 1,
                          stream)};
+}
+
+void StaircaseProcedure::check(const Block& block) const {
+  const StaircaseRule rule = staircase_rule_of(block, 1);
+  const int least = least_trials(rule.num_up, rule.num_down, rule.num_reversals_averaged);
+  if (!block.practice && rule.max_trials < least) {
+    throw core::Error("staircase.max_trials: expected at least the " + std::to_string(least) +
+                      " trials that " + std::to_string(rule.num_reversals_averaged) +
+                      " `num_reversals_averaged` take with " + up_down_words(rule) +
+                      ", found " + std::to_string(rule.max_trials));
+  }
+  const double target = Staircase(rule).target_probability();
+  if (task_of(block) == Task::kTwoInterval && std::abs(target - 0.5) < 1e-9) {
+    throw core::Error(
+        "staircase.num_down: expected a rule that aims above or below 50 %, as by chance the "
+        "test is chosen in 50 % of two-interval trials, found " +
+        up_down_words(rule) + "; 1 up and 2 down aim at 70.7 %");
+  }
+  if (block.reference_intensity) check_side(target, *block.reference_intensity, rule);
 }
 
 std::vector<double> StaircaseProcedure::possible_intensities(const Block& block) const {

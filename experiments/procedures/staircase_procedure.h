@@ -19,6 +19,7 @@ class StaircaseProcedure final : public Procedure {
   [[nodiscard]] std::vector<double> possible_intensities(const Block& block) const override;
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
+  void check(const Block& block) const override;
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

@@ -42,7 +42,9 @@ class Drawing {
   void draw(const json& written, const Block& block, const std::string& pointer) {
     core::RandomStream stream(1, "order");
     try {
-      (void)procedure_named(block.procedure).draw_next(block, {}, stream);
+      const Procedure& procedure = procedure_named(block.procedure);
+      (void)procedure.draw_next(block, {}, stream);
+      procedure.check(block);
     } catch (const core::Error& error) {
       report(written, pointer, error.what());
     }

@@ -66,6 +66,7 @@ class Rules {
     }
     for (const json& stage : stages) {
       if (!stage.is_object() || word(stage, "kind") != "counterbalance") continue;
+      methods_[word(stage, "name")] = word(stage, "method");
       if (word(stage, "method") == "one_of") {
         for (const json& arm : list(stage, "arms")) {
           if (arm.is_object()) one_of_arms_[word(stage, "name")].push_back(word(arm, "name"));
@@ -202,9 +203,17 @@ class Rules {
       if (known == one_of_arms_.end()) {
         std::vector<std::string> names;
         for (const auto& [name, arms] : one_of_arms_) names.push_back(name);
-        report(child, "expected the name of a `one_of` counterbalance, found `" +
-                          shown_text(counterbalance) + "`" +
-                          did_you_mean(counterbalance, names));
+        const std::string expected = "expected the name of a `one_of` counterbalance";
+        const std::string found = ", found `" + shown_text(counterbalance) + "`";
+        const auto other = methods_.find(counterbalance);
+        if (other == methods_.end() || other->second.empty()) {
+          report(child, expected + found + did_you_mean(counterbalance, names));
+        } else {
+          report(child, expected + " (" +
+                            (names.empty() ? "there is none" : names_words(names)) + ")" +
+                            found + ", whose method is `" + shown_text(other->second) +
+                            "` and of which everybody gets every arm");
+        }
       } else if (std::find(known->second.begin(), known->second.end(), arm) ==
                  known->second.end()) {
         report(child, "expected an arm of `" + shown_text(counterbalance) +
@@ -321,6 +330,7 @@ class Rules {
   std::vector<StudyProblem>& problems_;
   std::map<std::string, std::string> stage_names_, item_names_;  ///< Name to pointer.
   std::map<std::string, std::vector<std::string>> one_of_arms_;
+  std::map<std::string, std::string> methods_;  ///< Of counterbalances, by their names.
   double num_cells_ = 1.0;
   double num_trials_ = 0.0;
 };

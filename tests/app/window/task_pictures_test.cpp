@@ -32,7 +32,7 @@ const std::string kTasks = R"json({
      "interval_order": "random", "feedback": true, "reference_viscosity_pa_s": 3,
      "start_viscosity_pa_s": [5.4, 4], "lowest_viscosity_pa_s": 3.06,
      "highest_viscosity_pa_s": 6.6, "level_scale": "logarithmic", "step_ratio": [1.25],
-     "num_up": 1, "num_down": 2, "max_reversals": 100, "max_trials": 2,
+     "num_up": 1, "num_down": 2, "max_reversals": 100, "max_trials": 4,
      "num_reversals_averaged": 2, "free_space_between_s": 0,
      "instruction": {"en": "Two fluids follow each other. You may go back and forth."},
      "question": {"en": "Which of the two was thicker?"},

@@ -107,7 +107,8 @@ TEST(StudyRules, WantOnlyForToNameAnArmThatExists) {
             "`primed` or `unprimed`, found `prime`; did you mean `primed`?");
   EXPECT_EQ(problems_of(broken("{\"priming\": \"primed\"}", "{\"group_order\": \"low\"}")),
             "x.json:30:70: /stages/2/between/0/only_for/group_order: expected the name of a "
-            "`one_of` counterbalance, found `group_order`");
+            "`one_of` counterbalance (`priming`), found `group_order`, whose method is `order` "
+            "and of which everybody gets every arm");
 }
 
 TEST(StudyRules, RefuseMoreTrialsThanAnyoneCanDo) {
