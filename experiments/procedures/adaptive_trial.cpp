@@ -35,11 +35,7 @@ std::vector<LevelAnswer> level_answers(const std::vector<AnsweredTrial>& answere
 }
 
 std::vector<BlockKey> adaptive_keys() {
-  BlockKey reference = reference_key();
-  reference.parameter.meaning =
-      "The stimulus that every level is compared with. Levels lie on both sides of it, or on "
-      "one: those of a staircase that aims at more than 50 % may all be above.";
-  std::vector<BlockKey> keys = {task_key(), std::move(reference), interval_order_key(),
+  std::vector<BlockKey> keys = {task_key(), reference_key(), interval_order_key(),
                                 catch_probability_key()};
   for (BlockKey& key : right_answer_keys()) keys.push_back(std::move(key));
   for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));

@@ -83,8 +83,10 @@ BlockKey task_key() {
 
 BlockKey reference_key() {
   BlockKey key = amount("reference",
-                        "The stimulus that every test stimulus is compared with; between the "
-                        "smallest and the largest of them, in `same_different` none of them.",
+                        "The stimulus that every test stimulus is compared with; of "
+                        "`constant_stimuli` between the smallest and the largest of them, in "
+                        "`same_different` none of them. Of a `staircase` that aims at more "
+                        "than 50 %, levels may all lie above it.",
                         true);
   key.parameter.only_where = {{"task", {"reminder", "two_interval", "same_different"}}};
   return key;
