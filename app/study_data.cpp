@@ -80,7 +80,7 @@ analysis::AdaptiveRun run_of(StoredBlocks& blocks, std::int64_t session,
   }
 }
 
-/// One entry for each practice block that a participant has trials in.
+/// One entry for each session of the participant and practice block that has trials in it.
 void add_practice(analysis::StudyData& data, StoredBlocks& blocks,
                   const ParticipantData& participant) {
   std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered;

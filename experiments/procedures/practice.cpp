@@ -36,10 +36,14 @@ PracticeState practice_state(const Block& block, const std::vector<AnsweredTrial
 std::string practice_words(const Block& block, const PracticeState& state) {
   const Practice& practice = block.practice.value();
   const int num_needed = num_correct_needed(practice);
-  return "practice over after " + std::to_string(state.num_trials) +
-         " trials: " + std::to_string(state.num_correct) + " of the last " +
+  const std::string of_judged =
+      state.is_over ? "" : " of " + std::to_string(practice.num_trials_judged);
+  return std::string("practice ") + (state.is_over ? "over" : "broken off") + " after " +
+         std::to_string(state.num_trials) + (state.num_trials == 1 ? " trial: " : " trials: ") +
+         std::to_string(state.num_correct) + " of the last " +
          std::to_string(state.num_judged) + " answers were right, at least " +
-         std::to_string(num_needed) + (num_needed == 1 ? " was" : " were") + " asked for";
+         std::to_string(num_needed) + of_judged + (num_needed == 1 ? " was" : " were") +
+         " asked for";
 }
 
 std::vector<PlannedTrial> next_trials(const Block& block,

@@ -21,7 +21,8 @@ struct PracticeState {
                                            const std::vector<AnsweredTrial>& answered);
 
 /// "practice over after 14 trials: 8 of the last 10 answers were right, at least 8 were
-/// asked for", in one sentence without a full stop.
+/// asked for", in one sentence without a full stop; "practice broken off after 3 trials: ..."
+/// where it is not over.
 [[nodiscard]] std::string practice_words(const Block& block, const PracticeState& state);
 
 /// What a session runs next: the trials that the block's procedure draws, none once a practice

@@ -184,5 +184,35 @@ TEST_F(TaskRunTest, AnalysesGetNeitherPracticeNorCatchTrials) {
   EXPECT_EQ(told["practice.criterion_met"], num_right >= 3 ? 1.0 : 0.0);
 }
 
+TEST_F(TaskRunTest, PracticeOfEverySessionIsKeptAlsoWhereItWasBrokenOff) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
+  simulate();
+  (void)add_sessions(store_,
+                     {.study = study_,
+                      .laboratory = &laboratory_,
+                      .study_file = "tasks.json",
+                      .seed = 6,
+                      .record = false},
+                     {"P02"});
+  int num_answers = 0;
+  LaboratoryRun plan{.study = study_,
+                     .laboratory = laboratory_,
+                     .store = store_,
+                     .session = 2,
+                     .durability = core::Durability::kAtClose};
+  plan.on_event = [&](const core::EventRow& event) {
+    num_answers += event.kind == "trial_answered" ? 1 : 0;
+  };
+  plan.is_cancelled = [&] { return num_answers == 2; };
+  EXPECT_FALSE(run_laboratory(plan).ended);
+  const analysis::StudyData data = load_study_data(store_);
+  ASSERT_EQ(data.practice.size(), 2U);
+  EXPECT_TRUE(data.practice[0].words.starts_with("practice over after "))
+      << data.practice[0].words;
+  EXPECT_TRUE(data.practice[1].words.starts_with("practice broken off after 2 trials: "))
+      << data.practice[1].words;
+  EXPECT_EQ(data.practice[1].participant, "P02");
+}
+
 }  // namespace
 }  // namespace jnd::app

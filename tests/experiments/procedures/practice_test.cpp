@@ -62,6 +62,18 @@ TEST(Practice, EndsAfterTheMostTrialsInAnyCase) {
             "asked for");
 }
 
+TEST(Practice, SaysThatItWasBrokenOff) {
+  const Block block = practice_block(kThreeOfFour);
+  const std::vector<AnsweredTrial> two = {kRight, kWrong};
+  EXPECT_EQ(
+      practice_words(block, practice_state(block, two)),
+      "practice broken off after 2 trials: 1 of the last 2 answers were right, at least 3 "
+      "of 4 were asked for");
+  EXPECT_EQ(practice_words(block, practice_state(block, {kWrong})),
+            "practice broken off after 1 trial: 0 of the last 1 answers were right, at least 3 "
+            "of 4 were asked for");
+}
+
 TEST(Practice, SevenTenthsOfTenAreSeven) {
   const Block block =
       practice_block({.min_correct_ratio = 0.7, .num_trials_judged = 10, .max_trials = 40});
