@@ -17,7 +17,8 @@ using namespace experiments;
 using nlohmann::ordered_json;
 
 bool adapts(const PlannedBlock& block) {
-  return static_cast<int>(block.trials.size()) != block.num_trials;
+  return static_cast<int>(block.trials.size()) != block.num_trials ||
+         std::get<Block>(block.stage->content).practice;
 }
 
 ordered_json to_json(const Spread& spread) {

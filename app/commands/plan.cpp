@@ -126,7 +126,13 @@ ordered_json to_json(const experiments::PlannedTrial& trial) {
   return json;
 }
 
-ordered_json to_json(const experiments::ParticipantPlan& plan) {
+/// Whether the answers decide how many trials the block has.
+bool answers_decide(const experiments::Block& block) {
+  return length_is_expected(block) || block.practice;
+}
+
+ordered_json to_json(const experiments::ParticipantPlan& plan,
+                     const PlanStatistics& statistics) {
   auto order = ordered_json::array();
   for (const experiments::PlannedBlock& block : plan.blocks) {
     auto trials = ordered_json::array();
@@ -138,8 +144,12 @@ ordered_json to_json(const experiments::ParticipantPlan& plan) {
                      {"medium", content.medium},
                      {"quantity", content.quantity},
                      {"num_trials", block.num_trials},
-                     {"num_trials_is_expected", length_is_expected(content)},
+                     {"num_trials_is_expected", answers_decide(content)},
                      {"trials", std::move(trials)}});
+    const auto simulated = statistics.num_trials.find(block.stage->name);
+    if (simulated != statistics.num_trials.end()) {
+      order.back()["num_trials_simulated"] = simulated->second.mean;
+    }
   }
   return {{"id", plan.participant},
           {"cells", to_string(plan.cell)},
@@ -176,7 +186,8 @@ ordered_json stability_json(const Outcome& outcome) {
 
 ordered_json to_json(const Outcome& outcome, const Options& options) {
   auto participants = ordered_json::array();
-  for (const auto& plan : outcome.plans) participants.push_back(to_json(plan));
+  for (const auto& plan : outcome.plans)
+    participants.push_back(to_json(plan, outcome.statistics));
   auto balance = ordered_json::array();
   for (const auto& [cell, counts] : balance_of(outcome)) {
     balance.push_back(
@@ -206,11 +217,25 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
   return json;
 }
 
+/// "0.5", of an adjustment where it starts; of a matching "8 (from 0.5)", the standard first.
+std::string trial_words(const experiments::PlannedTrial& trial) {
+  if (trial.intensity) return fmt::format("{:g}", *trial.intensity);
+  const double start = trial.starting_intensity.value_or(0.0);
+  return trial.reference_intensity
+             ? fmt::format("{:g} (from {:g})", *trial.reference_intensity, start)
+             : fmt::format("{:g}", start);
+}
+
 /// "1: 0.5 4 2", one line a repetition; production starts with its target.
 void print_order(const experiments::PlannedBlock& block) {
   const auto& content = std::get<experiments::Block>(block.stage->content);
-  fmt::print("    {}: {} trials\n", block.stage->name,
-             trials_to_expect(content, block.num_trials));
+  const bool matches = !block.trials.empty() && !block.trials.front().intensity &&
+                       block.trials.front().reference_intensity;
+  fmt::print("    {}: {}{} trials{}\n", block.stage->name,
+             content.practice ? "practice, at most " : "",
+             content.practice ? std::to_string(block.num_trials)
+                              : trials_to_expect(content, block.num_trials),
+             matches ? "; standards, and where each match starts" : "");
   if (length_is_expected(content)) {
     fmt::print("      {}; {}\n", adaptive_words(content),
                fmt::join(adaptive_level_words(content, quantity_unit(content.quantity)), "; "));
@@ -223,8 +248,7 @@ void print_order(const experiments::PlannedBlock& block) {
       fmt::print("{}      {}:", trial.position == 1 && repetition > 1 ? "\n" : "", repetition);
       if (trial.target_percent) fmt::print(" to {:g} %, from", *trial.target_percent);
     }
-    fmt::print(" {:g}",
-               trial.intensity ? *trial.intensity : trial.starting_intensity.value_or(0));
+    fmt::print(" {}", trial_words(trial));
   }
   fmt::print("\n");
 }

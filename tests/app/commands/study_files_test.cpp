@@ -212,6 +212,30 @@ TEST_F(StudyFileCommandsTest, PlanPrintsTheKeysOfTheContract) {
   for (const auto& entry : json["range"]) EXPECT_TRUE(entry["fits"].is_boolean());
 }
 
+TEST_F(StudyFileCommandsTest, PlanTellsStandardsFromStartingValues) {
+  const std::string text =
+      jnd({"plan", "viscosity_matching", "--participants", "1", "--seed", "5"}).out;
+  EXPECT_NE(text.find("standards, and where each match starts"), std::string::npos) << text;
+  EXPECT_NE(text.find("16 (from "), std::string::npos) << text;
+}
+
+TEST_F(StudyFileCommandsTest, PlanExpectsFewerTrialsOfAPracticeThanItMayTake) {
+  const auto json = document(
+      jnd({"plan", "viscosity_staircase", "--participants", "2", "--seed", "5", "--json"}).out);
+  const auto& practice = json["participants"][0]["order"][0];
+  EXPECT_EQ(practice["block"], "practice");
+  EXPECT_EQ(practice["num_trials"], 20);
+  EXPECT_EQ(practice["num_trials_is_expected"], true) << "the answers end it";
+  EXPECT_GE(practice["num_trials_simulated"], 5.0);
+  EXPECT_LT(practice["num_trials_simulated"], 20.0);
+  const auto& staircase = json["participants"][0]["order"][1];
+  EXPECT_EQ(staircase["num_trials_simulated"], 50.0);
+  const auto fixed =
+      document(jnd({"plan", "viscosity_matching", "--participants", "1", "--json"}).out);
+  EXPECT_EQ(fixed["participants"][0]["order"][0]["num_trials_is_expected"], false);
+  EXPECT_FALSE(fixed["participants"][0]["order"][0].contains("num_trials_simulated"));
+}
+
 TEST_F(StudyFileCommandsTest, SessionsDrawTheOrdersThatWerePlanned) {
   write_file(file("tiny.json"), kTinyStudy);
   const auto plan =
