@@ -85,10 +85,11 @@ ResultsSection same_different_results(const StudyData& data, const BlockDesign& 
                       .meaning = "criterion k: \"different\" is said where the two are felt "
                                  "further apart in ln intensity; geometric mean"},
                      criteria);
-  add_mean_rate(section,
-                {.name = block.block + ".false_alarm_rate",
-                 .meaning = "\"different\" of pairs that were the same: mean over participants"},
-                false_alarms);
+  add_mean_rate(
+      section,
+      {.name = block.block + ".false_alarm_rate",
+       .meaning = "\"different\" of pairs that were the same: mean over participants"},
+      false_alarms);
   if (has_trials_set_aside(data, block)) {
     std::vector<ExcludedParticipant> named_before;
     add_median_fraction(section, block.block,

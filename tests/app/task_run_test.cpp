@@ -207,11 +207,11 @@ TEST_F(TaskRunTest, PracticeOfEverySessionIsKeptAlsoWhereItWasBrokenOff) {
   EXPECT_FALSE(run_laboratory(plan).ended);
   const analysis::StudyData data = load_study_data(store_);
   ASSERT_EQ(data.practice.size(), 2U);
-  EXPECT_TRUE(data.practice[0].words.starts_with("practice over after "))
-      << data.practice[0].words;
-  EXPECT_TRUE(data.practice[1].words.starts_with("practice broken off after 2 trials: "))
-      << data.practice[1].words;
+  EXPECT_EQ(data.practice[0].problem, "");
   EXPECT_EQ(data.practice[1].participant, "P02");
+  EXPECT_EQ(data.practice[1].num_trials, 2);
+  EXPECT_EQ(data.practice[1].num_judged, 2) << "of the four that the criterion is of";
+  EXPECT_FALSE(data.practice[1].criterion_met);
 }
 
 }  // namespace

@@ -55,11 +55,10 @@ void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareVi
   const std::string problem = participant_problem(model, state.participant);
   std::string words = problem;
   if (problem.empty()) {
-    words = model.study.hides_levels ? "Order assigned, but hidden."
-            : state.fields.size() < model.fields.size()
-                ? "Order: as chosen below."
-            : model.assigned.empty() ? "The same order for everyone."
-                                     : "Order: " + model.assigned + ".";
+    words = model.study.hides_levels                    ? "Order assigned, but hidden."
+            : state.fields.size() < model.fields.size() ? "Order: as chosen below."
+            : model.assigned.empty()                    ? "The same order for everyone."
+                                                        : "Order: " + model.assigned + ".";
   }
   ui.text(inside.take_top(24, 20), words,
           {.colour = problem.empty() ? Colour::kSoft : Colour::kRed});
