@@ -17,7 +17,7 @@ struct DeviceEntry {
   /// `core::Error` for an argument or a rate it cannot do. Not real time.
   std::unique_ptr<HapticDevice> (*make)(std::string_view argument, double rate_hz);
   /// What may follow instead, "OPTION,..."; or "".
-  std::string_view optional_argument = "";
+  std::string_view optional_argument;
 };
 
 /// What stands before the first colon of a device's name, and what after it. Real time.

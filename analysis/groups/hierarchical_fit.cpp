@@ -302,8 +302,9 @@ void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
 void fill_lapse_rate(HierarchicalFit& fit, const HierarchicalStructure& structure,
                      const HierarchicalOptimum& found) {
   if (!structure.has_lapses) return;
-  constexpr double kManyLapses = 0.1;
+  constexpr double kManyLapses = 0.1, kNoLapses = 1e-8;
   fit.lapse_rate = structure.lapse_rate(found.parameters);
+  if (*fit.lapse_rate < kNoLapses) fit.lapse_rate = 0.0;
   if (*fit.lapse_rate < kManyLapses) return;
   fit.note += fit.note.empty() ? "" : "; ";
   fit.note +=

@@ -102,7 +102,7 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
   const auto same = std::count_if(
       source.data.blocks.begin(), source.data.blocks.end(),
       [&](const BlockDesign& other) { return other.procedure == block.procedure; });
-  const std::string title = short_title(source.title(block.block));
+  std::string title = short_title(source.title(block.block));
   if (block.detects()) return title;
   if (block.procedure == "matching") {
     return (has_ratio(block) ? "ratio " : "a ") + title;

@@ -20,12 +20,13 @@ PracticeState practice_state(const Block& block, const std::vector<AnsweredTrial
   const Practice& practice = block.practice.value();
   const Procedure& procedure = procedure_named(block.procedure);
   PracticeState state{.num_trials = static_cast<int>(answered.size())};
-  for (auto trial = answered.rbegin(); trial != answered.rend(); ++trial) {
+  for (std::size_t i = answered.size(); i > 0; --i) {
     if (state.num_judged == practice.num_trials_judged) break;
-    const std::optional<double> right = procedure.right_response(block, trial->planned);
+    const AnsweredTrial& trial = answered[i - 1];
+    const std::optional<double> right = procedure.right_response(block, trial.planned);
     if (!right) continue;
     ++state.num_judged;
-    state.num_correct += trial->response == *right ? 1 : 0;
+    state.num_correct += trial.response == *right ? 1 : 0;
   }
   state.criterion_is_met = state.num_judged == practice.num_trials_judged &&
                            state.num_correct >= num_correct_needed(practice);

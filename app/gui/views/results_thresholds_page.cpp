@@ -112,7 +112,8 @@ void draw_thresholds_page(Ui& ui, const Rect& place, const ResultsModel& results
   const auto count = static_cast<int>(results.thresholds.size());
   const int most = std::max(1, static_cast<int>((place.width + kGap) / (kLeastWidth + kGap)));
   const int columns = std::min(count, most);
-  const auto rows = static_cast<float>((count + columns - 1) / columns);
+  const int num_rows = (count + columns - 1) / columns;
+  const auto rows = static_cast<float>(num_rows);
   const float height = std::max(kLeastHeight, (place.height - kGap * (rows - 1)) / rows);
   const Rect inside = ui.begin_scroll("thresholds", place, rows * (height + kGap) - kGap);
   const std::vector<Rect> cards = grid_of(inside, count, columns, height);
