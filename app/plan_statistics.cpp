@@ -62,22 +62,25 @@ PlanStatistics plan_statistics(const Study& study, const std::vector<Participant
                                const Laboratory& laboratory, std::uint64_t seed) {
   PlanStatistics statistics{.orders = order_statistics(plans)};
   std::map<std::string, std::vector<double>> num_trials;  // Of adaptive blocks.
+  std::map<std::string, std::vector<double>> felt_s;      // Of a trial, of all blocks.
   for (const ParticipantPlan& plan : plans) {
     for (const PlannedBlock& block : plan.blocks) {
       if (adapts(block)) num_trials.try_emplace(block.stage->name);
+      statistics.trial_lengths[block.stage->name].expected_s =
+          std::get<Block>(block.stage->content).expected_trial_s;
     }
     statistics.durations_s.push_back(plan.duration_s);
   }
   statistics.adapts = !num_trials.empty();
-  if (!statistics.adapts) return statistics;
   try {
     const AnswerSimulator simulator(study, laboratory);
     for (std::size_t i = 0; i < plans.size(); ++i) {
       const SimulatedDuration simulated = simulated_duration(plans[i], simulator, study, seed);
       statistics.durations_s[i] = simulated.duration_s;
-      for (auto& [block, numbers] : num_trials) {
-        const auto found = simulated.num_trials.find(block);
-        if (found != simulated.num_trials.end()) numbers.push_back(found->second);
+      for (const auto& [block, done] : simulated.blocks) {
+        if (done.num_trials > 0) felt_s[block].push_back(done.felt_s / done.num_trials);
+        const auto adaptive = num_trials.find(block);
+        if (adaptive != num_trials.end()) adaptive->second.push_back(done.num_trials);
       }
     }
   } catch (const core::Error& error) {
@@ -86,6 +89,9 @@ PlanStatistics plan_statistics(const Study& study, const std::vector<Participant
   }
   for (const auto& [block, numbers] : num_trials) {
     statistics.num_trials[block] = spread_of(numbers);
+  }
+  for (const auto& [block, lengths_s] : felt_s) {
+    statistics.trial_lengths[block].felt_s = spread_of(lengths_s);
   }
   return statistics;
 }
@@ -101,11 +107,18 @@ void add_to_json(const PlanStatistics& statistics, ordered_json& json) {
     one["num_trials"] = to_json(spread);
     blocks.push_back(std::move(one));
   }
+  auto trials = ordered_json::array();
+  for (const auto& [block, length] : statistics.trial_lengths) {
+    ordered_json one = {{"block", block}, {"expected_trial_s", length.expected_s}};
+    if (statistics.not_simulated.empty()) one["felt_s"] = to_json(length.felt_s);
+    trials.push_back(std::move(one));
+  }
   json["durations"] = {{"duration_s", to_json(spread_of(statistics.durations_s))},
                        {"of_participants_s", statistics.durations_s},
-                       {"simulated", statistics.adapts && statistics.not_simulated.empty()},
+                       {"simulated", statistics.not_simulated.empty()},
                        {"not_simulated", statistics.not_simulated},
-                       {"adaptive_blocks", std::move(blocks)}};
+                       {"adaptive_blocks", std::move(blocks)},
+                       {"trials", std::move(trials)}};
 }
 
 void print(const PlanStatistics& statistics) {
@@ -127,8 +140,15 @@ void print(const PlanStatistics& statistics) {
         "by simulated participants\n",
         block, spread.mean, spread.standard_deviation, spread.least, spread.most);
   }
+  for (const auto& [block, length] : statistics.trial_lengths) {
+    if (!length.is_underrated()) continue;
+    fmt::print(
+        "  {:<24} `expected_trial_s` is {:g} s, but simulated participants feel the stimuli of "
+        "a trial for {:.0f} s on average; counted with those\n",
+        block, length.expected_s, length.felt_s.mean);
+  }
   if (!statistics.not_simulated.empty()) {
-    fmt::print("  adaptive blocks as expected, not simulated: {}\n", statistics.not_simulated);
+    fmt::print("  as expected, not simulated: {}\n", statistics.not_simulated);
   }
 }
 

@@ -18,15 +18,24 @@ struct Spread {
 };
 [[nodiscard]] Spread spread_of(const std::vector<double>& values);
 
+/// How long a trial of a block takes.
+struct TrialLength {
+  double expected_s = 0.0;  ///< `expected_trial_s` of the study.
+  Spread felt_s;            ///< By simulated participants, of each the mean of their trials.
+  /// They feel longer than the study expects a trial to take.
+  [[nodiscard]] bool is_underrated() const noexcept { return felt_s.mean > expected_s; }
+};
+
 /// What a plan comes to over all of its participants.
 struct PlanStatistics {
   std::vector<experiments::OrderStatistics> orders;
   bool adapts = false;  ///< Some block's number of trials depends on the answers.
-  /// Why simulated participants could not tell how many trials adaptive blocks take, so that
-  /// they count as expected; "" where they could.
+  /// Why there are no simulated participants to tell how long blocks take, so that all is as
+  /// expected; "" where there are.
   std::string not_simulated;
-  std::vector<double> durations_s;  ///< Of each participant; simulated where it adapts.
-  std::map<std::string, Spread> num_trials;  ///< Of each adaptive block, by its name.
+  std::vector<double> durations_s;                   ///< Of each participant, simulated.
+  std::map<std::string, Spread> num_trials;          ///< Of each adaptive block, by its name.
+  std::map<std::string, TrialLength> trial_lengths;  ///< Of each block.
 };
 
 /// `seed`: of the study. Not real time.

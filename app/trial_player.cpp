@@ -171,7 +171,7 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffn
     stop_if_loose();
     stiffness.look(apparatus_.telemetry());
   }
-  apparatus_.run_for(0.2 + 0.1 * intent.period_s);
+  apparatus_.run_for(intent.turning_s());
   stop_if_loose();
   // The arm is done; in a thick fluid the hand trails behind it.
   constexpr double kLongestTrailS = 1.5;

@@ -1,6 +1,7 @@
 #include "analysis/report/data_quality.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -123,6 +124,24 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
   quality.timing = timing.whole();
 }
 
+std::string minutes_of(double duration_s) {
+  return std::to_string(std::llround(duration_s / 60.0)) + " min";
+}
+
+/// What the study itself asks of nobody.
+void check_limit(const core::StudyStore& store, SessionQuality& quality) {
+  const json protocol = json::parse(store.protocol(quality.session.protocol_sha256).text,
+                                    nullptr, /*allow_exceptions=*/false);
+  const json::json_pointer place("/session_limits/max_duration_s");
+  if (!protocol.is_object() || !protocol.contains(place) || !protocol[place].is_number()) {
+    return;
+  }
+  const auto most_s = protocol[place].get<double>();
+  if (quality.duration_s <= most_s) return;
+  quality.remarks.push_back("took " + minutes_of(quality.duration_s) + ", of at most " +
+                            minutes_of(most_s) + " that the study allows");
+}
+
 void check_recording(const core::StudyStore& store, SessionQuality& quality) {
   if (!quality.session.recorded) return;
   const std::filesystem::path file = store.recording_file(quality.session.session);
@@ -155,6 +174,7 @@ std::vector<SessionQuality> session_quality(const core::StudyStore& store,
       quality.num_strokeless += is_stimulus && row.num_strokes < 1 ? 1 : 0;
     }
     count_events(store, quality);
+    check_limit(store, quality);
     check_recording(store, quality);
     all.push_back(std::move(quality));
   }

@@ -32,7 +32,7 @@ struct SessionQuality {
   double duration_s = 0.0;          ///< From the first event to the last of the visit.
   std::optional<SessionTiming> timing;        ///< Absent where ticks had no due time.
   std::optional<std::int64_t> missing_ticks;  ///< Of the recording; absent without one.
-  std::vector<std::string> remarks;           ///< Exclusions with their reasons, faults, notes.
+  std::vector<std::string> remarks;           ///< Exclusions and why, faults, notes ...
 
   [[nodiscard]] std::int64_t num_missing() const {
     return num_drawn - num_answered - num_excluded;

@@ -23,14 +23,17 @@ class BlockPlayer {
  public:
   BlockPlayer(const Laboratory& laboratory, const core::ForceMap* map,
               const SimulatedParticipant& participant, std::uint64_t session_seed,
-              const Block& block)
+              const Block& block, const DeviceNeeds& device)
       : laboratory_(laboratory),
         map_(map),
         participant_(participant),
         seed_(session_seed),
         block_(block),
         form_(procedure_named(block.procedure).form(block)),
-        strokes_(participant.strokes(block.procedure)),
+        strokes_(block.is_solid()
+                     ? participant.presses(block.procedure, device.immersion.origin_z_m)
+                     : participant.strokes(block.procedure)),
+        presentation_s_(device.ramp_s + strokes_.duration_s()),
         perceiver_(participant.perceiver(block)) {}
 
   /// The response to a trial. `answered`: those before it in the block.
@@ -46,10 +49,13 @@ class BlockPlayer {
     return estimate(planned, answered);
   }
 
+  [[nodiscard]] double felt_s() const noexcept { return felt_s_; }
+
  private:
   /// What the next presentation feels like, in ln(N s/m), of a solid in ln(N/m).
   double present(const char* interval, double intensity) {
     ++moment_.presentation;
+    felt_s_ += presentation_s_;
     const core::MediumAmounts medium = amounts_of(setting_of(block_, interval, intensity));
     double delivered = medium.damping_n_s_per_m;
     if (!medium.is_plain_damping() && !block_.is_solid()) {
@@ -203,9 +209,11 @@ class BlockPlayer {
   const Block& block_;
   TrialForm form_;
   StrokeIntent strokes_;
+  double presentation_s_;
   const Perceiver& perceiver_;
   Moment moment_;
   double felt_ = 0.0;
+  double felt_s_ = 0.0;
 };
 
 /// A form of answer that no simulated person knows is refused before any is asked.
@@ -235,7 +243,7 @@ void require_answerable(const std::vector<Stage>& stages) {
 }  // namespace
 
 AnswerSimulator::AnswerSimulator(const Study& study, const Laboratory& laboratory)
-    : laboratory_(laboratory), map_(force_map_of(study.device)) {
+    : laboratory_(laboratory), device_(study.device), map_(force_map_of(study.device)) {
   require_answerable(study.stages);
   require_abilities(laboratory, study);
 }
@@ -248,7 +256,7 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
   for (std::size_t index = 0; index < stages.size(); ++index) {
     if (!std::holds_alternative<Block>(stages[index].stage->content)) continue;
     const Block block = block_of(*stages[index].stage, stages[index].order_row);
-    BlockPlayer player(laboratory_, map_.get(), participant, session_seed, block);
+    BlockPlayer player(laboratory_, map_.get(), participant, session_seed, block, device_);
     std::vector<AnsweredTrial> answered;
     while (true) {
       // The key of a session's draw.
@@ -261,7 +269,7 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
         answered.push_back({planned, player.respond(planned, ++trial, answered)});
       }
     }
-    blocks.push_back({stages[index].stage, std::move(answered)});
+    blocks.push_back({stages[index].stage, std::move(answered), player.felt_s()});
   }
   return blocks;
 }

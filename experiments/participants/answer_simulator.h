@@ -16,6 +16,7 @@ namespace jnd::experiments {
 struct AnsweredBlock {
   const Stage* stage = nullptr;
   std::vector<AnsweredTrial> trials;  ///< In their order; the response as a session stores it.
+  double felt_s = 0.0;  ///< In all presentations: no less than this do the trials take.
 };
 
 /// Answers of simulated participants without a device: the procedures draw, and the perceiver
@@ -36,6 +37,7 @@ class AnswerSimulator {
 
  private:
   const Laboratory& laboratory_;
+  const DeviceNeeds& device_;
   std::unique_ptr<const core::ForceMap> map_;
 };
 

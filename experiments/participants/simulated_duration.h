@@ -2,22 +2,28 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/session/plan.h"
 
 namespace jnd::experiments {
 
-/// How long a simulated participant takes, and how many trials each block.
+/// What a simulated participant did in one block.
+struct SimulatedBlock {
+  int num_trials = 0;
+  double felt_s = 0.0;  ///< In all presentations of them.
+};
+
+/// How long a simulated participant takes, and with what.
 struct SimulatedDuration {
   double duration_s = 0.0;
-  std::map<std::string, int> num_trials;  ///< Name of the block's stage to its trials.
+  std::map<std::string, SimulatedBlock> blocks;  ///< By the name of the stage.
 };
 
 /// The plan's expectation, with the trials that a simulated participant of this plan does in
 /// place of those expected: so it differs between persons where a procedure adapts to them. A
-/// trial takes the time that the study expects. `seed`: of the study. Not real time.
+/// block's trials take the time that the study expects of them, but no less than they are felt:
+/// an adjustment takes as many looks as it needs. `seed`: of the study. Not real time.
 [[nodiscard]] SimulatedDuration simulated_duration(const ParticipantPlan& plan,
                                                    const AnswerSimulator& simulator,
                                                    const Study& study, std::uint64_t seed);

@@ -20,6 +20,13 @@ struct StrokeIntent {
   double period_s = 0.0;  ///< Of one stroke.
   /// Lower by this in mid-stroke forward, higher on the way back; none: as the person tends to.
   std::optional<double> lift_m{};
+
+  /// Until the hand, which trails behind the arm, has visibly turned after the last stroke.
+  [[nodiscard]] double turning_s() const noexcept { return 0.2 + 0.1 * period_s; }
+  /// All of them, with the turn.
+  [[nodiscard]] double duration_s() const noexcept {
+    return num_strokes * period_s + turning_s();
+  }
 };
 
 /// A simulated person in a session: moves, feels, answers. Everything is a function of

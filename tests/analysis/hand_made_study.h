@@ -35,6 +35,13 @@ class HandMadeStudy {
     return session_;
   }
 
+  /// The session added last began, with this of its participant as JSON.
+  void start(const std::string& data) {
+    core::Commit started = event("session_started");
+    started.event.data = data;
+    store_.append(started);
+  }
+
   /// One answered trial of the session added last. Its number.
   std::int64_t answer(core::TrialRow row) {
     core::Commit drawn = event("trials_drawn");
@@ -133,6 +140,17 @@ class HandMadeStudy {
                   .reference_intensity = reference,
                   .response = thicker ? 1.0 : 0.0});
   }
+  /// One fluid adjusted to another, from `start`.
+  void match(double standard, double start, double set) {
+    (void)answer({.block = "match",
+                  .procedure = "matching",
+                  .quantity = "viscosity_pa_s",
+                  .repetition = 1,
+                  .intensity = set,
+                  .reference_intensity = standard,
+                  .starting_intensity = start,
+                  .response = set});
+  }
   /// Ten answers at 8 / 1.5 and ten at 8 * 1.5: that many right ones at each.
   void compare_ten(const std::string& block, int num_right) {
     for (int answered = 0; answered < 10; ++answered) {
@@ -141,11 +159,15 @@ class HandMadeStudy {
     }
   }
 
+  /// What is added from here on happened later by this.
+  void wait(double duration_s) { time_ns_ += static_cast<std::int64_t>(1e9 * duration_s); }
+
  private:
   core::Commit event(const char* kind) {
     core::Commit commit;
     commit.event.session = session_;
     commit.event.sequence = ++sequence_;
+    commit.event.time_ns = time_ns_;
     commit.event.kind = kind;
     return commit;
   }
@@ -153,7 +175,7 @@ class HandMadeStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   core::StudyStore store_;
   std::string hash_;
-  std::int64_t session_ = 0, trial_ = 0, sequence_ = 0;
+  std::int64_t session_ = 0, trial_ = 0, sequence_ = 0, time_ns_ = 0;
 };
 
 }  // namespace jnd::analysis

@@ -15,17 +15,6 @@ constexpr char kToWater[] = R"({"name": "by_hand", "stages": [{"kind": "counterb
 constexpr char kWithinViscous[] = R"({"name": "by_hand", "stages": [{"kind": "block",
   "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [2]}]})";
 
-void match(HandMadeStudy& study, double standard, double start, double set) {
-  (void)study.answer({.block = "match",
-                      .procedure = "matching",
-                      .quantity = "viscosity_pa_s",
-                      .repetition = 1,
-                      .intensity = set,
-                      .reference_intensity = standard,
-                      .starting_intensity = start,
-                      .response = set});
-}
-
 StudyResults results(const HandMadeStudy& study) {
   return results_of(load_study(study.store()), {}, {.num_resamples = 100});
 }
@@ -39,15 +28,15 @@ double value(const StudyResults& results, const std::string& name) {
 /// One who halves and doubles about the match with the starting value, and one who is sure.
 void add_two_people(HandMadeStudy& study) {
   study.add("P01");
-  match(study, 1.0, 1.0, 2.0);
-  match(study, 1.0, 4.0, 8.0);
-  match(study, 4.0, 1.0, 4.0);
-  match(study, 4.0, 4.0, 16.0);
+  study.match(1.0, 1.0, 2.0);
+  study.match(1.0, 4.0, 8.0);
+  study.match(4.0, 1.0, 4.0);
+  study.match(4.0, 4.0, 16.0);
   study.add("P02");
-  match(study, 1.0, 1.0, 1.0);
-  match(study, 1.0, 4.0, 1.0);
-  match(study, 4.0, 1.0, 2.0);
-  match(study, 4.0, 4.0, 2.0);
+  study.match(1.0, 1.0, 1.0);
+  study.match(1.0, 4.0, 1.0);
+  study.match(4.0, 1.0, 2.0);
+  study.match(4.0, 4.0, 2.0);
 }
 
 TEST(MatchingResults, AreThoseWorkedByHand) {
@@ -94,11 +83,11 @@ TEST(MatchingResults, BetweenTwoUnitsThereIsNoRatio) {
 TEST(MatchingResults, WithinAUnitTheRatioIsTheConstantError) {
   HandMadeStudy study(kWithinViscous);
   study.add("P01");
-  match(study, 2.0, 1.0, 1.0);
-  match(study, 2.0, 8.0, 4.0);
+  study.match(2.0, 1.0, 1.0);
+  study.match(2.0, 8.0, 4.0);
   study.add("P02");
-  match(study, 2.0, 1.0, 4.0);
-  match(study, 2.0, 8.0, 4.0);
+  study.match(2.0, 1.0, 4.0);
+  study.match(2.0, 8.0, 4.0);
   const StudyResults all = results(study);
   EXPECT_NEAR(value(all, "match.ratio_to_standard"), std::sqrt(2.0), 1e-12);
   EXPECT_EQ(all.find("match.k"), nullptr) << "one standard makes no line";
@@ -110,10 +99,10 @@ TEST(MatchingResults, WithinAUnitTheRatioIsTheConstantError) {
 TEST(MatchingResults, AMatchOfNothingHasNoLogarithmAndIsCounted) {
   HandMadeStudy study(kWithinViscous);
   study.add("P01");
-  match(study, 2.0, 1.0, 2.0);
-  match(study, 2.0, 8.0, 0.0);
+  study.match(2.0, 1.0, 2.0);
+  study.match(2.0, 8.0, 0.0);
   study.add("P02");
-  match(study, 2.0, 1.0, 0.0);
+  study.match(2.0, 1.0, 0.0);
   const StudyResults all = results(study);
   EXPECT_NEAR(value(all, "match.match_at_2"), 2.0, 1e-12);
   EXPECT_EQ(value(all, "match.num_zeros"), 2.0);

@@ -23,7 +23,14 @@ const std::filesystem::path kSource = test_support::source_folder();
 /// Answers of a block, of everybody: with a device simulated to every tick, and calculated.
 struct Both {
   std::vector<std::pair<PlannedTrial, double>> simulated, calculated;
+  double simulated_s = 0.0, calculated_s = 0.0;  ///< In which all of it was felt.
 };
+
+/// The hand trails behind the arm by what nobody calculates; nothing is faster than it.
+void expect_alike_felt(const Both& both) {
+  EXPECT_LE(both.calculated_s, both.simulated_s);
+  EXPECT_GE(both.calculated_s, 0.65 * both.simulated_s);
+}
 
 /// The same persons by both, with the same random numbers.
 std::map<std::string, Both> answers_of(const std::string& study_name, int num_participants) {
@@ -57,6 +64,8 @@ std::map<std::string, Both> answers_of(const std::string& study_name, int num_pa
                                               .starting_intensity = trial.starting_intensity,
                                               .target_percent = trial.target_percent},
                                              trial.response.value()});
+      both[trial.block].simulated_s +=
+          static_cast<double>(trial.last_tick - trial.first_tick) / study.device.rate_hz;
     }
     const core::SessionRow row = store.session(session);
     const Cell cell = cell_from_text(study, row.cells);
@@ -64,6 +73,7 @@ std::map<std::string, Both> answers_of(const std::string& study_name, int num_pa
       for (const AnsweredTrial& trial : block.trials) {
         both[block.stage->name].calculated.push_back({trial.planned, trial.response});
       }
+      both[block.stage->name].calculated_s += block.felt_s;
     }
   }
   return both;
@@ -116,6 +126,7 @@ TEST(AnswerSimulatorPhysics, TheSamePersonsDiscriminateAlikeWithAndWithoutADevic
     EXPECT_GE(num_alike, 198);
     EXPECT_NEAR(pooled_weber_fraction(both.calculated) / pooled_weber_fraction(both.simulated),
                 1.0, 0.03);
+    expect_alike_felt(both);
   }
 }
 
@@ -137,6 +148,7 @@ TEST(AnswerSimulatorPhysics, TheSamePersonsEstimateAndProduceAlikeWithAndWithout
     // that are not calculated, more of production's single stroke.
     EXPECT_NEAR(ratio_ln / num, 0.0, 0.10);
     EXPECT_NEAR(exponent(both.calculated), exponent(both.simulated), 0.10);
+    expect_alike_felt(both);
   }
 }
 

@@ -20,11 +20,11 @@ Study study_with(const std::string& stairs) {
   "stages": [
     {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation",
      "medium": "viscous", "viscosity_pa_s": [2, 8], "repetitions": 2,
-     "instruction": {"en": "Say."}, "question": {"en": "How?"}, "expected_trial_s": 10},
+     "instruction": {"en": "Say."}, "question": {"en": "How?"}, "expected_trial_s": 30},
     {"kind": "block", "name": "stairs", "procedure": "staircase", "medium": "viscous",)json" +
                                           stairs + R"json(
      "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
-     "free_space_between_s": 2, "expected_trial_s": 13}]})json",
+     "free_space_between_s": 2, "expected_trial_s": 33}]})json",
                                       "x");
 }
 
@@ -62,9 +62,9 @@ TEST(PlanStatistics, AdaptiveBlocksTakeAsLongAsSimulatedParticipantsNeed) {
   EXPECT_GE(trials.least, 6.0) << "a reversal takes a trial";
   EXPECT_GT(trials.most, trials.least) << "people differ";
   const Spread durations = spread_of(statistics.durations_s);
-  // Four estimations of 10 s, and 15 s for each trial of the staircase.
-  EXPECT_DOUBLE_EQ(durations.least, 40.0 + 15.0 * trials.least);
-  EXPECT_DOUBLE_EQ(durations.most, 40.0 + 15.0 * trials.most);
+  // Four estimations of 30 s, and 35 s for each trial of the staircase.
+  EXPECT_DOUBLE_EQ(durations.least, 120.0 + 35.0 * trials.least);
+  EXPECT_DOUBLE_EQ(durations.most, 120.0 + 35.0 * trials.most);
   ASSERT_EQ(statistics.orders.size(), 1u);
   EXPECT_EQ(statistics.orders[0].block, "estimation");
   nlohmann::ordered_json json;
@@ -72,6 +72,21 @@ TEST(PlanStatistics, AdaptiveBlocksTakeAsLongAsSimulatedParticipantsNeed) {
   EXPECT_EQ(json["durations"]["of_participants_s"].size(), 12u);
   EXPECT_EQ(json["durations"]["adaptive_blocks"][0]["block"], "stairs");
   EXPECT_EQ(json["order_statistics"][0]["stimuli"], (std::vector<double>{2.0, 8.0}));
+}
+
+TEST(PlanStatistics, ABlockTakesNoLessThanItsStimuliAreFelt) {
+  Study study = study_with(kStairs);
+  const PlanStatistics patient = statistics_of(study, 3);
+  EXPECT_FALSE(patient.trial_lengths.at("estimation").is_underrated());
+  auto& estimation = std::get<experiments::Block>(study.stages.front().content);
+  estimation.expected_trial_s = 1.0;  // As if somebody could stroke and answer in a second.
+  const PlanStatistics hasty = statistics_of(study, 3);
+  const TrialLength& length = hasty.trial_lengths.at("estimation");
+  EXPECT_TRUE(length.is_underrated());
+  EXPECT_DOUBLE_EQ(length.felt_s.mean, patient.trial_lengths.at("estimation").felt_s.mean);
+  // Four trials: of 30 s as expected, and of what they are felt.
+  EXPECT_NEAR(spread_of(hasty.durations_s).mean,
+              spread_of(patient.durations_s).mean - 4.0 * (30.0 - length.felt_s.mean), 1e-9);
 }
 
 }  // namespace

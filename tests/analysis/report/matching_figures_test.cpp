@@ -11,17 +11,6 @@ constexpr char kViscous[] = R"({"name": "by_hand", "stages": [{"kind": "block",
 constexpr char kWater[] = R"({"name": "by_hand", "stages": [{"kind": "block",
   "name": "match", "standard_medium": "water", "standard_scale": [2, 8]}]})";
 
-void match(HandMadeStudy& study, double standard, double set) {
-  (void)study.answer({.block = "match",
-                      .procedure = "matching",
-                      .quantity = "viscosity_pa_s",
-                      .repetition = 1,
-                      .intensity = set,
-                      .reference_intensity = standard,
-                      .starting_intensity = 1.0,
-                      .response = set});
-}
-
 std::vector<Figure> figures_of(const HandMadeStudy& study) {
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
@@ -33,12 +22,12 @@ std::vector<Figure> figures_of(const HandMadeStudy& study) {
 void add_two_people(HandMadeStudy& study) {
   study.add("P01");
   for (const double factor : {0.5, 2.0}) {
-    match(study, 2.0, 2.0 * factor);
-    match(study, 8.0, 8.0 * factor);
+    study.match(2.0, 1.0, 2.0 * factor);
+    study.match(8.0, 1.0, 8.0 * factor);
   }
   study.add("P02");
-  match(study, 2.0, 8.0);
-  match(study, 8.0, 32.0);
+  study.match(2.0, 1.0, 8.0);
+  study.match(8.0, 1.0, 32.0);
 }
 
 TEST(MatchingFigures, ShowEverybodysGeometricMeansThoseOfTheGroupAndTheFunction) {
@@ -83,14 +72,14 @@ TEST(MatchingFigures, HaveAnIdentityWhereBothAreOfOneQuantity) {
 TEST(MatchingFigures, OfOneStandardHaveNoFunctionAndOfNoMatchesThereIsNone) {
   HandMadeStudy study(kViscous);
   study.add("P01");
-  match(study, 2.0, 3.0);
+  study.match(2.0, 1.0, 3.0);
   const Figure figure = figures_of(study).at(0);
   EXPECT_EQ(figure.tables.size(), 2U);
   EXPECT_NE(figure.caption.find("no matching function"), std::string::npos);
 
   HandMadeStudy without(kViscous);
   without.add("P01");
-  match(without, 2.0, 0.0);
+  without.match(2.0, 1.0, 0.0);
   EXPECT_TRUE(figures_of(without).empty());
 }
 

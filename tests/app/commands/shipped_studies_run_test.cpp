@@ -44,9 +44,13 @@ TEST_P(ShippedStudyTest, IsCheckedPlannedSimulatedVerifiedAndAnalysed) {
   const std::string& name = GetParam();
   ProgramOutcome outcome = jnd({"validate", name, "--device", "lumped"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  outcome = jnd({"plan", name, "--participants", "4", "--json"});
+  outcome = jnd({"plan", name, "--participants", "20", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(nlohmann::json::parse(outcome.out)["participants"].size(), 4U);
+  const auto plan = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(plan["participants"].size(), 20U);
+  for (const auto& block : plan["durations"]["trials"]) {
+    EXPECT_LE(block["felt_s"]["mean"], block["expected_trial_s"]) << block["block"];
+  }
   if (test_support::kIsSanitized && name != "short_tour") {
     GTEST_SKIP() << "minutes of the same code";
   }

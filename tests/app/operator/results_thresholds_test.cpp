@@ -100,15 +100,7 @@ TEST(ResultsBoxes, OfMatchesStandByTheirStandardsFromTheLeast) {
   for (const char* person : {"P01", "P02", "P03"}) {
     study.add(person);
     for (const double standard : {16.0, 2.0}) {
-      const double set = standard * (std::string(person) == "P02" ? 1.5 : 1.0);
-      (void)study.answer({.block = "match",
-                          .procedure = "matching",
-                          .quantity = "viscosity_pa_s",
-                          .repetition = 1,
-                          .intensity = set,
-                          .reference_intensity = standard,
-                          .starting_intensity = 1.0,
-                          .response = set});
+      study.match(standard, 1.0, standard * (std::string(person) == "P02" ? 1.5 : 1.0));
     }
   }
   const analysis::StudyData data = analysis::load_study(study.store());

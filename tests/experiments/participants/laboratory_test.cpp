@@ -120,7 +120,7 @@ TEST(Laboratory, APartOfAnotherTypeIsAProblemAndNoFault) {
 
 TEST(Laboratory, AProcedureWithoutStrokesOfItsOwnHasTheDefault) {
   const Laboratory laboratory = parse_laboratory(shipped("thesis.json"), "thesis.json");
-  EXPECT_EQ(&laboratory.strokes_for("matching"), &laboratory.strokes.at("default"));
+  EXPECT_EQ(&laboratory.strokes_for("yet_unheard_of"), &laboratory.strokes.at("default"));
   EXPECT_EQ(&laboratory.strokes_for("constant_stimuli"),
             &laboratory.strokes.at("constant_stimuli"));
 }
