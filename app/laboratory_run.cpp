@@ -39,7 +39,7 @@ class SimulatedVisit {
     LaboratoryRunResult result;
     result.realtime = visit_.apparatus().realtime();
     try {
-      visit_.begin(run_.choice);
+      visit_.begin(run_.choice, run_.language);
       while (!session_.state().ended && session_.current_stage() != nullptr) {
         if (!session_.state().stage_open) session_.enter_stage();
         stage_progress();

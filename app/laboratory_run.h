@@ -26,6 +26,7 @@ struct LaboratoryRun {
   core::Durability durability = core::Durability::kEveryCommit;
   /// How an interrupted session goes on: "repeat", "restart" or "end".
   std::string choice = "repeat";
+  std::string language{};  ///< That the texts are taken to be read in; "": nobody reads them.
   std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
   std::function<void(double)> on_progress;              ///< 0 to 1; may be empty.
   std::function<bool()> is_cancelled;                   ///< Ends resumably; may be empty.

@@ -19,6 +19,7 @@ struct WindowRequest {
   std::optional<std::uint64_t> seed;
   bool pilot = false;
   bool allow_no_realtime = false;
+  std::string language;                       ///< Of the study; "": its first.
   std::map<std::string, std::string> fields;  ///< What the participant brings; may lack.
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;

@@ -112,7 +112,8 @@ void write_bids_sessions(const fs::path& folder, const std::string& subject,
   CsvTableWriter table(front.string() + ".tsv", columns, TableStyle::kBids);
   for (const auto& [label, session] : sessions) {
     table.cell(label);
-    write_session(table, session, store.completed(session.session));
+    write_session(table, session, store.completed(session.session),
+                  store.events(session.session));
   }
   table.finish();
   write_json(front.string() + ".json", described(columns));

@@ -74,7 +74,7 @@ class Export {
       const SessionRows rows = next.get();
       next = read_ahead(i + 1);
       const core::SessionRow& session = sessions_[i];
-      write_session(sessions, session, rows.completed);
+      write_session(sessions, session, rows.completed, rows.events);
       write_trials(trials, session, rows.trials);
       write_presentations(presentations, session, rows.presentations);
       write_events(events, session, rows.events);

@@ -67,7 +67,8 @@ class Export {
     describe();
     write_table(root_, "sessions", session_columns(), [this](TableWriter& table) {
       for (const core::SessionRow& session : sessions_) {
-        write_session(table, session, store_.completed(session.session));
+        write_session(table, session, store_.completed(session.session),
+                      store_.events(session.session));
       }
     });
     for (const core::SessionRow& session : sessions_) {

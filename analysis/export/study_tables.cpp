@@ -19,6 +19,10 @@ const std::vector<CsvColumn>& session_columns() {
       {"recorded", "", "1: samples are kept", kCount},
       {"program_version", "", "Of the jnd that ran the session"},
       {"protocol_sha256", "", "Identifies the study file"},
+      {"language", "", "Of the texts that the participant got; empty where nobody read them"},
+      {"fields", "",
+       "What was known of the participant before, as in sex=female;hand=left; empty where "
+       "nothing was asked"},
       {"started_time_ns", "ns", "Since 1970-01-01 UTC; a simulated session counts from 0",
        kCount},
       {"laboratory", "", "Who and what was simulated, as JSON; empty with a person"},

@@ -19,6 +19,28 @@ TableWriter& begin_row(TableWriter& table, const core::SessionRow& session) {
   return table.cell(session.session).cell(session.participant).cell(session.simulated);
 }
 
+/// What the participant got and brought.
+struct SessionStart {
+  std::string language, fields;
+};
+
+/// Empty where the session has not begun, or does not say.
+SessionStart start_of(const std::vector<core::EventRow>& events) {
+  SessionStart start;
+  for (const core::EventRow& event : events) {
+    if (event.kind != "session_started") continue;
+    const auto data = nlohmann::json::parse(event.data, nullptr, false);
+    if (!data.is_object()) return start;
+    start.language = data.value("language", "");
+    const auto fields = data.value("fields", std::map<std::string, std::string>{});
+    for (const auto& [name, value] : fields) {
+      start.fields += (start.fields.empty() ? "" : ";") + name + "=" + value;
+    }
+    return start;
+  }
+  return start;
+}
+
 }  // namespace
 
 std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
@@ -65,12 +87,15 @@ const std::vector<QuestionnaireItem>& StudyQuestions::of(const core::SessionRow&
   return found->second;
 }
 
-void write_session(TableWriter& table, const core::SessionRow& session, bool completed) {
+void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
+                   const std::vector<core::EventRow>& events) {
+  const SessionStart start = start_of(events);
   begin_row(table, session).cell(session.cells).cell(std::to_string(session.seed));
   table.cell(session.pilot).cell(completed).cell(session.device);
   table.cell(session.rate_hz).cell(session.realtime).cell(session.recorded);
   table.cell(session.program_version).cell(session.protocol_sha256);
-  table.cell(session.started_time_ns).cell(on_one_line(session.laboratory)).end_row();
+  table.cell(start.language).cell(start.fields).cell(session.started_time_ns);
+  table.cell(on_one_line(session.laboratory)).end_row();
 }
 
 void write_trial_cells(TableWriter& table, const core::SessionRow& session,

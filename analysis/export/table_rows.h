@@ -45,7 +45,9 @@ struct ExportedPresentation {
 
 // A session's rows of each table, in the columns of study_tables.h.
 
-void write_session(TableWriter& table, const core::SessionRow& session, bool completed);
+/// `events`: of the session.
+void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
+                   const std::vector<core::EventRow>& events);
 void write_trials(TableWriter& table, const core::SessionRow& session,
                   const std::vector<ExportedTrial>& trials);
 void write_presentations(TableWriter& table, const core::SessionRow& session,

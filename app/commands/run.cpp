@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "app/open_window.h"
 #include "app/option_checks.h"
 #include "app/progress_bar.h"
+#include "app/pseudonym.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "app/stop_signals.h"
@@ -38,6 +38,7 @@ struct Options {
   bool acknowledge = false;
   std::string choose = "repeat";
   std::optional<std::int64_t> session;
+  std::string language;             ///< "": the study's first.
   std::vector<std::string> fields;  ///< "sex=female"
 };
 
@@ -90,6 +91,7 @@ int run_session(const Options& options, core::StudyStore& store,
          .realtime = options.realtime,
          .allow_no_realtime = options.allow_no_realtime,
          .choice = options.choose,
+         .language = options.language,
          .on_event = [&](const core::EventRow& event) { acknowledgements.tell(event); },
          .on_progress = [&](double done) { bar.show(done); },
          .is_cancelled = [&] { return stop_requested() || acknowledgements.unheard(); }});
@@ -116,16 +118,32 @@ int run_session(const Options& options, core::StudyStore& store,
   return kDone;
 }
 
-/// It stands in tables, file names and messages.
 void require_pseudonym(const std::string& participant) {
-  const bool plain = std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
-    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
-  });
-  constexpr std::size_t kMostLetters = 64;
-  if (plain && !participant.empty() && participant.size() <= kMostLetters) return;
-  throw UsageError(
-      "--participant: expected a pseudonym of at most 64 letters, digits, _, - and ., found `" +
-      one_line(participant.substr(0, kMostLetters)) + "`");
+  if (is_pseudonym(participant)) return;
+  throw UsageError("--participant: expected a pseudonym of " + pseudonym_words() + ", found `" +
+                   one_line(participant.substr(0, 64)) + "`");
+}
+
+/// Of the study's texts; "" is the first.
+void require_language(const experiments::Study& study, const std::string& language) {
+  const auto& all = study.languages;
+  if (language.empty() || std::find(all.begin(), all.end(), language) != all.end()) return;
+  std::string words;
+  for (const std::string& one : all) words += (words.empty() ? "" : ", ") + one;
+  throw UsageError("--language: expected one that " + study.name + " has (" + words +
+                   "), found `" + one_line(language.substr(0, 64)) + "`");
+}
+
+/// Nobody's two visits are to become two people's.
+void warn_of_lookalike(const core::StudyStore& store, const std::string& participant) {
+  std::vector<std::string> taken;
+  for (const core::SessionRow& row : store.sessions()) taken.push_back(row.participant);
+  const std::string like = lookalike(participant, taken);
+  if (like.empty()) return;
+  std::fprintf(stderr,
+               "jnd: --participant: %s looks like %s, who has a session in this study; if it "
+               "is the same person, exclude this one's trials\n",
+               participant.c_str(), like.c_str());
 }
 
 int run(Options options) {
@@ -133,6 +151,7 @@ int run(Options options) {
   require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
+  require_language(study, options.language);
   if (!options.headless) {
     return open_window({.study_folder = options.folder,
                         .study_file = file,
@@ -141,6 +160,7 @@ int run(Options options) {
                         .seed = options.seed,
                         .pilot = options.pilot,
                         .allow_no_realtime = options.allow_no_realtime,
+                        .language = options.language,
                         .fields = fields_or_none(study, options.fields)});
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
@@ -151,6 +171,7 @@ int run(Options options) {
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
       "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate);
+  warn_of_lookalike(store, options.participant);
   const std::vector<std::int64_t> sessions =
       add_sessions(store,
                    {.study = study,
@@ -243,6 +264,8 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->check(seed_number());
   add_field_option(*command, options->fields,
                    "What the participant brings, as the study's participant_fields ask");
+  command->add_option("--language", options->language,
+                      "Of the texts, for example de; default: the study's first");
   command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");

@@ -75,7 +75,8 @@ void add_withdraw(CLI::App& program, Invocation& invocation) {
       ->check(CLI::ExistingDirectory);
   command->add_option("--participant", options->participant, "Pseudonym, for example P01")
       ->required();
-  command->add_flag("--yes", options->yes, "Do not ask again on a terminal");
+  command->add_flag("--yes", options->yes,
+                    "Do not ask again on a terminal (elsewhere nothing is asked)");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

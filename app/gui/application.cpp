@@ -398,7 +398,8 @@ void Application::show_prepare() {
         request_.device.empty() ? std::string(device::devices().front().name) : request_.device;
   }
   devices_ = devices_to_choose(prepare_state_.device, study_->device.rate_hz);
-  prepare_state_.language = study_->languages.front();
+  prepare_state_.language = request_.language.empty() ? study_->languages.front()
+                                                      : std::exchange(request_.language, "");
   screen_ = Screen::kPrepare;
   look_before();
 }

@@ -1,10 +1,10 @@
 #include "app/gui/views/prepare_view.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "app/gui/views/layout.h"
 #include "app/operator/study_words.h"
+#include "app/pseudonym.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -13,13 +13,11 @@ using Status = PreflightLine::Status;
 
 /// Why nobody can take part under this name; "" if somebody can.
 std::string participant_problem(const PrepareModel& model, const std::string& participant) {
-  constexpr std::size_t kMostLetters = 64;
   if (participant.empty()) return "Choose a participant.";
-  const bool plain = std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
-    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
-  });
-  if (!plain || participant.size() > kMostLetters) {
-    return "At most 64 letters, digits, _, - and .";
+  if (!is_pseudonym(participant)) {
+    std::string words = pseudonym_words() + ".";
+    words.front() = 'A';
+    return words;
   }
   if (std::find(model.taken.begin(), model.taken.end(), participant) != model.taken.end()) {
     return participant + " has taken part already.";
@@ -53,15 +51,20 @@ void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareVi
   entered =
       ui.text_field("participant", inside.take_top(46, 6), state.participant, "pseudonym");
   const std::string problem = participant_problem(model, state.participant);
+  const std::string like = lookalike(state.participant, model.taken);
   std::string words = problem;
-  if (problem.empty()) {
+  Colour colour = Colour::kRed;
+  if (problem.empty() && !like.empty()) {
+    words = "Another person than " + like + ", who has taken part?";
+    colour = Colour::kPilot;
+  } else if (problem.empty()) {
+    colour = Colour::kSoft;
     words = model.study.hides_levels                    ? "Order assigned, but hidden."
             : state.fields.size() < model.fields.size() ? "Order: as chosen below."
             : model.assigned.empty()                    ? "The same order for everyone."
                                                         : "Order: " + model.assigned + ".";
   }
-  ui.text(inside.take_top(24, 20), words,
-          {.colour = problem.empty() ? Colour::kSoft : Colour::kRed});
+  ui.text(inside.take_top(24, 20), words, {.colour = colour});
 }
 
 void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {

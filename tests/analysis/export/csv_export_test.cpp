@@ -105,8 +105,9 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
        fs::directory_iterator(test_support::source_folder() / "data" / "database")) {
     schema += bytes(layout.path());
   }
-  const std::set<std::string> kWorkedOut = {"simulated", "excluded", "completed", "is_practice",
-                                            "standard_medium"};
+  const std::set<std::string> kWorkedOut = {"simulated",   "excluded",        "completed",
+                                            "is_practice", "standard_medium", "language",
+                                            "fields"};
   for (const char* name : kTables) {
     const CsvTable columns = table(name);
     for (const std::string& column : columns.columns()) {
@@ -152,6 +153,16 @@ TEST_F(CsvExportTest, ExcludedTrialsAreThereAndMarked) {
   const CsvTable trials = table("trials.csv");
   EXPECT_EQ(cell(trials, 0, "excluded"), "0");
   EXPECT_EQ(cell(trials, 1, "excluded"), "1");
+}
+
+TEST_F(CsvExportTest, ASessionHasWhatItsParticipantReadAndBrought) {
+  (void)study_.add("P09");
+  study_.start(R"({"language": "de", "fields": {"sex": "female", "hand": "left"}})");
+  export_csv(study_.store(), out(), {});
+  const CsvTable sessions = table("sessions.csv");
+  EXPECT_EQ(cell(sessions, 0, "language"), "");
+  EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "language"), "de");
+  EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "fields"), "hand=left;sex=female");
 }
 
 TEST_F(CsvExportTest, PilotsAreThereOnlyWhenAskedFor) {

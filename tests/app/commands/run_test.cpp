@@ -54,6 +54,33 @@ TEST_F(RunCommandTest, AcknowledgesEveryEventOnceInOrderAndNothingElse) {
   }
 }
 
+TEST_F(RunCommandTest, TheLanguageIsOneOfTheStudyAndIsKept) {
+  std::vector<std::string> words = run_words("a.study", "protocols/short_tour.json");
+  words.insert(words.end(), {"--language", "fr"});
+  ProgramOutcome outcome = jnd(words);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(
+      outcome.err.find("--language: expected one that short_tour has (en, de), found `fr`"),
+      std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(fs::exists(temporary_.path() / "a.study"));
+  words.back() = "de";
+  outcome = jnd(words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(opened("a.study").events(1).front().data.find("\"language\":\"de\""),
+            std::string::npos);
+}
+
+TEST_F(RunCommandTest, APseudonymThatLooksLikeAnotherIsTold) {
+  ASSERT_EQ(jnd(run_words("a.study")).err.find("looks like"), std::string::npos);
+  std::vector<std::string> words = run_words("a.study");
+  words[5] = "p1";
+  const ProgramOutcome outcome = jnd(words);
+  EXPECT_EQ(outcome.exit_code, 0) << "another person may well be called so";
+  EXPECT_NE(outcome.err.find("--participant: p1 looks like P01"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(RunCommandTest, TheSameSeedGivesTheSameSession) {
   ASSERT_EQ(jnd(run_words("a.study")).exit_code, 0);
   ASSERT_EQ(jnd(run_words("b.study")).exit_code, 0);

@@ -81,6 +81,13 @@ TEST_F(PrepareViewTest, AParticipantIsOneThatNobodyWasYet) {
   EXPECT_TRUE(after_key({Key::kEnter}).start);
 }
 
+TEST_F(PrepareViewTest, ANameLikeAnotherIsAskedAboutAndMayStart) {
+  state_.participant = "p1";
+  (void)draw();
+  EXPECT_TRUE(ui_.drawn().shows("Another person than P01, who has taken part?"));
+  EXPECT_TRUE(after_key({Key::kEnter}).start);
+}
+
 TEST_F(PrepareViewTest, EnterInTheNameStartsToo) {
   (void)draw();
   ui_.click("participant");
