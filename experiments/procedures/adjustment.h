@@ -7,6 +7,16 @@
 
 namespace jnd::experiments {
 
+/// The decimal number that is meant: 8.6, where 28 - 194 * 0.1 comes to 8.599999999999998.
+/// Nine digits finer than the fine step; what is too large to have them is left as it is.
+[[nodiscard]] inline double as_meant(double intensity, double fine_step) noexcept {
+  constexpr double kLargestWhole = 4503599627370496.0;  // 2^52
+  const double digits = 9.0 - std::floor(std::log10(fine_step));
+  const double scale = std::pow(10.0, digits);
+  const double scaled = intensity * scale;
+  return std::abs(scaled) < kLargestWhole ? std::round(scaled) / scale : intensity;
+}
+
 /// Where a step (signed, unit of the quantity) leads from the intensity that is set now, in a
 /// trial that began at `start_intensity`: whole multiples of the fine step away from there, so
 /// that 0.1 + 0.2 does not drift and a start between two stays so, within 0 and the block's
@@ -16,6 +26,7 @@ namespace jnd::experiments {
   double target = set_intensity + step;
   target = start_intensity +
            std::round((target - start_intensity) / block.fine_step) * block.fine_step;
+  target = as_meant(target, block.fine_step);
   return std::clamp(target, 0.0, block.max_intensity.value_or(target < 0.0 ? 0.0 : target));
 }
 
