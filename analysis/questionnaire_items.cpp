@@ -44,8 +44,11 @@ QuestionnaireItem item_of(const json& object, const std::string& stage, const ch
                          .unit = string_at(object, "unit")};
   for (const json& option : objects_at(object, "options")) {
     item.options.push_back(string_at(option, "value"));
+    item.option_labels.push_back(text_at(option, "label"));
   }
   if (item.kind != "scale") return item;
+  item.low_label = text_at(object, "low_label");
+  item.high_label = text_at(object, "high_label");
   const auto steps = object.find("num_steps");
   item.num_steps =
       steps != object.end() && steps->is_number_integer() ? steps->get<int>() : kDefaultSteps;

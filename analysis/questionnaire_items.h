@@ -13,11 +13,13 @@ struct QuestionnaireItem {
   std::string name;  ///< "safety"
   std::string
       kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which", "scale", "words".
-  std::string question;              ///< In English, or in the first language there is.
-  std::string unit;                  ///< Of a number; "" without.
-  int num_steps = 0;                 ///< Of a scale, counted from 1.
-  bool high_is_good = false;         ///< Of a scale: the last step is the favourable end.
-  std::vector<std::string> options;  ///< Of a choice, as stored.
+  std::string question;                    ///< In English, or in the first language there is.
+  std::string unit;                        ///< Of a number; "" without.
+  int num_steps = 0;                       ///< Of a scale, counted from 1.
+  bool high_is_good = false;               ///< Of a scale: the last step is the favourable end.
+  std::vector<std::string> options;        ///< Of a choice, as stored.
+  std::vector<std::string> option_labels;  ///< As read, in the language of the question.
+  std::string low_label, high_label;       ///< Of a scale: what stands at its ends.
 };
 
 /// The questions of a study file in their order, those of every arm among them. What does not

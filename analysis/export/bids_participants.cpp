@@ -42,6 +42,23 @@ std::string described_item(const QuestionnaireItem& item) {
   return text;
 }
 
+/// `description`: what to say of it; values that stand for something with their words.
+ordered_json sidecar_of(const QuestionnaireItem& item, const std::string& description) {
+  ordered_json about = {{"Description", description}};
+  if (!item.unit.empty()) about["Units"] = item.unit;
+  ordered_json levels = ordered_json::object();
+  for (std::size_t i = 0; i < item.options.size(); ++i) {
+    const std::string& label = item.option_labels.at(i);
+    levels[item.options[i]] = label.empty() ? item.options[i] : label;
+  }
+  if (item.num_steps > 0 && !item.low_label.empty()) levels["1"] = item.low_label;
+  if (item.num_steps > 0 && !item.high_label.empty()) {
+    levels[std::to_string(item.num_steps)] = item.high_label;
+  }
+  if (!levels.empty()) about["Levels"] = std::move(levels);
+  return about;
+}
+
 void write_phenotype(const fs::path& folder, const std::string& stage, const std::string& label,
                      const std::vector<QuestionnaireItem>& items, const BidsDataset& dataset,
                      const core::StudyStore& store) {
@@ -52,8 +69,7 @@ void write_phenotype(const fs::path& folder, const std::string& stage, const std
   for (const QuestionnaireItem& item : items) {
     if (item.stage != stage) continue;
     names.push_back(item.name);
-    sidecar[item.name]["Description"] = described_item(item);
-    if (!item.unit.empty()) sidecar[item.name]["Units"] = item.unit;
+    sidecar[item.name] = sidecar_of(item, described_item(item));
   }
   CsvTableWriter table(folder / (label + ".tsv"), names, TableStyle::kBids);
   for (const auto& [participant, subject] : dataset.subjects) {
@@ -149,9 +165,9 @@ void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
                  {"data_origin", "", "SIMULATED: a model in a program; person"},
                  {"num_sessions", "", "Visits in this data set"}});
   for (const PersonColumn& column : asked) {
-    sidecar[column.name]["Description"] =
-        described_item(column.item) + ", as answered in the stage " + column.item.stage;
-    if (!column.item.unit.empty()) sidecar[column.name]["Units"] = column.item.unit;
+    sidecar[column.name] =
+        sidecar_of(column.item, described_item(column.item) + ", as answered in the stage " +
+                                    column.item.stage);
   }
   write_json(folder / "participants.json", sidecar);
   write_phenotypes(folder, items, dataset, store);

@@ -275,7 +275,11 @@ TEST_F(BidsExportTest, ASimulatedStudyHasNoDate) {
 TEST_F(BidsExportTest, ParticipantsHaveTheAgeGenderAndHandednessThatWereAsked) {
   HandMadeStudy study(R"({"name": "asked", "stages": [
       {"kind": "questionnaire", "name": "about_you", "items": [
-        {"name": "handedness", "kind": "choice", "question": {"en": "Which hand?"}},
+        {"name": "handedness", "kind": "choice", "question": {"en": "Which hand?"},
+         "options": [{"value": "left", "label": {"de": "Links", "en": "The left one"}},
+                     {"value": "right", "label": {"de": "Rechts", "en": "The right one"}}]},
+        {"name": "safety", "kind": "scale", "num_steps": 7, "question": {"en": "How safe?"},
+         "low_label": {"en": "in danger"}, "high_label": {"en": "safe"}},
         {"name": "age_years", "kind": "number", "unit": "years", "question": {"en": "Age?"}},
         {"name": "gender", "kind": "choice", "question": {"en": "Gender?"}}]}]})");
   study.add("P01");
@@ -288,6 +292,11 @@ TEST_F(BidsExportTest, ParticipantsHaveTheAgeGenderAndHandednessThatWereAsked) {
   EXPECT_EQ(value(rows, 1, "handedness"), "left");
   const nlohmann::json sidecar = json(out("participants.json"));
   EXPECT_EQ(sidecar["age"]["Units"], "years");
+  EXPECT_EQ(sidecar["handedness"]["Levels"],
+            (nlohmann::json{{"left", "The left one"}, {"right", "The right one"}}));
+  EXPECT_FALSE(sidecar["age"].contains("Levels"));
+  EXPECT_EQ(json(out("phenotype/aboutyou.json"))["safety"]["Levels"],
+            (nlohmann::json{{"1", "in danger"}, {"7", "safe"}}));
   EXPECT_EQ(sidecar["handedness"]["Description"],
             "Which hand?, as answered in the stage about_you");
 }
