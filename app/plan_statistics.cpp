@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "core/error.h"
@@ -39,6 +40,22 @@ ordered_json to_json(const OrderStatistics& orders) {
 std::string times(const CountRange& range) {
   return range.fewest == range.most ? fmt::format("{} times", range.most)
                                     : fmt::format("{} to {} times", range.fewest, range.most);
+}
+
+/// What speaks against the levels of an adaptive block, where simulated people pile up.
+void print_ends(const std::string& block, const std::map<std::string, LevelEnds>& all) {
+  constexpr double kOften = 1.0 / 3.0;
+  const auto found = all.find(block);
+  if (found == all.end()) return;
+  const auto warn = [&](double ratio, const char* end, const char* beyond) {
+    if (ratio <= kOften) return;
+    fmt::print(
+        "  {:<24} {:.0f} % of its trials are at its {} level: thresholds of simulated "
+        "participants lie {} it\n",
+        block, 100.0 * ratio, end, beyond);
+  };
+  warn(found->second.lowest_ratio, "lowest", "below");
+  warn(found->second.highest_ratio, "highest", "above");
 }
 
 }  // namespace
@@ -80,7 +97,11 @@ PlanStatistics plan_statistics(const Study& study, const std::vector<Participant
       for (const auto& [block, done] : simulated.blocks) {
         if (done.num_trials > 0) felt_s[block].push_back(done.felt_s / done.num_trials);
         const auto adaptive = num_trials.find(block);
-        if (adaptive != num_trials.end()) adaptive->second.push_back(done.num_trials);
+        if (adaptive == num_trials.end()) continue;
+        adaptive->second.push_back(done.num_trials);
+        LevelEnds& ends = statistics.level_ends[block];
+        ends.lowest_ratio += done.num_at_lowest;
+        ends.highest_ratio += done.num_at_highest;
       }
     }
   } catch (const core::Error& error) {
@@ -89,6 +110,11 @@ PlanStatistics plan_statistics(const Study& study, const std::vector<Participant
   }
   for (const auto& [block, numbers] : num_trials) {
     statistics.num_trials[block] = spread_of(numbers);
+    LevelEnds& ends = statistics.level_ends[block];
+    const double sum = std::accumulate(numbers.begin(), numbers.end(), 0.0);
+    if (sum == 0.0) continue;
+    ends.lowest_ratio /= sum;
+    ends.highest_ratio /= sum;
   }
   for (const auto& [block, lengths_s] : felt_s) {
     statistics.trial_lengths[block].felt_s = spread_of(lengths_s);
@@ -105,6 +131,9 @@ void add_to_json(const PlanStatistics& statistics, ordered_json& json) {
   for (const auto& [block, spread] : statistics.num_trials) {
     ordered_json one = {{"block", block}};
     one["num_trials"] = to_json(spread);
+    const LevelEnds& ends = statistics.level_ends.at(block);
+    one["lowest_ratio"] = ends.lowest_ratio;
+    one["highest_ratio"] = ends.highest_ratio;
     blocks.push_back(std::move(one));
   }
   auto trials = ordered_json::array();
@@ -139,6 +168,7 @@ void print(const PlanStatistics& statistics) {
         "  {:<24} {:.1f} trials on average (standard deviation {:.1f}), {:g} to {:g}; "
         "by simulated participants\n",
         block, spread.mean, spread.standard_deviation, spread.least, spread.most);
+    print_ends(block, statistics.level_ends);
   }
   for (const auto& [block, length] : statistics.trial_lengths) {
     if (!length.is_underrated()) continue;

@@ -26,6 +26,11 @@ struct TrialLength {
   [[nodiscard]] bool is_underrated() const noexcept { return felt_s.mean > expected_s; }
 };
 
+/// Where the levels of an adaptive block end: who is there often has a threshold beyond.
+struct LevelEnds {
+  double lowest_ratio = 0.0, highest_ratio = 0.0;  ///< Of all trials, those there.
+};
+
 /// What a plan comes to over all of its participants.
 struct PlanStatistics {
   std::vector<experiments::OrderStatistics> orders;
@@ -35,6 +40,7 @@ struct PlanStatistics {
   std::string not_simulated;
   std::vector<double> durations_s;                   ///< Of each participant, simulated.
   std::map<std::string, Spread> num_trials;          ///< Of each adaptive block, by its name.
+  std::map<std::string, LevelEnds> level_ends;       ///< Likewise.
   std::map<std::string, TrialLength> trial_lengths;  ///< Of each block.
 };
 

@@ -72,24 +72,29 @@ static std::string laboratory_text(const SessionSetup& setup) {
   return setup.laboratory == nullptr ? "" : setup.laboratory->text;
 }
 
+std::string other_study_problem(const core::StudyStore& store,
+                                const experiments::Study& study) {
+  const std::string hash = core::sha256(study.text);
+  for (const core::SessionRow& row : store.sessions()) {
+    if (row.protocol_sha256 == hash) continue;
+    return store.folder().string() + ": expected the study file that it was begun with (" +
+           row.protocol_sha256.substr(0, 12) + "), found another or a changed one (" +
+           hash.substr(0, 12) + "); use a new folder for it";
+  }
+  return "";
+}
+
 /// One folder is one study and, simulated, one laboratory: pooling two would be no result at
 /// all.
 static void refuse_other_study(const core::StudyStore& store, const SessionSetup& setup,
                                const std::vector<core::SessionRow>& rows) {
-  const std::string hash = core::sha256(setup.study.text);
+  const std::string problem = other_study_problem(store, setup.study);
+  if (!problem.empty()) throw core::Error(problem);
   for (const core::SessionRow& row : rows) {
-    if (row.protocol_sha256 != hash) {
-      throw core::Error(
-          store.folder().string() + ": expected the study file that it was begun with (" +
-          row.protocol_sha256.substr(0, 12) + "), found another or a changed one (" +
-          hash.substr(0, 12) + "); use a new folder for it");
-    }
-    if (row.laboratory != laboratory_text(setup)) {
-      throw core::Error(
-          store.folder().string() +
-          ": expected the laboratory that its sessions were simulated in, or persons "
-          "as in them, found another; use a new folder for it");
-    }
+    if (row.laboratory == laboratory_text(setup)) continue;
+    throw core::Error(store.folder().string() +
+                      ": expected the laboratory that its sessions were simulated in, or "
+                      "persons as in them, found another; use a new folder for it");
   }
 }
 

@@ -55,6 +55,11 @@ void require_device_keeps_pace(const std::string& name, const std::string& place
 /// `EnvironmentError` with what the device says.
 void require_device_starts(const std::string& name, double rate_hz);
 
+/// A sentence if the folder has sessions of another text of this study, so that no session of
+/// this one can be added; "" otherwise.
+[[nodiscard]] std::string other_study_problem(const core::StudyStore& store,
+                                              const experiments::Study& study);
+
 /// Adds the rows of sessions for these participants, cells assigned in the order given, before
 /// any of them starts: so what a session holds does not depend on how many run at once. Returns
 /// their numbers. Throws `Error` if one of the participants has a session already.

@@ -53,7 +53,8 @@ struct Outcome {
   experiments::RangeLimits limits{};
   std::optional<StabilityCheck> stability;  ///< None: the device has no map.
   PlanStatistics statistics;
-  double duration_s = 0.0;  ///< Of the longest session, as expected.
+  double duration_s = 0.0;     ///< Of the longest session, as expected.
+  std::string folder_problem;  ///< Why its sessions cannot go to the folder; "" if they can.
 };
 
 Outcome outcome_of(const Options& options) {
@@ -67,6 +68,7 @@ Outcome outcome_of(const Options& options) {
     request.participants = next_participants(store, options.participants);
     request.completed = experiments::completed_cells(store);
     unblinded = store.unblinded();
+    outcome.folder_problem = other_study_problem(store, outcome.study);
   }
   if (outcome.study.blinding == experiments::Blinding::kDouble && !unblinded) {
     throw core::Error(options.file +
@@ -306,6 +308,7 @@ void print(const Outcome& outcome, const Options& options) {
 /// What speaks against running the study on this device, a sentence each.
 std::vector<std::string> problems_of(const Outcome& outcome, const Options& options) {
   std::vector<std::string> problems;
+  if (!outcome.folder_problem.empty()) problems.push_back(outcome.folder_problem);
   const auto too_strong = std::count_if(outcome.range.begin(), outcome.range.end(),
                                         [](const auto& entry) { return !entry.fits; });
   if (too_strong > 0) {

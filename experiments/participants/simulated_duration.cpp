@@ -4,9 +4,24 @@
 #include <variant>
 
 #include "experiments/procedures/practice.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/session.h"
 
 namespace jnd::experiments {
+
+/// Practice goes where it is easy, and no threshold comes of it.
+static void count_ends(const Block& block, const std::vector<AnsweredTrial>& trials,
+                       SimulatedBlock& done) {
+  if (block.practice) return;
+  const std::vector<double> possible =
+      procedure_named(block.procedure).possible_intensities(block);
+  if (possible.empty()) return;
+  const auto [lowest, highest] = std::ranges::minmax(possible);
+  for (const AnsweredTrial& trial : trials) {
+    done.num_at_lowest += trial.planned.intensity == lowest ? 1 : 0;
+    done.num_at_highest += trial.planned.intensity == highest ? 1 : 0;
+  }
+}
 
 SimulatedDuration simulated_duration(const ParticipantPlan& plan,
                                      const AnswerSimulator& simulator, const Study& study,
@@ -23,6 +38,7 @@ SimulatedDuration simulated_duration(const ParticipantPlan& plan,
     SimulatedBlock& done = simulated.blocks[answered.stage->name];
     done.num_trials += num_trials;
     done.felt_s += answered.felt_s;
+    count_ends(block, answered.trials, done);
   }
   return simulated;
 }

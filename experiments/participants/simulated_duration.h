@@ -12,6 +12,8 @@ namespace jnd::experiments {
 struct SimulatedBlock {
   int num_trials = 0;
   double felt_s = 0.0;  ///< In all presentations of them.
+  /// Trials with the lowest and with the highest stimulus that there can be.
+  int num_at_lowest = 0, num_at_highest = 0;
 };
 
 /// How long a simulated participant takes, and with what.

@@ -74,6 +74,24 @@ TEST(PlanStatistics, AdaptiveBlocksTakeAsLongAsSimulatedParticipantsNeed) {
   EXPECT_EQ(json["order_statistics"][0]["stimuli"], (std::vector<double>{2.0, 8.0}));
 }
 
+TEST(PlanStatistics, LevelsThatEndTooEarlyAreSeenByWhereTrialsPileUp) {
+  const LevelEnds wide = statistics_of(study_with(kStairs), 12).level_ends.at("stairs");
+  EXPECT_EQ(wide.lowest_ratio, 0.0);
+  EXPECT_LT(wide.highest_ratio, 0.1);
+  // One and a half times the reference is thicker to everybody.
+  const Study narrow = study_with(R"json(
+     "reference_viscosity_pa_s": 8, "start_viscosity_pa_s": [20], "num_down": 2,
+     "lowest_viscosity_pa_s": 14, "highest_viscosity_pa_s": 30,
+     "step_ratio": [1.5, 1.25, 1.1], "max_reversals": 20, "max_trials": 40,)json");
+  const PlanStatistics statistics = statistics_of(narrow, 12);
+  EXPECT_GT(statistics.level_ends.at("stairs").lowest_ratio, 0.4);
+  testing::internal::CaptureStdout();
+  print(statistics);
+  std::fflush(stdout);
+  const std::string told = testing::internal::GetCapturedStdout();
+  EXPECT_NE(told.find("of its trials are at its lowest level"), std::string::npos) << told;
+}
+
 TEST(PlanStatistics, ABlockTakesNoLessThanItsStimuliAreFelt) {
   Study study = study_with(kStairs);
   const PlanStatistics patient = statistics_of(study, 3);

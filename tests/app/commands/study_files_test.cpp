@@ -279,6 +279,21 @@ TEST_F(StudyFileCommandsTest, PlanFillsTheCellsThatAStudyFolderLacks) {
   for (const auto& cell : json["balance"]) EXPECT_LE(cell["num_planned"], 1) << cell;
 }
 
+TEST_F(StudyFileCommandsTest, AStudyFileOtherThanThatOfTheFolderIsAProblemOfThePlan) {
+  write_file(file("mine.json"), kTinyStudy);
+  ASSERT_EQ(
+      jnd({"simulate", "mine.json", "--participants", "1", "--study", "m.study", "--fast"})
+          .exit_code,
+      0);
+  EXPECT_EQ(jnd({"plan", "mine.json", "--study", "m.study"}).exit_code, 0);
+  write_file(file("mine.json"), replaced(kTinyStudy, "[4, 16]", "[4, 15]"));
+  const ProgramOutcome changed = jnd({"plan", "mine.json", "--study", "m.study"});
+  EXPECT_EQ(changed.exit_code, 1) << "no session of it could be added";
+  EXPECT_NE(changed.err.find("m.study: expected the study file that it was begun with"),
+            std::string::npos)
+      << changed.err;
+}
+
 TEST_F(StudyFileCommandsTest, StimuliThatTheDeviceCannotRenderAreAProblemOfThePlan) {
   write_file(file("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
   const ProgramOutcome plain = jnd({"plan", "strong.json"});
