@@ -46,6 +46,14 @@ std::string trials_to_expect(const Block& block, int num_trials) {
   return (length_is_expected(block) ? "about " : "") + std::to_string(num_trials);
 }
 
+std::string stimulus_words(const experiments::PlannedTrial& trial) {
+  if (trial.intensity) return fmt::format("{:g}", *trial.intensity);
+  const double start = trial.starting_intensity.value_or(0.0);
+  return trial.reference_intensity
+             ? fmt::format("{:g} (from {:g})", *trial.reference_intensity, start)
+             : fmt::format("{:g}", start);
+}
+
 std::string adaptive_words(const Block& block) {
   const auto num_levels = static_cast<int>(block.intensities.size());
   if (block.procedure == "staircase") return staircase_words(block.settings);

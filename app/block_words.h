@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/procedures/procedure.h"
 #include "experiments/study/study.h"
 
 namespace jnd::app {
@@ -13,6 +14,9 @@ namespace jnd::app {
 
 /// "40", or "about 40" where that is only expected.
 [[nodiscard]] std::string trials_to_expect(const experiments::Block& block, int num_trials);
+
+/// "0.5", of an adjustment where it starts; of a matching "8 (from 0.5)", the standard first.
+[[nodiscard]] std::string stimulus_words(const experiments::PlannedTrial& trial);
 
 /// What an adaptive block does, without a level: "2 staircases, 1 up 2 down, each to 10
 /// reversals or 60 trials", "8 series over 10 levels", "QUEST+ over 12 levels".

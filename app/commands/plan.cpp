@@ -219,15 +219,6 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
   return json;
 }
 
-/// "0.5", of an adjustment where it starts; of a matching "8 (from 0.5)", the standard first.
-std::string trial_words(const experiments::PlannedTrial& trial) {
-  if (trial.intensity) return fmt::format("{:g}", *trial.intensity);
-  const double start = trial.starting_intensity.value_or(0.0);
-  return trial.reference_intensity
-             ? fmt::format("{:g} (from {:g})", *trial.reference_intensity, start)
-             : fmt::format("{:g}", start);
-}
-
 /// "1: 0.5 4 2", one line a repetition; production starts with its target.
 void print_order(const experiments::PlannedBlock& block) {
   const auto& content = std::get<experiments::Block>(block.stage->content);
@@ -250,7 +241,7 @@ void print_order(const experiments::PlannedBlock& block) {
       fmt::print("{}      {}:", trial.position == 1 && repetition > 1 ? "\n" : "", repetition);
       if (trial.target_percent) fmt::print(" to {:g} %, from", *trial.target_percent);
     }
-    fmt::print(" {}", trial_words(trial));
+    fmt::print(" {}", stimulus_words(trial));
   }
   fmt::print("\n");
 }

@@ -239,10 +239,18 @@ std::string blinding_words(Blinding blinding) {
   return "";
 }
 
-/// "Group D: 2.1, 1.2 Pa s"; a production begins each target anew.
+/// "Group D: 2.1, 1.2 Pa s"; a production begins each target anew; where the answers decide,
+/// how they do.
 std::string order_line(const PlannedBlock& planned, const std::string& language) {
   const auto& block = std::get<Block>(planned.stage->content);
   std::string line = title_of(*planned.stage, language) + ": ";
+  if (block.practice) {
+    return line + fmt::format("practice, at most {} trials", planned.num_trials);
+  }
+  if (length_is_expected(block)) {
+    return line + trials_to_expect(block, planned.num_trials) + " trials, " +
+           adaptive_words(block);
+  }
   double target = -1.0;
   bool first = true;
   for (const PlannedTrial& trial : planned.trials) {
@@ -251,9 +259,7 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
       line += fmt::format("{}to {:g} % from ", first ? "" : "; ", target);
       first = true;
     }
-    const std::optional<double> value =
-        trial.intensity ? trial.intensity : trial.starting_intensity;
-    line += fmt::format("{}{:g}", first ? "" : ", ", value.value_or(0.0));
+    line += (first ? "" : ", ") + stimulus_words(trial);
     first = false;
   }
   const std::string unit = quantity_unit(block.quantity);

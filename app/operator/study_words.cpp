@@ -30,8 +30,9 @@ const Stage* block_named(const std::vector<Stage>& stages, const std::string& na
 }  // namespace
 
 std::string name_words(std::string name, bool as_title) {
+  if (name.starts_with("num_")) name.replace(0, 4, "number of ");
   std::replace(name.begin(), name.end(), '_', ' ');
-  if (as_title && !name.empty() && name[0] >= 'a' && name[0] <= 'z') {
+  if (as_title && name.size() > 1 && name[0] >= 'a' && name[0] <= 'z') {
     name[0] = static_cast<char>(name[0] - 'a' + 'A');
   }
   return name;

@@ -64,7 +64,8 @@ void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareVi
             : model.assigned.empty()                    ? "The same order for everyone."
                                                         : "Order: " + model.assigned + ".";
   }
-  ui.text(inside.take_top(24, 20), words, {.colour = colour});
+  ui.text(inside.take_top(38, 6), words,
+          {.font = Font::kSmall, .colour = colour, .wrap = true});
 }
 
 void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {
@@ -79,9 +80,11 @@ void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {
                 {.key = {letter('P')}, .selected = state.pilot})) {
     state.pilot = true;
   }
-  ui.text(inside.take_top(24, 20),
+  ui.text(inside.take_top(38, 6),
           state.pilot ? "Marked for good, left out of results." : "Its answers are data.",
-          {.colour = state.pilot ? Colour::kPilot : Colour::kSoft});
+          {.font = Font::kSmall,
+           .colour = state.pilot ? Colour::kPilot : Colour::kSoft,
+           .wrap = true});
 }
 
 void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,

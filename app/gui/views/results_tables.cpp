@@ -117,9 +117,9 @@ void draw_comparisons_page(Ui& ui, const Rect& place, const ResultsModel& result
 
 void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
                        ResultsViewState& state) {
-  const std::vector<ColumnLook> columns = {{"", 3.4f},
+  const std::vector<ColumnLook> columns = {{"", 3.0f},
                                            {"value", 1.0f, Align::kRight},
-                                           {"95 %", 1.7f, Align::kRight},
+                                           {"95 %", 2.1f, Align::kRight},
                                            {"published", 1.5f, Align::kRight},
                                            {"basis", 0.9f, Align::kRight}};
   Rect inside = draw_card(ui, place, "Every number");

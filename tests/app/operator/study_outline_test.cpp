@@ -168,6 +168,21 @@ TEST(PlannedOrders, AreWhatSessionsWillDraw) {
   EXPECT_EQ(orders[0].blocks[2], "Comparison: " + drawn + " Pa s");
 }
 
+TEST(PlannedOrders, OfMatchesHaveTheirStandardsAndOfStaircasesWhatTheyDo) {
+  const auto shipped = [](const char* name) {
+    return experiments::read_study(test_support::source_folder() / "protocols" /
+                                   (std::string(name) + ".json"));
+  };
+  const OrdersRequest one{.num_participants = 1, .seed = 1};
+  const std::string matches = planned_orders(shipped("viscosity_matching"), one)[0].blocks[0];
+  EXPECT_TRUE(matches.starts_with("First half: ")) << matches;
+  EXPECT_NE(matches.find("16 (from 0.5)"), std::string::npos) << matches;
+  const auto stairs = planned_orders(shipped("viscosity_threshold"), one)[0].blocks;
+  EXPECT_NE((stairs[0] + stairs[1]).find("about 75 trials, 2 staircases, 1 up 1 down"),
+            std::string::npos)
+      << stairs[0] << stairs[1];
+}
+
 TEST(PlannedOrders, MakeUpForTheSessionsThatAreDone) {
   SimulatedStudy made(kCounterbalancedStudy);
   made.simulate(1);
