@@ -43,16 +43,17 @@ std::string times(const CountRange& range) {
 }
 
 /// What speaks against the levels of an adaptive block, where simulated people pile up.
-void print_ends(const std::string& block, const std::map<std::string, LevelEnds>& all) {
+void print_ends(const std::string& block, int width,
+                const std::map<std::string, LevelEnds>& all) {
   constexpr double kOften = 1.0 / 3.0;
   const auto found = all.find(block);
   if (found == all.end()) return;
   const auto warn = [&](double ratio, const char* end, const char* beyond) {
     if (ratio <= kOften) return;
     fmt::print(
-        "  {:<24} {:.0f} % of its trials are at its {} level: thresholds of simulated "
+        "  {:<{}} {:.0f} % of its trials are at its {} level: thresholds of simulated "
         "participants lie {} it\n",
-        block, 100.0 * ratio, end, beyond);
+        block, width, 100.0 * ratio, end, beyond);
   };
   warn(found->second.lowest_ratio, "lowest", "below");
   warn(found->second.highest_ratio, "highest", "above");
@@ -151,13 +152,18 @@ void add_to_json(const PlanStatistics& statistics, ordered_json& json) {
 }
 
 void print(const PlanStatistics& statistics) {
+  std::size_t longest = 24;
+  for (const auto& [block, length] : statistics.trial_lengths) {
+    longest = std::max(longest, block.size());
+  }
+  const auto width = static_cast<int>(longest);
   if (!statistics.orders.empty()) fmt::print("\nOrders over all participants\n");
   for (const OrderStatistics& orders : statistics.orders) {
     if (orders.stimuli.size() < 2) continue;
     fmt::print(
-        "  {:<24} each stimulus {} at each place, {} after each other one, {} after "
+        "  {:<{}} each stimulus {} at each place, {} after each other one, {} after "
         "itself\n",
-        orders.block, times(places_range(orders)), times(followers_range(orders)),
+        orders.block, width, times(places_range(orders)), times(followers_range(orders)),
         times(repeats_range(orders)));
   }
   const Spread all = spread_of(statistics.durations_s);
@@ -165,17 +171,17 @@ void print(const PlanStatistics& statistics) {
              all.least / 60.0, all.most / 60.0);
   for (const auto& [block, spread] : statistics.num_trials) {
     fmt::print(
-        "  {:<24} {:.1f} trials on average (standard deviation {:.1f}), {:g} to {:g}; "
+        "  {:<{}} {:.1f} trials on average (standard deviation {:.1f}), {:g} to {:g}; "
         "by simulated participants\n",
-        block, spread.mean, spread.standard_deviation, spread.least, spread.most);
-    print_ends(block, statistics.level_ends);
+        block, width, spread.mean, spread.standard_deviation, spread.least, spread.most);
+    print_ends(block, width, statistics.level_ends);
   }
   for (const auto& [block, length] : statistics.trial_lengths) {
     if (!length.is_underrated()) continue;
     fmt::print(
-        "  {:<24} `expected_trial_s` is {:g} s, but simulated participants feel the stimuli of "
+        "  {:<{}} `expected_trial_s` is {:g} s, but simulated participants feel the stimuli of "
         "a trial for {:.0f} s on average; counted with those\n",
-        block, length.expected_s, length.felt_s.mean);
+        block, width, length.expected_s, length.felt_s.mean);
   }
   if (!statistics.not_simulated.empty()) {
     fmt::print("  as expected, not simulated: {}\n", statistics.not_simulated);

@@ -77,10 +77,26 @@ std::string row(const Estimate& estimate) {
                      inside ? (*inside ? "yes" : "no") : "");
 }
 
+/// Of the column of names: of the longest one, but long ones alone do not widen it for ever.
+int name_width(const analysis::StudyResults& results) {
+  constexpr std::size_t kUsual = 46, kMost = 72;
+  std::size_t width = kUsual;
+  const auto widen = [&width](std::size_t size) {
+    if (size <= kMost) width = std::max(width, size);
+  };
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) widen(estimate.name.size());
+    for (const auto& own : section.participants) {
+      widen(own.participant.size() + 1 + own.name.size());
+    }
+  }
+  return static_cast<int>(width);
+}
+
 /// A row of `jnd results`: what the number is, and what was published if anything was.
-std::string explained_row(const Estimate& estimate) {
+std::string explained_row(const Estimate& estimate, int width) {
   std::string line =
-      fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name,
+      fmt::format("  {:<{}} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name, width,
                   text_of(estimate.name, estimate.value), text(estimate.ci95, estimate.value),
                   estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
   if (is_published(estimate)) line += "; published " + published_text(estimate);
@@ -127,12 +143,12 @@ std::string comparison_row(const analysis::NamedComparison& named) {
 }
 
 /// What each block was asked for, before everything else.
-std::string in_short(const analysis::StudyResults& results) {
+std::string in_short(const analysis::StudyResults& results, int width) {
   std::string table;
   for (const analysis::ResultsSection& section : results.sections) {
     for (const Estimate& estimate : section.estimates) {
       if (!estimate.primary) continue;
-      table += fmt::format("  {:<46} {:>10}  {:>20}  {:>5}  n {:>3}\n", estimate.name,
+      table += fmt::format("  {:<{}} {:>10}  {:>20}  {:>5}  n {:>3}\n", estimate.name, width,
                            text_of(estimate.name, estimate.value),
                            text(estimate.ci95, estimate.value),
                            estimate.unit == "1" ? "" : estimate.unit, estimate.n);
@@ -196,14 +212,14 @@ std::string columns_of(const analysis::ResultsSection& section,
   return table + "\n";
 }
 
-std::string participants_rows(const analysis::ResultsSection& section) {
+std::string participants_rows(const analysis::ResultsSection& section, int column) {
   constexpr std::size_t kWidth = 100;
   const std::vector<std::string> plain = plain_names(section);
   std::string table;
   for (const analysis::ParticipantEstimate& own : section.participants) {
     if (std::ranges::find(plain, own.name) != plain.end()) continue;
-    table += fmt::format("  {:<46} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
-                         text_of(own.name, own.value), text(own.ci95, own.value), own.reason);
+    table += fmt::format("  {:<{}} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
+                         column, text_of(own.name, own.value), text(own.ci95, own.value), own.reason);
   }
   for (std::size_t first = 0; first < plain.size();) {
     std::size_t end = first + 1;
@@ -227,11 +243,12 @@ std::string note_of(const std::string& table) {
 }  // namespace
 
 std::string to_table(const analysis::StudyResults& results) {
-  std::string table = heading(results) + in_short(results);
+  const int width = name_width(results);
+  std::string table = heading(results) + in_short(results, width);
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n", section.name);
-    for (const Estimate& estimate : section.estimates) table += explained_row(estimate);
-    table += participants_rows(section);
+    for (const Estimate& estimate : section.estimates) table += explained_row(estimate, width);
+    table += participants_rows(section, width);
     for (const analysis::NamedComparison& named : section.comparisons) {
       table += comparison_row(named);
     }

@@ -253,14 +253,19 @@ void print_range(const Outcome& outcome, const Options& options) {
       "{:g} m deep in what is solid\n",
       options.device, outcome.limits.max_force_per_point_n, outcome.limits.max_total_force_n,
       outcome.limits.expected_speed_m_per_s, outcome.limits.expected_depth_m);
+  std::size_t longest = 24;
+  for (const experiments::RangeEntry& entry : outcome.range) {
+    longest = std::max(longest, entry.stage.size());
+  }
+  const auto width = static_cast<int>(longest);
   for (const experiments::RangeEntry& entry : outcome.range) {
     const std::string setting =
         entry.setting.medium +
         (entry.setting.quantity.empty()
              ? ""
              : fmt::format(" {} {:g}", entry.setting.quantity, entry.setting.intensity));
-    fmt::print("  {:<24} {:<32} {:6.2f} N in all, {:5.2f} N at a point{}{}\n", entry.stage,
-               setting, entry.total_force_n, entry.largest_point_force_n,
+    fmt::print("  {:<{}} {:<32} {:6.2f} N in all, {:5.2f} N at a point{}{}\n", entry.stage,
+               width, setting, entry.total_force_n, entry.largest_point_force_n,
                entry.fits_up_to_m_per_s
                    ? fmt::format(", fits up to {:.2f} m/s", *entry.fits_up_to_m_per_s)
                    : "",
