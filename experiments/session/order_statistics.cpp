@@ -4,6 +4,8 @@
 #include <optional>
 #include <variant>
 
+#include "experiments/study/parameter_table.h"
+
 namespace jnd::experiments {
 namespace {
 
@@ -23,10 +25,19 @@ CountRange range_of(const Counts& counts, bool (*is_counted)(std::size_t, std::s
   return range.value_or(CountRange{});
 }
 
+/// What is matched is the stimulus, not where the adjustment starts.
+bool is_match(const PlannedTrial& trial) {
+  return trial.starting_intensity && trial.reference_intensity;
+}
+
 OrderStatistics nothing_counted(const PlannedBlock& planned) {
   const auto& block = std::get<Block>(planned.stage->content);
   OrderStatistics statistics{
       .block = planned.stage->name, .quantity = block.quantity, .stimuli = block.intensities};
+  if (!planned.trials.empty() && is_match(planned.trials.front())) {
+    statistics.quantity = quantity_of(block.standard_medium);
+    statistics.stimuli = block.standards;
+  }
   std::sort(statistics.stimuli.begin(), statistics.stimuli.end());
   const std::size_t n = statistics.stimuli.size();
   statistics.at_place.assign(n, std::vector<int>(n));
@@ -37,8 +48,9 @@ OrderStatistics nothing_counted(const PlannedBlock& planned) {
 /// Index of the trial's stimulus; none of a trial without.
 std::optional<std::size_t> stimulus_of(const OrderStatistics& statistics,
                                        const PlannedTrial& trial) {
-  const std::optional<double> value =
-      trial.intensity ? trial.intensity : trial.starting_intensity;
+  const std::optional<double> value = trial.intensity   ? trial.intensity
+                                      : is_match(trial) ? trial.reference_intensity
+                                                        : trial.starting_intensity;
   const auto& stimuli = statistics.stimuli;
   const auto found = std::find(stimuli.begin(), stimuli.end(), value);
   if (!value || found == stimuli.end()) return std::nullopt;

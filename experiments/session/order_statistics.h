@@ -9,9 +9,10 @@ namespace jnd::experiments {
 
 /// How the stimuli of a block come, counted over the participants of a plan.
 struct OrderStatistics {
-  std::string block;            ///< Name of its stage.
-  std::string quantity;         ///< What a stimulus is: "scale", "viscosity_pa_s".
-  std::vector<double> stimuli;  ///< Ascending; starting values in a production.
+  std::string block;     ///< Name of its stage.
+  std::string quantity;  ///< What a stimulus is: "scale", "viscosity_pa_s".
+  /// In a production starting values.
+  std::vector<double> stimuli;  ///< Ascending; of a matching its standards.
   /// Of each stimulus, how often it stands at each place of a repetition.
   std::vector<std::vector<int>> at_place;
   /// Of each stimulus, how often each one comes next, from repetition to repetition as well.

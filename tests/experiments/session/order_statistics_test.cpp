@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace jnd::experiments {
 namespace {
 
@@ -45,6 +47,26 @@ TEST_F(OrderStatisticsTest, CountPlacesAndFollowersByHand) {
   EXPECT_EQ(followers_range(all[0]).most, 2);
   EXPECT_EQ(repeats_range(all[0]).fewest, 0);
   EXPECT_EQ(repeats_range(all[0]).most, 1);
+}
+
+TEST_F(OrderStatisticsTest, OfMatchesCountTheStandards) {
+  stage_.content = Block{.procedure = "matching",
+                         .medium = "viscous",
+                         .quantity = "viscosity_pa_s",
+                         .intensities = {0.5},
+                         .standard_medium = "water",
+                         .standards = {4.0, 1.0, 2.0},
+                         .repetitions = 2};
+  ParticipantPlan matches = plan({1, 2, 4, 4, 2, 1});
+  for (PlannedTrial& trial : matches.blocks[0].trials) {
+    trial.reference_intensity = std::exchange(trial.intensity, std::nullopt);
+    trial.starting_intensity = 0.5;
+  }
+  const auto all = order_statistics({matches});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].quantity, "scale");
+  EXPECT_EQ(all[0].stimuli, (std::vector<double>{1, 2, 4}));
+  EXPECT_EQ(all[0].at_place, (std::vector<std::vector<int>>{{1, 0, 1}, {0, 2, 0}, {1, 0, 1}}));
 }
 
 TEST_F(OrderStatisticsTest, LeaveOutWhatIsDrawnAnswerByAnswer) {
