@@ -118,7 +118,8 @@ const ParameterTable& block_table() {
     own.push_back({.key = "expected_trial_s",
                    .kind = ValueKind::kNumber,
                    .meaning = "How long a trial is expected to take, free space not counted. "
-                              "Only for planning the length of a session.",
+                              "Only for planning the length of a session; `jnd plan` counts "
+                              "no less than simulated participants feel stimuli.",
                    .unit = "s",
                    .range = {0.0, 3600.0, true}});
     return ParameterTable{
