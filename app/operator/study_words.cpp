@@ -6,25 +6,19 @@
 #include <cmath>
 
 #include "app/operator/session_words.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::app {
 namespace {
 
 using namespace experiments;
 
-bool is_block(const Stage& stage) { return std::holds_alternative<Block>(stage.content); }
-
-const Stage* block_named(const std::vector<Stage>& stages, const std::string& name) {
-  for (const Stage& stage : stages) {
-    if (is_block(stage) && stage.name == name) return &stage;
-    const auto* counterbalance = std::get_if<Counterbalance>(&stage.content);
-    if (counterbalance == nullptr) continue;
-    for (const Counterbalance::Arm& arm : counterbalance->arms) {
-      if (const Stage* found = block_named(arm.stages, name)) return found;
-    }
-    if (const Stage* found = block_named(counterbalance->between, name)) return found;
-  }
-  return nullptr;
+const Stage* block_named(const Study& study, const std::string& name) {
+  const Stage* found = nullptr;
+  for_each_stage(study.stages, [&](const Stage& stage) {
+    if (std::holds_alternative<Block>(stage.content) && stage.name == name) found = &stage;
+  });
+  return found;
 }
 
 }  // namespace
@@ -56,7 +50,7 @@ std::vector<std::string> shown_titles(const std::vector<const Stage*>& stages,
   std::vector<std::string> titles;
   int num_blocks = 0;
   for (const Stage* stage : stages) {
-    if (hides_levels && is_block(*stage)) {
+    if (hides_levels && std::holds_alternative<Block>(stage->content)) {
       titles.push_back(fmt::format("Block {}", ++num_blocks));
     } else {
       titles.push_back(title_of(*stage, language));
@@ -73,7 +67,7 @@ std::string title_of(const Study& study) {
 std::string short_title(const std::string& title) { return title.substr(0, title.find(": ")); }
 
 std::string block_title(const Study& study, const std::string& block) {
-  const Stage* stage = block_named(study.stages, block);
+  const Stage* stage = block_named(study, block);
   return stage == nullptr ? block : title_of(*stage, study.languages.front());
 }
 

@@ -9,6 +9,7 @@
 #include "experiments/order/square_rows.h"
 #include "experiments/order/stimulus_order.h"
 #include "experiments/study/parameter_table.h"
+#include "experiments/study/stage_walk.h"
 #include "experiments/study/study_problem.h"
 
 namespace jnd::experiments {
@@ -47,26 +48,20 @@ std::vector<Arms> alternatives(const Counterbalance& counterbalance) {
   return found;
 }
 
-/// Counterbalances and squares, those in arms after the arms.
-void add_factors(const std::vector<Stage>& stages, std::vector<Factor>& factors) {
-  for (const Stage& stage : stages) {
-    if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
-      factors.push_back({.name = stage.name,
-                         .alternatives = alternatives(*counterbalance),
-                         .stratify_by = counterbalance->stratify_by});
-      for (const Counterbalance::Arm& arm : counterbalance->arms) {
-        add_factors(arm.stages, factors);
-      }
-      add_factors(counterbalance->between, factors);
-    }
-    const auto* block = std::get_if<Block>(&stage.content);
-    if (block == nullptr) continue;
-    const std::size_t num_rows = num_square_rows(block->order, block->intensities.size());
-    if (num_rows == 0) continue;
-    factors.push_back({.name = stage.name, .alternatives = {}, .stratify_by = ""});
-    for (std::size_t row = 1; row <= num_rows; ++row) {
-      factors.back().alternatives.push_back({std::string(kRow) + std::to_string(row)});
-    }
+/// A counterbalance, or the square of a block.
+void add_factor(const Stage& stage, std::vector<Factor>& factors) {
+  if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
+    factors.push_back({.name = stage.name,
+                       .alternatives = alternatives(*counterbalance),
+                       .stratify_by = counterbalance->stratify_by});
+  }
+  const auto* block = std::get_if<Block>(&stage.content);
+  if (block == nullptr) return;
+  const std::size_t num_rows = num_square_rows(block->order, block->intensities.size());
+  if (num_rows == 0) return;
+  factors.push_back({.name = stage.name, .alternatives = {}, .stratify_by = ""});
+  for (std::size_t row = 1; row <= num_rows; ++row) {
+    factors.back().alternatives.push_back({std::string(kRow) + std::to_string(row)});
   }
 }
 
@@ -125,7 +120,7 @@ std::vector<Factor> factors_of(const Study& study) {
       factors.back().alternatives.push_back({option.value});
     }
   }
-  add_factors(study.stages, factors);
+  for_each_stage(study.stages, [&](const Stage& stage) { add_factor(stage, factors); });
   return factors;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "experiments/procedures/magnitude_estimation.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -12,27 +13,19 @@ namespace {
                     " in the block " + block + ", found none; add it, with its basis");
 }
 
-void require(const Laboratory& laboratory, const std::vector<Stage>& stages) {
-  for (const Stage& stage : stages) {
-    if (const auto* several = std::get_if<Counterbalance>(&stage.content)) {
-      for (const Counterbalance::Arm& arm : several->arms) require(laboratory, arm.stages);
-      require(laboratory, several->between);
-    }
+}  // namespace
+
+void require_abilities(const Laboratory& laboratory, const Study& study) {
+  for_each_stage(study.stages, [&](const Stage& stage) {
     const auto* block = std::get_if<Block>(&stage.content);
-    if (block == nullptr) continue;
+    if (block == nullptr) return;
     if (block->is_solid() && !laboratory.pressing) {
       lacks(laboratory, "/pressing", "the solid", stage.name);
     }
     if (modulus_of(*block) == Modulus::kFree && !laboratory.perceiver.free_modulus) {
       lacks(laboratory, "/perceiver/free_modulus", "numbers of one's own", stage.name);
     }
-  }
-}
-
-}  // namespace
-
-void require_abilities(const Laboratory& laboratory, const Study& study) {
-  require(laboratory, study.stages);
+  });
 }
 
 }  // namespace jnd::experiments

@@ -14,6 +14,7 @@
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/task.h"
 #include "experiments/session/stimulus.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -217,26 +218,20 @@ class BlockPlayer {
 };
 
 /// A form of answer that no simulated person knows is refused before any is asked.
-void require_answerable(const std::vector<Stage>& stages) {
-  for (const Stage& stage : stages) {
-    if (const auto* several = std::get_if<Counterbalance>(&stage.content)) {
-      for (const Counterbalance::Arm& arm : several->arms) require_answerable(arm.stages);
-      require_answerable(several->between);
-    }
-    const auto* block = std::get_if<Block>(&stage.content);
-    if (block == nullptr) continue;
-    const TrialForm form = procedure_named(block->procedure).form(*block);
-    const bool known = form.adjustable ? form.answer == AnswerKind::kMatch
-                       : form.answer == AnswerKind::kPercent
-                           ? !form.has_reference
-                           : form.answer == AnswerKind::kYesNo ||
-                                 form.answer == AnswerKind::kNumber || form.order_is_drawn;
-    if (!known) {
-      throw core::Error("block " + stage.name +
-                        ": expected a procedure that simulated participants answer without a "
-                        "device, found " +
-                        block->procedure);
-    }
+void require_answerable(const Stage& stage) {
+  const auto* block = std::get_if<Block>(&stage.content);
+  if (block == nullptr) return;
+  const TrialForm form = procedure_named(block->procedure).form(*block);
+  const bool known = form.adjustable ? form.answer == AnswerKind::kMatch
+                     : form.answer == AnswerKind::kPercent
+                         ? !form.has_reference
+                         : form.answer == AnswerKind::kYesNo ||
+                               form.answer == AnswerKind::kNumber || form.order_is_drawn;
+  if (!known) {
+    throw core::Error("block " + stage.name +
+                      ": expected a procedure that simulated participants answer without a "
+                      "device, found " +
+                      block->procedure);
   }
 }
 
@@ -244,7 +239,7 @@ void require_answerable(const std::vector<Stage>& stages) {
 
 AnswerSimulator::AnswerSimulator(const Study& study, const Laboratory& laboratory)
     : laboratory_(laboratory), device_(study.device), map_(force_map_of(study.device)) {
-  require_answerable(study.stages);
+  for_each_stage(study.stages, require_answerable);
   require_abilities(laboratory, study);
 }
 

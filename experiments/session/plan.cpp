@@ -13,6 +13,7 @@
 #include "experiments/session/event.h"
 #include "experiments/session/session.h"
 #include "experiments/session/stimulus.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -60,13 +61,6 @@ class RangeCollector {
   RangeCollector(const RangeLimits& limits, const core::ForceMap* map)
       : limits_(limits), map_(map) {}
 
-  void add(const std::vector<Stage>& stages) {
-    for (const Stage& stage : stages) add(stage);
-  }
-
-  std::vector<RangeEntry> entries;
-
- private:
   void add(const Stage& stage) {
     if (const auto* explore = std::get_if<Explore>(&stage.content)) {
       for (const Exploration& medium : explore->media) add(stage, medium.setting);
@@ -86,12 +80,12 @@ class RangeCollector {
       for (const double standard : block->standards) {
         add(stage, setting_of(*block, "reference", standard));
       }
-    } else if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
-      for (const Counterbalance::Arm& arm : counterbalance->arms) add(arm.stages);
-      add(counterbalance->between);
     }
   }
 
+  std::vector<RangeEntry> entries;
+
+ private:
   void add(const Stage& stage, const MediumSetting& setting) {
     for (const RangeEntry& known : entries) {
       if (known.stage == stage.name && known.setting.medium == setting.medium &&
@@ -192,7 +186,7 @@ std::vector<std::string> completed_cells(const core::StudyStore& store) {
 std::vector<RangeEntry> planned_range(const Study& study, const RangeLimits& limits) {
   const std::unique_ptr<const core::ForceMap> map = force_map_of(study.device);
   RangeCollector collector(limits, map.get());
-  collector.add(study.stages);
+  for_each_stage(study.stages, [&](const Stage& stage) { collector.add(stage); });
   return std::move(collector.entries);
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/study/drawing_rules.h"
 
+#include <map>
 #include <string>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "core/random_stream.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/rule_values.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -18,24 +20,15 @@ class Drawing {
   Drawing(const LocatedJson& file, std::vector<StudyProblem>& problems)
       : file_(file), problems_(problems) {}
 
-  /// The same stages as they stand in the file and as they were built.
-  void check(const json& written, const std::vector<Stage>& stages,
-             const std::string& pointer) {
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const std::string here = pointer + '/' + std::to_string(i);
-      if (const auto* block = std::get_if<Block>(&stages[i].content)) {
-        draw(written[i], *block, here);
-      }
-      const auto* counterbalance = std::get_if<Counterbalance>(&stages[i].content);
-      if (counterbalance == nullptr) continue;
-      for (std::size_t arm = 0; arm < counterbalance->arms.size(); ++arm) {
-        check(written[i]["arms"][arm]["stages"], counterbalance->arms[arm].stages,
-              here + "/arms/" + std::to_string(arm) + "/stages");
-      }
-      if (!counterbalance->between.empty()) {
-        check(written[i]["between"], counterbalance->between, here + "/between");
-      }
-    }
+  void run(const Study& study) {
+    std::map<std::string, const Block*> blocks;
+    for_each_stage(study.stages, [&](const Stage& stage) {
+      if (const auto* block = std::get_if<Block>(&stage.content)) blocks[stage.name] = block;
+    });
+    for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
+      const auto block = blocks.find(word(stage, "name"));
+      if (block != blocks.end()) draw(stage, *block->second, pointer);
+    });
   }
 
  private:
@@ -80,7 +73,7 @@ class Drawing {
 
 void check_drawing(const LocatedJson& file, const Study& study,
                    std::vector<StudyProblem>& problems) {
-  Drawing(file, problems).check(file.root()["stages"], study.stages, "/stages");
+  Drawing(file, problems).run(study);
 }
 
 }  // namespace jnd::experiments

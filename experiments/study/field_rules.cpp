@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "experiments/study/rule_values.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -20,12 +21,14 @@ class FieldRules {
       : file_(file), problems_(problems) {}
 
   void run() {
-    if (!file_.root().is_object()) return;
     const json& fields = list(file_.root(), "participant_fields");
     for (const json& field : fields) {
       if (field.is_object()) names_.push_back(word(field, "name"));
     }
-    check_stages(list(file_.root(), "stages"), "/stages");
+    for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
+      take_names(stage, pointer);
+      check_stratified(word(stage, "stratify_by"), pointer + "/stratify_by");
+    });
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i].is_object()) {
         check_field(fields[i], "/participant_fields/" + std::to_string(i));
@@ -40,25 +43,12 @@ class FieldRules {
                 {file_.file(), position.line, position.column, pointer, std::move(message)});
   }
 
-  void check_stages(const json& stages, const std::string& pointer) {
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const json& stage = stages[i];
-      if (!stage.is_object()) continue;
-      const std::string here = pointer + '/' + std::to_string(i);
-      taken_.emplace(word(stage, "name"), here);
-      const json& items = list(stage, "items");
-      for (std::size_t item = 0; item < items.size(); ++item) {
-        if (!items[item].is_object()) continue;
-        taken_.emplace(word(items[item], "name"), here + "/items/" + std::to_string(item));
-      }
-      check_stratified(word(stage, "stratify_by"), here + "/stratify_by");
-      const json& arms = list(stage, "arms");
-      for (std::size_t arm = 0; arm < arms.size(); ++arm) {
-        if (!arms[arm].is_object()) continue;
-        check_stages(list(arms[arm], "stages"),
-                     here + "/arms/" + std::to_string(arm) + "/stages");
-      }
-      check_stages(list(stage, "between"), here + "/between");
+  void take_names(const json& stage, const std::string& pointer) {
+    taken_.emplace(word(stage, "name"), pointer);
+    const json& items = list(stage, "items");
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!items[i].is_object()) continue;
+      taken_.emplace(word(items[i], "name"), pointer + "/items/" + std::to_string(i));
     }
   }
 

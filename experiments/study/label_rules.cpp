@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/study/rule_values.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -17,28 +18,14 @@ class LabelRules {
       : file_(file), problems_(problems) {}
 
   void run() {
-    if (file_.root().is_object()) check_stages(list(file_.root(), "stages"), "/stages");
+    for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
+      check_pair(stage, pointer, "yes_label", "no_label");
+      check_pair(stage, pointer, "first_label", "second_label");
+      check_items(list(stage, "items"), pointer + "/items");
+    });
   }
 
  private:
-  void check_stages(const json& stages, const std::string& pointer) {
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const std::string here = pointer + '/' + std::to_string(i);
-      const json& stage = stages[i];
-      if (!stage.is_object()) continue;
-      check_pair(stage, here, "yes_label", "no_label");
-      check_pair(stage, here, "first_label", "second_label");
-      check_items(list(stage, "items"), here + "/items");
-      const json& arms = list(stage, "arms");
-      for (std::size_t arm = 0; arm < arms.size(); ++arm) {
-        if (!arms[arm].is_object()) continue;
-        check_stages(list(arms[arm], "stages"),
-                     here + "/arms/" + std::to_string(arm) + "/stages");
-      }
-      check_stages(list(stage, "between"), here + "/between");
-    }
-  }
-
   void check_items(const json& items, const std::string& pointer) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!items[i].is_object()) continue;

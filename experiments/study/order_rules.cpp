@@ -7,6 +7,7 @@
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_tables.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -19,7 +20,9 @@ class OrderRules {
       : file_(file), problems_(problems) {}
 
   void run() {
-    if (file_.root().is_object()) check_stages(list(file_.root(), "stages"), "/stages");
+    for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
+      if (word(stage, "kind") == "block") check_block(stage, pointer + "/order");
+    });
   }
 
  private:
@@ -38,22 +41,6 @@ class OrderRules {
     const TextPosition position = file_.value_position(pointer);
     add_problem(problems_,
                 {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
-  void check_stages(const json& stages, const std::string& pointer) {
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const json& stage = stages[i];
-      if (!stage.is_object()) continue;
-      const std::string here = pointer + '/' + std::to_string(i);
-      if (word(stage, "kind") == "block") check_block(stage, here + "/order");
-      const json& arms = list(stage, "arms");
-      for (std::size_t arm = 0; arm < arms.size(); ++arm) {
-        if (!arms[arm].is_object()) continue;
-        check_stages(list(arms[arm], "stages"),
-                     here + "/arms/" + std::to_string(arm) + "/stages");
-      }
-      check_stages(list(stage, "between"), here + "/between");
-    }
   }
 
   static Stimuli stimuli_of(const json& block) {

@@ -4,29 +4,20 @@
 
 #include "experiments/study/located_json.h"
 #include "experiments/study/rule_values.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-/// Pointer of the stage of this name in a list of stages, or in what is in it; "" for none.
-std::string stage_pointer(const json& stages, const std::string& pointer,
-                          const std::string& name) {
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const json& stage = stages[i];
-    const std::string here = pointer + '/' + std::to_string(i);
-    if (word(stage, "name") == name) return here;
-    const json& arms = list(stage, "arms");
-    for (std::size_t arm = 0; arm < arms.size(); ++arm) {
-      const std::string found = stage_pointer(
-          list(arms[arm], "stages"), here + "/arms/" + std::to_string(arm) + "/stages", name);
-      if (!found.empty()) return found;
-    }
-    const std::string found = stage_pointer(list(stage, "between"), here + "/between", name);
-    if (!found.empty()) return found;
-  }
-  return "";
+/// Pointer of the stage of this name; "" for none.
+std::string stage_pointer(const json& root, const std::string& name) {
+  std::string found;
+  for_each_written_stage(root, [&](const json& stage, const std::string& pointer) {
+    if (found.empty() && word(stage, "name") == name) found = pointer;
+  });
+  return found;
 }
 
 /// Pointer of a number of this value at a key that names the quantity; "" for none.
@@ -61,7 +52,7 @@ std::string number_pointer(const json& value, const std::string& pointer,
 
 std::string stimulus_pointer(const json& root, const std::string& stage_name,
                              const MediumSetting& setting) {
-  const std::string stage = stage_pointer(list(root, "stages"), "/stages", stage_name);
+  const std::string stage = stage_pointer(root, stage_name);
   if (stage.empty() || setting.quantity.empty()) return stage;
   const std::string found = number_pointer(root.at(json::json_pointer(stage)), stage, setting);
   return found.empty() ? stage : found;

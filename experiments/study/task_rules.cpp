@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/study/rule_values.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
@@ -17,9 +18,10 @@ class TaskRules {
       : file_(file), problems_(problems) {}
 
   void run() {
-    if (!file_.root().is_object()) return;
     is_double_blind_ = word(file_.root(), "blinding") == "double";
-    check_stages(list(file_.root(), "stages"), "/stages");
+    for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
+      if (word(stage, "kind") == "block") check_block(stage, pointer + '/');
+    });
   }
 
  private:
@@ -27,22 +29,6 @@ class TaskRules {
     const TextPosition position = file_.value_position(pointer);
     add_problem(problems_,
                 {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
-  void check_stages(const json& stages, const std::string& pointer) {
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const json& stage = stages[i];
-      if (!stage.is_object()) continue;
-      const std::string here = pointer + '/' + std::to_string(i);
-      if (word(stage, "kind") == "block") check_block(stage, here + '/');
-      const json& arms = list(stage, "arms");
-      for (std::size_t arm = 0; arm < arms.size(); ++arm) {
-        if (!arms[arm].is_object()) continue;
-        check_stages(list(arms[arm], "stages"),
-                     here + "/arms/" + std::to_string(arm) + "/stages");
-      }
-      check_stages(list(stage, "between"), here + "/between");
-    }
   }
 
   void check_block(const json& block, const std::string& at) {
