@@ -2,23 +2,22 @@
 
 #include <map>
 #include <string>
-#include <utility>
 
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_walk.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-class Drawing {
+class Drawing : StudyCheck {
  public:
-  Drawing(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run(const Study& study) {
     std::map<std::string, const Block*> blocks;
@@ -39,34 +38,26 @@ class Drawing {
       (void)procedure.draw_next(block, {}, stream);
       procedure.check(block);
     } catch (const core::Error& error) {
-      report(written, pointer, error.what());
+      tell(written, pointer, error.what());
     }
   }
 
   /// "staircase.start: expected ...", at the key that has this name, with its quantity or
   /// without.
-  void report(const json& written, const std::string& pointer, const std::string& words) {
+  void tell(const json& written, const std::string& pointer, const std::string& words) {
     const std::size_t colon = words.find(": ");
     const std::size_t dot = words.find('.');
     if (colon == std::string::npos || dot == std::string::npos || dot > colon) {
-      return add(pointer, words);
+      return report(pointer, words);
     }
     const std::string name = words.substr(dot + 1, colon - dot - 1);
     const std::string message = words.substr(colon + 2);
     for (const auto& [key, value] : written.items()) {
-      if (key == name || key.starts_with(name + '_')) return add(pointer + '/' + key, message);
+      if (key == name || key.starts_with(name + '_'))
+        return report(pointer + '/' + key, message);
     }
-    add(pointer, words);
+    report(pointer, words);
   }
-
-  void add(const std::string& pointer, std::string message) {
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
 };
 
 }  // namespace

@@ -5,20 +5,19 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_walk.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-class FieldRules {
+class FieldRules : StudyCheck {
  public:
-  FieldRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run() {
     const json& fields = list(file_.root(), "participant_fields");
@@ -37,12 +36,6 @@ class FieldRules {
   }
 
  private:
-  void report(const std::string& pointer, std::string message) {
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
   void take_names(const json& stage, const std::string& pointer) {
     taken_.emplace(word(stage, "name"), pointer);
     const json& items = list(stage, "items");
@@ -86,8 +79,6 @@ class FieldRules {
     }
   }
 
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
   std::vector<std::string> names_;            ///< Of the fields.
   std::set<std::string> used_;                ///< Fields that something is stratified by.
   bool has_unknown_ = false;                  ///< One of them may have been meant.

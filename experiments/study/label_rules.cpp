@@ -6,16 +6,16 @@
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_walk.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-class LabelRules {
+class LabelRules : StudyCheck {
  public:
-  LabelRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run() {
     for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
@@ -58,17 +58,10 @@ class LabelRules {
           labels.emplace(std::pair(language, words.get<std::string>()), pointer);
       if (is_new) continue;
       const std::string here = pointer + '/' + pointer_token(language);
-      const TextPosition position = file_.value_position(here);
-      add_problem(problems_,
-                  {file_.file(), position.line, position.column, here,
-                   "expected words of its own, so that answers can be told apart, "
-                   "found \"" +
-                       shown_text(words.get<std::string>()) + "\", as in " + first->second});
+      report(here, "expected words of its own, so that answers can be told apart, found \"" +
+                       shown_text(words.get<std::string>()) + "\", as in " + first->second);
     }
   }
-
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
 };
 
 }  // namespace

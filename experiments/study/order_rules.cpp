@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_tables.h"
 #include "experiments/study/stage_walk.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-class OrderRules {
+class OrderRules : StudyCheck {
  public:
-  OrderRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run() {
     for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
@@ -36,12 +35,6 @@ class OrderRules {
       return std::to_string(values.size()) + (values.size() == 1 ? " stimulus" : " stimuli");
     }
   };
-
-  void report(const std::string& pointer, std::string message) {
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
 
   static Stimuli stimuli_of(const json& block) {
     Stimuli stimuli = {.procedure = word(block, "procedure"),
@@ -135,9 +128,6 @@ class OrderRules {
                  plain_number(in_a_row));
     }
   }
-
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_tables.h"
+#include "experiments/study/study_check.h"
 #include "experiments/study/task_rules.h"
 
 namespace jnd::experiments {
@@ -43,10 +44,9 @@ struct Duration {
   }
 };
 
-class SessionRules {
+class SessionRules : StudyCheck {
  public:
-  SessionRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run() {
     if (!file_.root().is_object()) return;
@@ -58,12 +58,6 @@ class SessionRules {
   }
 
  private:
-  void report(const std::string& pointer, std::string message) {
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
   Duration stages(const json& stages, const std::string& pointer, const Surroundings& around) {
     Duration sum;
     for (std::size_t i = 0; i < stages.size(); ++i) {
@@ -188,8 +182,6 @@ class SessionRules {
                                " of them in this stage; times are in seconds");
   }
 
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
   double ramp_s_ = 0.0;
   double longest_stage_s_ = 0.0;
   std::string longest_stage_;

@@ -4,17 +4,18 @@
 #include <utility>
 
 #include "experiments/study/rule_values.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-class StandardRules {
+class StandardRules : StudyCheck {
  public:
   StandardRules(const LocatedJson& file, const json& block, std::string pointer,
                 std::vector<StudyProblem>& problems)
-      : file_(file), block_(block), at_(std::move(pointer) + '/'), problems_(problems) {}
+      : StudyCheck(file, problems), block_(block), at_(std::move(pointer) + '/') {}
 
   void run() {
     const std::string procedure = word(block_, "procedure");
@@ -26,10 +27,7 @@ class StandardRules {
 
  private:
   void report(const std::string& key, std::string message) {
-    const std::string pointer = at_ + key;
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
+    StudyCheck::report(at_ + key, std::move(message));
   }
 
   [[nodiscard]] bool has_standard() const {
@@ -112,10 +110,8 @@ class StandardRules {
     }
   }
 
-  const LocatedJson& file_;
   const json& block_;
   std::string at_;
-  std::vector<StudyProblem>& problems_;
 };
 
 }  // namespace

@@ -114,9 +114,6 @@ bool is_name(std::string_view text) noexcept {
          });
 }
 
-StructureCheck::StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems)
-    : file_(file), problems_(problems) {}
-
 void StructureCheck::run() {
   read_languages();
   check_object(file_.root(), "", study_table());
@@ -342,12 +339,6 @@ void StructureCheck::check_arms(const json& arms, const std::string& pointer) {
       check_string(arm, child, name);
     }
   }
-}
-
-void StructureCheck::report(const std::string& pointer, std::string message) {
-  const TextPosition position = file_.value_position(pointer);
-  add_problem(problems_,
-              {file_.file(), position.line, position.column, pointer, std::move(message)});
 }
 
 void StructureCheck::report_key(const std::string& pointer, std::string message) {

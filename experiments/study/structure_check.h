@@ -4,17 +4,17 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/study/located_json.h"
 #include "experiments/study/parameter_table.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 
 /// Checks a study file against the parameter tables: unknown and missing keys, keys that do not
 /// belong together, types, ranges, allowed words, and every text in every language. Nothing is
 /// coerced: 5.0 is not a whole number and "5" is not a number. Not real time.
-class StructureCheck {
+class StructureCheck : StudyCheck {
  public:
-  StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems);
+  using StudyCheck::StudyCheck;
 
   void run();
 
@@ -36,11 +36,8 @@ class StructureCheck {
   void check_arms(const nlohmann::json& arms, const std::string& pointer);
   void read_languages();
 
-  void report(const std::string& pointer, std::string message);
   void report_key(const std::string& pointer, std::string message);
 
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
   std::vector<std::string> languages_;  ///< Empty where the file does not say them rightly.
 };
 

@@ -17,6 +17,7 @@
 #include "experiments/study/shown_text.h"
 #include "experiments/study/stage_tables.h"
 #include "experiments/study/standard_rules.h"
+#include "experiments/study/study_check.h"
 #include "experiments/study/task_rules.h"
 
 namespace jnd::experiments {
@@ -24,10 +25,9 @@ namespace {
 
 using nlohmann::json;
 
-class Rules {
+class Rules : StudyCheck {
  public:
-  Rules(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run() {
     if (!file_.root().is_object()) return;
@@ -41,12 +41,6 @@ class Rules {
   }
 
  private:
-  void report(const std::string& pointer, std::string message) {
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
   /// Reports a word that stands at another pointer of the same namespace already.
   void check_unique(std::map<std::string, std::string>& known, const std::string& name,
                     const std::string& pointer) {
@@ -326,8 +320,6 @@ class Rules {
     }
   }
 
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
   std::map<std::string, std::string> stage_names_, item_names_;  ///< Name to pointer.
   std::map<std::string, std::vector<std::string>> one_of_arms_;
   std::map<std::string, std::string> methods_;  ///< Of counterbalances, by their names.

@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_walk.h"
+#include "experiments/study/study_check.h"
 
 namespace jnd::experiments {
 namespace {
 
 using nlohmann::json;
 
-class TaskRules {
+class TaskRules : StudyCheck {
  public:
-  TaskRules(const LocatedJson& file, std::vector<StudyProblem>& problems)
-      : file_(file), problems_(problems) {}
+  using StudyCheck::StudyCheck;
 
   void run() {
     is_double_blind_ = word(file_.root(), "blinding") == "double";
@@ -25,12 +24,6 @@ class TaskRules {
   }
 
  private:
-  void report(const std::string& pointer, std::string message) {
-    const TextPosition position = file_.value_position(pointer);
-    add_problem(problems_,
-                {file_.file(), position.line, position.column, pointer, std::move(message)});
-  }
-
   void check_block(const json& block, const std::string& at) {
     if (word(block, "task") == "same_different") check_same_different(block, at);
     const auto feedback = block.find("feedback");
@@ -89,8 +82,6 @@ class TaskRules {
     }
   }
 
-  const LocatedJson& file_;
-  std::vector<StudyProblem>& problems_;
   bool is_double_blind_ = false;
 };
 
