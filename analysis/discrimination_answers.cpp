@@ -16,7 +16,7 @@ void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
   const bool yes = *trial.response > 0.5;
   answers.reference = *trial.reference_intensity;
   add_answer(answers.levels[*trial.intensity], *trial.intensity, yes);
-  const double order = order_of(trial);
+  const double order = order_of(trial.test_interval);
   AnswerCount& cell = answers.cells[{*trial.intensity, order}];
   add_answer(cell, *trial.intensity, yes);
   cell.order = order;
@@ -26,11 +26,6 @@ void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
 }
 
 }  // namespace
-
-double order_of(const core::TrialRow& trial) noexcept {
-  if (!trial.test_interval) return 0.0;
-  return *trial.test_interval == 1 ? kTestFirst : kTestSecond;
-}
 
 std::vector<AnswerCount> DiscriminationAnswers::rows() const {
   std::vector<AnswerCount> all;

@@ -22,9 +22,6 @@ struct DiscriminationAnswers {
   [[nodiscard]] std::vector<AnswerCount> rows() const;
 };
 
-/// As `AnswerCount::order`.
-[[nodiscard]] double order_of(const core::TrialRow& trial) noexcept;
-
 /// Everybody's answers in a block; who has none is named. `with_excluded`: those in trials that
 /// were set aside as well.
 [[nodiscard]] std::vector<DiscriminationAnswers> discrimination_answers(

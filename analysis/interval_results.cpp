@@ -12,7 +12,7 @@ constexpr char kOneIntervalAlone[] = "the test came in one interval alone";
 
 struct OrderedTrial {
   double ratio = 0.0;  ///< Test over reference.
-  bool test_is_second = false;
+  double order = 0.0;
   bool more = false;  ///< The test was chosen.
 };
 
@@ -22,8 +22,8 @@ std::vector<OrderedTrial> ordered_trials(const ParticipantData& participant,
   for (const core::TrialRow& trial : participant.trials_in(block)) {
     if (!trial.test_interval || !trial.intensity || !trial.reference_intensity) continue;
     if (!trial.response || !(*trial.intensity > 0.0)) continue;
-    trials.push_back({*trial.intensity / *trial.reference_intensity, *trial.test_interval == 2,
-                      *trial.response > 0.5});
+    trials.push_back({*trial.intensity / *trial.reference_intensity,
+                      order_of(trial.test_interval), *trial.response > 0.5});
   }
   return trials;
 }
@@ -34,9 +34,9 @@ std::optional<double> bias_of(const std::vector<OrderedTrial>& trials) {
   std::array<double, 2> num_second_chosen{};
   std::array<double, 2> num_trials{};
   for (const OrderedTrial& trial : trials) {
-    const std::size_t order = trial.test_is_second ? 1 : 0;
-    num_second_chosen[order] += trial.more == trial.test_is_second ? 1.0 : 0.0;
-    ++num_trials[order];
+    const bool test_is_second = trial.order == kTestSecond;
+    num_second_chosen[test_is_second] += trial.more == test_is_second ? 1.0 : 0.0;
+    ++num_trials[test_is_second];
   }
   if (num_trials[0] == 0.0 || num_trials[1] == 0.0) return std::nullopt;
   return 0.5 * (num_second_chosen[0] / num_trials[0] + num_second_chosen[1] / num_trials[1]) -
@@ -50,7 +50,7 @@ PsychometricFit fit_of(const std::vector<OrderedTrial>& trials) {
     rows.push_back({.intensity = trial.ratio,
                     .num_yes = trial.more ? 1 : 0,
                     .num_trials = 1,
-                    .order = trial.test_is_second ? kTestSecond : kTestFirst});
+                    .order = trial.order});
   }
   return fit_psychometric(rows, {.reference = 1.0,
                                  .free_pse = true,

@@ -58,9 +58,7 @@ PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuant
   for (const auto& [planned, response] : trials) {
     if (planned.is_catch) continue;
     if (quantity == PlannedQuantity::kWeberFraction) {
-      const double order = !planned.test_interval        ? 0.0
-                           : *planned.test_interval == 1 ? analysis::kTestFirst
-                                                         : analysis::kTestSecond;
+      const double order = analysis::order_of(planned.test_interval);
       analysis::AnswerCount& count = counts[{planned.intensity.value(), order}];
       count.intensity = *planned.intensity;
       count.order = order;

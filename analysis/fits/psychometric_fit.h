@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,10 +16,17 @@ struct AnswerCount {
   double intensity = 0.0;       ///< >= 0; at 0 the curve is at its lower asymptote.
   std::int64_t num_yes = 0;     ///< 0 .. num_trials
   std::int64_t num_trials = 0;  ///< >= 0; a row without trials says nothing.
-  /// Where the test lay: kTestFirst or kTestSecond; 0 where it is always there or not known.
-  double order = 0.0;
+  double order = 0.0;           ///< Where the test lay, see `order_of`.
 };
+
 inline constexpr double kTestFirst = -0.5, kTestSecond = 0.5;
+
+/// Of the interval that held the test, 1 or 2; 0 where it always lies in the same or that is
+/// not known.
+[[nodiscard]] constexpr double order_of(std::optional<std::int64_t> test_interval) noexcept {
+  if (!test_interval) return 0.0;
+  return *test_interval == 1 ? kTestFirst : kTestSecond;
+}
 
 enum class PsychometricMethod {
   kMaximumLikelihood,  ///< "ml"
