@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/quantity_unit.h"
 #include "analysis/report/report_words.h"
 #include "analysis/threshold_group.h"
 #include "analysis/threshold_results.h"

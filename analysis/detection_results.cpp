@@ -2,6 +2,7 @@
 
 #include "analysis/fits/detection_fit.h"
 #include "analysis/groups/wilson_interval.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/threshold_answers.h"
 #include "analysis/threshold_group.h"
 #include "analysis/threshold_results.h"

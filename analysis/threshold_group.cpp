@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "analysis/groups/summary.h"
-#include "analysis/report/study_words.h"
 
 namespace jnd::analysis {
 namespace {
@@ -75,11 +74,6 @@ void add_mean_rate(ResultsSection& section, const GroupName& group, const OwnNum
   Interval& ci95 = section.estimates.back().ci95;
   if (ci95.low) ci95.low = std::max(*ci95.low, 0.0);
   if (ci95.high) ci95.high = std::min(*ci95.high, 1.0);
-}
-
-std::string unit_of_quantity(const std::string& quantity) {
-  const std::string unit = quantity_unit(quantity);
-  return unit.empty() ? "1" : unit;
 }
 
 }  // namespace jnd::analysis

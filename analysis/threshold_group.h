@@ -35,7 +35,4 @@ void add_mean(ResultsSection& section, const GroupName& group, const OwnNumbers&
 /// The same of rates: between 0 and 1, however far Student's interval would reach.
 void add_mean_rate(ResultsSection& section, const GroupName& group, const OwnNumbers& rates);
 
-/// "Pa s"; "1" of a ratio.
-[[nodiscard]] std::string unit_of_quantity(const std::string& quantity);
-
 }  // namespace jnd::analysis

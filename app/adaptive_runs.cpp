@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "analysis/report/study_words.h"
+#include "analysis/quantity_unit.h"
 #include "app/block_words.h"
 
 #include "core/error.h"

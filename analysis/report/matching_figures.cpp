@@ -3,6 +3,7 @@
 #include <set>
 
 #include "analysis/magnitude_section.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"

@@ -1,5 +1,6 @@
 #include "analysis/report/recording_conditions.h"
 
+#include "analysis/quantity_unit.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "analysis/groups/summary.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/report/method_words.h"
 #include "analysis/report/report_words.h"
 #include "analysis/threshold_results.h"

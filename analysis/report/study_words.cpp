@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/quantity_unit.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -119,13 +121,6 @@ std::string quantity_words(const std::string& quantity) {
   if (quantity == "viscosity_pa_s") return "viscosity";
   if (quantity == "stiffness_n_per_m") return "stiffness";
   return in_words(quantity);
-}
-
-std::string quantity_unit(const std::string& quantity) {
-  if (quantity == "viscosity_pa_s") return "Pa s";
-  if (quantity.ends_with("_n_per_m")) return "N/m";
-  if (quantity.ends_with("_n_s_per_m")) return "N s/m";
-  return "";
 }
 
 std::string quantity_axis(const std::string& quantity) {

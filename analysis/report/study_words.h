@@ -38,8 +38,6 @@ struct StudyWords {
 
 /// "viscosity", "scaling factor": what varies, from the quantity's name.
 [[nodiscard]] std::string quantity_words(const std::string& quantity);
-/// "Pa s"; "" where it is a ratio.
-[[nodiscard]] std::string quantity_unit(const std::string& quantity);
 /// "Viscosity [Pa s]", for an axis.
 [[nodiscard]] std::string quantity_axis(const std::string& quantity);
 /// "constant stimuli": a procedure in words.

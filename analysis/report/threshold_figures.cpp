@@ -4,6 +4,7 @@
 
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/groups/wilson_interval.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/report_words.h"

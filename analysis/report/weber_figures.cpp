@@ -3,6 +3,7 @@
 #include <map>
 
 #include "analysis/discrimination_own_values.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/report/box_plot.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"

@@ -1,4 +1,5 @@
 #include "experiments/session/plan.h"
+#include "analysis/quantity_unit.h"
 
 #include <fmt/format.h>
 
@@ -230,8 +231,10 @@ void print_order(const experiments::PlannedBlock& block) {
                               : trials_to_expect(content, block.num_trials),
              matches ? "; standards, and where each match starts" : "");
   if (length_is_expected(content)) {
-    fmt::print("      {}; {}\n", adaptive_words(content),
-               fmt::join(adaptive_level_words(content, quantity_unit(content.quantity)), "; "));
+    fmt::print(
+        "      {}; {}\n", adaptive_words(content),
+        fmt::join(adaptive_level_words(content, analysis::quantity_unit(content.quantity)),
+                  "; "));
     return;
   }
   int repetition = 0;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "analysis/groups/summary.h"
+#include "analysis/quantity_unit.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 
@@ -65,7 +66,7 @@ void add_matches(const ResultsSource& source, const BlockDesign& block, BoxFigur
   const auto num_blocks =
       std::ranges::count(source.data.blocks, "matching", &BlockDesign::procedure);
   const std::string title = short_title(source.title(block.block));
-  const std::string unit = quantity_unit(block.quantity);
+  const std::string unit = analysis::quantity_unit(block.quantity);
   figure.unit = figure.unit.empty() || figure.unit == unit ? unit : "";
   std::vector<std::pair<double, std::string>> standards;
   const std::map<std::string, Values> matches = matches_of(source, block.block);
@@ -187,8 +188,8 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
 void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const BlockDesign& block : source.data.blocks) {
     if (column_estimate(block).empty()) continue;
-    model.columns.push_back(
-        {column_title(source, block), block.detects() ? quantity_unit(block.quantity) : ""});
+    model.columns.push_back({column_title(source, block),
+                             block.detects() ? analysis::quantity_unit(block.quantity) : ""});
   }
   model.columns.push_back({"Stroke", "m"});
   model.columns.push_back({"Speed", "m/s"});

@@ -3,6 +3,7 @@
 
 #include "analysis/fits/power_fit.h"
 #include "analysis/groups/summary.h"
+#include "analysis/quantity_unit.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "core/power_function.h"
@@ -171,7 +172,7 @@ Magnitude magnitude_of(const ResultsSource& source,
     const std::string title = source.title(block->block);
     magnitude.title = title + (magnitude.title.empty() ? "" : " and " + magnitude.title);
     magnitude.quantity = quantity_words(block->quantity);
-    magnitude.unit = quantity_unit(block->quantity);
+    magnitude.unit = analysis::quantity_unit(block->quantity);
   }
   if (estimation != nullptr) magnitude.estimation_block = estimation->block;
   if (production != nullptr) magnitude.production_block = production->block;

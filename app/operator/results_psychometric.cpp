@@ -5,6 +5,7 @@
 
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/groups/wilson_interval.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/threshold_results.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
@@ -102,7 +103,7 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
       .block = block.block,
       .title = source.title(block.block),
       .quantity = quantity_words(block.quantity),
-      .unit = quantity_unit(block.quantity),
+      .unit = analysis::quantity_unit(block.quantity),
       .answer = block.protocol.task == "two_interval" ? "test chosen" : "“yes”",
       .has_fixed_levels = analysis::has_fixed_levels(block),
       .published = pooled->published,

@@ -7,6 +7,7 @@
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/groups/wilson_interval.h"
+#include "analysis/quantity_unit.h"
 #include "analysis/threshold_answers.h"
 #include "analysis/threshold_results.h"
 #include "app/operator/results_model.h"
@@ -131,7 +132,7 @@ Threshold threshold_of(const ResultsSource& source, const BlockDesign& block) {
   return {.block = block.block,
           .title = source.title(block.block),
           .quantity = quantity_words(block.quantity),
-          .unit = quantity_unit(block.quantity),
+          .unit = analysis::quantity_unit(block.quantity),
           .answer = block.tells_apart() ? "“different”" : "“yes”",
           .has_fixed_levels = analysis::has_fixed_levels(block),
           .reference = block.reference_intensity};

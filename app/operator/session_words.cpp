@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <map>
 
+#include "analysis/quantity_unit.h"
+
 namespace jnd::app {
 namespace {
 
@@ -195,10 +197,9 @@ std::string number_words(double value) {
 }
 
 std::string level_words(const std::string& quantity, double intensity) {
-  if (quantity == "viscosity_pa_s") return number_words(intensity) + " Pa s";
-  if (quantity == "stiffness_n_per_m") return number_words(intensity) + " N/m";
   if (quantity == "scale") return "scale " + number_words(intensity);
-  return number_words(intensity);
+  const std::string unit = analysis::quantity_unit(quantity);
+  return number_words(intensity) + (unit.empty() ? "" : ' ' + unit);
 }
 
 std::string answer_words(AnswerKind kind, double answer) {

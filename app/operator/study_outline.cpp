@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "analysis/quantity_unit.h"
 #include "app/block_words.h"
 #include "app/session_setup.h"
 #include "core/error.h"
@@ -165,7 +166,7 @@ class Outliner {
       line.details.emplace_back("levels hidden: double-blind");
       return;
     }
-    const std::string unit = quantity_unit(block.quantity);
+    const std::string unit = analysis::quantity_unit(block.quantity);
     const std::string name = unit.empty() ? quantity_words(block.quantity) + " " : "";
     if (length_is_expected(block)) {
       for (const std::string& words : adaptive_level_words(block, unit)) {
@@ -180,7 +181,7 @@ class Outliner {
     }
     if (!block.standards.empty()) {
       const std::string quantity = quantity_of(block.standard_medium);
-      const std::string its_unit = quantity_unit(quantity);
+      const std::string its_unit = analysis::quantity_unit(quantity);
       line.details.push_back("standard " + name_words(block.standard_medium, false) + ", " +
                              (its_unit.empty() ? quantity_words(quantity) + " " : "") +
                              list_of(block.standards, its_unit));
@@ -262,7 +263,7 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
     line += (first ? "" : ", ") + stimulus_words(trial);
     first = false;
   }
-  const std::string unit = quantity_unit(block.quantity);
+  const std::string unit = analysis::quantity_unit(block.quantity);
   return line + (unit.empty() ? "" : " " + unit);
 }
 

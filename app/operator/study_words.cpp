@@ -83,12 +83,6 @@ std::string quantity_words(const std::string& quantity) {
   return name_words(quantity, false);
 }
 
-std::string quantity_unit(const std::string& quantity) {
-  if (quantity == "viscosity_pa_s") return "Pa s";
-  if (quantity == "stiffness_n_per_m") return "N/m";
-  return "";
-}
-
 std::string duration_words(double duration_s) {
   if (!(duration_s >= 0.0) || duration_s > 1e9) return "unknown";
   if (duration_s < 59.5) return fmt::format("{:.0f} s", duration_s);
