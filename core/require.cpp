@@ -1,6 +1,7 @@
 #include "core/require.h"
 
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace jnd::core {
@@ -11,6 +12,14 @@ void require(bool holds, std::string_view field, std::string_view rule, double v
   char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   throw Error(std::string(field) + ": expected " + std::string(rule) + ", found " +
               std::string(digits, end));
+}
+
+void require_positive(double value, std::string_view field) {
+  require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
+}
+
+void require_not_negative(double value, std::string_view field) {
+  require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
 }
 
 }  // namespace jnd::core

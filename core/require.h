@@ -10,4 +10,9 @@ namespace jnd::core {
 /// that NaN fails it: `require(x > 0, ...)`. Not real time.
 void require(bool holds, std::string_view field, std::string_view rule, double value);
 
+/// A finite number > 0.
+void require_positive(double value, std::string_view field);
+/// A finite number >= 0.
+void require_not_negative(double value, std::string_view field);
+
 }  // namespace jnd::core

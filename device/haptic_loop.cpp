@@ -13,8 +13,7 @@ using core::Fault;
 using core::kNumContactPoints;
 
 double period_of(double rate_hz) {
-  core::require(rate_hz > 0.0 && std::isfinite(rate_hz), "rate_hz", "a finite number > 0",
-                rate_hz);
+  core::require_positive(rate_hz, "rate_hz");
   return 1.0 / rate_hz;
 }
 
@@ -27,10 +26,6 @@ core::ForceLimiter::Parameters within(core::ForceLimiter::Parameters limits,
 
 std::int64_t ticks(double duration_s, double rate_hz) {
   return static_cast<std::int64_t>(std::lround(duration_s * rate_hz));
-}
-
-void require_positive(double value, const char* field) {
-  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
 }
 
 core::PlainVector plain(const Eigen::Vector3d& vector) noexcept {
@@ -67,16 +62,15 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
       flight_recorder_(static_cast<std::size_t>(
           std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
-  require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
-  require_positive(parameters.heartbeat_timeout_s, "heartbeat_timeout_s");
-  require_positive(parameters.fade_out_s, "fade_out_s");
-  require_positive(parameters.rearm_s, "rearm_s");
-  require_positive(parameters.reattach_s, "reattach_s");
-  core::require(parameters.max_stale_s >= 0.0 && std::isfinite(parameters.max_stale_s),
-                "max_stale_s", "a finite number >= 0", parameters.max_stale_s);
+  core::require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
+  core::require_positive(parameters.heartbeat_timeout_s, "heartbeat_timeout_s");
+  core::require_positive(parameters.fade_out_s, "fade_out_s");
+  core::require_positive(parameters.rearm_s, "rearm_s");
+  core::require_positive(parameters.reattach_s, "reattach_s");
+  core::require_not_negative(parameters.max_stale_s, "max_stale_s");
   core::require_bounded(parameters.workspace);
-  require_positive(parameters.max_jump_m, "max_jump_m");
-  require_positive(parameters.flight_recorder_s, "flight_recorder_s");
+  core::require_positive(parameters.max_jump_m, "max_jump_m");
+  core::require_positive(parameters.flight_recorder_s, "flight_recorder_s");
   point_authority_ratio_.fill(1.0);
   telemetry_.sample.tick = parameters.first_tick - 1;
 }

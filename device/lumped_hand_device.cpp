@@ -8,18 +8,12 @@ namespace jnd::device {
 namespace {
 
 using core::require;
+using core::require_not_negative;
+using core::require_positive;
 
 double period_of(double rate_hz) {
-  require(rate_hz > 0.0 && std::isfinite(rate_hz), "rate_hz", "a finite number > 0", rate_hz);
+  require_positive(rate_hz, "rate_hz");
   return 1.0 / rate_hz;
-}
-
-void require_positive(double value, const char* field) {
-  require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
-void require_not_negative(double value, const char* field) {
-  require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
 }
 
 }  // namespace

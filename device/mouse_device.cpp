@@ -9,14 +9,12 @@ namespace jnd::device {
 namespace {
 
 using core::require;
+using core::require_not_negative;
+using core::require_positive;
 
 double period_of(double rate_hz) {
-  require(rate_hz > 0.0 && std::isfinite(rate_hz), "rate_hz", "a finite number > 0", rate_hz);
+  require_positive(rate_hz, "rate_hz");
   return 1.0 / rate_hz;
-}
-
-void require_positive(double value, const char* field) {
-  require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
 }
 
 Eigen::Vector3d horizontal(const Eigen::Vector2d& vector, double z) noexcept {
@@ -42,8 +40,7 @@ MouseDevice::MouseDevice(const Parameters& parameters,
       hand_(parameters.rate_hz, {0.0, 0.0, parameters.height_m}) {
   require_positive(parameters.mass_kg, "mass_kg");
   require_positive(parameters.stiffness_n_per_m, "stiffness_n_per_m");
-  require(parameters.damping_n_s_per_m >= 0.0 && std::isfinite(parameters.damping_n_s_per_m),
-          "damping_n_s_per_m", "a finite number >= 0", parameters.damping_n_s_per_m);
+  require_not_negative(parameters.damping_n_s_per_m, "damping_n_s_per_m");
   require(std::isfinite(parameters.height_m), "height_m", "a finite number",
           parameters.height_m);
   require_positive(parameters.max_speed_m_per_s, "max_speed_m_per_s");

@@ -12,10 +12,6 @@ constexpr double kUsualIntervalS = 1.0 / 60.0;
 /// A pointer that was silent for longer has rested: the gap tells nothing of its rhythm.
 constexpr double kLongestIntervalS = 0.050;
 
-void require_positive(double value, const char* field) {
-  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
 }  // namespace
 
 PointerGuide::PointerGuide(const Parameters& parameters, double period_s)
@@ -23,10 +19,10 @@ PointerGuide::PointerGuide(const Parameters& parameters, double period_s)
       period_s_(period_s),
       decay_ratio_(std::exp(-parameters.bandwidth_rad_per_s * period_s)),
       interval_ticks_(kUsualIntervalS / period_s) {
-  require_positive(parameters.bandwidth_rad_per_s, "bandwidth_rad_per_s");
-  require_positive(parameters.max_speed_m_per_s, "max_speed_m_per_s");
-  require_positive(parameters.reach_m, "reach_m");
-  require_positive(period_s, "period_s");
+  core::require_positive(parameters.bandwidth_rad_per_s, "bandwidth_rad_per_s");
+  core::require_positive(parameters.max_speed_m_per_s, "max_speed_m_per_s");
+  core::require_positive(parameters.reach_m, "reach_m");
+  core::require_positive(period_s, "period_s");
 }
 
 void PointerGuide::take(const core::PointerPosition& pointer) noexcept {

@@ -103,8 +103,7 @@ bool settles(HapticDevice& device, const core::HapticCommand& command, double ra
 
 StabilityLimit largest_stable(const StabilityLadder& ladder,
                               const std::function<bool(double)>& is_stable) {
-  core::require(ladder.first > 0.0 && std::isfinite(ladder.first), "first",
-                "a finite number > 0", ladder.first);
+  core::require_positive(ladder.first, "first");
   core::require(ladder.last >= ladder.first && std::isfinite(ladder.last), "last",
                 "a finite number >= first", ladder.last);
   core::require(ladder.step_ratio > 1.0, "step_ratio", "a number > 1", ladder.step_ratio);

@@ -10,6 +10,8 @@ namespace jnd::device {
 namespace {
 
 using core::require;
+using core::require_not_negative;
+using core::require_positive;
 
 struct Range {
   double StrokePlan::*value;
@@ -67,15 +69,11 @@ StrokingArm::StrokingArm(const Parameters& parameters, double period_s)
       period_s_(period_s),
       reference_m_(parameters.home_x_m, parameters.home_y_m, parameters.home_z_m) {
   curve_.fill(Eigen::Vector3d::Zero());
-  require(parameters.stiffness_n_per_m >= 0.0 && std::isfinite(parameters.stiffness_n_per_m),
-          "stiffness_n_per_m", "a finite number >= 0", parameters.stiffness_n_per_m);
-  require(parameters.damping_n_s_per_m >= 0.0 && std::isfinite(parameters.damping_n_s_per_m),
-          "damping_n_s_per_m", "a finite number >= 0", parameters.damping_n_s_per_m);
+  require_not_negative(parameters.stiffness_n_per_m, "stiffness_n_per_m");
+  require_not_negative(parameters.damping_n_s_per_m, "damping_n_s_per_m");
   require(reference_m_.allFinite(), "home", "finite numbers", reference_m_.sum());
-  require(parameters.home_s > 0.0 && std::isfinite(parameters.home_s), "home_s",
-          "a finite number > 0", parameters.home_s);
-  require(period_s > 0.0 && std::isfinite(period_s), "period_s", "a finite number > 0",
-          period_s);
+  require_positive(parameters.home_s, "home_s");
+  require_positive(period_s, "period_s");
 }
 
 void StrokingArm::begin_strokes(const StrokePlan& plan,

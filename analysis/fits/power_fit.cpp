@@ -144,8 +144,7 @@ void fit_logarithms(PowerFit& fit, const std::vector<Magnitude>& data) {
 
 PowerFit fit_power(const std::vector<Magnitude>& data, PowerMethod method, Solver solver) {
   for (const Magnitude& row : data) {
-    core::require(row.intensity >= 0.0 && std::isfinite(row.intensity), "intensity",
-                  "a finite number >= 0", row.intensity);
+    core::require_not_negative(row.intensity, "intensity");
     core::require(std::isfinite(row.magnitude), "magnitude", "a finite number", row.magnitude);
   }
   PowerFit fit;

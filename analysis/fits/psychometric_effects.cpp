@@ -19,11 +19,9 @@ struct Term {
 };
 
 void check(const std::vector<OrderedAnswers>& answers, double reference) {
-  core::require(reference > 0.0 && std::isfinite(reference), "reference", "a finite number > 0",
-                reference);
+  core::require_positive(reference, "reference");
   for (const OrderedAnswers& row : answers) {
-    core::require(row.intensity > 0.0 && std::isfinite(row.intensity), "intensity",
-                  "a finite number > 0", row.intensity);
+    core::require_positive(row.intensity, "intensity");
     core::require(row.num_yes >= 0.0 && row.num_yes <= row.num_trials, "num_yes",
                   "0 to num_trials", row.num_yes);
   }

@@ -112,11 +112,9 @@ LevelCost cost_at_zero(const PsychometricLevels& levels, PsychometricMethod meth
 }
 
 void check(const std::vector<AnswerCount>& data, double reference) {
-  core::require(reference > 0.0 && std::isfinite(reference), "reference", "a finite number > 0",
-                reference);
+  core::require_positive(reference, "reference");
   for (const AnswerCount& row : data) {
-    core::require(row.intensity >= 0.0 && std::isfinite(row.intensity), "intensity",
-                  "a finite number >= 0", row.intensity);
+    core::require_not_negative(row.intensity, "intensity");
     core::require(row.num_trials >= 0, "num_trials", "a number >= 0",
                   static_cast<double>(row.num_trials));
     core::require(row.num_yes >= 0 && row.num_yes <= row.num_trials, "num_yes",

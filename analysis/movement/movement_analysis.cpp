@@ -15,12 +15,9 @@ namespace {
 using SessionsOfPerson = std::vector<core::SessionRow>;
 
 void require_valid(const MovementOptions& options) {
-  const auto positive = [](double value, const char* field) {
-    core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-  };
-  positive(options.hysteresis_m, "hysteresis_m");
-  positive(options.rest_speed_m_per_s, "rest_speed_m_per_s");
-  positive(options.shortest_pause_s, "shortest_pause_s");
+  core::require_positive(options.hysteresis_m, "hysteresis_m");
+  core::require_positive(options.rest_speed_m_per_s, "rest_speed_m_per_s");
+  core::require_positive(options.shortest_pause_s, "shortest_pause_s");
   if (options.forward) {
     const double length = std::hypot((*options.forward)[0], (*options.forward)[1]);
     core::require(length > 0.0 && std::isfinite(length), "forward",

@@ -9,18 +9,14 @@
 namespace jnd::analysis {
 namespace {
 
-using core::require;
+using core::require_not_negative;
+using core::require_positive;
 
 std::int64_t checked_pause_ticks(const HalfStrokeFinder::Parameters& parameters) {
-  const auto not_negative = [](double value, const char* field) {
-    require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
-  };
-  require(parameters.period_s > 0.0 && std::isfinite(parameters.period_s), "period_s",
-          "a finite number > 0", parameters.period_s);
-  require(parameters.hysteresis_m > 0.0 && std::isfinite(parameters.hysteresis_m),
-          "hysteresis_m", "a finite number > 0", parameters.hysteresis_m);
-  not_negative(parameters.rest_speed_m_per_s, "rest_speed_m_per_s");
-  not_negative(parameters.shortest_pause_s, "shortest_pause_s");
+  require_positive(parameters.period_s, "period_s");
+  require_positive(parameters.hysteresis_m, "hysteresis_m");
+  require_not_negative(parameters.rest_speed_m_per_s, "rest_speed_m_per_s");
+  require_not_negative(parameters.shortest_pause_s, "shortest_pause_s");
   return std::llround(std::min(parameters.shortest_pause_s / parameters.period_s, 1e12));
 }
 

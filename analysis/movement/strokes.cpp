@@ -10,8 +10,7 @@ namespace jnd::analysis {
 
 StrokeMeter::StrokeMeter(const Parameters& parameters)
     : hysteresis_squared_m2_(parameters.hysteresis_m * parameters.hysteresis_m) {
-  core::require(parameters.hysteresis_m > 0.0 && std::isfinite(parameters.hysteresis_m),
-                "hysteresis_m", "a finite number > 0", parameters.hysteresis_m);
+  core::require_positive(parameters.hysteresis_m, "hysteresis_m");
 }
 
 void StrokeMeter::feed(const Eigen::Vector3d& position_m,

@@ -9,10 +9,6 @@
 namespace jnd::app {
 namespace {
 
-void require_positive(double value, const char* field) {
-  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
 core::PlainVector sum_of(const std::array<core::PlainVector, core::kNumContactPoints>& tips) {
   core::PlainVector sum{};
   for (const core::PlainVector& tip : tips) {
@@ -28,9 +24,9 @@ double length_of(const core::PlainVector& vector) {
 }  // namespace
 
 LiveTrace::LiveTrace(const Parameters& parameters) : parameters_(parameters) {
-  require_positive(parameters.rate_hz, "rate_hz");
-  require_positive(parameters.duration_s, "duration_s");
-  require_positive(parameters.points_per_s, "points_per_s");
+  core::require_positive(parameters.rate_hz, "rate_hz");
+  core::require_positive(parameters.duration_s, "duration_s");
+  core::require_positive(parameters.points_per_s, "points_per_s");
   ticks_per_point_ =
       std::max<std::int64_t>(1, std::llround(parameters.rate_hz / parameters.points_per_s));
   const double point_s = static_cast<double>(ticks_per_point_) / parameters.rate_hz;

@@ -13,17 +13,13 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kFirstColumn = 1;  // After the tick.
 
-void require_positive(double value, const char* field) {
-  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
 }  // namespace
 
 ScopeTrace::ScopeTrace(const Parameters& parameters)
     : parameters_(parameters), names_(core::sample_column_names(true)) {
-  require_positive(parameters.rate_hz, "rate_hz");
-  require_positive(parameters.duration_s, "duration_s");
-  require_positive(parameters.intervals_per_s, "intervals_per_s");
+  core::require_positive(parameters.rate_hz, "rate_hz");
+  core::require_positive(parameters.duration_s, "duration_s");
+  core::require_positive(parameters.intervals_per_s, "intervals_per_s");
   names_.erase(names_.begin(), names_.begin() + kFirstColumn);
   ticks_per_interval_ =
       std::max<std::int64_t>(1, std::llround(parameters.rate_hz / parameters.intervals_per_s));

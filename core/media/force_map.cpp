@@ -26,8 +26,7 @@ void check(const ForceMap::Row& row) {
               row.angle_of_attack_rad <= kRightAngleRad + kAngleToleranceRad,
           field_of(row, "angle_of_attack_rad"), "a number >= 0 and <= pi/2",
           row.angle_of_attack_rad);
-  require(row.speed_m_per_s >= 0.0 && std::isfinite(row.speed_m_per_s),
-          field_of(row, "speed_m_per_s"), "a finite number >= 0", row.speed_m_per_s);
+  require_not_negative(row.speed_m_per_s, field_of(row, "speed_m_per_s"));
   require(row.drag_coefficient >= 0.0 && row.drag_coefficient <= 100.0,
           field_of(row, "drag_coefficient"), "a number >= 0 and <= 100", row.drag_coefficient);
   require(std::abs(row.lift_coefficient) <= 100.0, field_of(row, "lift_coefficient"),

@@ -8,10 +8,6 @@
 namespace jnd::core {
 namespace {
 
-void require_amount(double value, const char* field) {
-  require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
-}
-
 Eigen::Vector3d along_surface(const Eigen::Vector3d& vector,
                               const Eigen::Vector3d& normal) noexcept {
   return vector - vector.dot(normal) * normal;
@@ -25,11 +21,11 @@ double faded_damping_n_s_per_m(const SolidAmounts& amounts, double felt_depth_m)
 }  // namespace
 
 SolidAmounts solid_amounts(const SolidParameters& parameters) {
-  require_amount(parameters.stiffness_n_per_m, "stiffness_n_per_m");
-  require_amount(parameters.damping_n_s_per_m, "damping_n_s_per_m");
-  require_amount(parameters.friction_ratio, "friction_ratio");
+  require_not_negative(parameters.stiffness_n_per_m, "stiffness_n_per_m");
+  require_not_negative(parameters.damping_n_s_per_m, "damping_n_s_per_m");
+  require_not_negative(parameters.friction_ratio, "friction_ratio");
   const double friction_n_per_m = parameters.friction_ratio * parameters.stiffness_n_per_m;
-  require_amount(friction_n_per_m, "friction_ratio");
+  require_not_negative(friction_n_per_m, "friction_ratio");
   return {parameters.stiffness_n_per_m, parameters.damping_n_s_per_m, friction_n_per_m};
 }
 

@@ -65,8 +65,7 @@ MediumAmounts container(const SolidParameters& parameters) {
 }
 
 MediumAmounts buoyant(double buoyancy_n) {
-  require(buoyancy_n >= 0.0 && std::isfinite(buoyancy_n), "buoyancy_n", "a finite number >= 0",
-          buoyancy_n);
+  require_not_negative(buoyancy_n, "buoyancy_n");
   return {.buoyancy_n = buoyancy_n};
 }
 

@@ -9,10 +9,6 @@
 namespace jnd::core {
 namespace {
 
-void require_positive(double value, const char* field) {
-  require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
 /// Also false for a vector so long that its square overflows: no hand was meant to feel it.
 bool is_finite(const Eigen::Vector3d& vector) noexcept {
   return vector.squaredNorm() <= std::numeric_limits<double>::max();

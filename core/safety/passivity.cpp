@@ -9,10 +9,8 @@ namespace jnd::core {
 
 PassivityController::PassivityController(const Parameters& parameters, double period_s)
     : max_credit_j_(parameters.max_credit_j), period_s_(period_s) {
-  require(max_credit_j_ > 0.0 && std::isfinite(max_credit_j_), "max_credit_j",
-          "a finite number > 0", max_credit_j_);
-  require(period_s_ > 0.0 && std::isfinite(period_s_), "period_s", "a finite number > 0",
-          period_s_);
+  require_positive(max_credit_j_, "max_credit_j");
+  require_positive(period_s_, "period_s");
 }
 
 bool PassivityController::control(const PointVectors& tip_position_m,

@@ -23,12 +23,9 @@ struct Workspace {
 
 /// Throws `Error` naming the field. Not real time.
 inline void require_bounded(const Workspace& workspace) {
-  const auto check = [](double value, const char* field) {
-    require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-  };
-  check(workspace.half_width_x_m, "half_width_x_m");
-  check(workspace.half_width_y_m, "half_width_y_m");
-  check(workspace.half_width_z_m, "half_width_z_m");
+  require_positive(workspace.half_width_x_m, "half_width_x_m");
+  require_positive(workspace.half_width_y_m, "half_width_y_m");
+  require_positive(workspace.half_width_z_m, "half_width_z_m");
 }
 
 }  // namespace jnd::core

@@ -25,10 +25,6 @@ int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
   return ticks;
 }
 
-void require_positive(double value, const char* field) {
-  core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
 }  // namespace
 
 ExoskeletonDevice::ExoskeletonDevice(const Parameters& parameters)
@@ -48,8 +44,8 @@ ExoskeletonDevice::ExoskeletonDevice(const Parameters& parameters)
               .sensor_seed = parameters.sensor_seed}),
       control_(parameters.control, period_s_),
       filter_(parameters.velocity_cutoff_hz, period_s_) {
-  require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
-  require_positive(parameters.max_total_force_n, "max_total_force_n");
+  core::require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
+  core::require_positive(parameters.max_total_force_n, "max_total_force_n");
   open();
 }
 

@@ -55,8 +55,7 @@ MujocoWorld::MujocoWorld(const Parameters& parameters)
     : parameters_(parameters),
       model_(load_mujoco_model(kExoskeletonModelText)),
       addresses_(*model_) {
-  core::require(parameters.period_s > 0.0 && std::isfinite(parameters.period_s), "period_s",
-                "a finite number > 0", parameters.period_s);
+  core::require_positive(parameters.period_s, "period_s");
   core::require(parameters.break_away_n > 0.0, "break_away_n", "a number > 0",
                 parameters.break_away_n);
   core::require(parameters.home_m.allFinite(), "home_m", "finite numbers",

@@ -9,14 +9,8 @@ namespace jnd::device {
 namespace {
 
 using core::require;
-
-void require_positive(double value, const char* field) {
-  require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-}
-
-void require_not_negative(double value, const char* field) {
-  require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
-}
+using core::require_not_negative;
+using core::require_positive;
 
 /// One comparison for all: a sum with anything not finite in it is not finite itself.
 bool are_finite(const core::PointVectors& force_n) noexcept {

@@ -19,10 +19,8 @@ class VelocityFilter {
  public:
   /// Throws `core::Error` unless both are finite and > 0. Not real time.
   VelocityFilter(double cutoff_hz, double period_s) : period_s_(period_s) {
-    core::require(cutoff_hz > 0.0 && std::isfinite(cutoff_hz), "cutoff_hz",
-                  "a finite number > 0", cutoff_hz);
-    core::require(period_s > 0.0 && std::isfinite(period_s), "period_s", "a finite number > 0",
-                  period_s);
+    core::require_positive(cutoff_hz, "cutoff_hz");
+    core::require_positive(period_s, "period_s");
     weight_ratio_ = 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff_hz * period_s);
   }
 

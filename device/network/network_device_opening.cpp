@@ -32,12 +32,9 @@ NetworkDevice::NetworkDevice(std::unique_ptr<DatagramPort> port, const Address& 
       token_(parameters.token),
       quality_(parameters.quality),
       sequence_(parameters.first_sequence) {
-  const auto positive = [](double value, const char* field) {
-    core::require(value > 0.0 && std::isfinite(value), field, "a finite number > 0", value);
-  };
-  positive(parameters.rate_hz, "rate_hz");
-  positive(parameters.max_stale_s, "max_stale_s");
-  positive(parameters.patience_s, "patience_s");
+  core::require_positive(parameters.rate_hz, "rate_hz");
+  core::require_positive(parameters.max_stale_s, "max_stale_s");
+  core::require_positive(parameters.patience_s, "patience_s");
 }
 
 NetworkDevice::~NetworkDevice() { close(); }

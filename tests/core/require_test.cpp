@@ -25,5 +25,16 @@ TEST(Require, SaysFieldRuleAndValue) {
 
 TEST(Require, IsSilentWhenTheRuleHolds) { EXPECT_EQ(message_for(1.0), ""); }
 
+TEST(Require, NumbersThatAreNotFiniteAreNeitherPositiveNorNotNegative) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(require_positive(value, "rate_hz"), Error) << value;
+    EXPECT_THROW(require_not_negative(value, "rate_hz"), Error) << value;
+  }
+  EXPECT_THROW(require_positive(0.0, "rate_hz"), Error);
+  EXPECT_NO_THROW(require_not_negative(0.0, "rate_hz"));
+  EXPECT_NO_THROW(require_positive(1e-300, "rate_hz"));
+}
+
 }  // namespace
 }  // namespace jnd::core
