@@ -7,15 +7,6 @@
 namespace jnd::experiments {
 namespace {
 
-BlockKey amount(const char* name, const char* meaning, bool required) {
-  return {.parameter = {.key = name,
-                        .kind = ValueKind::kNumber,
-                        .meaning = meaning,
-                        .required = required},
-          .of_quantity = true,
-          .is_positive = true};
-}
-
 BlockKey answer_label(const char* key, const char* meaning, std::vector<std::string> tasks) {
   return {.parameter = {.key = key,
                         .kind = ValueKind::kText,
@@ -54,6 +45,25 @@ std::string BlockKey::name_for(const std::string& quantity) const {
   return parameter.key.empty() ? quantity : parameter.key + '_' + quantity;
 }
 
+BlockKey amount_key(const char* name, const char* meaning, bool required) {
+  return {.parameter = {.key = name,
+                        .kind = ValueKind::kNumber,
+                        .meaning = meaning,
+                        .required = required},
+          .of_quantity = true,
+          .is_positive = true};
+}
+
+BlockKey whole_number_key(const char* key, const char* meaning, Range range,
+                          const std::string& default_json) {
+  return {.parameter = {.key = key,
+                        .kind = ValueKind::kInteger,
+                        .meaning = meaning,
+                        .required = false,
+                        .default_json = default_json,
+                        .range = range}};
+}
+
 BlockKey stimuli_key() {
   return {
       .parameter = {.key = "",
@@ -82,12 +92,12 @@ BlockKey task_key() {
 }
 
 BlockKey reference_key() {
-  BlockKey key = amount("reference",
-                        "The stimulus that every test stimulus is compared with; of "
-                        "`constant_stimuli` between the smallest and the largest of them, in "
-                        "`same_different` none of them. Of a `staircase` that aims at more "
-                        "than 50 %, levels may all lie above it.",
-                        true);
+  BlockKey key =
+      amount_key("reference",
+                 "The stimulus that every test stimulus is compared with; of "
+                 "`constant_stimuli` between the smallest and the largest of them, in "
+                 "`same_different` none of them. Of a `staircase` that aims at more "
+                 "than 50 %, levels may all lie above it.");
   key.parameter.only_where = {{"task", {"reminder", "two_interval", "same_different"}}};
   return key;
 }
@@ -202,12 +212,12 @@ std::vector<BlockKey> answer_label_keys() {
 }
 
 std::vector<BlockKey> step_keys() {
-  return {
-      amount("coarse_step", "How much one large step of the adjustment changes.", true),
-      amount("fine_step", "How much one small step changes; less than the large one.", true),
-      amount("max",
-             "No step goes beyond this; at least the largest starting value. Absent: no end.",
-             false)};
+  return {amount_key("coarse_step", "How much one large step of the adjustment changes."),
+          amount_key("fine_step", "How much one small step changes; less than the large one."),
+          amount_key(
+              "max",
+              "No step goes beyond this; at least the largest starting value. Absent: no end.",
+              false)};
 }
 
 }  // namespace jnd::experiments

@@ -22,6 +22,12 @@ struct BlockKey {
   [[nodiscard]] std::string name_for(const std::string& quantity) const;
 };
 
+/// A number > 0 of the block's quantity.
+[[nodiscard]] BlockKey amount_key(const char* name, const char* meaning, bool required = true);
+/// A whole number that may be left out.
+[[nodiscard]] BlockKey whole_number_key(const char* name, const char* meaning, Range range,
+                                        const std::string& default_json);
+
 /// The stimuli: tests of a comparison, or what an adjustment starts from.
 [[nodiscard]] BlockKey stimuli_key();
 /// How a test stimulus is asked about: "reminder", "yes_no", "two_interval", "same_different".

@@ -55,16 +55,6 @@ std::vector<PlannedSeries> planned_series(const Block& block, const LimitsRule& 
   return series;
 }
 
-BlockKey whole(const char* key, const char* meaning, Range range,
-               const std::string& default_json) {
-  return {.parameter = {.key = key,
-                        .kind = ValueKind::kInteger,
-                        .meaning = meaning,
-                        .required = false,
-                        .default_json = default_json,
-                        .range = range}};
-}
-
 }  // namespace
 
 std::string LimitsProcedure::meaning() const {
@@ -74,18 +64,21 @@ std::string LimitsProcedure::meaning() const {
 std::vector<BlockKey> LimitsProcedure::keys() const {
   std::vector<BlockKey> keys = {
       stimuli_key(),
-      whole("num_series", "How many series, rising and falling in turn.", {1, 200}, "8"),
+      whole_number_key("num_series", "How many series, rising and falling in turn.", {1, 200},
+                       "8"),
       {.parameter = {.key = "first_series",
                      .kind = ValueKind::kString,
                      .meaning = "Which direction comes first.",
                      .required = false,
                      .default_json = R"("drawn")",
                      .allowed = {"drawn", "ascending", "descending"}}},
-      whole("max_start_offset",
-            "A series starts at its end of the levels or up to so many further in, drawn, so "
-            "that answers cannot be counted out; less than half of the levels.",
-            {0, 99}, "2"),
-      whole("num_changed_in_a_row", "Changed answers that end a series.", {1, 10}, "1"),
+      whole_number_key(
+          "max_start_offset",
+          "A series starts at its end of the levels or up to so many further in, drawn, so "
+          "that answers cannot be counted out; less than half of the levels.",
+          {0, 99}, "2"),
+      whole_number_key("num_changed_in_a_row", "Changed answers that end a series.", {1, 10},
+                       "1"),
       scale_key()};
   for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
   return keys;

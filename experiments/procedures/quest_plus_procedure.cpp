@@ -30,16 +30,6 @@ BlockKey grid(const char* key, const char* meaning, const std::vector<std::strin
   return made;
 }
 
-BlockKey whole(const char* key, const char* meaning, Range range,
-               const std::string& default_json) {
-  return {.parameter = {.key = key,
-                        .kind = ValueKind::kInteger,
-                        .meaning = meaning,
-                        .required = false,
-                        .default_json = default_json,
-                        .range = range}};
-}
-
 BlockKey stop(const char* key, const char* meaning, const char* unit) {
   return {.parameter = {.key = key,
                         .kind = ValueKind::kNumber,
@@ -75,24 +65,25 @@ std::vector<BlockKey> QuestPlusProcedure::keys() const {
            true, ""),
       grid("slope", "Least and largest slope at the threshold, per ln, thought possible.",
            detections(), false, "[0.5, 10.0]"),
-      whole("grid_values", "Values of each of them, evenly in ln.", {2, 200}, "30"),
+      whole_number_key("grid_values", "Values of each of them, evenly in ln.", {2, 200}, "30"),
       {.parameter = {.key = "lapse_rate",
                      .kind = ValueKind::kNumber,
                      .meaning = "Answers thought to be given at random, at either end.",
                      .required = false,
                      .default_json = "0.02",
                      .range = {0.0, 0.4}}},
-      whole("max_trials", "The block ends after so many trials.", {1, 1000}, "40"),
-      whole("min_trials", "Before, nothing else ends it.", {0, 1000}, "0"),
+      whole_number_key("max_trials", "The block ends after so many trials.", {1, 1000}, "40"),
+      whole_number_key("min_trials", "Before, nothing else ends it.", {0, 1000}, "0"),
       stop("stop_entropy_bits", "It also ends at this entropy of what is thought.", "bit"),
       stop("stop_sd_ln",
            "It also ends when the Weber fraction, or the threshold, is known to this standard "
            "deviation of its ln.",
            ""),
-      whole("num_best",
-            "The stimulus is drawn among so many of the best: a little less is learned, and "
-            "less can be guessed.",
-            {1, 50}, "1")};
+      whole_number_key(
+          "num_best",
+          "The stimulus is drawn among so many of the best: a little less is learned, and "
+          "less can be guessed.",
+          {1, 50}, "1")};
   for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
   return keys;
 }

@@ -11,22 +11,6 @@
 namespace jnd::experiments {
 namespace {
 
-BlockKey amount(const char* key, const char* meaning) {
-  return {.parameter = {.key = key, .kind = ValueKind::kNumber, .meaning = meaning},
-          .of_quantity = true,
-          .is_positive = true};
-}
-
-BlockKey whole(const char* key, const char* meaning, Range range,
-               const std::string& default_json) {
-  return {.parameter = {.key = key,
-                        .kind = ValueKind::kInteger,
-                        .meaning = meaning,
-                        .required = false,
-                        .default_json = default_json,
-                        .range = range}};
-}
-
 std::vector<BlockKey> step_size_keys() {
   BlockKey linear{.parameter = {.key = "step",
                                 .kind = ValueKind::kNumbers,
@@ -93,12 +77,14 @@ std::vector<BlockKey> StaircaseProcedure::keys() const {
                      .max_items = 8},
        .of_quantity = true,
        .is_positive = true},
-      amount("lowest", "No level is below this."),
-      amount("highest", "No level is above this."),
+      amount_key("lowest", "No level is below this."),
+      amount_key("highest", "No level is above this."),
       scale_key()};
   for (BlockKey& key : step_size_keys()) keys.push_back(std::move(key));
-  keys.push_back(whole("num_up", "\"No\" in a row that raise the level.", {1, 10}, "1"));
-  keys.push_back(whole("num_down", "\"Yes\" in a row that lower the level.", {1, 10}, "2"));
+  keys.push_back(
+      whole_number_key("num_up", "\"No\" in a row that raise the level.", {1, 10}, "1"));
+  keys.push_back(
+      whole_number_key("num_down", "\"Yes\" in a row that lower the level.", {1, 10}, "2"));
   keys.push_back({.parameter = {.key = "down_per_up_ratio",
                                 .kind = ValueKind::kNumber,
                                 .meaning = "Step downwards over step upwards, for weighted "
@@ -106,13 +92,13 @@ std::vector<BlockKey> StaircaseProcedure::keys() const {
                                 .required = false,
                                 .default_json = "1.0",
                                 .range = {0.0, 100.0, true}}});
-  keys.push_back(
-      whole("max_reversals", "A staircase ends after so many reversals.", {2, 100}, "10"));
-  keys.push_back(
-      whole("max_trials", "Or after so many trials, whichever comes first.", {1, 1000}, "60"));
-  keys.push_back(whole("num_reversals_averaged",
-                       "The threshold is the mean of so many last reversals, an even number.",
-                       {2, 100}, "6"));
+  keys.push_back(whole_number_key("max_reversals", "A staircase ends after so many reversals.",
+                                  {2, 100}, "10"));
+  keys.push_back(whole_number_key(
+      "max_trials", "Or after so many trials, whichever comes first.", {1, 1000}, "60"));
+  keys.push_back(whole_number_key(
+      "num_reversals_averaged",
+      "The threshold is the mean of so many last reversals, an even number.", {2, 100}, "6"));
   for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
   return keys;
 }
