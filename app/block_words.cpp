@@ -4,17 +4,27 @@
 
 #include <algorithm>
 
+#include "analysis/report/report_words.h"
 #include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::app {
 namespace {
 
+using analysis::counted_words;
 using experiments::Block;
 using experiments::Settings;
 
-std::string counted(int count, const std::string& one, const std::string& many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
+std::string staircase_words(const Settings& given) {
+  const auto count = static_cast<int>(given.numbers("start").size());
+  const double ratio = given.number("down_per_up_ratio");
+  return fmt::format(
+      "{}, {} up {} down{}, {}to {} reversals or {} trials", counted_words(count, "staircase"),
+      given.integer("num_up"), given.integer("num_down"),
+      ratio == 1.0 ? "" : fmt::format(", steps down {:g} times those up", ratio),
+      count == 1 ? "" : "each ", given.integer("max_reversals"), given.integer("max_trials"));
 }
+
+}  // namespace
 
 std::string list_of(const std::vector<double>& values, const std::string& unit) {
   std::string list;
@@ -23,19 +33,6 @@ std::string list_of(const std::vector<double>& values, const std::string& unit) 
   }
   return list + (unit.empty() ? "" : " " + unit);
 }
-
-std::string staircase_words(const Settings& given) {
-  const auto count = static_cast<int>(given.numbers("start").size());
-  const double ratio = given.number("down_per_up_ratio");
-  return fmt::format("{}, {} up {} down{}, {}to {} reversals or {} trials",
-                     counted(count, "staircase", "staircases"), given.integer("num_up"),
-                     given.integer("num_down"),
-                     ratio == 1.0 ? "" : fmt::format(", steps down {:g} times those up", ratio),
-                     count == 1 ? "" : "each ", given.integer("max_reversals"),
-                     given.integer("max_trials"));
-}
-
-}  // namespace
 
 bool length_is_expected(const Block& block) {
   return block.procedure == "staircase" || block.procedure == "limits" ||
@@ -58,11 +55,10 @@ std::string adaptive_words(const Block& block) {
   const auto num_levels = static_cast<int>(block.intensities.size());
   if (block.procedure == "staircase") return staircase_words(block.settings);
   if (block.procedure == "limits") {
-    return fmt::format("{} over {}",
-                       counted(block.settings.integer("num_series"), "series", "series"),
-                       counted(num_levels, "level", "levels"));
+    return fmt::format("{} series over {}", block.settings.integer("num_series"),
+                       counted_words(num_levels, "level"));
   }
-  return fmt::format("QUEST+ over {}", counted(num_levels, "level", "levels"));
+  return fmt::format("QUEST+ over {}", counted_words(num_levels, "level"));
 }
 
 std::vector<std::string> adaptive_level_words(const Block& block, const std::string& unit) {

@@ -8,6 +8,9 @@
 
 namespace jnd::app {
 
+/// "1, 2, 4 Pa s".
+[[nodiscard]] std::string list_of(const std::vector<double>& values, const std::string& unit);
+
 /// Whether the answers decide how many trials the block has, so that their number is one to
 /// expect and no more.
 [[nodiscard]] bool length_is_expected(const experiments::Block& block);

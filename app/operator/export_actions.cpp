@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/export/csv_export.h"
+#include "analysis/report/report_words.h"
 #include "app/reopened_session.h"
 #include "app/replay_check.h"
 #include "app/session_setup.h"
@@ -18,10 +19,7 @@ namespace jnd::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string counted(std::int64_t count, const std::string& one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
+using analysis::counted_words;
 
 std::string sentence_of(const core::Finding& finding) {
   return finding.session == 0 ? finding.message
@@ -41,11 +39,11 @@ ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& wh
   }
   outcome.sentence =
       outcome.ok ? fmt::format("{}: complete, {} with {} and {} read back", what,
-                               counted(integrity.num_sessions, "session"),
-                               counted(integrity.num_trials, "answer"),
-                               counted(integrity.num_samples, "sample"))
+                               counted_words(integrity.num_sessions, "session"),
+                               counted_words(integrity.num_trials, "answer"),
+                               counted_words(integrity.num_samples, "sample"))
                  : fmt::format("{}: {}, the first: {}", what,
-                               counted(std::ssize(outcome.problems), "problem"),
+                               counted_words(std::ssize(outcome.problems), "problem"),
                                outcome.problems.empty() ? "" : outcome.problems.front());
   return outcome;
 }
@@ -64,8 +62,8 @@ ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
   for (const core::SessionOverview& one : store.overview()) answers += one.num_answers;
   control.progress(1.0);
   return {.sentence = fmt::format(
-              "{} of {} are written to {}, with a codebook", counted(answers, "answer"),
-              counted(std::ssize(store.sessions()), "session"), target.string())};
+              "{} of {} are written to {}, with a codebook", counted_words(answers, "answer"),
+              counted_words(std::ssize(store.sessions()), "session"), target.string())};
 }
 
 ActionOutcome verify_study(const fs::path& folder, WorkControl& control) {
@@ -107,7 +105,7 @@ ActionOutcome write_report(const fs::path& folder, const fs::path& target,
   const analysis::ReportOutcome& outcome = report.outcome;
   return {.sentence = fmt::format("report.html{} with {} {} in {}",
                                   outcome.pdf.empty() ? "" : " and report.pdf",
-                                  counted(std::ssize(outcome.figures), "figure"),
+                                  counted_words(std::ssize(outcome.figures), "figure"),
                                   outcome.pdf.empty() ? "is" : "are", target.string()),
           .problems = outcome.problems};
 }
@@ -131,8 +129,9 @@ ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {
     if (is_unblinded(store, row.session)) continue;  // By a run that was interrupted.
     ReopenedSession(store, row).session().unblind(reason);
   }
-  return {.sentence = fmt::format("{}: unblinded, and so written in the log of its {}",
-                                  folder.string(), counted(std::ssize(sessions), "session"))};
+  return {.sentence =
+              fmt::format("{}: unblinded, and so written in the log of its {}", folder.string(),
+                          counted_words(std::ssize(sessions), "session"))};
 }
 
 fs::path free_folder_beside(const fs::path& study_folder, const std::string& ending) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "analysis/fits/bounded_interval.h"
+#include "analysis/report/report_words.h"
 #include "app/block_words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
@@ -25,6 +26,7 @@ namespace jnd::app {
 namespace {
 
 using namespace results;
+using analysis::counted_words;
 using analysis::Estimate;
 using analysis::Interval;
 using Tone = QualityChip::Tone;
@@ -135,10 +137,6 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
                         [](const ComparisonLine& line) { return line.is_primary; });
 }
 
-std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 /// Trials of every block of a session that should have answers, whether drawn yet or not;
 /// practice is none. Where the answers decide how many there are, a session that came to its
 /// end has drawn them all.
@@ -194,14 +192,13 @@ class Quality {
                      answers_ >= expected_ ? Tone::kGood : Tone::kWarning});
     describe_recordings(chips);
     if (open_ > 0) {
-      chips.push_back(
-          {counted(open_, "session", "sessions") + " not finished", Tone::kWarning});
+      chips.push_back({counted_words(open_, "session") + " not finished", Tone::kWarning});
     }
     if (excluded_ > 0) {
-      chips.push_back({counted(excluded_, "trial", "trials") + " set aside", Tone::kWarning});
+      chips.push_back({counted_words(excluded_, "trial") + " set aside", Tone::kWarning});
     }
     if (num_pilots_ > 0) {
-      chips.push_back({counted(num_pilots_, "pilot", "pilots") + " left out", Tone::kNeutral});
+      chips.push_back({counted_words(num_pilots_, "pilot") + " left out", Tone::kNeutral});
     }
     std::set<std::string> known;
     for (const analysis::ResultsSection& section : results.sections) {
@@ -226,15 +223,15 @@ class Quality {
 
   void describe_recordings(std::vector<QualityChip>& chips) const {
     if (num_recordings_ == 0) return chips.push_back({"no recordings kept", Tone::kNeutral});
-    const std::string recordings = counted(num_recordings_, "recording", "recordings");
+    const std::string recordings = counted_words(num_recordings_, "recording");
     if (unreadable_ > 0) {
       chips.push_back(
           {fmt::format("{} of {} cannot be read", unreadable_, recordings), Tone::kWarning});
     }
     if (missing_ticks_ > 0) {
-      chips.push_back({fmt::format("{} missing in {}",
-                                   counted(missing_ticks_, "sample", "samples"), recordings),
-                       Tone::kWarning});
+      chips.push_back(
+          {fmt::format("{} missing in {}", counted_words(missing_ticks_, "sample"), recordings),
+           Tone::kWarning});
     } else if (unreadable_ == 0) {
       chips.push_back({"no gap in " + recordings, Tone::kGood});
     }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/report/report_words.h"
 #include "app/block_words.h"
 #include "app/operator/study_words.h"
 #include "app/session_setup.h"
@@ -25,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Status = SessionLine::Status;
+using analysis::counted_words;
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
@@ -127,10 +129,6 @@ void count(const SessionLine& line, std::set<std::string>& done, StudyFolder& st
   if (!line.pilot && line.status == Status::kCompleted) done.insert(line.participant);
 }
 
-std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 fs::path data_folder() {
   const char* data = std::getenv("XDG_DATA_HOME");
   if (data != nullptr && fs::path(data).is_absolute()) return fs::path(data) / "jnd";
@@ -151,20 +149,20 @@ std::string InterruptedSession::sentence() const {
 }
 
 std::string InterruptedSession::safe() const {
-  const std::string answers = counted(num_answers, "answer", "answers");
+  const std::string answers = counted_words(num_answers, "answer");
   if (recorded_min < 1.0) {
     return answers + (num_answers == 1 ? " is" : " are") + " safe on disk";
   }
   const auto minutes = static_cast<std::int64_t>(recorded_min);
   return fmt::format("{} and {} of recording are safe on disk", answers,
-                     counted(minutes, "minute", "minutes"));
+                     counted_words(minutes, "minute"));
 }
 
 std::string StudyFolder::summary() const {
   if (num_sessions == 0) return "no session yet";
-  std::string words = counted(num_participants_done, "participant", "participants") + " done";
+  std::string words = counted_words(num_participants_done, "participant") + " done";
   if (num_open > 0) words += fmt::format(", {} open", num_open);
-  if (num_pilots > 0) words += ", " + counted(num_pilots, "pilot", "pilots");
+  if (num_pilots > 0) words += ", " + counted_words(num_pilots, "pilot");
   if (simulated) words += " · simulated";
   if (!last_session.empty()) words += " · last session " + last_session;
   return words;

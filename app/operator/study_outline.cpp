@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "analysis/quantity_unit.h"
+#include "analysis/report/report_words.h"
 #include "app/block_words.h"
 #include "app/session_setup.h"
 #include "core/error.h"
@@ -21,17 +22,7 @@ namespace jnd::app {
 namespace {
 
 using namespace experiments;
-
-std::string counted(std::size_t count, const std::string& one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
-
-std::string list_of(const std::vector<double>& values, const std::string& unit) {
-  std::string list;
-  for (const double value : values)
-    list += (list.empty() ? "" : ", ") + fmt::format("{:g}", value);
-  return list + (unit.empty() ? "" : " " + unit);
-}
+using analysis::counted_words;
 
 /// Writes the lines of a study's stages, those in counterbalances further in.
 class Outliner {
@@ -117,11 +108,11 @@ class Outliner {
 
   void describe(const Checklist& checklist, OutlineStage& line) const {
     line.kind = "Checklist";
-    line.what = counted(checklist.items.size(), "item");
+    line.what = counted_words(checklist.items.size(), "item");
   }
   void describe(const Consent& consent, OutlineStage& line) const {
     line.kind = "Consent";
-    line.what = counted(consent.paragraphs.size(), "paragraph");
+    line.what = counted_words(consent.paragraphs.size(), "paragraph");
   }
   void describe(const Explore& explore, OutlineStage& line) const {
     line.kind = "Exploration";
@@ -131,7 +122,7 @@ class Outliner {
   }
   void describe(const Training& training, OutlineStage& line) const {
     line.kind = "Training";
-    line.what = counted(training.examples.size(), "example");
+    line.what = counted_words(training.examples.size(), "example");
     describe_media(training.examples, line);
   }
   void describe(const Block& block, OutlineStage& line) const {
@@ -145,15 +136,15 @@ class Outliner {
     if (length_is_expected(block)) {
       line.what = adaptive_words(block) + ": " + trials;
     } else if (adjusts && !block.standards.empty()) {
-      line.what = counted(count, "starting value") + " for " +
-                  counted(block.standards.size(), "standard") + ": " + trials;
+      line.what = counted_words(count, "starting value") + " for " +
+                  counted_words(block.standards.size(), "standard") + ": " + trials;
     } else if (block.target_percent.empty()) {
       line.what = fmt::format(
           "{} {}, {}: {}", count, count == 1 ? "stimulus" : "stimuli",
           block.repetitions == 1 ? "once" : fmt::format("{} times", block.repetitions), trials);
     } else {
-      line.what = counted(count, "starting value") + " for " +
-                  counted(block.target_percent.size(), "target") + ": " + trials;
+      line.what = counted_words(count, "starting value") + " for " +
+                  counted_words(block.target_percent.size(), "target") + ": " + trials;
     }
     if (block.practice) {
       line.details.push_back(fmt::format(
@@ -199,7 +190,7 @@ class Outliner {
   }
   void describe(const PostExperiment& post, OutlineStage& line) const {
     line.kind = "After the experiment";
-    line.what = counted(post.items.size(), "question");
+    line.what = counted_words(post.items.size(), "question");
     if (hides_) return;
     for (const PostExperimentItem& item : post.items) {
       line.details.push_back(words_of(item.setting));
@@ -207,13 +198,14 @@ class Outliner {
   }
   void describe(const Questionnaire& questionnaire, OutlineStage& line) const {
     line.kind = "Questionnaire";
-    line.what = counted(questionnaire.items.size(), "question");
+    line.what = counted_words(questionnaire.items.size(), "question");
   }
   void describe(const Counterbalance& counterbalance, OutlineStage& line) const {
     const bool order = counterbalance.method != Counterbalance::Method::kOneOf;
     line.kind = order ? "Order" : "Choice";
-    line.what = order ? counted(counterbalance.arms.size(), "arm") + ", their order balanced"
-                      : "one of " + counted(counterbalance.arms.size(), "arm");
+    line.what =
+        order ? counted_words(counterbalance.arms.size(), "arm") + ", their order balanced"
+              : "one of " + counted_words(counterbalance.arms.size(), "arm");
   }
 
   std::string language_;
@@ -277,9 +269,10 @@ StudyOutline outline_of(const Study& study, bool shows_levels) {
                        .authors = joined(study.authors),
                        .languages = joined(study.languages),
                        .blinding = blinding_words(study.blinding)};
-  outline.device = fmt::format(
-      "{} or more, {:g} Hz", counted(study.device.min_contact_points, "point") + " of the hand",
-      study.device.rate_hz);
+  outline.device =
+      fmt::format("{} or more, {:g} Hz",
+                  counted_words(study.device.min_contact_points, "point") + " of the hand",
+                  study.device.rate_hz);
   outline.hides_levels = study.blinding == Blinding::kDouble && !shows_levels;
   Outliner(study, outline).add(study.stages, 0);
   bool first = true;

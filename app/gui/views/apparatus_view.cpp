@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
@@ -14,12 +13,6 @@ constexpr float kButtonRow = 36;
 constexpr double kTurn_rad_per_px = 0.008;
 constexpr double kTurn_rad_per_press = 0.12;
 constexpr double kZoomStep = 1.12;
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string loop_words(const LoopView& loop) {
   std::string words = formatted("%.0f Hz", loop.rate_hz) +

@@ -87,11 +87,15 @@ void draw_notice(Ui& ui, const Rect& place, std::string_view words, Colour colou
   ui.text(place.middle(width, ui.text_height(width, words, style)), words, style);
 }
 
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
 std::string table_number(double value) {
   if (!std::isfinite(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, std::abs(value) >= 100.0 ? "%.0f" : "%.2f", value);
-  return text;
+  return formatted(std::abs(value) >= 100.0 ? "%.0f" : "%.2f", value);
 }
 
 }  // namespace jnd::app::gui

@@ -54,6 +54,8 @@ struct DialogChoice {
 void draw_notice(Ui& ui, const Rect& place, std::string_view words,
                  Colour colour = Colour::kSoft);
 
+/// A number as `printf` has it, with words around it: "%.1f N"; 63 characters at most.
+[[nodiscard]] std::string formatted(const char* format, double value);
 /// "0.72", "13.6": a number of a table; "" for none.
 [[nodiscard]] std::string table_number(double value);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "analysis/fits/bounded_interval.h"
 #include "app/gui/views/layout.h"
@@ -231,10 +230,7 @@ void draw_grid(Ui& ui, const Rect& place, const std::vector<Item>& items, float 
 }  // namespace
 
 std::string two_digits(double value) {
-  if (!std::isfinite(value)) return "none";
-  char text[32];
-  std::snprintf(text, sizeof text, std::abs(value) >= 100.0 ? "%.0f" : "%.2f", value);
-  return text;
+  return std::isfinite(value) ? table_number(value) : "none";
 }
 
 std::string interval_words(const analysis::Interval& ci95) {

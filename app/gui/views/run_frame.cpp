@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
 
 namespace jnd::app::gui {
@@ -13,12 +13,6 @@ namespace {
 constexpr ButtonStyle kStop{.tone = Tone::kDanger, .key = {Key::kEscape}, .at_once = true};
 constexpr const char* kStopLabel = "Emergency stop";
 constexpr float kStopMargin = 20;
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 struct Chip {
   std::string_view words;

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/report_words.h"
 #include "app/gui/views/layout.h"
 
 namespace jnd::app::gui {
 namespace {
 
-constexpr int kMostParticipants = 60;
+using analysis::counted_words;
 
-std::string counted(int count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
+constexpr int kMostParticipants = 60;
 
 /// The header where there is a file alone, and so neither sessions nor results.
 StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline) {
@@ -37,7 +36,7 @@ StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline
 /// Every problem with its place, in red.
 void draw_problems(Ui& ui, Rect& inside, const StudyOutline& outline) {
   const auto count = static_cast<int>(outline.problems.size());
-  ui.text(inside.take_top(34, 2), counted(count, "problem") + " in the file",
+  ui.text(inside.take_top(34, 2), counted_words(count, "problem") + " in the file",
           {.font = Font::kLarge, .colour = Colour::kRed});
   ui.text(inside.take_top(26, 8),
           "Mend them in your editor; the file is read again once it is saved.",
@@ -134,7 +133,7 @@ void draw_facts(Ui& ui, Rect& inside, const StudyOutline& outline) {
     return;
   }
   draw_fact(ui, inside, "Length",
-            length_words(outline) + ", " + counted(outline.num_trials, "trial"));
+            length_words(outline) + ", " + counted_words(outline.num_trials, "trial"));
   draw_fact(ui, inside, "Blinding", outline.blinding);
   draw_fact(ui, inside, "Device", outline.device);
   draw_fact(ui, inside, "Languages", outline.languages);
