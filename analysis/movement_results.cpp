@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "analysis/groups/summary.h"
+#include "analysis/magnitude_section.h"
 #include "analysis/presentation_use.h"
 #include "analysis/study_results.h"
 
@@ -26,17 +26,6 @@ constexpr Quantity kQuantities[] = {
 
 using Rows = std::vector<core::PresentationRow>;
 using ByParticipant = std::map<std::string, double>;
-
-void add(ResultsSection& section, const std::string& name, const std::string& unit,
-         const std::string& meaning, const std::vector<double>& values) {
-  const Summary summary = summary_of(values);
-  section.estimates.push_back({.name = name,
-                               .value = summary.mean,
-                               .ci95 = summary.mean_ci95,
-                               .unit = unit,
-                               .meaning = meaning,
-                               .n = summary.num_values});
-}
 
 Rows all_presentations(const ParticipantData& participant) {
   Rows all;
@@ -79,7 +68,7 @@ void add_whole(ResultsSection& section, const StudyData& data, const Quantity& q
       section.excluded.push_back({participant.participant, why_missing(quantity, rows)});
     }
   }
-  add(section, quantity.name, quantity.unit, quantity.meaning, whole);
+  add_mean(section, quantity.name, quantity.meaning, whole, quantity.unit);
 }
 
 /// Mean of a participant's mean over references and mean over tests: with a mean over all
@@ -150,10 +139,10 @@ void compare(ResultsSection& section, const Quantity& quantity, const Weighing& 
     b.push_back(other->second);
     differences.push_back(mean - other->second);
   }
-  add(section, std::string(quantity.name) + "." + first + "_minus_" + second + weighing.suffix,
-      quantity.unit,
-      std::string(quantity.meaning) + ", difference of the two blocks" + weighing.meaning,
-      differences);
+  add_mean(section,
+           std::string(quantity.name) + "." + first + "_minus_" + second + weighing.suffix,
+           std::string(quantity.meaning) + ", difference of the two blocks" + weighing.meaning,
+           differences, quantity.unit);
   const std::string name =
       first + " - " + second + ": " + quantity.name + weighing.words + ", ";
   section.comparisons.push_back({name + "paired", paired_t_test(a, b)});
@@ -168,8 +157,8 @@ void add_blocks(ResultsSection& section, const StudyData& data, const Quantity& 
   std::map<std::string, ByParticipant> by_block;
   for (const std::string& block : blocks) {
     by_block[block] = means_of(data, block, quantity, weighing);
-    add(section, std::string(quantity.name) + "." + block + weighing.suffix, quantity.unit,
-        quantity.meaning + weighing.meaning, values_of(by_block[block]));
+    add_mean(section, std::string(quantity.name) + "." + block + weighing.suffix,
+             quantity.meaning + weighing.meaning, values_of(by_block[block]), quantity.unit);
   }
   for (std::size_t i = 0; i + 1 < blocks.size(); ++i) {
     compare(section, quantity, weighing, blocks[i], by_block[blocks[i]], blocks[i + 1],

@@ -26,6 +26,9 @@ struct Estimate {
   bool implied = false;     ///< It follows, nearly or wholly, from values that were.
   bool primary = false;     ///< It answers what its block asks; see `mark_primary`.
   int n = 0;                ///< Participants it rests on.
+
+  /// Whether there is a published finding to compare with.
+  [[nodiscard]] bool is_published() const { return published || published_positive; }
 };
 
 struct ExcludedParticipant {
@@ -59,6 +62,12 @@ struct FreeAnswer {
   std::string question;  ///< As it was asked.
   std::string answer;
 };
+
+/// Of an estimate or a participant's; 0 where there is none, or none with a value.
+template <typename AnyEstimate>
+[[nodiscard]] double value_or_0(const AnyEstimate* estimate) {
+  return estimate == nullptr ? 0.0 : estimate->value.value_or(0.0);
+}
 
 struct ResultsSection {
   std::string name;  ///< "magnitude_estimation", "group_d", "movement" ...

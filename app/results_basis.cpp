@@ -10,10 +10,6 @@ std::string basis_of(const Estimate& estimate) {
   return estimate.implied ? "implied" : "held out";
 }
 
-bool is_published(const Estimate& estimate) {
-  return estimate.published || estimate.published_positive;
-}
-
 std::optional<bool> holds_published(const Estimate& estimate) {
   const Interval& ci95 = estimate.ci95;
   if (estimate.published_positive && ci95.low) return *ci95.low > 0.0;

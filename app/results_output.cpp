@@ -68,8 +68,8 @@ json to_json(const analysis::StudyResults& results) {
            {"published_sd", number(estimate.published_sd)},
            {"published_positive", estimate.published_positive},
            {"calibrated", estimate.calibrated},
-           {"basis", results.simulated && is_published(estimate) ? json(basis_of(estimate))
-                                                                 : json(nullptr)},
+           {"basis", results.simulated && estimate.is_published() ? json(basis_of(estimate))
+                                                                  : json(nullptr)},
            {"published_inside_ci95", inside ? json(*inside) : json(nullptr)},
            {"primary", estimate.primary},
            {"n", estimate.n}});

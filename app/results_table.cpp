@@ -99,7 +99,7 @@ std::string explained_row(const Estimate& estimate, int width) {
       fmt::format("  {:<{}} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name, width,
                   text_of(estimate.name, estimate.value), text(estimate.ci95, estimate.value),
                   estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
-  if (is_published(estimate)) line += "; published " + published_text(estimate);
+  if (estimate.is_published()) line += "; published " + published_text(estimate);
   return line + "\n";
 }
 
@@ -272,7 +272,7 @@ std::string to_comparison_table(const analysis::StudyResults& results) {
     bool first = true;
     for (const analysis::ResultsSection& section : results.sections) {
       for (const Estimate& estimate : section.estimates) {
-        if (!is_published(estimate) || basis_of(estimate) != basis) continue;
+        if (!estimate.is_published() || basis_of(estimate) != basis) continue;
         // Of a stiff hand, say, whose fingers cannot trail.
         if (!estimate.value && estimate.published_positive) continue;
         if (first && results.simulated) {

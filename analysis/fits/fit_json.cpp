@@ -1,26 +1,11 @@
 #include "analysis/fits/fit_json.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
+#include "analysis/fits/json_values.h"
 #include "analysis/fits/psychometric_json.h"
 
 namespace jnd::analysis {
-namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-Json interval(const Interval& ends) {
-  return Json::array({number(ends.low), number(ends.high)});
-}
-
-Json sentence(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
-}  // namespace
+using namespace json_values;
 
 Json to_json(const PsychometricFit& fit) {
   Json json;

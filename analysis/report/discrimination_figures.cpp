@@ -39,10 +39,6 @@ struct BlockAnswers {
   bool has_fixed_levels = true;          ///< See `has_fixed_levels`.
 };
 
-double value_or_0(const ParticipantEstimate* own) {
-  return own == nullptr ? 0.0 : own->value.value_or(0.0);
-}
-
 BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
   BlockAnswers all{.block = block.block,
                    .title = source.words.title_of(block.block),

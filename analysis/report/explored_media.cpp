@@ -54,16 +54,6 @@ FigureTable means_table(const std::vector<ExploredMedium>& media) {
   return table;
 }
 
-double most(const FigureTable& table, const Quantity& quantity) {
-  const auto column = static_cast<std::size_t>(std::ranges::find(table.columns, quantity.name) -
-                                               table.columns.begin());
-  double most = 0.0;
-  for (const std::vector<FigureCell>& row : table.rows) {
-    most = std::max(most, row[column].number.value_or(0.0));
-  }
-  return most;
-}
-
 }  // namespace
 
 std::vector<ExploredMedium> explored_media(const FigureSource& source,
@@ -108,7 +98,7 @@ std::vector<Figure> explored_figures(const FigureSource& source,
     panel.before = "  set xrange [0.4:" + plot_number(static_cast<double>(media.size()) + 0.6) +
                    "]\n" + named_tics("x", titles, /*upright=*/true) +
                    "  set xtics font small\n  set yrange [0:*]\n" +
-                   small_tics("y", {0.0, most(table, quantity)}) + "  set ylabel " +
+                   small_tics("y", {0.0, largest_in(table, quantity.name)}) + "  set ylabel " +
                    gnuplot_quoted(quantity.axis) + "\n";
     panel.plot = "plot " + from_table(means) + "(column('position')-0.25):'" + quantity.name +
                  "':(0.5):(0.0) with vectors nohead ls 11, " + from_table(table) +

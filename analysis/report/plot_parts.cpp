@@ -22,6 +22,16 @@ std::string if_series(int series, const std::string& column) {
   return "(column('series')==" + std::to_string(series) + " ? column('" + column + "') : NaN)";
 }
 
+double largest_in(const FigureTable& table, const std::string& column) {
+  const auto place = static_cast<std::size_t>(std::ranges::find(table.columns, column) -
+                                              table.columns.begin());
+  double largest = 0.0;
+  for (const std::vector<FigureCell>& row : table.rows) {
+    largest = std::max(largest, row[place].number.value_or(0.0));
+  }
+  return largest;
+}
+
 double grid_height_in(const PanelGrid& grid, std::size_t num_panels, double panel_in) {
   const auto columns = static_cast<std::size_t>(grid.num_columns);
   const auto rows = static_cast<double>((num_panels + columns - 1) / columns);

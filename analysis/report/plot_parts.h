@@ -15,6 +15,9 @@ namespace jnd::analysis {
 /// "'TABLE.csv' using ".
 [[nodiscard]] std::string from_table(const FigureTable& table);
 
+/// The largest number in a column of a table; 0 where none is larger.
+[[nodiscard]] double largest_in(const FigureTable& table, const std::string& column);
+
 /// "(column('series')==3 ? column('mean') : NaN)": one series of a table.
 [[nodiscard]] std::string if_series(int series, const std::string& column);
 

@@ -14,11 +14,6 @@ constexpr double kManyMissing = 0.10;
 
 std::string percent_words(double ratio) { return number_words(100.0 * ratio, 0) + " %"; }
 
-std::string in_words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 /// Of each block and interval as a whole.
 std::vector<PresentationUse> by_interval(const std::vector<PresentationUse>& uses) {
   std::vector<PresentationUse> wholes;

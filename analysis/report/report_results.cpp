@@ -11,10 +11,6 @@
 namespace jnd::analysis {
 namespace {
 
-bool is_published(const Estimate& estimate) {
-  return estimate.published || estimate.published_positive;
-}
-
 std::string published_words(const Estimate& estimate) {
   if (estimate.published_positive && !estimate.published) return "> 0";
   if (!estimate.published) return "–";
@@ -50,7 +46,7 @@ std::vector<std::string> published_notes(const std::vector<const Estimate*>& est
 }
 
 std::string basis_words(const Estimate& estimate) {
-  if (!is_published(estimate)) return "–";
+  if (!estimate.is_published()) return "–";
   if (estimate.calibrated) return "calibrated";
   return estimate.implied ? "implied" : "held out";
 }
@@ -105,7 +101,8 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
 void write_estimates(HtmlText& html, const StudyResults& results,
                      const ResultsSection& section) {
   const bool any_published =
-      std::any_of(section.estimates.begin(), section.estimates.end(), is_published);
+      std::any_of(section.estimates.begin(), section.estimates.end(),
+                  [](const Estimate& estimate) { return estimate.is_published(); });
   HtmlTable table{.caption = "Estimates",
                   .columns = {{"Estimate, and what it is", false, true},
                               {"Value", true},
@@ -123,7 +120,7 @@ void write_estimates(HtmlText& html, const StudyResults& results,
     if (any_published) row.push_back(published_words(estimate));
     if (any_published && results.simulated) row.push_back(basis_words(estimate));
     table.rows.push_back(std::move(row));
-    if (is_published(estimate)) published.push_back(&estimate);
+    if (estimate.is_published()) published.push_back(&estimate);
   }
   table.notes = published_notes(published);
   html.table(table);
@@ -298,7 +295,7 @@ HtmlTable published_table(const StudyResults& results) {
   if (results.simulated) table.columns.push_back({"Basis"});
   for (const ResultsSection& section : results.sections) {
     for (const Estimate& estimate : section.estimates) {
-      if (!is_published(estimate)) continue;
+      if (!estimate.is_published()) continue;
       published.push_back(&estimate);
       std::vector<std::string> row = {estimate.name, number_words(estimate.value),
                                       interval_words(estimate.ci95, estimate.value),

@@ -42,16 +42,6 @@ FigureTable strokes_table(const FigureSource& source) {
   return table;
 }
 
-double most(const FigureTable& table, const Quantity& quantity) {
-  const auto column = static_cast<std::size_t>(std::ranges::find(table.columns, quantity.name) -
-                                               table.columns.begin());
-  double most = 0.0;
-  for (const std::vector<FigureCell>& row : table.rows) {
-    most = std::max(most, row[column].number.value_or(0.0));
-  }
-  return most;
-}
-
 }  // namespace
 
 std::vector<Figure> stroke_figures(const FigureSource& source) {
@@ -73,7 +63,7 @@ std::vector<Figure> stroke_figures(const FigureSource& source) {
         "  set xrange [0.3:" + plot_number(static_cast<double>(people.size()) + 0.7) + "]\n" +
         named_tics("x", people, people.size() > 16) +
         "  set yrange [0:*]\n  set offsets 0,0,graph 0.06,0\n" +
-        small_tics("y", {0.0, most(table, quantity)}) + "  set ylabel " +
+        small_tics("y", {0.0, largest_in(table, quantity.name)}) + "  set ylabel " +
         gnuplot_quoted(quantity.axis) + "\n" +
         (panels.empty()
              ? "  set key at screen 0.5,0.99 center top horizontal reverse Left samplen 1\n"

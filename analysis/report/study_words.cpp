@@ -80,12 +80,12 @@ void collect(const json& list, StudyWords& words) {
   for (const json& stage : list) collect_stage(stage, words);
 }
 
+}  // namespace
+
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
-
-}  // namespace
 
 std::string StudyWords::title_of(const std::string& block) const {
   const auto found = titles.find(block);

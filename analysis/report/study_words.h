@@ -36,6 +36,8 @@ struct StudyWords {
 /// Of a study file's text; empty words for a text that is no study.
 [[nodiscard]] StudyWords study_words_of(const std::string& protocol_text);
 
+/// "test first" of "test_first".
+[[nodiscard]] std::string in_words(std::string name);
 /// "viscosity", "scaling factor": what varies, from the quantity's name.
 [[nodiscard]] std::string quantity_words(const std::string& quantity);
 /// "Viscosity [Pa s]", for an axis.

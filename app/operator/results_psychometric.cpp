@@ -80,11 +80,6 @@ std::string pooled_reason(const analysis::ResultsSection& section, const std::st
   return "no value";
 }
 
-template <typename Value>
-double value_or_0(const Value* found) {
-  return found == nullptr ? 0.0 : found->value.value_or(0.0);
-}
-
 /// For whoever answered, not for whoever fits.
 std::string in_plain_words(const std::string& reason) {
   if (reason.find("separated") == std::string::npos) return reason;
