@@ -1,6 +1,7 @@
 #include "analysis/report/report_results.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -98,25 +99,42 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
           count};
 }
 
+HtmlTable estimates_table(const std::string& caption) {
+  return {.caption = caption,
+          .columns = {{"Estimate, and what it is", false, true},
+                      {"Value", true},
+                      {"95 % interval", true},
+                      {"Unit"},
+                      {"n", true}}};
+}
+
+std::vector<std::string> estimate_row(const Estimate& estimate) {
+  return {estimate.name + "\n" + estimate.meaning, number_words(estimate.value),
+          interval_words(estimate.ci95, estimate.value), unit_words(estimate.unit),
+          std::to_string(estimate.n)};
+}
+
+/// Of all sections.
+template <typename Condition>
+std::vector<const Estimate*> estimates_where(const StudyResults& results, Condition condition) {
+  std::vector<const Estimate*> found;
+  for (const ResultsSection& section : results.sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (std::invoke(condition, estimate)) found.push_back(&estimate);
+    }
+  }
+  return found;
+}
+
 void write_estimates(HtmlText& html, const StudyResults& results,
                      const ResultsSection& section) {
-  const bool any_published =
-      std::any_of(section.estimates.begin(), section.estimates.end(),
-                  [](const Estimate& estimate) { return estimate.is_published(); });
-  HtmlTable table{.caption = "Estimates",
-                  .columns = {{"Estimate, and what it is", false, true},
-                              {"Value", true},
-                              {"95 % interval", true},
-                              {"Unit"},
-                              {"n", true}}};
+  const bool any_published = std::ranges::any_of(section.estimates, &Estimate::is_published);
+  HtmlTable table = estimates_table("Estimates");
   if (any_published) table.columns.push_back({"Published", true});
   if (any_published && results.simulated) table.columns.push_back({"Basis"});
   std::vector<const Estimate*> published;
   for (const Estimate& estimate : section.estimates) {
-    std::vector<std::string> row = {estimate.name + "\n" + estimate.meaning,
-                                    number_words(estimate.value),
-                                    interval_words(estimate.ci95, estimate.value),
-                                    unit_words(estimate.unit), std::to_string(estimate.n)};
+    std::vector<std::string> row = estimate_row(estimate);
     if (any_published) row.push_back(published_words(estimate));
     if (any_published && results.simulated) row.push_back(basis_words(estimate));
     table.rows.push_back(std::move(row));
@@ -257,20 +275,9 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
 
 /// What each block was asked for.
 HtmlTable primary_table(const StudyResults& results) {
-  HtmlTable table{.caption = "Primary values",
-                  .columns = {{"Estimate, and what it is", false, true},
-                              {"Value", true},
-                              {"95 % interval", true},
-                              {"Unit"},
-                              {"n", true}}};
-  for (const ResultsSection& section : results.sections) {
-    for (const Estimate& estimate : section.estimates) {
-      if (!estimate.primary) continue;
-      table.rows.push_back({estimate.name + "\n" + estimate.meaning,
-                            number_words(estimate.value),
-                            interval_words(estimate.ci95, estimate.value),
-                            unit_words(estimate.unit), std::to_string(estimate.n)});
-    }
+  HtmlTable table = estimates_table("Primary values");
+  for (const Estimate* estimate : estimates_where(results, &Estimate::primary)) {
+    table.rows.push_back(estimate_row(*estimate));
   }
   return table;
 }
@@ -291,18 +298,15 @@ HtmlTable published_table(const StudyResults& results) {
                               {"95 % interval", true},
                               {"Unit"},
                               {"Published", true}}};
-  std::vector<const Estimate*> published;
   if (results.simulated) table.columns.push_back({"Basis"});
-  for (const ResultsSection& section : results.sections) {
-    for (const Estimate& estimate : section.estimates) {
-      if (!estimate.is_published()) continue;
-      published.push_back(&estimate);
-      std::vector<std::string> row = {estimate.name, number_words(estimate.value),
-                                      interval_words(estimate.ci95, estimate.value),
-                                      unit_words(estimate.unit), published_words(estimate)};
-      if (results.simulated) row.push_back(basis_words(estimate));
-      table.rows.push_back(std::move(row));
-    }
+  const std::vector<const Estimate*> published =
+      estimates_where(results, &Estimate::is_published);
+  for (const Estimate* estimate : published) {
+    std::vector<std::string> row = {estimate->name, number_words(estimate->value),
+                                    interval_words(estimate->ci95, estimate->value),
+                                    unit_words(estimate->unit), published_words(*estimate)};
+    if (results.simulated) row.push_back(basis_words(*estimate));
+    table.rows.push_back(std::move(row));
   }
   table.notes = published_notes(published);
   if (results.simulated) {
