@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/fits/bounded_interval.h"
-#include "app/gui/views/layout.h"
+#include "app/gui/views/results_cards.h"
 #include "app/gui/views/results_parts.h"
 #include "app/gui/views/results_plots.h"
 
@@ -13,28 +13,12 @@ namespace {
 
 using namespace results;
 
-/// Of the participant chosen; nullptr for one without.
-template <typename Group>
-auto figure_of(const Group& group, const std::string& who) -> decltype(&group.pooled) {
-  if (who == kEveryone) return &group.pooled;
-  const auto found = std::find_if(group.participants.begin(), group.participants.end(),
-                                  [&](const auto& one) { return one.who == who; });
-  return found == group.participants.end() ? nullptr : &*found;
-}
-
 std::string joined(const std::vector<std::string>& parts) {
   std::string all;
   for (const std::string& part : parts) {
     if (!part.empty()) all += (all.empty() ? "" : " · ") + part;
   }
   return all;
-}
-
-/// The number in large letters, then what belongs to it.
-void draw_value(Ui& ui, Rect line, const std::string& value, const std::string& detail) {
-  const float width = ui.text_width(value, Font::kLarge) + 2;
-  ui.text(line.take_left(width, 12), value, {.font = Font::kLarge});
-  ui.text(line, detail, {.font = Font::kSmall, .colour = Colour::kSoft});
 }
 
 void draw_discrimination(Ui& ui, const Rect& place, const Discrimination& block,
@@ -46,12 +30,8 @@ void draw_discrimination(Ui& ui, const Rect& place, const Discrimination& block,
     return draw_notice(ui, inside, who + " has no answers in " + block.title + ".");
   }
   if (!figure->weber_fraction) {
-    const TextStyle amber{.colour = Colour::kAmber, .wrap = true};
-    const std::string words = "No curve: " + figure->reason + ".";
-    const Rect why = inside.take_bottom(ui.text_height(inside.width, words, amber), 8);
-    (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
-    ui.text(why, words, amber);
-    return;
+    return draw_without_value(ui, inside, psychometric_plot(block, *figure),
+                              "No curve: " + figure->reason + ".");
   }
   const Rect value = inside.take_bottom(30, 4);
   (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
@@ -211,22 +191,6 @@ void draw_magnitude(Ui& ui, const Rect& place, const Magnitude& magnitude,
   (void)draw_plot(ui, inside, magnitude_plot(magnitude, *figure));
 }
 
-/// As many side by side as have room; scrolls where there are more rows than that.
-template <typename Item, typename Draw>
-void draw_grid(Ui& ui, const Rect& place, const std::vector<Item>& items, float least_width,
-               float least_height, const Draw& draw) {
-  const auto count = static_cast<int>(items.size());
-  const int most = std::max(1, static_cast<int>((place.width + kGap) / (least_width + kGap)));
-  const int columns = std::min(count, most);
-  const int num_rows = (count + columns - 1) / columns;
-  const auto rows = static_cast<float>(num_rows);
-  const float height = std::max(least_height, (place.height - kGap * (rows - 1)) / rows);
-  const Rect inside = ui.begin_scroll("figures", place, rows * (height + kGap) - kGap);
-  const std::vector<Rect> cards = grid_of(inside, count, columns, height);
-  for (std::size_t i = 0; i < cards.size(); ++i) draw(cards[i], items[i]);
-  ui.end_scroll();
-}
-
 }  // namespace
 
 std::string two_digits(double value) {
@@ -244,7 +208,7 @@ void draw_curves_page(Ui& ui, Rect place, const ResultsModel& results,
                       ResultsViewState& state) {
   draw_summary(ui, place.take_bottom(summary_height(place, 280, state), kGap), results, state);
   const std::string who = shown_participant(results, state);
-  draw_grid(ui, place, results.discriminations, 340, 270,
+  draw_grid(ui, "figures", place, results.discriminations, 340, 270,
             [&](const Rect& card, const Discrimination& block) {
               draw_discrimination(ui, card, block, who);
             });
@@ -258,7 +222,7 @@ void draw_magnitudes_page(Ui& ui, Rect place, const ResultsModel& results,
                  state);
   }
   const std::string who = shown_participant(results, state);
-  draw_grid(ui, place, results.magnitudes, 480, 330,
+  draw_grid(ui, "figures", place, results.magnitudes, 480, 330,
             [&](const Rect& card, const Magnitude& magnitude) {
               draw_magnitude(ui, card, magnitude, who);
             });

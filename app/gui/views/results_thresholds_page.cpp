@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/gui/views/layout.h"
+#include "app/gui/views/results_cards.h"
 #include "app/gui/views/results_parts.h"
 #include "app/gui/views/results_plots.h"
 
@@ -13,12 +13,6 @@ using namespace results;
 
 constexpr double kPercent = 100.0;
 
-const ThresholdFigure* figure_of(const Threshold& block, const std::string& who) {
-  if (who == kEveryone) return &block.pooled;
-  const auto found = std::ranges::find(block.participants, who, &ThresholdFigure::who);
-  return found == block.participants.end() ? nullptr : &*found;
-}
-
 void draw_threshold(Ui& ui, const Rect& place, const Threshold& block, const std::string& who) {
   ui.card(place);
   Rect inside = place.inset(kPadding);
@@ -27,18 +21,12 @@ void draw_threshold(Ui& ui, const Rect& place, const Threshold& block, const std
     return draw_notice(ui, inside, who + " has no answers in " + block.title + ".");
   }
   if (figure->value.empty()) {
-    const TextStyle amber{.colour = Colour::kAmber, .wrap = true};
-    const std::string words = "No value: " + figure->reason + ".";
-    const Rect why = inside.take_bottom(ui.text_height(inside.width, words, amber), 8);
-    (void)draw_plot(ui, inside, threshold_plot(block, *figure));
-    ui.text(why, words, amber);
-    return;
+    return draw_without_value(ui, inside, threshold_plot(block, *figure),
+                              "No value: " + figure->reason + ".");
   }
-  Rect line = inside.take_bottom(30, 4);
+  const Rect line = inside.take_bottom(30, 4);
   (void)draw_plot(ui, inside, threshold_plot(block, *figure));
-  const float width = ui.text_width(figure->value, Font::kLarge) + 2;
-  ui.text(line.take_left(width, 12), figure->value, {.font = Font::kLarge});
-  ui.text(line, figure->detail, {.font = Font::kSmall, .colour = Colour::kSoft});
+  draw_value(ui, line, figure->value, figure->detail);
 }
 
 void add_points(PlotModel& plot, const std::vector<Point>& points, PlotSeries look,
@@ -106,21 +94,10 @@ PlotModel threshold_plot(const Threshold& block, const ThresholdFigure& figure) 
 
 void draw_thresholds_page(Ui& ui, const Rect& place, const ResultsModel& results,
                           ResultsViewState& state) {
-  constexpr float kLeastWidth = 340;
-  constexpr float kLeastHeight = 270;
   const std::string who = shown_participant(results, state);
-  const auto count = static_cast<int>(results.thresholds.size());
-  const int most = std::max(1, static_cast<int>((place.width + kGap) / (kLeastWidth + kGap)));
-  const int columns = std::min(count, most);
-  const int num_rows = (count + columns - 1) / columns;
-  const auto rows = static_cast<float>(num_rows);
-  const float height = std::max(kLeastHeight, (place.height - kGap * (rows - 1)) / rows);
-  const Rect inside = ui.begin_scroll("thresholds", place, rows * (height + kGap) - kGap);
-  const std::vector<Rect> cards = grid_of(inside, count, columns, height);
-  for (std::size_t i = 0; i < cards.size(); ++i) {
-    draw_threshold(ui, cards[i], results.thresholds[i], who);
-  }
-  ui.end_scroll();
+  draw_grid(
+      ui, "thresholds", place, results.thresholds, 340, 270,
+      [&](const Rect& card, const Threshold& block) { draw_threshold(ui, card, block, who); });
 }
 
 }  // namespace jnd::app::gui
