@@ -226,8 +226,8 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
   return section;
 }
 
-ResultsSection discrimination_comparison(const StudyData& data, const BlockDesign& first,
-                                         const BlockDesign& second) {
+ResultsSection discrimination_comparison(const StudyData& data, const ComparedBlocks& blocks) {
+  const auto& [first, second, is_planned] = blocks;
   ResultsSection section{.name = first.block + "_against_" + second.block};
   const Everybody first_answers = discrimination_answers(data, first, false, section.excluded);
   const Everybody second_answers =
@@ -238,7 +238,7 @@ ResultsSection discrimination_comparison(const StudyData& data, const BlockDesig
     section.comparisons.push_back(
         {pair + "ln ln(1 + w) of the median person, hierarchical, " +
              (free_pse ? "pse free" : "pse at the reference") +
-             (free_pse == frees ? " (primary)" : " (secondary)"),
+             (free_pse == frees && is_planned ? " (primary)" : " (secondary)"),
          median_person_difference(
              first_answers, first, second_answers, second,
              free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference)});

@@ -1,7 +1,6 @@
 #include "analysis/study_results.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "analysis/exploratory_results.h"
 #include "analysis/primary_results.h"
@@ -79,9 +78,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
                        .num_participants = static_cast<int>(data.participants.size())};
   const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
   const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
-  std::vector<BlockDesign> discriminations;
-  std::ranges::copy_if(data.blocks, std::back_inserter(discriminations),
-                       &BlockDesign::compares);
+  const std::vector<BlockDesign> discriminations = comparing_blocks(data);
   for (const BlockDesign& block : estimations) {
     results.sections.push_back(estimation_results(data, block, options));
   }
@@ -101,9 +98,8 @@ StudyResults results_of(const StudyData& data, const Published& published,
   for (const BlockDesign& block : data.blocks) {
     add_threshold_sections(results.sections, data, block, options);
   }
-  for (std::size_t i = 0; i + 1 < discriminations.size(); ++i) {
-    results.sections.push_back(
-        discrimination_comparison(data, discriminations[i], discriminations[i + 1]));
+  for (const ComparedBlocks& pair : compared_blocks(discriminations, options.compared)) {
+    results.sections.push_back(discrimination_comparison(data, pair));
   }
   results.sections.push_back(movement_results(data));
   if (ResultsSection exploratory = exploratory_results(data, results.sections);
@@ -115,6 +111,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
 
   mark_primary(results, data);
   mark_movement_family(results.sections);
+  mark_planned_family(results.sections);
   adjust_by_family(results.sections);
   for (ResultsSection& section : results.sections) {
     const bool counts_alike = std::ranges::all_of(data.blocks, [&](const BlockDesign& block) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/compared_blocks.h"
 #include "analysis/fits/fit_status.h"
 #include "analysis/groups/comparison.h"
 #include "analysis/published.h"
@@ -95,10 +96,12 @@ struct StudyResults {
 struct ResultsOptions {
   int num_resamples = 1000;  ///< Of participants, for group intervals.
   std::uint64_t seed = 1;    ///< Of the resampling.
+  /// Blocks whose Weber fractions are compared; none: as `compared_blocks` chooses.
+  std::vector<BlockNames> compared{};
 };
 
 /// Group intervals are percentiles over resampled participants: a likelihood interval of pooled
-/// answers would ignore that people differ. Not real time.
+/// answers would ignore that people differ. Throws `Error` as `compared_blocks`. Not real time.
 [[nodiscard]] StudyResults results_of(const StudyData& data, const Published& published,
                                       const ResultsOptions& options = {});
 
@@ -117,8 +120,7 @@ struct ResultsOptions {
                                                     const BlockDesign& block,
                                                     const ResultsOptions& options);
 [[nodiscard]] ResultsSection discrimination_comparison(const StudyData& data,
-                                                       const BlockDesign& first,
-                                                       const BlockDesign& second);
+                                                       const ComparedBlocks& blocks);
 [[nodiscard]] ResultsSection movement_results(const StudyData& data);
 
 /// One participant's mean over presentations of test and reference that hold a whole stroke:

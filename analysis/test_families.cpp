@@ -20,6 +20,17 @@ void mark_movement_family(std::vector<ResultsSection>& sections) {
   }
 }
 
+void mark_planned_family(std::vector<ResultsSection>& sections) {
+  std::vector<NamedComparison*> planned;
+  for (ResultsSection& section : sections) {
+    for (NamedComparison& named : section.comparisons) {
+      if (named.primary) planned.push_back(&named);
+    }
+  }
+  if (planned.size() < 2) return;
+  for (NamedComparison* named : planned) named->family = kPlannedFamily;
+}
+
 void adjust_by_family(std::vector<ResultsSection>& sections) {
   std::map<std::string, std::vector<NamedComparison*>> families;
   for (ResultsSection& section : sections) {

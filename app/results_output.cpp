@@ -5,10 +5,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "app/command.h"
 #include "app/results_basis.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "app/study_data.h"
+#include "core/error.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::app {
@@ -33,6 +35,16 @@ std::string shipped(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+/// Before the work is done: what is asked for there is not is a wrong use of the option.
+void require_compared(const analysis::StudyData& data,
+                      const analysis::ResultsOptions& options) {
+  try {
+    (void)analysis::compared_blocks(analysis::comparing_blocks(data), options.compared);
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
 }  // namespace
 
 analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
@@ -44,6 +56,7 @@ analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
 
 analysis::StudyResults results_of_data(const analysis::StudyData& data,
                                        const analysis::ResultsOptions& options) {
+  require_compared(data, options);
   analysis::StudyResults results = analysis::results_of(
       data, analysis::published_for(data.study, share_folder() / "data" / "published"),
       options);

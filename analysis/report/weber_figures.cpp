@@ -59,6 +59,14 @@ FigureTable fractions_table(const FigureSource& source,
   return table;
 }
 
+/// Where a figure of all these blocks stands: with the first comparison there is.
+std::string section_of(const StudyResults& results, const std::vector<BlockDesign>& blocks) {
+  for (const ResultsSection& section : results.sections) {
+    if (section.name.find("_against_") != std::string::npos) return section.name;
+  }
+  return blocks.front().block;
+}
+
 /// D.21.
 std::optional<Figure> fractions_figure(const FigureSource& source,
                                        const std::vector<BlockDesign>& blocks) {
@@ -76,8 +84,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   range.high = std::min(range.high * 1.6, 1e3);
   const std::vector<std::string> people = source.participants();
   Figure figure{.name = "weber_fractions",
-                .section = blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block
-                                             : blocks[0].block,
+                .section = section_of(source.results, blocks),
                 .title = "Weber fraction of every participant",
                 .thesis = "Fig. D.21",
                 .height_in = 3.1};
@@ -156,8 +163,7 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
   const bool of_thesis = is_of_thesis(source.results);
   Figure figure{
       .name = of_thesis ? "absolute_thresholds" : "difference_thresholds",
-      .section =
-          blocks.size() > 1 ? blocks[0].block + "_against_" + blocks[1].block : blocks[0].block,
+      .section = section_of(source.results, blocks),
       .title = "Difference thresholds",
       .caption =
           "The difference from the reference that is told in 84.13 % of trials: "

@@ -6,6 +6,7 @@
 
 #include "analysis/report/report.h"
 #include "app/commands/commands.h"
+#include "app/compare_option.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/participant_list.h"
@@ -49,24 +50,14 @@ std::optional<PowerShard> shard_of(const std::string& text) {
                    "`");
 }
 
-std::optional<std::pair<std::string, std::string>> compare_of(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos || comma == 0 || comma + 1 == text.size() ||
-      text.find(',', comma + 1) != std::string::npos) {
-    throw UsageError(
-        "--compare: expected two names of blocks, such as group_d,group_e, found `" + text +
-        "`");
-  }
-  return std::pair(text.substr(0, comma), text.substr(comma + 1));
-}
-
 int run(const Options& options) {
+  std::optional<analysis::BlockNames> compared;
+  if (!options.compare.empty()) compared = compared_names(options.compare);
   const PowerRequest request = {
       .sizes = participant_list(options.participants, "--participants"),
       .num_runs = options.runs,
       .seed = options.seed,
-      .compare = compare_of(options.compare),
+      .compare = compared,
       .free_pse = !options.pse_at_reference,
       .hierarchical = options.hierarchical,
       .null_hypothesis = options.null_hypothesis};

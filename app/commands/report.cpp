@@ -2,8 +2,12 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/commands/commands.h"
+#include "app/compare_option.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/progress_bar.h"
@@ -18,6 +22,7 @@ struct Options {
   bool pilot = false;
   bool json = false;
   int jobs = 2;
+  std::vector<std::string> compare;  ///< "group_d,group_e"
   analysis::ResultsOptions results;
 };
 
@@ -44,12 +49,14 @@ nlohmann::json to_json(const analysis::StudyResults& results, const Options& opt
 }
 
 StudyReport written(const Options& options) {
+  analysis::ResultsOptions results = options.results;
+  results.compared = compared_names(options.compare);
   ProgressBar bar("report");
   return write_study_report({.folder = options.folder,
                              .out = options.out,
                              .pilot = options.pilot,
                              .jobs = options.jobs,
-                             .results = options.results,
+                             .results = std::move(results),
                              .on_progress = [&bar](double done) { bar.show(done); }});
 }
 
@@ -87,6 +94,7 @@ void add_report(CLI::App& program, Invocation& invocation) {
                    "Resampled participants for group intervals")
       ->check(whole_number(100, 1000000))
       ->capture_default_str();
+  add_compare_option(*command, options->compare);
   command->add_option("--seed", options->results.seed, "Of the resampling")
       ->check(seed_number())
       ->capture_default_str();

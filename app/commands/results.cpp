@@ -2,11 +2,14 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/movement/delivered_intensity.h"
 #include "analysis/movement/recorded_results.h"
 #include "app/commands/commands.h"
+#include "app/compare_option.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/results_output.h"
@@ -21,6 +24,7 @@ struct Options {
   bool json = false;
   bool delivered = false;
   bool movement = false;
+  std::vector<std::string> compare;  ///< "group_d,group_e"
   analysis::ResultsOptions results;
 };
 
@@ -31,7 +35,8 @@ nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
           {"num_left_out", study.num_left_out}};
 }
 
-int run(const Options& options) {
+int run(Options options) {
+  options.results.compared = compared_names(options.compare);
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
   analysis::DeliveredStudy study{.data = load_study_data(store)};
@@ -70,6 +75,7 @@ void add_results(CLI::App& program, Invocation& invocation) {
                    "Resampled participants for group intervals")
       ->check(whole_number(100, 1000000))
       ->capture_default_str();
+  add_compare_option(*command, options->compare);
   command->add_option("--seed", options->results.seed, "Of the resampling")
       ->check(seed_number())
       ->capture_default_str();

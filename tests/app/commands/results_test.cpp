@@ -139,6 +139,29 @@ TEST_F(ResultsCommandTest, PrintsTheNamesOfTheContractForTheDiscriminationStudy)
   EXPECT_TRUE(compared);
 }
 
+TEST_F(ResultsCommandTest, ComparesTheBlocksThatAreAskedFor) {
+  simulate("viscosity_pairs", "p.study", 3);
+  const auto against = [this](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"results", "p.study", "--resamples", "100", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    std::vector<std::string> names;
+    const auto json = document(jnd(words).out);
+    for (const auto& section : json["sections"]) {
+      const std::string name = section["name"];
+      if (name.find("_against_") != std::string::npos) names.push_back(name);
+    }
+    return names;
+  };
+  EXPECT_EQ(against({}).size(), 3U) << "every two of three references";
+  EXPECT_EQ(against({"--compare", "pairs_thick,pairs_thin"}),
+            std::vector<std::string>{"pairs_thick_against_pairs_thin"});
+  for (const char* wrong : {"pairs_thick", "pairs_thick,none", "pairs_thin,pairs_thin"}) {
+    const ProgramOutcome outcome = jnd({"results", "p.study", "--compare", wrong});
+    EXPECT_EQ(outcome.exit_code, 2) << wrong;
+    EXPECT_NE(outcome.err.find("--compare: expected two"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(ResultsCommandTest, TheTableSaysThatItIsSimulatedAndShowsNoNan) {
   simulate("viscosity_discrimination", "v.study", 3);
   const ProgramOutcome outcome = jnd({"results", "v.study", "--resamples", "100"});

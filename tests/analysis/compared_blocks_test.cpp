@@ -1,0 +1,107 @@
+#include "analysis/compared_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/hand_made_study.h"
+#include "analysis/study_results.h"
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+BlockDesign block(const std::string& name, const std::string& procedure = "constant_stimuli",
+                  const std::string& quantity = "viscosity_pa_s") {
+  return {
+      .block = name, .procedure = procedure, .quantity = quantity, .reference_intensity = 2};
+}
+
+std::vector<std::string> pairs(const std::vector<BlockDesign>& blocks,
+                               const std::vector<BlockNames>& asked = {}) {
+  std::vector<std::string> names;
+  for (const ComparedBlocks& pair : compared_blocks(blocks, asked)) {
+    names.push_back(pair.first.block + pair.second.block + (pair.is_planned ? "!" : ""));
+  }
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(ComparedBlocks, AreEveryTwoOfAQuantity) {
+  EXPECT_EQ(pairs({block("a"), block("b"), block("c")}), (Names{"ab!", "ac!", "bc!"}));
+  EXPECT_EQ(
+      pairs({block("a"), block("s", "constant_stimuli", "stiffness_n_per_m"), block("b")}),
+      Names{"ab!"});
+  EXPECT_EQ(pairs({block("a")}), Names{});
+}
+
+TEST(ComparedBlocks, OfManyAreEachWithTheNext) {
+  EXPECT_EQ(pairs({block("a"), block("b"), block("c"), block("d"), block("e"), block("f")}),
+            (Names{"ab!", "bc!", "cd!", "de!", "ef!"}));
+}
+
+TEST(ComparedBlocks, OfOtherProceduresStandBesideThePlannedOnesUnlessThereAreNone) {
+  EXPECT_EQ(pairs({block("a"), block("q", "quest_plus"), block("b")}),
+            (Names{"aq", "ab!", "qb"}));
+  EXPECT_EQ(pairs({block("a"), block("q", "quest_plus")}), Names{"aq!"});
+  BlockDesign intervals = block("i");
+  intervals.protocol.task = "two_interval";
+  EXPECT_EQ(pairs({block("a"), intervals, block("b")}), (Names{"ai", "ab!", "ib"}));
+}
+
+TEST(ComparedBlocks, AreThoseAskedForInTheirOrder) {
+  EXPECT_EQ(pairs({block("a"), block("q", "quest_plus"), block("b")}, {{"b", "a"}, {"a", "q"}}),
+            (Names{"ba!", "aq!"}));
+}
+
+TEST(ComparedBlocks, RefuseWhatCannotBeCompared) {
+  const std::vector<BlockDesign> blocks = {block("a"),
+                                           block("s", "constant_stimuli", "stiffness_n_per_m")};
+  const auto problem = [&](const BlockNames& asked) -> std::string {
+    try {
+      (void)compared_blocks(blocks, {asked});
+    } catch (const core::Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(problem({"a", "x"}),
+            "--compare: expected two of the blocks with a Weber fraction (a, s), found `x`");
+  EXPECT_EQ(problem({"a", "a"}), "--compare: expected two different blocks, found `a` twice");
+  EXPECT_EQ(problem({"a", "s"}),
+            "--compare: expected two blocks of the same quantity, found viscosity_pa_s in `a` "
+            "and stiffness_n_per_m in `s`");
+}
+
+/// Three blocks of three people.
+StudyResults results(const std::vector<BlockNames>& compared) {
+  HandMadeStudy study;
+  for (const char* person : {"P01", "P02", "P03"}) {
+    study.add(person);
+    study.compare_ten("thin", 7);
+    study.compare_ten("middle", 8);
+    study.compare_ten("thick", person == std::string("P01") ? 7 : 9);
+  }
+  return results_of(load_study(study.store()), {},
+                    {.num_resamples = 100, .compared = compared});
+}
+
+Names primary_tests(const StudyResults& results, bool holm) {
+  Names names;
+  for (const ResultsSection& section : results.sections) {
+    for (const NamedComparison& named : section.comparisons) {
+      if (!named.primary) continue;
+      EXPECT_EQ(named.p_value_holm.has_value(), holm) << named.name;
+      names.push_back(section.name);
+    }
+  }
+  return names;
+}
+
+TEST(ComparedBlocks, SeveralPlannedTestsAreOneFamilyAndOneStandsAlone) {
+  EXPECT_EQ(primary_tests(results({}), true),
+            (Names{"middle_against_thick", "middle_against_thin", "thick_against_thin"}));
+  EXPECT_EQ(primary_tests(results({{"thin", "thick"}}), false), Names{"thin_against_thick"});
+}
+
+}  // namespace
+}  // namespace jnd::analysis
