@@ -197,13 +197,15 @@ std::optional<double> value_of_everybody(const Study& study, const Laboratory& l
   const AnswerSimulator simulator(study, laboratory);
   const PlannedAnalysis of_all{.blocks = {block}, .sizes = {static_cast<int>(kPeople)}};
   for (const Cell& cell : cells_of(study)) {
-    const std::vector<StageInstance> stages = stages_of(study, cell);
+    std::vector<StageInstance> stages = stages_of(study, cell);
+    std::erase_if(stages, [&](const StageInstance& instance) {
+      return instance.stage->name != block.name;
+    });
+    if (stages.empty()) continue;
     std::vector<PlannedPerson> people;
     for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
       people.push_back(person_of(of_all, simulator.answers(stages, seed)));
-      if (people.front().front().magnitudes.empty()) break;
     }
-    if (people.size() < kPeople) continue;
     return analysis::analyse_run(of_all, people).front().estimates.front().value;
   }
   return std::nullopt;

@@ -1,6 +1,10 @@
 #include "experiments/procedures/quest_plus_procedure.h"
 
 #include <algorithm>
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "experiments/adaptive/level_scale.h"
 #include "experiments/procedures/adaptive_trial.h"
@@ -120,13 +124,35 @@ QuestPlusRule quest_plus_rule_of(const Block& block) {
   return rule;
 }
 
+/// Of a block's rule: its tables take longer to make than to use, and every trial needs them.
+/// Each thread keeps those of the blocks that it has drawn from last.
+static std::shared_ptr<const QuestPlus> quest_of(const Block& block) {
+  struct Known {
+    std::vector<double> intensities;
+    Settings settings;
+    std::shared_ptr<const QuestPlus> quest;
+  };
+  constexpr std::size_t kMost = 4;
+  thread_local std::deque<Known> all_known;
+  for (const Known& known : all_known) {
+    if (known.intensities == block.intensities && known.settings == block.settings) {
+      return known.quest;
+    }
+  }
+  if (all_known.size() == kMost) all_known.pop_front();
+  auto quest = std::make_shared<const QuestPlus>(quest_plus_rule_of(block));
+  all_known.push_back({block.intensities, block.settings, std::move(quest)});
+  return all_known.back().quest;
+}
+
 std::vector<PlannedTrial> QuestPlusProcedure::draw_next(
     const Block& block, const std::vector<AnsweredTrial>& answered,
     core::RandomStream& stream) const {
-  const QuestPlus quest(quest_plus_rule_of(block));
-  const QuestPlusPosterior posterior = quest.posterior(level_answers(answered));
-  if (quest.end(posterior) != QuestPlusEnd::kNotFinished) return {};
-  return {adaptive_trial(block, answered, quest.next_intensity(posterior, stream), 0, stream)};
+  const std::shared_ptr<const QuestPlus> quest = quest_of(block);
+  const QuestPlusPosterior posterior = quest->posterior(level_answers(answered));
+  if (quest->end(posterior) != QuestPlusEnd::kNotFinished) return {};
+  const double level = quest->next_intensity(posterior, stream);
+  return {adaptive_trial(block, answered, level, 0, stream)};
 }
 
 int QuestPlusProcedure::expected_trials(const Block& block) const noexcept {

@@ -18,6 +18,8 @@ class Settings {
 
   void set(const std::string& key, Value value) { values_[key] = std::move(value); }
 
+  [[nodiscard]] bool operator==(const Settings&) const = default;
+
   [[nodiscard]] bool has(const std::string& key) const { return values_.contains(key); }
   [[nodiscard]] double number(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key, double otherwise) const;
