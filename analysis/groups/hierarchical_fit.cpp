@@ -247,6 +247,16 @@ void fill_conditions(HierarchicalFit& fit, const Arranged& all,
   }
 }
 
+/// Of the difference of two slope numbers, the sandwich's; 0 where people's scores are alike
+/// but for rounding.
+double difference_variance(const HierarchicalOptimum& found, Eigen::Index second) {
+  constexpr double kRounding = 1e-12;
+  const double by_model = found.covariance(second, second) + found.covariance(0, 0) -
+                          2.0 * found.covariance(second, 0);
+  const double by_people = (found.influence.row(second) - found.influence.row(0)).squaredNorm();
+  return by_people > kRounding * by_model ? by_people : 0.0;
+}
+
 void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
                       HierarchicalLink link) {
   const double sign = link == HierarchicalLink::kLogSlope ? -1.0 : 1.0;
@@ -255,8 +265,7 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
     HierarchicalDifference one{.first = fit.conditions[0].condition,
                                .second = fit.conditions[second].condition};
     one.estimate = sign * (found.parameters(at) - found.parameters(0));
-    const double variance =
-        found.covariance(at, at) + found.covariance(0, 0) - 2.0 * found.covariance(at, 0);
+    const double variance = difference_variance(found, at);
     const int n =
         std::min(fit.conditions[0].num_participants, fit.conditions[second].num_participants);
     if (n >= 2 && variance > 0.0) {
@@ -328,6 +337,14 @@ std::string why_no_curve(const Arranged& all) {
   return "";
 }
 
+void tell_alike_people(HierarchicalFit& fit) {
+  const bool any = std::ranges::any_of(
+      fit.differences, [](const HierarchicalDifference& one) { return !one.standard_error; });
+  if (!any) return;
+  fit.note += fit.note.empty() ? "" : "; ";
+  fit.note += "no interval of a difference: people's answers are all alike";
+}
+
 /// One person says nothing of a median person: no value for such a condition, nor for a
 /// difference with it.
 void leave_out_single_people(HierarchicalFit& fit) {
@@ -394,6 +411,7 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   fill_spread(fit, structure, found);
   fill_lapse_rate(fit, structure, found);
   leave_out_single_people(fit);
+  tell_alike_people(fit);
   const std::vector<Eigen::VectorXd> modes = likelihood.modes(found.parameters);
   for (std::size_t person = 0; person < all.people.size(); ++person) {
     for (const HierarchicalCell& cell : all.people[person]) {

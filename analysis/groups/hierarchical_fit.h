@@ -107,7 +107,13 @@ struct HierarchicalFit {
 ///
 /// Intervals are Wald's on the slope number with Student's t at participants - 1 and its error
 /// grown by sqrt(n / (n - 1)), because maximum likelihood has the spread of few people too
-/// small; data/reference/coverage has what they cover.
+/// small; data/reference/coverage has what they cover. A condition's error is of the observed
+/// information A. A difference's is of the sandwich A^-1 (sum of s s^T) A^-1 over people's
+/// scores s (Huber 1967; Liang and Zeger 1986), which with many answers is that of the paired t
+/// test. By A alone a difference's interval is too wide: most of its error is the chance of the
+/// answers, which is known and yet gets the t of a spread of n people, and a spread of
+/// differences that is estimated cannot be below 0. Where the scores are all alike there is no
+/// interval.
 ///
 /// `degenerate` where a condition's pooled answers are, or with fewer than two participants.
 /// Throws `core::Error` for references or counts as `fit_psychometric`, references that differ

@@ -191,15 +191,15 @@ HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalP
   return mode;
 }
 
-double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
-                                          Eigen::VectorXd* gradient) const {
+Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& parameters,
+                                                  Eigen::MatrixXd* scores) const {
   const Population population = population_of(parameters);
-  if (gradient != nullptr) gradient->setZero(structure_.num_parameters);
+  const auto num_people = static_cast<Eigen::Index>(people_.size());
+  if (scores != nullptr) scores->setZero(structure_.num_parameters, num_people);
   std::vector<double> log_term(grid_.node.size());
   std::vector<RandomEffects> effects(grid_.node.size());
   std::vector<Score> score(grid_.node.size());
-  double by_lapse_rate = 0.0;
-  double total = 0.0;
+  Eigen::VectorXd values(num_people);
   for (std::size_t person = 0; person < people_.size(); ++person) {
     const Mode mode = mode_of(people_[person], population, last_[person]);
     last_[person] = mode.at;
@@ -211,31 +211,46 @@ double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
       score[k] = {.numbers = Numbers::Zero(structure_.num_numbers())};
       log_term[k] =
           log_likelihood(people_[person], population.at(effects[k]), population.lapse_rate,
-                         gradient != nullptr ? &score[k] : nullptr) +
+                         scores != nullptr ? &score[k] : nullptr) +
           0.5 * (grid_.node[k].squaredNorm() - effects[k].squaredNorm()) +
           std::log(grid_.weight[k]);
       largest = std::max(largest, log_term[k]);
     }
     double sum = 0.0;
     for (const double term : log_term) sum += std::exp(term - largest);
-    total += largest + std::log(sum) - lower.diagonal().array().log().sum();
-    if (gradient == nullptr) continue;
+    const auto column = static_cast<Eigen::Index>(person);
+    values(column) = largest + std::log(sum) - lower.diagonal().array().log().sum();
+    if (scores == nullptr) continue;
+    double by_lapse_rate = 0.0;
     for (std::size_t k = 0; k < grid_.node.size(); ++k) {
       const double share = std::exp(log_term[k] - largest) / sum;
       for (int number = 0; number < structure_.num_numbers(); ++number) {
-        (*gradient)(number) += share * score[k].numbers(number);
+        (*scores)(number, column) += share * score[k].numbers(number);
       }
       for (const HierarchicalStructure::Loading& one : structure_.loadings) {
-        (*gradient)(one.parameter) +=
+        (*scores)(one.parameter, column) +=
             share * score[k].numbers(one.number) * effects[k](one.random_effect);
       }
       by_lapse_rate += share * score[k].lapse_rate;
     }
+    if (population.lapse_rate > 0.0) {
+      (*scores)(structure_.angle_at(), column) =
+          0.5 * std::sin(2.0 * parameters(structure_.angle_at())) * by_lapse_rate;
+    }
   }
-  if (gradient != nullptr && population.lapse_rate > 0.0) {
-    const double angle = parameters(structure_.angle_at());
-    (*gradient)(structure_.angle_at()) =
-        0.5 * std::sin(2.0 * angle) * by_lapse_rate - 2.0 * kPriorPower * std::tan(angle);
+  return values;
+}
+
+double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
+                                          Eigen::VectorXd* gradient) const {
+  Eigen::MatrixXd scores;
+  const double total = of_people(parameters, gradient != nullptr ? &scores : nullptr).sum();
+  if (gradient != nullptr) {
+    *gradient = scores.rowwise().sum();
+    if (structure_.lapse_rate(parameters) > 0.0) {
+      const int angle_at = structure_.angle_at();
+      (*gradient)(angle_at) -= 2.0 * kPriorPower * std::tan(parameters(angle_at));
+    }
   }
   return total + structure_.log_prior(parameters);
 }

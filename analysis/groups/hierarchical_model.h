@@ -89,6 +89,13 @@ class HierarchicalLikelihood {
   [[nodiscard]] double operator()(const Eigen::VectorXd& parameters,
                                   Eigen::VectorXd* gradient = nullptr) const;
 
+  /// Each person's, without the prior. `scores`, where wanted, has a column a person: the
+  /// gradient of that value, as above.
+  [[nodiscard]] Eigen::VectorXd of_people(const Eigen::VectorXd& parameters,
+                                          Eigen::MatrixXd* scores = nullptr) const;
+
+  [[nodiscard]] std::size_t num_people() const noexcept { return people_.size(); }
+
   /// In all dimensions together.
   [[nodiscard]] std::size_t num_nodes() const noexcept { return grid_.node.size(); }
 

@@ -13,28 +13,49 @@ namespace {
 /// Beyond this a number of the median person has run away: ln slope, say, to a step.
 constexpr double kRunAway = 25.0;
 
+/// Of a value or of one for each person, by each parameter in turn: central differences of
+/// fourth order (Abramowitz and Stegun 25.3.6), handed to `take` with the parameter's place.
+template <typename Function, typename Take>
+void differentiate(const Function& function, const Eigen::VectorXd& at, const Take& take) {
+  constexpr double kStep = 1e-4;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const auto value = [&](double step) {
+      Eigen::VectorXd moved = at;
+      moved(i) += step;
+      return function(moved);
+    };
+    take(i, (8.0 * (value(kStep) - value(-kStep)) - value(2.0 * kStep) + value(-2.0 * kStep)) /
+                (12.0 * kStep));
+  }
+}
+
 /// Fisher's where there are several nodes; it is the exact integral's, and one node is too far
-/// from that: then by central differences of fourth order (Abramowitz and Stegun 25.3.6).
+/// from that: then by differences.
 Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
                             const Eigen::VectorXd& at) {
+  Eigen::VectorXd gradient(at.size());
   if (likelihood.num_nodes() > 1) {
-    Eigen::VectorXd gradient;
     (void)likelihood(at, &gradient);
     return gradient;
   }
-  constexpr double kStep = 1e-4;
-  Eigen::VectorXd gradient(at.size());
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    Eigen::VectorXd moved = at;
-    const auto value = [&](double step) {
-      moved(i) = at(i) + step;
-      return likelihood(moved);
-    };
-    gradient(i) =
-        (8.0 * (value(kStep) - value(-kStep)) - value(2.0 * kStep) + value(-2.0 * kStep)) /
-        (12.0 * kStep);
-  }
+  differentiate([&](const Eigen::VectorXd& moved) { return likelihood(moved); }, at,
+                [&](Eigen::Index i, double slope) { gradient(i) = slope; });
   return gradient;
+}
+
+/// A column a person, as `gradient_of`, without the prior.
+Eigen::MatrixXd scores_of(const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at) {
+  Eigen::MatrixXd scores;
+  if (likelihood.num_nodes() > 1) {
+    (void)likelihood.of_people(at, &scores);
+    return scores;
+  }
+  scores.resize(at.size(), static_cast<Eigen::Index>(likelihood.num_people()));
+  differentiate([&](const Eigen::VectorXd& moved) { return likelihood.of_people(moved); }, at,
+                [&](Eigen::Index i, const Eigen::VectorXd& slopes) {
+                  scores.row(i) = slopes.transpose();
+                });
+  return scores;
 }
 
 Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
@@ -143,6 +164,8 @@ HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
       inverse = inverse_here();
       if (inverse.rising) return found;
       found.covariance = std::move(inverse.matrix);
+      const Eigen::MatrixXd scores = scores_of(likelihood, found.parameters);
+      found.influence = found.covariance * (scores.colwise() - scores.rowwise().mean().eval());
       found.status = FitStatus::kOk;
       found.reason.clear();
       return found;

@@ -11,7 +11,10 @@ struct HierarchicalOptimum {
   FitStatus status = FitStatus::kNotRun;
   std::string reason;  ///< "" where there is an optimum.
   Eigen::VectorXd parameters;
-  Eigen::MatrixXd covariance;   ///< Inverse of the observed information.
+  Eigen::MatrixXd covariance;  ///< Inverse of the observed information.
+  /// Of each person, a column, on each parameter: covariance times score. The scores' mean,
+  /// which only a prior keeps from 0, is taken off.
+  Eigen::MatrixXd influence;
   double log_likelihood = 0.0;  ///< And log prior.
 };
 

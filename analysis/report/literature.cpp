@@ -49,6 +49,10 @@ constexpr Work kWorks[] = {
     {"Holm 1979",
      "Holm, S. (1979). A simple sequentially rejective multiple test procedure. Scandinavian "
      "Journal of Statistics 6, 65-70."},
+    {"Huber 1967",
+     "Huber, P. J. (1967). The behavior of maximum likelihood estimates under nonstandard "
+     "conditions. Proceedings of the Fifth Berkeley Symposium on Mathematical Statistics and "
+     "Probability 1, 221-233."},
     {"Kaernbach 1991",
      "Kaernbach, C. (1991). Simple adaptive testing with the weighted up-down method. "
      "Perception & Psychophysics 49, 227-229."},
@@ -64,6 +68,9 @@ constexpr Work kWorks[] = {
     {"Levitt 1971",
      "Levitt, H. (1971). Transformed up-down methods in psychoacoustics. Journal of the "
      "Acoustical Society of America 49, 467-477."},
+    {"Liang and Zeger 1986",
+     "Liang, K.-Y., Zeger, S. L. (1986). Longitudinal data analysis using generalized linear "
+     "models. Biometrika 73, 13-22."},
     {"Macmillan and Creelman 2005",
      "Macmillan, N. A., Creelman, C. D. (2005). Detection theory: a user’s guide (2nd ed.). "
      "Erlbaum."},

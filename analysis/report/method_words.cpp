@@ -157,7 +157,11 @@ void Writer::write_hierarchical() {
           "). The estimand is the median person’s Weber fraction, which a curve "
           "through pooled answers flattens. Intervals and tests are Wald’s on ln ln(1 + w), "
           "with the standard error times √(n / (n − 1)) and Student’s t with n − 1 degrees of "
-          "freedom, n being the number of participants; nobody with answers is left out.");
+          "freedom, n being the number of participants; the standard error of one condition is "
+          "of the observed information, that of a difference of the sandwich over "
+          "participants’ scores (" +
+          cite("Huber 1967") + "; " + cite("Liang and Zeger 1986") +
+          "); nobody with answers is left out.");
 }
 
 void Writer::write_power_laws() {

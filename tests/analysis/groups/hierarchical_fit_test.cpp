@@ -185,6 +185,53 @@ TEST(HierarchicalFit, ADifferenceCanBeReckonedAgainFromWhatIsTold) {
       << "Student's t with 6 degrees of freedom";
 }
 
+/// People whose ln ln(1 + w) differ between two conditions by ln of `factors`.
+std::vector<ParticipantAnswers> people_with_differences(const std::vector<double>& factors,
+                                                        std::int64_t num_trials) {
+  std::vector<ParticipantAnswers> all;
+  for (const double factor : factors) {
+    const std::string name = "P" + std::to_string(all.size());
+    const double first = 0.4 + 0.02 * static_cast<double>(all.size() % 3);
+    all.push_back(exact_answers(name, std::expm1(first), 1.0, num_trials, "d"));
+    all.push_back(exact_answers(name, std::expm1(first * factor), 1.0, num_trials, "e"));
+  }
+  return all;
+}
+
+TEST(HierarchicalFit, WithManyAnswersADifferenceIsThatOfThePairedTTest) {
+  const std::vector<double> factors = {0.6, 0.9, 0.7, 1.1, 0.8, 0.65};
+  const HierarchicalFit fit =
+      fit_hierarchical(people_with_differences(factors, 20000), kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  // Mean of ln of the factors, and their sd (n - 1) over the root of six, by hand.
+  EXPECT_NEAR(fit.differences[0].estimate, -0.255246, 1e-3);
+  EXPECT_NEAR(*fit.differences[0].standard_error, 0.091798, 1e-3);
+}
+
+TEST(HierarchicalFit, ADifferenceMayBeSurerThanAnswersByChanceWouldLeaveIt) {
+  // These people differ by less than the chance of twelve answers a level. By chance alone a
+  // difference has the error of a condition times the root of two, and a paired t test less.
+  const std::vector<double> factors = {0.68, 0.7, 0.72, 0.69, 0.71, 0.7};
+  const HierarchicalFit fit =
+      fit_hierarchical(people_with_differences(factors, 12), kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_LT(*fit.differences[0].standard_error, 0.8 * *fit.conditions[0].slope_standard_error);
+}
+
+TEST(HierarchicalFit, PeopleAllAlikeLeaveADifferenceWithoutAnInterval) {
+  std::vector<ParticipantAnswers> all;
+  for (const char* name : {"P1", "P2", "P3", "P4"}) {
+    all.push_back(exact_answers(name, 0.5, 1.0, 20, "d"));
+    all.push_back(exact_answers(name, 0.3, 1.0, 20, "e"));
+  }
+  const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_FALSE(fit.differences[0].standard_error);
+  EXPECT_FALSE(fit.differences[0].ci95.low);
+  EXPECT_FALSE(fit.differences[0].p_value);
+  EXPECT_NE(fit.note.find("all alike"), std::string::npos) << fit.note;
+}
+
 TEST(HierarchicalFit, ACorrelationAtItsBoundIsSaid) {
   std::vector<ParticipantAnswers> answers;
   int number = 0;

@@ -127,6 +127,39 @@ TEST(HierarchicalReference, AFitWithLapsesAgreesWithTheIntegralOnAFineGrid) {
   near(*fit.log_likelihood, "log_likelihood");
 }
 
+TEST(HierarchicalReference, ADifferencesErrorAgreesWithTheSandwichOnAFineGrid) {
+  std::ifstream in(test_support::source_folder().string() +
+                   "/data/reference/hierarchical/hierarchical_difference.json");
+  const json one = json::parse(in);
+  std::vector<ParticipantAnswers> answers;
+  for (const json& row : one.at("rows")) {
+    const std::string participant = row[0], condition = row[1];
+    if (answers.empty() || answers.back().condition != condition) {
+      answers.push_back({participant, condition, one.at("references").at(condition), {}});
+    }
+    answers.back().rows.push_back({row[2], row[3], row[4]});
+  }
+  const HierarchicalFit fit = fit_hierarchical(answers, {.pse = HierarchicalPse::kCommon,
+                                                         .lapses = HierarchicalLapses::kCommon,
+                                                         .num_nodes = 35});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  const json& expected = one.at("expected");
+  const auto near = [](double found, double wanted, const char* what) {
+    EXPECT_NEAR(found, wanted, 2e-6 * std::max(std::fabs(wanted), 0.1)) << what;
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    near(fit.conditions[i].slope_number, expected.at("slopes")[i], "slope");
+    near(fit.conditions[i].place_number, expected.at("places")[i], "place");
+    near(fit.conditions[i].slope_sd, expected.at("slope_sds")[i], "slope sd");
+    near(*fit.conditions[i].slope_standard_error, expected.at("slope_standard_errors")[i],
+         "standard error");
+  }
+  near(*fit.lapse_rate, expected.at("lapse_rate"), "lapse rate");
+  near(fit.differences[0].estimate, expected.at("difference"), "difference");
+  near(*fit.differences[0].standard_error, expected.at("difference_standard_error"),
+       "standard error of the difference");
+}
+
 TEST(HierarchicalReference, TheUsualNumberOfNodesIsNearTheIntegral) {
   for (const json& one : reference().at("cases")) {
     if (one.at("link") != "linear") expect_fit(one, 0, 3e-3);
