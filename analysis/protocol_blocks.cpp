@@ -1,29 +1,24 @@
 #include "analysis/protocol_blocks.h"
 
-#include <nlohmann/json.hpp>
+#include "analysis/json_fields.h"
 
 namespace jnd::analysis {
 namespace {
 
 using nlohmann::json;
 
-std::string word_at(const json& object, const char* key, const std::string& otherwise) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
-}
-
 ProtocolBlock block_of(const json& stage) {
   ProtocolBlock block;
-  block.task = word_at(stage, "task", block.task);
+  block.task = string_at(stage, "task", block.task);
   block.is_practice = stage.contains("practice");
   const auto feedback = stage.find("feedback");
   block.feedback = feedback != stage.end() && feedback->is_boolean() && feedback->get<bool>();
-  block.modulus = word_at(stage, "modulus", block.modulus);
+  block.modulus = string_at(stage, "modulus", block.modulus);
   const auto number = stage.find("modulus_value");
   if (number != stage.end() && number->is_number() && number->get<double>() > 0.0) {
     block.modulus_value = number->get<double>();
   }
-  const std::string medium = word_at(stage, "standard_medium", "none");
+  const std::string medium = string_at(stage, "standard_medium", "none");
   if (medium == "none") return block;
   block.standard_medium = medium;
   const std::string start = "standard_";
@@ -42,10 +37,10 @@ void add_blocks(const json& object, const char* key,
   if (found == object.end() || !found->is_array()) return;
   for (const json& stage : *found) {
     if (!stage.is_object()) continue;
-    if (word_at(stage, "kind", "") == "block") {
+    if (string_at(stage, "kind") == "block") {
       ProtocolBlock block = block_of(stage);
       block.place = static_cast<int>(blocks.size());
-      blocks[word_at(stage, "name", "")] = std::move(block);
+      blocks[string_at(stage, "name")] = std::move(block);
     }
     for (const char* nested : {"arms", "stages", "between"}) add_blocks(stage, nested, blocks);
   }

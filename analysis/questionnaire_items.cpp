@@ -1,7 +1,8 @@
 #include "analysis/questionnaire_items.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "analysis/json_fields.h"
 
 namespace jnd::analysis {
 namespace {
@@ -9,22 +10,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kDefaultSteps = 10;  ///< What the format says of a scale without `num_steps`.
-
-std::string string_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-/// A text of the study file: one string, or one a language.
-std::string text_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end()) return "";
-  if (found->is_string()) return found->get<std::string>();
-  if (!found->is_object() || found->empty()) return "";
-  const std::string english = string_at(*found, "en");
-  return english.empty() && found->begin()->is_string() ? found->begin()->get<std::string>()
-                                                        : english;
-}
 
 /// The objects in a list; none where there is no list.
 std::vector<json> objects_at(const json& object, const char* key) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include "analysis/json_fields.h"
 
 namespace jnd::analysis {
 namespace {
@@ -45,13 +46,6 @@ std::vector<BidsBlock> blocks_of_trials(const core::StudyStore& store,
   return blocks;
 }
 
-std::string medium_of(const core::EventRow& event) {
-  const nlohmann::json data = nlohmann::json::parse(event.data, nullptr, false);
-  if (!data.is_object()) return "";
-  const auto found = data.find("medium");
-  return found != data.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 std::string stage_name(const std::vector<std::string>& names, std::int64_t stage) {
   const auto place = static_cast<std::size_t>(stage);
   if (stage >= 0 && place < names.size() && !names[place].empty()) return names[place];
@@ -74,7 +68,7 @@ std::vector<BidsBlock> explored_stages(const std::vector<core::EventRow>& events
       stage->second.first_tick = *event.first_tick;
     }
     widen(stage->second, *event.first_tick, *event.last_tick);
-    stage->second.explored.push_back({.medium = medium_of(event),
+    stage->second.explored.push_back({.medium = string_at(object_in(event.data), "medium"),
                                       .intensity = event.intensity,
                                       .first_tick = *event.first_tick,
                                       .last_tick = *event.last_tick});

@@ -1,31 +1,15 @@
 #include "analysis/export/bids_dataset.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "analysis/export/bids_text.h"
+#include "analysis/json_fields.h"
 
 namespace jnd::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-ordered_json parsed(const core::ProtocolRow& protocol) {
-  ordered_json json = ordered_json::parse(protocol.text, nullptr, false);
-  return json.is_object() ? json : ordered_json::object();
-}
-
-/// A text of a study file, in English where it has that.
-std::string text_at(const ordered_json& protocol, const char* key) {
-  const auto found = protocol.find(key);
-  if (found == protocol.end()) return "";
-  if (found->is_string()) return found->get<std::string>();
-  if (!found->is_object() || found->empty()) return "";
-  const auto english = found->find("en");
-  const ordered_json& text = english != found->end() ? *english : *found->begin();
-  return text.is_string() ? text.get<std::string>() : "";
-}
 
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
@@ -36,7 +20,7 @@ std::string joined(const std::vector<std::string>& texts) {
 std::string title_of(const BidsDataset& dataset) {
   std::vector<std::string> titles;
   for (const core::ProtocolRow& protocol : dataset.protocols) {
-    const ordered_json json = parsed(protocol);
+    const ordered_json json = object_in<ordered_json>(protocol.text);
     std::string title = text_at(json, "title");
     if (title.empty()) title = text_at(json, "name");
     if (title.empty()) title = protocol.file_name;
@@ -48,7 +32,7 @@ std::string title_of(const BidsDataset& dataset) {
 std::vector<std::string> authors_of(const BidsDataset& dataset) {
   std::vector<std::string> authors;
   for (const core::ProtocolRow& protocol : dataset.protocols) {
-    const ordered_json json = parsed(protocol);
+    const ordered_json json = object_in<ordered_json>(protocol.text);
     const auto found = json.find("authors");
     if (found == json.end() || !found->is_array()) continue;
     for (const ordered_json& author : *found) {
@@ -124,7 +108,7 @@ std::string readme(const fs::path& folder, const BidsDataset& dataset) {
         "was asked.\n\n";
   }
   for (const core::ProtocolRow& protocol : dataset.protocols) {
-    const std::string about = text_at(parsed(protocol), "description");
+    const std::string about = text_at(object_in<ordered_json>(protocol.text), "description");
     if (!about.empty()) text += about + "\n\n";
   }
   text +=

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/json_fields.h"
 #include "analysis/protocol_blocks.h"
 
 namespace jnd::analysis {
@@ -67,13 +67,6 @@ PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& p
                       plan.levels.contains(row.intensity)};
 }
 
-std::string medium_of(const core::EventRow& event) {
-  const json data = json::parse(event.data, nullptr, /*allow_exceptions=*/false);
-  if (!data.is_object()) return "";
-  const auto found = data.find("medium");
-  return found != data.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 void add_explored(const core::StudyStore& store, std::int64_t session,
                   std::vector<PlannedPresentation>& all) {
   const std::vector<core::EventRow> events = store.events(session);
@@ -84,7 +77,7 @@ void add_explored(const core::StudyStore& store, std::int64_t session,
   for (const core::EventRow& event : events) {
     if (event.kind != "medium_explored" || superseded.contains(event.sequence)) continue;
     if (!event.first_tick || !event.last_tick) continue;
-    const std::string medium = medium_of(event);
+    const std::string medium = string_at(object_in(event.data), "medium");
     const double intensity = event.intensity.value_or(0.0);
     all.push_back({.movement = {.session = session,
                                 .medium = medium,

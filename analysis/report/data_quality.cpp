@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "analysis/json_fields.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
@@ -14,16 +14,6 @@ namespace jnd::analysis {
 namespace {
 
 using nlohmann::json;
-
-json data_of(const core::EventRow& event) {
-  json data = json::parse(event.data, nullptr, /*allow_exceptions=*/false);
-  return data.is_object() ? data : json::object();
-}
-
-std::string text_in(const json& data, const char* key) {
-  const auto found = data.find(key);
-  return found != data.end() && found->is_string() ? found->get<std::string>() : "";
-}
 
 std::int64_t number_in(const json& data, const char* key) {
   const auto found = data.find(key);
@@ -99,23 +89,23 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
     if (event.kind == "session_resumed") ++quality.num_resumed;
     if (event.kind == "paused") ++quality.num_paused;
     if (event.kind == "loop_started") timing.loop_started();
-    if (event.kind == "loop_measured") timing.measured(data_of(event));
+    if (event.kind == "loop_measured") timing.measured(object_in(event.data));
     if (event.kind == "attempt_discarded") {
       ++quality.num_discarded;
-      remark(trial_words(event) + " run again: " + text_in(data_of(event), "reason"));
+      remark(trial_words(event) + " run again: " + string_at(object_in(event.data), "reason"));
     }
     if (event.kind == "trial_excluded" || event.kind == "trial_included") {
       remark(trial_words(event) +
              (event.kind == "trial_excluded" ? " set aside: " : " taken back in: ") +
-             text_in(data_of(event), "reason"));
+             string_at(object_in(event.data), "reason"));
     }
     if (event.kind == "fault_raised") {
       ++quality.num_faults;
-      remark("fault: " + text_in(data_of(event), "fault"));
+      remark("fault: " + string_at(object_in(event.data), "fault"));
     }
-    if (event.kind == "note_added") remark("note: " + text_in(data_of(event), "text"));
+    if (event.kind == "note_added") remark("note: " + string_at(object_in(event.data), "text"));
     if (event.kind == "session_ended_early") {
-      quality.ended_early = text_in(data_of(event), "reason");
+      quality.ended_early = string_at(object_in(event.data), "reason");
       if (quality.ended_early.empty()) quality.ended_early = "no reason given";
       remark("ended early: " + quality.ended_early);
     }

@@ -1,25 +1,14 @@
 #include "analysis/report/study_words.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "analysis/json_fields.h"
 #include "analysis/quantity_unit.h"
 
 namespace jnd::analysis {
 namespace {
 
 using nlohmann::json;
-
-/// Of an object of languages the English text, or the first one; a plain text as it is.
-std::string text_in(const json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end()) return "";
-  if (found->is_string()) return found->get<std::string>();
-  if (!found->is_object() || found->empty()) return "";
-  const auto english = found->find("en");
-  const json& text = english == found->end() ? *found->begin() : *english;
-  return text.is_string() ? text.get<std::string>() : "";
-}
 
 void collect(const json& list, StudyWords& words);
 
@@ -43,9 +32,9 @@ void collect_practice(const json& block, StudyWords& words) {
   if (practice == block.end() || !practice->is_object()) return;
   const auto feedback = block.find("feedback");
   PracticeWords found{
-      .block = text_in(block, "name"),
-      .procedure = text_in(block, "procedure"),
-      .task = text_in(block, "task"),
+      .block = text_at(block, "name"),
+      .procedure = text_at(block, "procedure"),
+      .task = text_at(block, "task"),
       .min_correct_ratio = number_in(*practice, "min_correct_ratio"),
       .num_trials_judged = static_cast<int>(number_in(*practice, "num_trials_judged")),
       .max_trials = static_cast<int>(number_in(*practice, "max_trials")),
@@ -64,10 +53,10 @@ void collect_practice(const json& block, StudyWords& words) {
 
 void collect_stage(const json& stage, StudyWords& words) {
   if (!stage.is_object()) return;
-  const std::string name = text_in(stage, "name");
-  const std::string title = text_in(stage, "title");
+  const std::string name = text_at(stage, "name");
+  const std::string title = text_at(stage, "title");
   if (!name.empty() && !title.empty()) words.titles.emplace(name, title);
-  const std::string question = text_in(stage, "question");
+  const std::string question = text_at(stage, "question");
   if (!name.empty() && !question.empty()) words.questions.emplace(name, question);
   collect_practice(stage, words);
   for (const char* key : {"stages", "items", "arms", "between"}) {
@@ -101,11 +90,11 @@ StudyWords study_words_of(const std::string& protocol_text) {
   StudyWords words;
   const json study = json::parse(protocol_text, nullptr, /*allow_exceptions=*/false);
   if (!study.is_object()) return words;
-  words.title = text_in(study, "title");
-  if (words.title.empty()) words.title = in_words(text_in(study, "name"));
-  words.description = text_in(study, "description");
-  words.citation = text_in(study, "citation");
-  words.blinding = text_in(study, "blinding");
+  words.title = text_at(study, "title");
+  if (words.title.empty()) words.title = in_words(text_at(study, "name"));
+  words.description = text_at(study, "description");
+  words.citation = text_at(study, "citation");
+  words.blinding = text_at(study, "blinding");
   if (const auto authors = study.find("authors");
       authors != study.end() && authors->is_array()) {
     for (const json& author : *authors) {
