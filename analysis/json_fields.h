@@ -29,7 +29,10 @@ template <typename Json>
   const auto found = object.find(key);
   if (found == object.end() || !found->is_object()) return string_at(object, key);
   if (found->contains("en")) return string_at(*found, "en");
-  return found->empty() ? "" : string_at(*found, found->begin().key().c_str());
+  for (const auto& [language, words] : found->items()) {
+    if (language != "comment") return string_at(*found, language.c_str());
+  }
+  return "";
 }
 
 }  // namespace jnd::analysis
