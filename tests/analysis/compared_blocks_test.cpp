@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+
 #include "analysis/hand_made_study.h"
 #include "analysis/study_results.h"
 #include "core/error.h"
@@ -75,11 +78,12 @@ TEST(ComparedBlocks, RefuseWhatCannotBeCompared) {
 /// Three blocks of three people.
 StudyResults results(const std::vector<BlockNames>& compared) {
   HandMadeStudy study;
-  for (const char* person : {"P01", "P02", "P03"}) {
-    study.add(person);
-    study.compare_ten("thin", 7);
-    study.compare_ten("middle", 8);
-    study.compare_ten("thick", person == std::string("P01") ? 7 : 9);
+  int person = 0;
+  for (const auto& [thin, middle, thick] : {std::array{7, 8, 9}, {6, 8, 7}, {8, 7, 9}}) {
+    study.add("P0" + std::to_string(++person));
+    study.compare_ten("thin", thin);
+    study.compare_ten("middle", middle);
+    study.compare_ten("thick", thick);
   }
   return results_of(load_study(study.store()), {},
                     {.num_resamples = 100, .compared = compared});
