@@ -105,6 +105,7 @@ ordered_json to_json(const PowerDesign& design) {
     durations.push_back({duration.mean_s, duration.total_s});
   }
   json["durations_s"] = std::move(durations);
+  json["left_out"] = design.left_out;
   return json;
 }
 
@@ -146,6 +147,7 @@ PowerDesign power_design_of(const ordered_json& json) {
   for (const ordered_json& one : json.at("durations_s")) {
     design.durations.push_back({.mean_s = one.at(0), .total_s = one.at(1)});
   }
+  design.left_out = json.at("left_out").get<std::vector<std::string>>();
   constexpr std::int64_t kMostRuns = 1'000'000;
   if (request.sizes.empty() || design.durations.size() != request.sizes.size() ||
       request.num_runs < 1 || request.num_runs > kMostRuns) {
@@ -223,6 +225,7 @@ ordered_json power_result(const PowerDesign& design,
     sizes.push_back(std::move(one));
   }
   json["sizes"] = std::move(sizes);
+  json["left_out"] = design.left_out;
   json["warnings"] =
       planning_doubts(design.analysis, summaries, design.request.null_hypothesis);
   return json;

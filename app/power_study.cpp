@@ -116,6 +116,21 @@ std::vector<const Stage*> blocks_of(const Study& study) {
   return blocks;
 }
 
+/// The other blocks but practice, in the order of the study's cells, with what they ask.
+std::vector<std::string> left_out_of(const Study& study) {
+  std::vector<std::string> names;
+  for (const Cell& cell : cells_of(study)) {
+    for (const StageInstance& instance : stages_of(study, cell)) {
+      const auto* block = std::get_if<Block>(&instance.stage->content);
+      if (block == nullptr || block->practice || is_planned_for(*block)) continue;
+      const std::string name = instance.stage->name + " (" + block->procedure + ", " +
+                               block->settings.word("task") + ")";
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
 const Block& block_of(const Stage& stage) { return std::get<Block>(stage.content); }
 
 bool can_be_compared(const Stage& stage) {
@@ -299,7 +314,8 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
              .program_version = JND_VERSION,
              .request = request,
              .analysis = std::move(planned),
-             .durations = durations_of(study, laboratory, request)};
+             .durations = durations_of(study, laboratory, request),
+             .left_out = left_out_of(study)};
   if (design_.analysis.compared) {
     const auto& [a, b] = *design_.analysis.compared;
     design_.request.compare = {blocks[a]->name, blocks[b]->name};

@@ -39,6 +39,8 @@ struct PowerDesign {
   PowerRequest request;  ///< `compare` as chosen.
   analysis::PlannedAnalysis analysis;
   std::vector<PlannedDuration> durations;  ///< By size.
+  /// Blocks that count in durations alone: "threshold (staircase, yes_no)".
+  std::vector<std::string> left_out;
 };
 
 /// One of N machines' part: the runs i, from 0, with i % count == index.

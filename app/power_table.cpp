@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/power_files.h"
 
@@ -63,6 +64,10 @@ std::string power_table(const PowerDesign& design,
     table += fmt::format("  {:>12} {:>22.0f} {:>10.1f}\n", summaries[size].num_participants,
                          design.durations[size].mean_s / 60.0,
                          design.durations[size].total_s / 3600.0);
+  }
+  if (!design.left_out.empty()) {
+    table += fmt::format("\nNot planned for, but in the duration: {}\n",
+                         fmt::join(design.left_out, ", "));
   }
   for (const std::string& doubt :
        planning_doubts(design.analysis, summaries, design.request.null_hypothesis)) {

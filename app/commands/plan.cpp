@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -285,10 +284,10 @@ void print_range(const Outcome& outcome, const Options& options) {
 void print(const Outcome& outcome, const Options& options) {
   const double mean_s = spread_of(outcome.statistics.durations_s).mean;
   fmt::print("{}: {} participants, seed {}, about {:.0f} min each", outcome.study.name,
-             outcome.plans.size(), options.seed, std::ceil(mean_s / 60.0));
+             outcome.plans.size(), options.seed, mean_s / 60.0);
   if (outcome.statistics.adapts) {
     fmt::print(", {:.0f} min with all trials that adaptive blocks may take",
-               std::ceil(outcome.duration_s / 60.0));
+               outcome.duration_s / 60.0);
   }
   fmt::print("\n\n");
   for (const experiments::ParticipantPlan& plan : outcome.plans) {

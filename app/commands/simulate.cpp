@@ -83,9 +83,11 @@ int run(const Options& options) {
   } else {
     const std::string beside =
         num_before == 0 ? "" : ", beside " + std::to_string(num_before) + " from before";
-    std::printf("%s: %d simulated sessions, %.0f s at the device in %.1f s, stored in %s%s\n",
-                study.name.c_str(), options.participants, simulated_s, elapsed_s,
-                options.folder.c_str(), beside.c_str());
+    std::printf(
+        "%s: %d simulated sessions, %.0f s at the device (no breaks, no talk) in %.1f s, "
+        "stored in %s%s\n",
+        study.name.c_str(), options.participants, simulated_s, elapsed_s,
+        options.folder.c_str(), beside.c_str());
   }
   return kDone;
 }

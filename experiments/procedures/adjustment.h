@@ -20,14 +20,17 @@ namespace jnd::experiments {
 /// Where a step (signed, unit of the quantity) leads from the intensity that is set now, in a
 /// trial that began at `start_intensity`: whole multiples of the fine step away from there, so
 /// that 0.1 + 0.2 does not drift and a start between two stays so, within 0 and the block's
-/// end.
+/// end. A match stays above 0, where there is nothing to be matched: it stops at one fine step,
+/// or at the start if that is less.
 [[nodiscard]] inline double stepped_intensity(const Block& block, double start_intensity,
                                               double set_intensity, double step) noexcept {
   double target = set_intensity + step;
   target = start_intensity +
            std::round((target - start_intensity) / block.fine_step) * block.fine_step;
   target = as_meant(target, block.fine_step);
-  return std::clamp(target, 0.0, block.max_intensity.value_or(target < 0.0 ? 0.0 : target));
+  const double least =
+      block.procedure == "matching" ? std::min(block.fine_step, start_intensity) : 0.0;
+  return std::max(least, std::min(target, block.max_intensity.value_or(target)));
 }
 
 }  // namespace jnd::experiments

@@ -213,7 +213,9 @@ std::vector<BlockKey> answer_label_keys() {
 
 std::vector<BlockKey> step_keys() {
   return {amount_key("coarse_step", "How much one large step of the adjustment changes."),
-          amount_key("fine_step", "How much one small step changes; less than the large one."),
+          amount_key("fine_step",
+                     "How much one small step changes; less than the large one. In `matching` "
+                     "the least that can be set, unless a start is less."),
           amount_key(
               "max",
               "No step goes beyond this; at least the largest starting value. Absent: no end.",

@@ -112,6 +112,24 @@ TEST_F(PowerCommandTest, MagnitudesGiveExponentsAndNothingToCompare) {
   EXPECT_GT(size["estimates"][1]["coverage"], 0.75);
 }
 
+TEST_F(PowerCommandTest, BlocksThatAreNotPlannedForAreNamed) {
+  const std::vector<std::string> words = {
+      "power", "viscosity_threshold", "--participants", "4", "--runs", "2"};
+  EXPECT_EQ(jnd(words).exit_code, 2) << "nothing to plan for";
+  const nlohmann::json study = nlohmann::json::parse(kTinyStudy);
+  nlohmann::json with = study;
+  with["stages"].push_back(nlohmann::json::parse(R"json({"kind": "block", "name": "least",
+    "procedure": "staircase", "task": "yes_no", "medium": "viscous",
+    "start_viscosity_pa_s": [2], "lowest_viscosity_pa_s": 0.1, "highest_viscosity_pa_s": 8,
+    "step_ratio": [2], "max_reversals": 8,
+    "instruction": {"en": "Feel."}, "question": {"en": "Anything?"}, "expected_trial_s": 5})json"));
+  write_file(temporary_.path() / "with.json", with.dump());
+  const ProgramOutcome text = jnd({"power", "with.json", "--participants", "4", "--runs", "2"});
+  EXPECT_NE(text.out.find("Not planned for, but in the duration: least (staircase, yes_no)"),
+            std::string::npos)
+      << text.out << text.err;
+}
+
 TEST_F(PowerCommandTest, TheNullHypothesisIsRejectedInAboutFivePercent) {
   const ProgramOutcome outcome =
       power({"--runs", "2000", "--null", "--json"}, "viscosity_discrimination", "13");

@@ -38,6 +38,15 @@ TEST(Adjustment, StopsAtNothingAndAtTheEndOfTheBlock) {
   EXPECT_EQ(stepped_intensity(block, 0.5, 2.6, -0.25), 2.25) << "back on the steps";
 }
 
+TEST(Adjustment, OfAMatchEndsAboveNothing) {
+  Block block = block_of_steps(0.1);
+  block.procedure = "matching";
+  EXPECT_EQ(stepped_intensity(block, 4.0, 0.3, -0.5), 0.1);
+  EXPECT_EQ(stepped_intensity(block, 4.0, 0.1, -0.1), 0.1);
+  EXPECT_EQ(stepped_intensity(block, 0.05, 0.05, -0.5), 0.05) << "no step down leads up";
+  EXPECT_EQ(stepped_intensity(block, 0.05, 0.05, 0.1), 0.15);
+}
+
 TEST(Adjustment, NumbersWithoutRoomForMoreDigitsAreLeftAlone) {
   EXPECT_EQ(as_meant(1234567.0000001, 1e-6), 1234567.0000001);
   EXPECT_EQ(as_meant(8.599999999999998, 0.1), 8.6);
