@@ -170,7 +170,7 @@ std::string write_bids_motion(const fs::path& folder, const BidsTask& task,
   const fs::path front = folder / (task.front + "_tracksys-haptic");
   const std::vector<RecordingColumn> columns = recording_columns(recording.has_joints());
   const std::vector<BidsChannel> channels = channels_of(columns);
-  const std::string name = front.filename().string() + "_motion.tsv";
+  std::string name = front.filename().string() + "_motion.tsv";
   const Written written =
       write_samples(folder / name, block, session.rate_hz, recording, columns);
   write_channels(front, channels, session.rate_hz);

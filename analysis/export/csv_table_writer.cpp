@@ -24,10 +24,9 @@ std::vector<std::string> names_of(const std::vector<CsvColumn>& columns) {
 }
 
 bool needs_quotes(std::string_view text) {
-  for (const char letter : text) {
-    if (letter == ',' || letter == '"' || letter == '\n' || letter == '\r') return true;
-  }
-  return false;
+  return std::ranges::any_of(text, [](char letter) {
+    return letter == ',' || letter == '"' || letter == '\n' || letter == '\r';
+  });
 }
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace jnd::analysis {
 
 /// What goes into a data set besides what always does.
 struct ExportOptions {
-  bool recordings = false;           ///< Also every sample.
-  bool pilot = false;                ///< Also pilot sessions.
-  std::string program_version = "";  ///< Of the program that exports; "": it is not said.
+  bool recordings = false;        ///< Also every sample.
+  bool pilot = false;             ///< Also pilot sessions.
+  std::string program_version{};  ///< Of the program that exports; "": it is not said.
   /// Names of a session's stages, in the order of the participant's list; may be empty, then
   /// stages are named by their numbers.
   std::function<std::vector<std::string>(const core::SessionRow&)> stage_names = {};
