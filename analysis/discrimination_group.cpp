@@ -256,6 +256,11 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   if (!fit.note.empty()) comparison.method += " (" + fit.note + ")";
   comparison.num_a = static_cast<int>(first_answers.size());
   comparison.num_b = static_cast<int>(second_answers.size());
+  comparison.of_other_people = std::ranges::none_of(first_answers, [&](const auto& one) {
+    return std::ranges::any_of(second_answers, [&](const auto& other) {
+      return other.participant == one.participant;
+    });
+  });
   if (fit.status != FitStatus::kOk || fit.differences.empty()) {
     if (comparison.status == FitStatus::kOk) comparison.status = FitStatus::kDegenerate;
     if (comparison.reason.empty())

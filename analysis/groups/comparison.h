@@ -47,7 +47,8 @@ struct Comparison {
   /// differences a - b (Hodges and Lehmann 1963). With its distribution-free interval.
   std::optional<double> hodges_lehmann;
   Interval hodges_lehmann_ci95;
-  int num_a = 0, num_b = 0;  ///< Values used.
+  int num_a = 0, num_b = 0;      ///< Values used.
+  bool of_other_people = false;  ///< Of a model: nobody's answers are on both sides.
 };
 
 /// Effect sizes have intervals that take nearly all of a test's time.

@@ -80,8 +80,8 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
             "–"};
   }
   using Kind = Comparison::Kind;
-  const bool are_two_groups =
-      c.kind == Kind::kWelch || c.kind == Kind::kPooled || c.kind == Kind::kRankSum;
+  const bool are_two_groups = c.of_other_people || c.kind == Kind::kWelch ||
+                              c.kind == Kind::kPooled || c.kind == Kind::kRankSum;
   std::string count = std::to_string(c.num_a);
   if (c.num_b > 0 && (are_two_groups || c.num_b != c.num_a)) {
     count += ", " + std::to_string(c.num_b);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <stdexcept>
 #include <string>
 
 #include "analysis/hand_made_study.h"
@@ -99,6 +100,25 @@ Names primary_tests(const StudyResults& results, bool holm) {
     }
   }
   return names;
+}
+
+TEST(ComparedBlocks, OfOtherPeopleAreTwoGroups) {
+  HandMadeStudy study;
+  int person = 0;
+  for (const int num_right : {7, 8, 9, 6}) {
+    study.add("P0" + std::to_string(++person));
+    study.compare_ten(person < 3 ? "thin" : "thick", num_right);
+  }
+  const auto between = [](const StudyResults& all) {
+    for (const ResultsSection& section : all.sections) {
+      for (const NamedComparison& named : section.comparisons) {
+        if (named.primary) return named.comparison.of_other_people;
+      }
+    }
+    throw std::runtime_error("no primary comparison");
+  };
+  EXPECT_TRUE(between(results_of(load_study(study.store()), {}, {.num_resamples = 100})));
+  EXPECT_FALSE(between(results({{"thin", "thick"}})));
 }
 
 TEST(ComparedBlocks, SeveralPlannedTestsAreOneFamilyAndOneStandsAlone) {
