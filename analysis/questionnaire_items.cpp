@@ -64,6 +64,15 @@ std::vector<QuestionnaireItem> questionnaire_items(const json& protocol) {
   return items;
 }
 
+std::vector<QuestionnaireItem> participant_fields(const json& protocol) {
+  std::vector<QuestionnaireItem> fields;
+  for (const json& object : objects_at(protocol, "participant_fields")) {
+    fields.push_back(item_of(object, kFieldsStage, "kind"));
+    fields.back().kind = "choice";
+  }
+  return fields;
+}
+
 void merge_items(std::vector<QuestionnaireItem>& items, std::vector<QuestionnaireItem> added) {
   for (QuestionnaireItem& one : added) {
     const auto known = std::ranges::find_if(items, [&](const QuestionnaireItem& other) {

@@ -27,6 +27,12 @@ struct QuestionnaireItem {
 [[nodiscard]] std::vector<QuestionnaireItem> questionnaire_items(
     const nlohmann::json& protocol);
 
+/// Stage that answers are stored under which were known before the session.
+inline constexpr char kFieldsStage[] = "participant";
+
+/// What is asked of participants before a session, as choices of that stage.
+[[nodiscard]] std::vector<QuestionnaireItem> participant_fields(const nlohmann::json& protocol);
+
 /// Adds the items that are new; one of the same stage and name is replaced, so that the last
 /// version of a study file is in force.
 void merge_items(std::vector<QuestionnaireItem>& items, std::vector<QuestionnaireItem> added);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "analysis/export/bids_dataset.h"
 #include "analysis/export/bids_text.h"
@@ -93,26 +92,37 @@ void write_phenotypes(const fs::path& folder, const std::vector<QuestionnaireIte
   }
 }
 
-/// What BIDS looks for in the list of participants, if a questionnaire asks it.
+/// A column of participants.tsv that an answer fills.
 struct PersonColumn {
-  const char* name;
+  std::string name;
   QuestionnaireItem item;
+  std::string words;  ///< Where the answer is from: ", as answered in the stage about_you".
 };
 
-std::vector<PersonColumn> person_columns(const std::vector<QuestionnaireItem>& items) {
+bool has_column(const std::vector<PersonColumn>& columns, const std::string& name) {
+  return std::ranges::find(columns, name, &PersonColumn::name) != columns.end();
+}
+
+/// First the fields of the study, which is what people were assigned by; then what BIDS looks
+/// for in the list of participants, if a questionnaire asks it and no field is called so: its
+/// answers stand in phenotype/ anyway.
+std::vector<PersonColumn> person_columns(const std::vector<QuestionnaireItem>& fields,
+                                         const std::vector<QuestionnaireItem>& items,
+                                         const std::vector<std::string>& taken) {
   constexpr std::pair<const char*, const char*> kItems[] = {{"age", "age"},
                                                             {"age_years", "age"},
                                                             {"sex", "sex"},
                                                             {"gender", "gender"},
                                                             {"handedness", "handedness"}};
   std::vector<PersonColumn> columns;
+  for (const QuestionnaireItem& field : fields) {
+    columns.push_back(
+        {field_column(field.name, taken), field, ", as was known before the session"});
+  }
   for (const auto& [item_name, column_name] : kItems) {
-    const auto is_taken = [name = column_name](const PersonColumn& column) {
-      return std::string_view(column.name) == name;
-    };
     const auto item = std::ranges::find(items, item_name, &QuestionnaireItem::name);
-    if (item == items.end() || std::ranges::any_of(columns, is_taken)) continue;
-    columns.push_back({column_name, *item});
+    if (item == items.end() || has_column(columns, column_name)) continue;
+    columns.push_back({column_name, *item, ", as answered in the stage " + item->stage});
   }
   return columns;
 }
@@ -137,14 +147,15 @@ void write_bids_sessions(const fs::path& folder, const std::string& subject,
 
 void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
                              const core::StudyStore& store) {
-  std::vector<QuestionnaireItem> items;
-  for (const core::ProtocolRow& protocol : dataset.protocols) {
-    merge_items(items,
-                questionnaire_items(nlohmann::json::parse(protocol.text, nullptr, false)));
+  std::vector<QuestionnaireItem> items, fields;
+  for (const core::ProtocolRow& row : dataset.protocols) {
+    const nlohmann::json protocol = nlohmann::json::parse(row.text, nullptr, false);
+    merge_items(items, questionnaire_items(protocol));
+    merge_items(fields, participant_fields(protocol));
   }
-  const std::vector<PersonColumn> asked = person_columns(items);
   std::vector<std::string> names = {"participant_id", "pseudonym", "data_origin",
                                     "num_sessions"};
+  const std::vector<PersonColumn> asked = person_columns(fields, items, names);
   for (const PersonColumn& column : asked) names.emplace_back(column.name);
   CsvTableWriter table(folder / "participants.tsv", names, TableStyle::kBids);
   for (const auto& [participant, subject] : dataset.subjects) {
@@ -165,9 +176,7 @@ void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
                  {"data_origin", "", "SIMULATED: a model in a program; person"},
                  {"num_sessions", "", "Visits in this data set"}});
   for (const PersonColumn& column : asked) {
-    sidecar[column.name] =
-        sidecar_of(column.item, described_item(column.item) + ", as answered in the stage " +
-                                    column.item.stage);
+    sidecar[column.name] = sidecar_of(column.item, described_item(column.item) + column.words);
   }
   write_json(folder / "participants.json", sidecar);
   write_phenotypes(folder, items, dataset, store);

@@ -2,6 +2,8 @@
 
 #include <future>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +25,25 @@ namespace fs = std::filesystem;
 struct Participant {
   bool simulated = false;
   std::int64_t num_sessions = 0, num_completed = 0, num_trials = 0, num_excluded = 0;
+  std::map<std::string, std::string> fields;  ///< What was known before the last session.
 };
+
+/// A field of the study as a column of participants.csv.
+struct FieldColumn {
+  std::string field, name, meaning;
+};
+
+/// "Sex?, as was known before the session: female (a woman), male (a man)"
+std::string field_meaning(const QuestionnaireItem& field) {
+  std::string text = (field.question.empty() ? field.name : field.question) +
+                     ", as was known before the session";
+  for (std::size_t i = 0; i < field.options.size(); ++i) {
+    const std::string& label = field.option_labels.at(i);
+    text +=
+        (i == 0 ? ": " : ", ") + field.options[i] + (label.empty() ? "" : " (" + label + ")");
+  }
+  return text;
+}
 
 /// What a session has in the tables.
 struct SessionRows {
@@ -42,7 +62,9 @@ class Export {
       : store_(store),
         folder_(folder),
         options_(options),
-        sessions_(exported_sessions(store, options)) {}
+        sessions_(exported_sessions(store, options)) {
+    find_fields();
+  }
 
   ExportOutcome run() {
     write_tables();
@@ -53,6 +75,25 @@ class Export {
   }
 
  private:
+  void find_fields() {
+    std::vector<QuestionnaireItem> fields;
+    std::set<std::string> seen;
+    for (const core::SessionRow& session : sessions_) {
+      if (!seen.insert(session.protocol_sha256).second) continue;
+      const std::string text = store_.protocol(session.protocol_sha256).text;
+      merge_items(fields, participant_fields(nlohmann::json::parse(text, nullptr, false)));
+    }
+    std::vector<std::string> taken;
+    for (const CsvColumn& column : participant_columns()) taken.emplace_back(column.name);
+    for (const QuestionnaireItem& field : fields) {
+      fields_.push_back({field.name, field_column(field.name, taken), field_meaning(field)});
+    }
+    participant_columns_ = participant_columns();
+    for (const FieldColumn& field : fields_) {
+      participant_columns_.push_back({field.name.c_str(), "", field.meaning.c_str()});
+    }
+  }
+
   /// All tables of rows that a session has, so that each is asked of the store once.
   void write_tables() {
     CsvTableWriter sessions = table("sessions.csv", session_columns());
@@ -105,16 +146,21 @@ class Export {
     ++participant.num_sessions;
     participant.num_completed += std::int64_t{rows.completed};
     participant.num_trials += std::ssize(rows.trials);
+    for (const core::AnswerRow& row : rows.answers) {
+      if (row.stage == kFieldsStage) participant.fields[row.item] = row.answer;
+    }
     for (const ExportedTrial& trial : rows.trials) {
       participant.num_excluded += std::int64_t{trial.excluded};
     }
   }
 
   void write_participants() {
-    CsvTableWriter rows = table("participants.csv", participant_columns());
-    for (const auto& [participant, one] : participants_) {
+    CsvTableWriter rows = table("participants.csv", participant_columns_);
+    for (auto& [participant, one] : participants_) {
       rows.cell(participant).cell(one.simulated).cell(one.num_sessions);
-      rows.cell(one.num_completed).cell(one.num_trials).cell(one.num_excluded).end_row();
+      rows.cell(one.num_completed).cell(one.num_trials).cell(one.num_excluded);
+      for (const FieldColumn& field : fields_) rows.cell(one.fields[field.field]);
+      rows.end_row();
     }
     rows.finish();
   }
@@ -153,7 +199,7 @@ class Export {
     CsvTableWriter rows = table("codebook.csv", codebook_columns());
     std::vector<std::pair<std::string, const std::vector<CsvColumn>*>> tables = {
         {"sessions.csv", &session_columns()},
-        {"participants.csv", &participant_columns()},
+        {"participants.csv", &participant_columns_},
         {"trials.csv", &trial_columns()},
         {"presentations.csv", &presentation_columns()},
         {"events.csv", &event_columns()},
@@ -181,7 +227,9 @@ class Export {
   const ExportOptions& options_;
   std::vector<core::SessionRow> sessions_;
   std::map<std::string, Participant> participants_;
-  bool any_joints_ = false;  ///< In any of the recordings.
+  std::vector<FieldColumn> fields_;
+  std::vector<CsvColumn> participant_columns_;  ///< Its texts are those of `fields_`.
+  bool any_joints_ = false;                     ///< In any of the recordings.
   ExportOutcome outcome_;
 };
 

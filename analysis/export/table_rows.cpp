@@ -87,6 +87,10 @@ const std::vector<QuestionnaireItem>& StudyQuestions::of(const core::SessionRow&
   return found->second;
 }
 
+std::string field_column(const std::string& field, const std::vector<std::string>& taken) {
+  return std::ranges::find(taken, field) == taken.end() ? field : "field_" + field;
+}
+
 void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
                    const std::vector<core::EventRow>& events) {
   const SessionStart start = start_of(events);

@@ -43,6 +43,11 @@ struct ExportedPresentation {
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials);
 
+/// Of a field of the study in a table of participants: its name, or "field_NAME" where the
+/// table has a column of that name.
+[[nodiscard]] std::string field_column(const std::string& field,
+                                       const std::vector<std::string>& taken);
+
 // A session's rows of each table, in the columns of study_tables.h.
 
 /// `events`: of the session.

@@ -301,6 +301,33 @@ TEST_F(BidsExportTest, ParticipantsHaveTheAgeGenderAndHandednessThatWereAsked) {
             "Which hand?, as answered in the stage about_you");
 }
 
+TEST_F(BidsExportTest, ParticipantsHaveTheFieldsOfTheStudyBeforeWhatAFormAsked) {
+  HandMadeStudy study(R"({"name": "asked", "participant_fields": [
+      {"name": "sex", "question": {"de": "Geschlecht?", "en": "Sex?"}, "options": [
+        {"value": "female", "label": {"de": "weiblich", "en": "a woman"}},
+        {"value": "male", "label": {"de": "männlich", "en": "a man"}}]},
+      {"name": "pseudonym", "question": {"en": "Known?"}, "options": [{"value": "yes"}]}],
+    "stages": [{"kind": "questionnaire", "name": "about_you", "items": [
+        {"name": "sex", "kind": "text", "question": {"en": "Which sex?"}}]}]})");
+  study.add("P01");
+  study.say("participant", "sex", "female");
+  study.say("participant", "pseudonym", "yes");
+  study.say("about_you", "sex", "none of them");
+  export_bids(study.store(), out(""), {}, "");
+  const auto rows = cells(out("participants.tsv"));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"participant_id", "pseudonym", "data_origin",
+                                               "num_sessions", "sex", "field_pseudonym"}));
+  EXPECT_EQ(value(rows, 1, "sex"), "female");
+  EXPECT_EQ(value(rows, 1, "pseudonym"), "P01");
+  EXPECT_EQ(value(rows, 1, "field_pseudonym"), "yes");
+  const nlohmann::json sidecar = json(out("participants.json"));
+  EXPECT_EQ(sidecar["sex"]["Levels"],
+            (nlohmann::json{{"female", "a woman"}, {"male", "a man"}}));
+  EXPECT_EQ(sidecar["sex"]["Description"], "Sex?, as was known before the session");
+  const auto form = cells(out("phenotype/aboutyou.tsv"));
+  EXPECT_EQ(value(form, 1, "sex"), "none of them") << "the form keeps its own";
+}
+
 TEST_F(BidsExportTest, ScansNameFilesThatAreThere) {
   record();
   (void)write({.recordings = true});

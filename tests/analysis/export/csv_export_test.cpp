@@ -187,6 +187,30 @@ TEST_F(CsvExportTest, ParticipantsAreCountedWithWhatWasSetAside) {
   EXPECT_EQ(cell(participants, 0, "num_excluded_trials"), "1");
 }
 
+TEST_F(CsvExportTest, ParticipantsHaveTheFieldsOfTheStudyAndTheCodebookTellsThem) {
+  HandMadeStudy study(R"({"name": "asked", "participant_fields": [
+      {"name": "sex", "question": {"en": "Sex?"}, "options": [
+        {"value": "female", "label": {"en": "a woman"}},
+        {"value": "male", "label": {"en": "a man"}}]},
+      {"name": "num_trials", "options": [{"value": "many"}]}]})");
+  study.add("P01");
+  study.say("participant", "sex", "female");
+  study.say("participant", "num_trials", "many");
+  study.add("P02");
+  export_csv(study.store(), out(), {});
+  const CsvTable participants = table("participants.csv");
+  EXPECT_EQ(cell(participants, 0, "sex"), "female");
+  EXPECT_EQ(cell(participants, 0, "num_trials"), "0");
+  EXPECT_EQ(cell(participants, 0, "field_num_trials"), "many");
+  EXPECT_EQ(cell(participants, 1, "sex"), "");
+  EXPECT_NE(
+      bytes(out() / "codebook.csv")
+          .find("participants.csv,sex,,\"Sex?, as was known before the session: female (a "
+                "woman), male (a man)\""),
+      std::string::npos)
+      << bytes(out() / "codebook.csv");
+}
+
 TEST_F(CsvExportTest, QuestionnairesAreThereWithTheirQuestionsAlsoThoseNotAnswered) {
   HandMadeStudy study(R"({"name": "asked", "stages": [
       {"kind": "questionnaire", "name": "about_you", "items": [
