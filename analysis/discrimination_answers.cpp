@@ -46,7 +46,7 @@ std::vector<DiscriminationAnswers> discrimination_answers(
       if (with_excluded && trial.block == block.block) add_trial(answers, trial);
     }
     if (answers.levels.empty()) {
-      excluded.push_back({participant.participant, "no answers in " + block.block});
+      name_without_answers(excluded, participant, block.block);
     } else {
       all.push_back(std::move(answers));
     }

@@ -8,6 +8,7 @@
 #include "analysis/discrimination_group.h"
 #include "analysis/discrimination_own_values.h"
 #include "analysis/groups/summary.h"
+#include "analysis/report/report_words.h"
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
@@ -63,33 +64,66 @@ struct IndividualFraction {
   bool beyond_stimuli = false;
 };
 
-/// Median, quartiles and robust spread, which some fractions beyond the stimuli leave as they
-/// are.
-void add_individual(ResultsSection& section, const Everybody& all, const BlockDesign& block,
-                    const ResultsOptions& options) {
-  std::vector<IndividualFraction> individual;
+/// Everybody's own fractions of a block, as far as they can be told.
+struct IndividualFractions {
+  std::vector<IndividualFraction> ranked;  ///< In the order of the participants.
   std::vector<double> with_fit;
+  double largest = 0.0;  ///< That of the block's largest stimulus: what can be told.
+  int num_beyond = 0;
+};
+
+IndividualFractions individual_fractions(ResultsSection& section, const Everybody& all,
+                                         const BlockDesign& block, bool free_pse) {
+  IndividualFractions fractions;
+  // Of everybody: where answers choose the levels, those near one's own threshold are no end.
   for (const DiscriminationAnswers& answers : all) {
-    const PsychometricFit fit = own_fit(answers, {});
-    const double largest = answers.levels.rbegin()->first / answers.reference - 1.0;
+    fractions.largest =
+        std::max(fractions.largest, answers.levels.rbegin()->first / answers.reference - 1.0);
+  }
+  const double largest = fractions.largest;
+  for (const DiscriminationAnswers& answers : all) {
+    const PsychometricFit fit = own_fit(answers, {.free_pse = free_pse});
     IndividualFraction one{.for_ranks = std::numeric_limits<double>::infinity(),
                            .beyond_stimuli = true};
     if (fit.weber_fraction) {
-      with_fit.push_back(*fit.weber_fraction);
+      fractions.with_fit.push_back(*fit.weber_fraction);
       if (*fit.weber_fraction <= largest) one = {.for_ranks = *fit.weber_fraction};
     } else {
       section.excluded.push_back(
-          {answers.participant,
-           block.block + ": no Weber fraction of their own, " + fit.reason});
-      if (own_fit(answers, {.corrected = true}).weber_fraction.value_or(largest) < largest)
+          {answers.participant, block.block + ": no Weber fraction of their own" +
+                                    (free_pse ? " with a free pse, " : ", ") + fit.reason});
+      if (own_fit(answers, {.corrected = true, .free_pse = free_pse})
+              .weber_fraction.value_or(largest) < largest) {
         one = {};
+      }
     }
-    individual.push_back(one);
+    fractions.num_beyond += one.beyond_stimuli ? 1 : 0;
+    fractions.ranked.push_back(one);
   }
+  return fractions;
+}
+
+/// "> 0.5: 2 of 3 lie beyond the largest stimulus": of a median that is infinite in ranks.
+std::string beyond_words(const IndividualFractions& fractions) {
+  const std::size_t num = fractions.ranked.size();
+  const std::string beyond = std::to_string(fractions.num_beyond) + " of " +
+                             std::to_string(num) + " lie beyond the largest stimulus";
+  // Of an even number, the half: the median is the mean of a known one and one beyond.
+  if (2 * static_cast<std::size_t>(fractions.num_beyond) == num) return beyond;
+  return "> " + number_words(fractions.largest) + ": " + beyond +
+         ", or have flat or inverted answers";
+}
+
+/// Median, quartiles and robust spread, which some fractions beyond the stimuli leave as they
+/// are. With the pse of the primary value; a published median has it at the reference.
+void add_individual(ResultsSection& section, const Everybody& all, const BlockDesign& block,
+                    const ResultsOptions& options, bool is_median_published) {
+  const bool free_pse = section.own_fractions_free_pse;
+  const IndividualFractions fractions = individual_fractions(section, all, block, free_pse);
   const auto quantile = [&](const std::vector<std::size_t>& drawn,
                             double probability) -> std::optional<double> {
     std::vector<double> values;
-    for (const std::size_t i : drawn) values.push_back(individual[i].for_ranks);
+    for (const std::size_t i : drawn) values.push_back(fractions.ranked[i].for_ranks);
     std::sort(values.begin(), values.end());
     const double value = percentile(values, probability);
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -97,9 +131,11 @@ void add_individual(ResultsSection& section, const Everybody& all, const BlockDe
   using Statistic = std::function<std::optional<double>(const std::vector<std::size_t>&)>;
   std::vector<std::size_t> everyone(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) everyone[i] = i;
+  const std::string prefix = block.block + ".individual_weber_fraction_";
+  const std::string pse = free_pse ? ", pse free" : ", pse at the reference";
   const auto add = [&](const std::string& name, const std::string& meaning,
                        const Statistic& statistic) {
-    Estimate estimate{.name = block.block + ".individual_weber_fraction_" + name,
+    Estimate estimate{.name = prefix + name,
                       .value = statistic(everyone),
                       .unit = "1",
                       .meaning = meaning,
@@ -111,39 +147,43 @@ void add_individual(ResultsSection& section, const Everybody& all, const BlockDe
     }
     section.estimates.push_back(std::move(estimate));
   };
-  add("median", "median of the participants' own fractions (Schmidt (2018) gives a mean)",
+  add("median",
+      "median of the participants' own fractions" + pse +
+          (is_median_published ? " (Schmidt (2018) gives a mean)" : ""),
       [&](const std::vector<std::size_t>& drawn) { return quantile(drawn, 0.5); });
+  if (!section.estimates.back().value) {
+    section.excluded.push_back(
+        {"everyone", prefix + "median: no value, " + beyond_words(fractions)});
+  }
   add("robust_sd",
-      "interquartile range / 1.349 of the participants' own fractions (that of Schmidt (2018) "
-      "is a "
-      "plain standard deviation, which one flat curve can make as large as it likes)",
+      "interquartile range / 1.349 of the participants' own fractions" + pse +
+          (is_median_published
+               ? " (that of Schmidt (2018) is a plain standard deviation, which one flat curve "
+                 "can make as large as it likes)"
+               : ""),
       [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
         const auto low = quantile(drawn, 0.25);
         const auto high = quantile(drawn, 0.75);
         if (!low || !high) return std::nullopt;
         return (*high - *low) / 1.349;
       });
-  int num_beyond = 0;
-  for (const IndividualFraction& one : individual) num_beyond += one.beyond_stimuli ? 1 : 0;
-  const Summary summary = summary_of(with_fit);
+  const Summary summary = summary_of(fractions.with_fit);
   const auto add_plain = [&](const std::string& name, std::optional<double> value, int n,
                              const std::string& meaning) {
-    section.estimates.push_back({.name = block.block + ".individual_weber_fraction_" + name,
-                                 .value = value,
-                                 .unit = "1",
-                                 .meaning = meaning,
-                                 .n = n});
+    section.estimates.push_back(
+        {.name = prefix + name, .value = value, .unit = "1", .meaning = meaning, .n = n});
   };
-  add_plain(
-      "beyond_stimuli", num_beyond, static_cast<int>(all.size()),
-      "participants whose own fraction lies beyond the largest stimulus, or is not finite");
+  add_plain("beyond_stimuli", fractions.num_beyond, static_cast<int>(all.size()),
+            "participants whose own fraction" + pse +
+                ", lies beyond the largest stimulus of the block, or is not finite");
   // One fraction beyond the stimuli, which they cannot tell from any other, makes both
   // meaningless.
-  const bool all_within = num_beyond == 0 && with_fit.size() == all.size();
+  const bool all_within = fractions.num_beyond == 0 && fractions.with_fit.size() == all.size();
   add_plain("mean", all_within ? summary.mean : std::nullopt, summary.num_values,
-            "plain mean, where all lie within the stimuli (biased upwards at few answers)");
+            "plain mean" + pse +
+                ", where all lie within the stimuli (biased upwards at few answers)");
   add_plain("sd", all_within ? summary.standard_deviation : std::nullopt, summary.num_values,
-            "plain standard deviation, where all lie within the stimuli");
+            "plain standard deviation" + pse + ", where all lie within the stimuli");
 }
 
 /// Where individual Weber fractions are compared: their spread is even there.
@@ -181,8 +221,10 @@ void add_own_fraction_tests(ResultsSection& section, const std::map<std::string,
   const auto add = [&](const std::string& name, const Comparison& comparison) {
     section.comparisons.push_back({pair + name + words, comparison});
   };
-  add("ln ln(1 + w), paired", paired_t_test(paired_a, paired_b));
-  add("ln ln(1 + w), Wilcoxon, sensitivity", wilcoxon_test(paired_a, paired_b));
+  if (!paired_a.empty()) {
+    add("ln ln(1 + w), paired", paired_t_test(paired_a, paired_b));
+    add("ln ln(1 + w), Wilcoxon, sensitivity", wilcoxon_test(paired_a, paired_b));
+  }
   if (free_pse) return;
   add("ln ln(1 + w), unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
   add("w, unpaired, Welch", welch_t_test(values_of(a), values_of(b)));
@@ -215,13 +257,15 @@ void add_own_fractions(ResultsSection& section, const Everybody& first_answers,
 }  // namespace
 
 ResultsSection discrimination_results(const StudyData& data, const BlockDesign& block,
-                                      const ResultsOptions& options) {
+                                      const ResultsOptions& options, bool is_median_published) {
   ResultsSection section{.name = block.block};
   const Everybody all = discrimination_answers(data, block, false, section.excluded);
   if (all.empty()) return section;
+  section.own_fractions_free_pse =
+      !is_median_published && primary_pse(all) == HierarchicalPse::kPersonal;
   add_group_estimates(section, data, block, options);
   add_own_values(section, all, block, options);
-  add_individual(section, all, block, options);
+  add_individual(section, all, block, options, is_median_published);
   add_trial_trends(section, all, block);
   return section;
 }

@@ -180,11 +180,14 @@ void compare_exponents(ResultsSection& section, const BothParts& parts) {
   compare_exponents(section, secondary, "production as S on I (secondary)");
 }
 
-void name_missing(ResultsSection& section, const MagnitudeBlock& has,
+void name_missing(ResultsSection& section, const StudyData& data, const MagnitudeBlock& has,
                   const MagnitudeBlock& lacks, const std::string& block) {
-  for (const std::string& name : has.names) {
-    if (std::ranges::find(lacks.names, name) == lacks.names.end()) {
-      section.excluded.push_back({name, "no answers in " + block});
+  for (const ParticipantData& participant : data.participants) {
+    const auto is_in = [&](const MagnitudeBlock& one) {
+      return std::ranges::find(one.names, participant.participant) != one.names.end();
+    };
+    if (is_in(has) && !is_in(lacks)) {
+      name_without_answers(section.excluded, participant, block);
     }
   }
 }
@@ -195,8 +198,8 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
                                 const BlockDesign& production, const ResultsOptions& options) {
   ResultsSection section{.name = "combined"};
   BothParts parts{estimation_block(data, estimation), production_block(data, production)};
-  name_missing(section, parts.estimated, parts.produced, production.block);
-  name_missing(section, parts.produced, parts.estimated, estimation.block);
+  name_missing(section, data, parts.estimated, parts.produced, production.block);
+  name_missing(section, data, parts.produced, parts.estimated, estimation.block);
   keep_common(parts.estimated, parts.produced);
   const std::size_t num = parts.estimated.size();
   if (num == 0) return section;

@@ -23,7 +23,7 @@ MagnitudeBlock block_of(const StudyData& data, const BlockDesign& block,
   for (const ParticipantData& participant : data.participants) {
     MagnitudeAnswers answers = answers_by(participant.trials_in(block.block), x, response_unit);
     if (answers.empty()) {
-      result.excluded.push_back({participant.participant, "no answers in " + block.block});
+      name_without_answers(result.excluded, participant, block.block);
       continue;
     }
     const LogAnswers logs = log_answers(answers, ZeroRule::kHalfSmallest);

@@ -58,8 +58,12 @@ class MatchingSection {
       Matches own = matches_of(participant, design.block);
       num_zeros_ += own.num_zeros;
       if (own.at_standard.empty()) {
-        section_.excluded.push_back(
-            {participant.participant, "no match above 0 in " + design.block});
+        if (own.num_zeros == 0) {
+          name_without_answers(section_.excluded, participant, design.block);
+        } else {
+          section_.excluded.push_back(
+              {participant.participant, "no match above 0 in " + design.block});
+        }
         continue;
       }
       names_.push_back(own.participant);

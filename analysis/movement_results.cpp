@@ -139,6 +139,7 @@ void compare(ResultsSection& section, const Quantity& quantity, const Weighing& 
     b.push_back(other->second);
     differences.push_back(mean - other->second);
   }
+  if (differences.empty()) return;  // Blocks of different arms, or that nobody came to.
   add_mean(section,
            std::string(quantity.name) + "." + first + "_minus_" + second + weighing.suffix,
            std::string(quantity.meaning) + ", difference of the two blocks" + weighing.meaning,

@@ -143,14 +143,16 @@ void name_missing(ResultsSection& section, const StudyData& data) {
   }
   for (const std::string& stage : stages) {
     std::vector<ExcludedParticipant> missing;
+    bool any_answers = false;
     for (const ParticipantData& participant : data.participants) {
       if (std::ranges::find(participant.answers, stage, &core::AnswerRow::stage) !=
           participant.answers.end()) {
+        any_answers = true;
         continue;
       }
-      missing.push_back({participant.participant, "no answers in " + stage});
+      name_without_answers(missing, participant, stage);
     }
-    if (missing.size() == data.participants.size()) {
+    if (!any_answers && missing.size() > 1) {
       missing = {{"everyone", "no answers in " + stage}};
     }
     section.excluded.insert(section.excluded.end(), missing.begin(), missing.end());

@@ -1,10 +1,12 @@
 #include "analysis/study_data.h"
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "analysis/common_modulus.h"
+#include "analysis/protocol_stages.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -24,6 +26,45 @@ ParticipantData& of(std::vector<ParticipantData>& participants, const std::strin
   }
   participants.push_back({.participant = name});
   return participants.back();
+}
+
+/// Which sessions did not come to their end, and how many are not told of.
+MissingSessions missing_sessions(const core::StudyStore& store, bool with_pilots) {
+  MissingSessions missing{.num_withdrawn = std::ssize(store.withdrawals())};
+  std::map<std::int64_t, core::SessionOverview> overview;
+  for (const core::SessionOverview& one : store.overview()) overview[one.session] = one;
+  for (const core::SessionRow& session : store.sessions()) {
+    const core::SessionOverview& one = overview[session.session];
+    if (session.pilot && !with_pilots) {
+      ++missing.num_pilots;
+    } else if (one.ended_early) {
+      missing.ended_early.push_back(session.participant);
+    } else if (!one.completed) {
+      missing.open.push_back(session.participant);
+    }
+  }
+  return missing;
+}
+
+/// What the study has and no session of each participant does.
+void find_other_arms(StudyData& data, const core::StudyStore& store, bool with_pilots) {
+  std::map<std::string, json> protocols;
+  std::set<std::string> all;
+  std::map<std::string, std::set<std::string>> own;
+  for (const core::SessionRow& session : store.sessions()) {
+    if (session.pilot && !with_pilots) continue;
+    json& protocol = protocols[session.protocol_sha256];
+    if (protocol.is_null()) {
+      protocol = json::parse(store.protocol(session.protocol_sha256).text, nullptr, false);
+      all.merge(stage_names(protocol));
+    }
+    own[session.participant].merge(stage_names_of(protocol, session.cells));
+  }
+  for (ParticipantData& participant : data.participants) {
+    std::ranges::set_difference(
+        all, own[participant.participant],
+        std::inserter(participant.of_other_arms, participant.of_other_arms.end()));
+  }
 }
 
 }  // namespace
@@ -117,6 +158,8 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   for (auto& [name, block] : blocks) data.blocks.push_back(std::move(block));
   std::ranges::stable_sort(data.blocks, {},
                            [](const BlockDesign& block) { return block.protocol.place; });
+  data.sessions = missing_sessions(store, with_pilots);
+  find_other_arms(data, store, with_pilots);
   for (BlockDesign& block : data.blocks) bring_to_common_modulus(data, block);
   return data;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct ParticipantData {
   std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
   std::string cells;                     ///< Counterbalancing, as a session keeps it.
   std::vector<core::AnswerRow> answers;  ///< Outside of trials, in the order of the sessions.
+  /// Blocks and stages of questions of the study that none of their sessions has, for they were
+  /// in another arm.
+  std::set<std::string> of_other_arms;
 
   [[nodiscard]] std::vector<core::TrialRow> trials_in(const std::string& block) const;
 };
@@ -65,6 +69,13 @@ struct PracticeRun {
   std::string problem;  ///< Why success cannot be told; "" if it can.
 };
 
+/// Sessions that did not come to their end, or that nothing is told of.
+struct MissingSessions {
+  std::vector<std::string> open, ended_early;  ///< By their participants' pseudonyms.
+  std::int64_t num_pilots = 0;                 ///< Left out.
+  std::int64_t num_withdrawn = 0;              ///< Of participants who withdrew: no data left.
+};
+
 /// A whole study, ready for analysis. Pilot sessions are left out, and practice but for how it
 /// went.
 struct StudyData {
@@ -74,9 +85,10 @@ struct StudyData {
   std::string laboratory_text;                      ///< The whole file; "" with persons.
   std::string laboratory;                           ///< Name; "" with persons.
   std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
-  std::vector<ParticipantData> participants;        ///< By pseudonym.
-  std::vector<BlockDesign> blocks;                  ///< As the study file has them.
-  std::vector<QuestionnaireItem> items;             ///< In the order of the study file.
+  MissingSessions sessions;
+  std::vector<ParticipantData> participants;  ///< By pseudonym.
+  std::vector<BlockDesign> blocks;            ///< As the study file has them.
+  std::vector<QuestionnaireItem> items;       ///< In the order of the study file.
   /// Of blocks whose procedure has a rule of its own; by whoever reads that from the study
   /// file.
   std::vector<AdaptiveRun> runs;

@@ -69,13 +69,20 @@ const Estimate* StudyResults::find(const std::string& name) const {
   return nullptr;
 }
 
+void name_without_answers(std::vector<ExcludedParticipant>& excluded,
+                          const ParticipantData& participant, const std::string& stage) {
+  if (participant.of_other_arms.contains(stage)) return;
+  excluded.push_back({participant.participant, "no answers in " + stage});
+}
+
 StudyResults results_of(const StudyData& data, const Published& published,
                         const ResultsOptions& options) {
   StudyResults results{.study = data.study,
                        .simulated = data.simulated,
                        .laboratory = data.laboratory,
                        .citation = published.citation,
-                       .num_participants = static_cast<int>(data.participants.size())};
+                       .num_participants = static_cast<int>(data.participants.size()),
+                       .sessions = data.sessions};
   const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
   const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
   const std::vector<BlockDesign> discriminations = comparing_blocks(data);
@@ -93,7 +100,10 @@ StudyResults results_of(const StudyData& data, const Published& published,
     results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
   }
   for (const BlockDesign& block : discriminations) {
-    results.sections.push_back(discrimination_results(data, block, options));
+    const bool is_median_published =
+        published.values.contains(block.block + ".individual_weber_fraction_median");
+    results.sections.push_back(
+        discrimination_results(data, block, options, is_median_published));
   }
   for (const BlockDesign& block : data.blocks) {
     add_threshold_sections(results.sections, data, block, options);

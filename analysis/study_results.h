@@ -72,6 +72,9 @@ template <typename AnyEstimate>
 
 struct ResultsSection {
   std::string name;  ///< "magnitude_estimation", "group_d", "movement" ...
+  /// Of a block of comparisons: what is told of everybody's own Weber fractions together, their
+  /// median and box, has the pse free, as the primary value; else it is at the reference.
+  bool own_fractions_free_pse = false;
   std::vector<Estimate> estimates;
   std::vector<ParticipantEstimate> participants;
   std::vector<NamedComparison> comparisons;
@@ -88,6 +91,7 @@ struct StudyResults {
   bool laboratory_changed = false;  ///< It is not the shipped one of that name.
   std::string citation;             ///< Of the published values; "" without any.
   int num_participants = 0;
+  MissingSessions sessions;
   std::vector<ResultsSection> sections;
 
   [[nodiscard]] const Estimate* find(const std::string& name) const;
@@ -105,6 +109,11 @@ struct ResultsOptions {
 [[nodiscard]] StudyResults results_of(const StudyData& data, const Published& published,
                                       const ResultsOptions& options = {});
 
+/// Names a participant without answers in a block or a stage of questions, unless it belongs to
+/// an arm that they were not in: then nothing is missing.
+void name_without_answers(std::vector<ExcludedParticipant>& excluded,
+                          const ParticipantData& participant, const std::string& stage);
+
 /// The sections, one function a kind of block; `results_of` calls what the design has.
 [[nodiscard]] ResultsSection estimation_results(const StudyData& data, const BlockDesign& block,
                                                 const ResultsOptions& options);
@@ -116,9 +125,12 @@ struct ResultsOptions {
                                               const BlockDesign& estimation,
                                               const BlockDesign& production,
                                               const ResultsOptions& options);
+/// `is_median_published`: the median of people's own fractions stands beside a published one,
+/// which has the pse at the reference, whatever the primary value of the block has.
 [[nodiscard]] ResultsSection discrimination_results(const StudyData& data,
                                                     const BlockDesign& block,
-                                                    const ResultsOptions& options);
+                                                    const ResultsOptions& options,
+                                                    bool is_median_published = false);
 [[nodiscard]] ResultsSection discrimination_comparison(const StudyData& data,
                                                        const ComparedBlocks& blocks);
 [[nodiscard]] ResultsSection movement_results(const StudyData& data);

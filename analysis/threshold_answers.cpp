@@ -65,7 +65,7 @@ std::vector<ThresholdAnswers> threshold_answers(const StudyData& data, const Blo
     add_all(participant.catch_trials);
     if (with_excluded) add_all(participant.excluded_trials);
     if (answers.levels.empty()) {
-      excluded.push_back({participant.participant, "no answers in " + block.block});
+      name_without_answers(excluded, participant, block.block);
     } else {
       all.push_back(std::move(answers));
     }

@@ -42,6 +42,9 @@ class HandMadeStudy {
     store_.append(started);
   }
 
+  /// The session added last is "session_completed" or "session_ended_early".
+  void end(const char* kind) { store_.append(event(kind)); }
+
   /// One answered trial of the session added last. Its number.
   std::int64_t answer(core::TrialRow row) {
     core::Commit drawn = event("trials_drawn");

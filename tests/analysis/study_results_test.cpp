@@ -258,6 +258,170 @@ TEST(StudyResults, WhoLacksABlockIsNamedThere) {
   EXPECT_EQ(of.find("group_e.weber_fraction")->n, 1);
 }
 
+/// Every kind of block and a form in an arm of their own.
+constexpr char kArms[] = R"({"name": "by_hand", "stages": [
+  {"kind": "counterbalance", "name": "oil", "method": "one_of", "arms": [
+    {"name": "thin", "stages": [{"kind": "block", "name": "thin_oil"},
+      {"kind": "block", "name": "estimation"}]},
+    {"name": "thick", "stages": [{"kind": "block", "name": "thick_oil"},
+      {"kind": "block", "name": "production"}, {"kind": "block", "name": "match"},
+      {"kind": "block", "name": "felt", "task": "yes_no"}]}]},
+  {"kind": "questionnaire", "name": "about", "only_for": {"oil": "thick"},
+   "items": [{"name": "tired", "kind": "yes_no"}]}]})";
+
+void move_widely(HandMadeStudy& study) {
+  study.move({.presentation = 1,
+              .interval = "test",
+              .intensity = 12.0,
+              .stroke_width_m = 0.3,
+              .max_speed_m_per_s = 0.4,
+              .num_strokes = 3});
+}
+
+/// P01 and P02 in the one arm, P03 in the other; P04 and P05 left either before it began.
+void add_both_arms(HandMadeStudy& study) {
+  for (const char* name : {"P01", "P02"}) {
+    study.add(name, false, "", "sex=female;oil=thin");
+    study.compare_ten("thin_oil", 8);
+    move_widely(study);
+    study.estimate(1.0, 100.0);
+    study.estimate(2.0, 200.0);
+  }
+  study.add("P03", false, "", "sex=female;oil=thick");
+  study.compare_ten("thick_oil", 9);
+  move_widely(study);
+  study.produce(100.0, 2.0);
+  study.produce(200.0, 3.0);
+  study.match(1.0, 1.0, 2.0);
+  (void)study.answer({.block = "felt",
+                      .procedure = "constant_stimuli",
+                      .quantity = "viscosity_pa_s",
+                      .intensity = 1.0,
+                      .response = 1.0});
+  study.say("about", "tired", "no");
+  study.add("P04", false, "", "sex=female;oil=thin");
+  study.add("P05", false, "", "sex=female;oil=thick");
+}
+
+TEST(StudyResults, NobodyIsLeftOutOfWhatBelongsToAnotherArm) {
+  HandMadeStudy study(kArms);
+  add_both_arms(study);
+  const StudyResults of = results(study);
+  const auto is_named_anywhere = [&](const std::string& participant, const std::string& stage) {
+    return std::ranges::any_of(of.sections, [&](const ResultsSection& one) {
+      return is_named(one.excluded, participant, " in " + stage);
+    });
+  };
+  for (const char* stage : {"thin_oil", "estimation"}) {
+    EXPECT_TRUE(is_named_anywhere("P04", stage)) << stage;
+    for (const char* other : {"P03", "P05", "everyone"}) {
+      EXPECT_FALSE(is_named_anywhere(other, stage)) << other << " in " << stage;
+    }
+  }
+  for (const char* stage : {"thick_oil", "production", "match", "felt", "about"}) {
+    EXPECT_TRUE(is_named_anywhere("P05", stage)) << stage;
+    for (const char* other : {"P01", "P02", "P04", "everyone"}) {
+      EXPECT_FALSE(is_named_anywhere(other, stage)) << other << " in " << stage;
+    }
+  }
+}
+
+TEST(StudyResults, ArmsThatNobodySharesHaveNoPairs) {
+  HandMadeStudy study(kArms);
+  add_both_arms(study);
+  const StudyResults of = results(study);
+  for (const NamedComparison& named : section(of, "movement").comparisons) {
+    EXPECT_EQ(named.name.find("thin_oil - "), std::string::npos) << named.name;
+  }
+  EXPECT_NE(of.find("stroke_width_m.thin_oil"), nullptr);
+  EXPECT_EQ(of.find("stroke_width_m.thin_oil_minus_thick_oil"), nullptr);
+  const ResultsSection& against = section(of, "thin_oil_against_thick_oil");
+  for (const NamedComparison& named : against.comparisons) {
+    EXPECT_EQ(named.name.find(", paired"), std::string::npos) << named.name;
+    EXPECT_EQ(named.name.find("Wilcoxon"), std::string::npos) << named.name;
+  }
+  EXPECT_EQ(comparison(against, ": w, unpaired, Welch").num_a, 2);
+}
+
+/// Answers that a pse above the reference explains: 3 in 10 at the reference of 8.
+void compare_above(HandMadeStudy& study, const std::string& block, int num_more) {
+  for (int answered = 0; answered < 10; ++answered) {
+    study.compare(block, 8.0, 8.0 + 1e-6, answered < 3);
+    study.compare(block, 10.0, 8.0, answered < num_more);
+    study.compare(block, 12.0, 8.0, answered < num_more + 2);
+    study.compare(block, 24.0, 8.0, true);
+  }
+}
+
+TEST(StudyResults, OwnFractionsAreToldWithThePseOfThePrimaryValueUnlessPublishedOtherwise) {
+  HandMadeStudy study;
+  for (const auto& [name, num_more] : {std::pair{"P01", 5}, {"P02", 6}, {"P03", 7}}) {
+    study.add(name);
+    compare_above(study, "group_d", num_more);
+  }
+  const std::string name = "group_d.individual_weber_fraction_median";
+  const auto median_of = [](const StudyResults& of, const std::string& own_name) {
+    std::vector<double> values;
+    for (const ParticipantEstimate& own : section(of, "group_d").participants) {
+      if (own.name == own_name) values.push_back(own.value.value());
+    }
+    std::ranges::sort(values);
+    return values.at(1);
+  };
+  const StudyResults free = results(study);
+  EXPECT_NEAR(value(free, name), median_of(free, "group_d.weber_fraction_free_pse"), 1e-9);
+  EXPECT_NE(free.find(name)->meaning.find("pse free"), std::string::npos);
+  Published published;
+  published.values[name] = {.value = 0.72};
+  const StudyResults fixed = results(study, published);
+  EXPECT_NEAR(value(fixed, name), median_of(fixed, "group_d.weber_fraction"), 1e-9);
+  EXPECT_NE(fixed.find(name)->meaning.find("pse at the reference"), std::string::npos);
+  EXPECT_GT(std::fabs(value(free, name) - value(fixed, name)), 0.05);
+}
+
+TEST(StudyResults, AnOwnFractionIsBeyondTheStimuliOfTheBlockNotOfOnesOwnAnswers) {
+  HandMadeStudy study;
+  study.add("P01");
+  // Halving and doubling: w of their own about 0.8, felt between 6 and 10.
+  for (int answered = 0; answered < 10; ++answered) {
+    study.compare("group_d", 6.0, 8.0, answered < 3);
+    study.compare("group_d", 10.0, 8.0, answered < 7);
+  }
+  study.add("P02");
+  study.compare_ten("group_d", 8);
+  for (int answered = 0; answered < 10; ++answered) study.compare("group_d", 16.0, 8.0, true);
+  const StudyResults of = results(study);
+  EXPECT_EQ(value(of, "group_d.individual_weber_fraction_beyond_stimuli"), 0.0);
+  EXPECT_GT(value(of, "group_d.individual_weber_fraction_median"), 0.3);
+}
+
+TEST(StudyResults, AMedianBeyondTheStimuliSaysBeyondWhat) {
+  HandMadeStudy study;
+  for (const auto& [name, right] : {std::pair{"P01", 9}, {"P02", 5}, {"P03", 4}}) {
+    study.add(name);
+    study.compare_ten("group_d", right);
+  }
+  const StudyResults of = results(study);
+  EXPECT_FALSE(of.find("group_d.individual_weber_fraction_median")->value);
+  EXPECT_TRUE(is_named(section(of, "group_d").excluded, "everyone",
+                       "group_d.individual_weber_fraction_median: no value, > 0.5000: 2 of 3"));
+}
+
+TEST(StudyResults, SessionsThatDidNotComeToTheirEndAreNamed) {
+  HandMadeStudy study;
+  study.add("P01");
+  study.compare_ten("group_d", 8);
+  study.end("session_completed");
+  study.add("P02");
+  study.end("session_ended_early");
+  study.add("P03");
+  study.add("PILOT", /*pilot=*/true);
+  const StudyResults of = results(study);
+  EXPECT_EQ(of.sessions.open, std::vector<std::string>{"P03"});
+  EXPECT_EQ(of.sessions.ended_early, std::vector<std::string>{"P02"});
+  EXPECT_EQ(of.sessions.num_pilots, 1);
+}
+
 TEST(StudyResults, PilotsAndAnswersTakenBackOrSetAsideDoNotCount) {
   HandMadeStudy study;
   add_two_estimators(study);
