@@ -75,6 +75,7 @@ class MatchingSection {
   ResultsSection finish() && {
     if (matches_.empty()) return std::move(section_);
     add_matches();
+    add_overall();
     if (design_.protocol.standard_quantity == design_.quantity) add_ratio();
     add_matching_function();
     add_own("match_sd_ln",
@@ -125,6 +126,21 @@ class MatchingSection {
 
   [[nodiscard]] std::string name_at(double standard) const {
     return design_.block + ".match_at_" + number_text(standard);
+  }
+
+  /// Over all standards, each counting alike: what `jnd power` plans for.
+  void add_overall() {
+    std::vector<double> logs;
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+      double sum = 0.0;
+      for (const auto& [standard, mean_ln] : log_means_[i]) sum += mean_ln;
+      logs.push_back(sum / static_cast<double>(log_means_[i].size()));
+      section_.participants.push_back(
+          {names_[i], design_.block + ".match", std::exp(logs.back()), {}, ""});
+    }
+    add_geometric_mean(section_, design_.block + ".match",
+                       "geometric mean of the participants' matches over all standards", logs,
+                       unit_of_quantity(design_.quantity));
   }
 
   /// The constant error, as a ratio: of each participant the mean over standards in ln.

@@ -53,7 +53,10 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
     own.corrected = fit(true);
     return own;
   }
-  const Means logs = means_of(log_answers(answers.magnitudes, ZeroRule::kHalfSmallest).logs);
+  // As the results have it: a match of 0 is left out.
+  const ZeroRule rule =
+      block.quantity == PlannedQuantity::kMatch ? ZeroRule::kLeaveOut : ZeroRule::kHalfSmallest;
+  const Means logs = means_of(log_answers(answers.magnitudes, rule).logs);
   if (block.quantity == PlannedQuantity::kMatch) {
     std::vector<double> means;
     for (const auto& [standard, mean] : logs) means.push_back(mean);

@@ -48,6 +48,11 @@ TEST(MatchingResults, AreThoseWorkedByHand) {
   EXPECT_NEAR(value(all, "match.match_at_4"), 4.0, 1e-12);
   EXPECT_EQ(all.find("match.match_at_4")->unit, "Pa s");
   EXPECT_NE(all.find("match.match_at_4")->meaning.find("4 of water"), std::string::npos);
+  // Of 4 and 8, of 1 and 2: sqrt(32) and sqrt(2).
+  EXPECT_NEAR(value(all, "match.match"), std::sqrt(8.0), 1e-12);
+  EXPECT_EQ(all.find("match.match")->unit, "Pa s");
+  EXPECT_EQ(all.find("match.match")->n, 2);
+  EXPECT_LT(all.find("match.match")->ci95.low.value(), std::sqrt(8.0));
   // From 2 at 1 to 4 at 4.
   EXPECT_NEAR(value(all, "match.k"), 2.0, 1e-9);
   EXPECT_NEAR(value(all, "match.a"), 0.5, 1e-9);
@@ -70,6 +75,7 @@ TEST(MatchingResults, AreThereForEveryParticipant) {
   };
   EXPECT_NEAR(own("P01", "match.match_at_1").value(), 4.0, 1e-12);
   EXPECT_NEAR(own("P02", "match.match_at_4").value(), 2.0, 1e-12);
+  EXPECT_NEAR(own("P02", "match.match").value(), std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(own("P01", "match.starting_value_slope").value(), 1.0, 1e-12);
   EXPECT_NEAR(own("P02", "match.match_sd_ln").value(), 0.0, 1e-12);
 }
