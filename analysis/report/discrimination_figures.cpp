@@ -2,6 +2,8 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/discrimination_group.h"
+#include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/groups/summary.h"
 #include "analysis/groups/wilson_interval.h"
@@ -163,7 +165,8 @@ FigureTable means_table(const BlockAnswers& answers) {
     const Summary summary = summary_of(ratios);
     const double sd = summary.standard_deviation.value_or(0.0);
     table.rows.push_back({intensity, summary.mean, summary.standard_deviation,
-                          *summary.mean - sd, *summary.mean + sd, summary.num_values});
+                          std::max(*summary.mean - sd, 0.0), std::min(*summary.mean + sd, 1.0),
+                          summary.num_values});
   }
   return table;
 }
@@ -196,26 +199,88 @@ std::string reference_line(const BlockAnswers& answers) {
   return "  set arrow 1 from " + x + ",graph 0 to " + x + ",graph 1 nohead ls 12\n";
 }
 
-/// What the pooled curve is flatter than; "" without.
-std::string median_person_words(const FigureSource& source, const std::string& block) {
-  const Estimate* const person = source.results.find(block + ".weber_fraction_median_person");
-  if (person == nullptr || !person->value) return "";
-  return " Pooling people who differ flattens a curve: the median person’s Weber fraction, the "
-         "primary value, is " +
-         number_words(person->value, 3) + ".";
+/// The primary value of the block, with the curve that it is of.
+struct MedianPerson {
+  const Estimate* fraction = nullptr;  ///< With a value, or there is no such person.
+  double pse = 0.0, lapse_rate = 0.0;
+};
+
+MedianPerson median_person_of(const FigureSource& source, const BlockDesign& block,
+                              double reference) {
+  const auto find = [&](const char* name) {
+    const Estimate* const found = source.results.find(block.block + "." + name);
+    return found != nullptr && found->value ? found : nullptr;
+  };
+  std::vector<ExcludedParticipant> without_answers;
+  const bool frees =
+      primary_pse(discrimination_answers(source.data, block, false, without_answers)) ==
+      HierarchicalPse::kPersonal;
+  const Estimate* const pse = find("pse_median_person");
+  return {.fraction = find("weber_fraction_median_person"),
+          .pse = frees && pse != nullptr ? *pse->value : reference,
+          .lapse_rate = value_or_0(find("lapse_rate"))};
+}
+
+/// "median person: w = 0.29 (0.21 .. 0.40)"
+std::string median_person_words(const Estimate& fraction) {
+  const int num_decimals = *fraction.value < 0.1 ? 3 : 2;
+  std::string words = "median person: w = " + number_words(fraction.value, num_decimals);
+  const Interval ci95 = bounded_by_data(fraction.ci95, fraction.value);
+  if (!ci95.low || !ci95.high) return words;
+  return words + " (" + number_words(ci95.low, num_decimals) + " .. " +
+         number_words(ci95.high, num_decimals) + ")";
+}
+
+FigureTable median_person_table(const BlockAnswers& answers, const MedianPerson& person) {
+  FigureTable table{.name = file_word(answers.block) + "_median_person",
+                    .columns = {"intensity", "ratio"}};
+  for (const auto& [intensity, ratio] :
+       curve(answers, person.pse, *person.fraction->value, /*order_effect_ln=*/0.0)) {
+    table.rows.push_back(
+        {intensity, person.lapse_rate + (1.0 - 2.0 * person.lapse_rate) * ratio});
+  }
+  return table;
+}
+
+/// What a caption says of the curves of the group.
+std::string curves_words(const FigureSource& source, const BlockAnswers& answers,
+                         const MedianPerson& person, bool has_pooled, bool by_order) {
+  std::string words;
+  if (person.fraction != nullptr) {
+    words = "Black: the curve of the median person (hierarchical fit), whose Weber fraction, " +
+            with_interval(person.fraction->value, person.fraction->ci95) +
+            ", is the primary value" +
+            (by_order ? ", without anybody’s bias for an interval. " : ". ");
+  }
+  if (has_pooled) {
+    const Estimate* const pooled = source.results.find(answers.block + ".weber_fraction");
+    words += std::string("Orange, dashed: one curve through everybody’s answers (") +
+             (by_order ? "maximum likelihood, each order of the intervals with a point of "
+                         "subjective equality of its own, drawn as the mean of both"
+                       : "least squares, point of subjective equality at the reference") +
+             "), w = " + number_words(pooled->value, 3) + ": differences between people" +
+             (by_order ? " and between the intervals" : "") +
+             " flatten it, so that its Weber fraction is no person’s. ";
+  } else {
+    words += "The answers of everybody together have no curve. ";
+  }
+  return words;
 }
 
 /// Fig. 5 and D.23: the group's answers, its curve, everybody's curve behind.
-Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
+Figure group_figure(const FigureSource& source, const BlockDesign& block,
+                    const BlockAnswers& answers) {
+  const ResultsSection* const section = source.section(answers.block);
+  const bool free_pse = section != nullptr && section->own_fractions_free_pse;
   Figure figure{
       .name = file_word(answers.block) + "_psychometric",
       .section = answers.block,
       .title = "Psychometric function, " + answers.title,
       .thesis = "Fig. 5, D.6 and D.23",
       .width_in = 5.2,
-      .height_in = 3.3,
+      .height_in = 3.7,
       .tables = {answers.has_fixed_levels ? means_table(answers) : shares_table(answers),
-                 curves_table(answers)}};
+                 free_pse ? free_curves_table(answers) : curves_table(answers)}};
   const Estimate* const pooled = source.results.find(answers.block + ".weber_fraction");
   const bool has_curve = pooled != nullptr && pooled->value;
   const Estimate* const effect =
@@ -230,30 +295,38 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
       group.rows.push_back({intensity, ratio});
     }
   }
+  const MedianPerson person = median_person_of(source, block, answers.reference);
   const AxisRange range = intensity_range(answers);
   figure.plot = "  set xrange " + range_words(range) + "\n  set yrange [-0.06:1.06]\n" +
                 "  set xlabel " + gnuplot_quoted(quantity_axis(answers.quantity)) +
                 "\n  set ylabel 'Proportion of answers “more”'\n" +
-                "  set key bottom right reverse Left samplen 2\n" + reference_line(answers);
+                "  set key outside top center reverse Left samplen 2\n" +
+                reference_line(answers);
   std::string plot = "  plot ";
-  if (!figure.tables[1].rows.empty()) {
-    for (std::size_t i = 1; i <= answers.participants.size(); ++i) {
-      plot += from_table(figure.tables[1]) +
-              "'intensity':" + if_series(static_cast<int>(i), "ratio") + " with lines ls 10" +
-              (i == 1 ? " title 'participants, fitted'" : "") + ", ";
-    }
+  const bool has_own_curves = !figure.tables[1].rows.empty();
+  for (std::size_t i = 1; has_own_curves && i <= answers.participants.size(); ++i) {
+    plot += from_table(figure.tables[1]) +
+            "'intensity':" + if_series(static_cast<int>(i), "ratio") + " with lines ls 10, ";
+  }
+  if (person.fraction != nullptr) {
+    figure.tables.push_back(median_person_table(answers, person));
+    plot += from_table(figure.tables.back()) + "'intensity':'ratio' with lines ls 11 title " +
+            gnuplot_quoted(median_person_words(*person.fraction)) + ", ";
   }
   if (has_curve) {
     const double at = answers.reference * (1.0 + *pooled->value);
-    if (at < range.high && !by_order) {
+    if (at < range.high && !by_order && is_of_thesis(source.results)) {
       const std::string x = plot_number(at);
       figure.plot += "  set arrow 2 from first " + x + ",graph 0 to first " + x +
                      ",first 0.8413 nohead ls 12\n  set arrow 3 from graph 0,first 0.8413 to "
                      "first " +
                      x + ",first 0.8413 nohead ls 12\n";
     }
-    plot += from_table(group) + "'intensity':'ratio' with lines ls 11 title " +
-            gnuplot_quoted("fit to all pooled, w = " + number_words(pooled->value, 3)) + ", ";
+    plot += from_table(group) +
+            "'intensity':'ratio' with lines lc rgb '#D55E00' lw 1.4 dt 2 title " +
+            gnuplot_quoted("one curve through everybody’s answers: w = " +
+                           number_words(pooled->value, 3)) +
+            ", ";
   }
   plot += from_table(figure.tables[0]) +
           (answers.has_fixed_levels
@@ -261,27 +334,28 @@ Figure group_figure(const FigureSource& source, const BlockAnswers& answers) {
                  "ps 0.8 title 'mean ± sd'\n"
                : "'intensity':'ratio':'size' with points pt 7 ps variable lc rgb '#0072B2' "
                  "title 'all answers'\n");
+  // Named last: the eye begins with the median person.
+  if (has_own_curves) {
+    plot.pop_back();
+    plot += ", NaN with lines ls 10 title 'each participant, fitted'\n";
+  }
   figure.plot += plot;
   figure.caption =
+      curves_words(source, answers, person, has_curve, by_order) +
+      "Grey: each participant’s own (maximum likelihood, point of subjective equality " +
+      (free_pse ? "free). Points: " : "at the reference). Points: ") +
       (answers.has_fixed_levels
-           ? "Mean proportion of answers “more than the reference” and standard deviation "
+           ? "mean proportion of answers “more than the reference” and standard deviation "
              "between "
-           : "Proportion of answers “more than the reference”, the larger a point the more "
+           : "proportion of answers “more than the reference”, the larger a point the more "
              "answers, of ") +
-      counted_words(std::ssize(answers.participants), "participant") +
-      " at each level; the pooled curve (" +
-      (by_order ? "maximum likelihood, each order of the intervals with a point of subjective "
-                  "equality of its own, drawn as the mean of both"
-                : "least squares, point of subjective equality at the reference") +
-      ") in black, each participant’s own (maximum likelihood) in grey. Dashed: the "
-      "reference, " +
-      number_words(answers.reference) + " " + quantity_unit(answers.quantity) +
-      (!has_curve ? ". The pooled answers have no curve."
-       : by_order
-           ? "."
-           : ", and where the pooled curve reaches 84.13 %, which is the Weber fraction w "
-             "above it.") +
-      median_person_words(source, answers.block);
+      counted_words(std::ssize(answers.participants), "participant") + " at each level" +
+      (answers.has_fixed_levels ? ", cut at 0 and 1. " : ". ") +
+      "Dashed, vertical: the reference, " + number_words(answers.reference) + " " +
+      quantity_unit(answers.quantity) +
+      (has_curve && !by_order && is_of_thesis(source.results)
+           ? ", and where the curve through everybody’s answers reaches 84.13 %."
+           : ".");
   figure.tables.push_back(std::move(group));
   return figure;
 }
@@ -360,7 +434,7 @@ std::vector<Figure> discrimination_figures(const FigureSource& source) {
     if (!block.compares()) continue;
     const BlockAnswers answers = answers_of(source, block);
     if (answers.participants.empty()) continue;
-    figures.push_back(group_figure(source, answers));
+    figures.push_back(group_figure(source, block, answers));
     for (Figure& figure : participant_figures(answers)) figures.push_back(std::move(figure));
   }
   return figures;

@@ -22,6 +22,24 @@ std::vector<BlockDesign> discriminations(const FigureSource& source) {
   return found;
 }
 
+/// Own fractions of a block as their median and box have them, or with the other pse.
+std::string own_name(const FigureSource& source, const BlockDesign& block, bool other = false) {
+  const bool free_pse = source.section(block.block)->own_fractions_free_pse != other;
+  return block.block + (free_pse ? ".weber_fraction_free_pse" : ".weber_fraction");
+}
+
+/// "at the reference", or "free" with the blocks that have it so: what `own_name` has.
+std::string pse_words(const FigureSource& source, const std::vector<BlockDesign>& blocks) {
+  std::string free_titles;
+  std::size_t num_free = 0;
+  for (const BlockDesign& block : blocks) {
+    if (!source.section(block.block)->own_fractions_free_pse) continue;
+    free_titles += (num_free++ > 0 ? ", " : "") + source.words.short_title_of(block.block);
+  }
+  if (num_free == 0) return "at the reference";
+  return num_free == blocks.size() ? "free" : "at the reference, free in " + free_titles;
+}
+
 std::optional<double> reference_of(const StudyData& data, const std::string& block) {
   for (const ParticipantData& participant : data.participants) {
     for (const core::TrialRow& trial : participant.trials_in(block)) {
@@ -32,28 +50,28 @@ std::optional<double> reference_of(const StudyData& data, const std::string& blo
 }
 
 /// Everybody's fraction in every block, with what there is to see of its interval, and the one
-/// with a free pse beside it.
+/// with the other pse beside it.
 FigureTable fractions_table(const FigureSource& source,
                             const std::vector<BlockDesign>& blocks) {
-  FigureTable table{
-      .name = "weber_fractions",
-      .columns = {"series", "block", "position", "participant", "weber_fraction", "ci95_low",
-                  "ci95_high", "reason", "position_free_pse", "weber_fraction_free_pse"}};
+  FigureTable table{.name = "weber_fractions",
+                    .columns = {"series", "block", "position", "participant", "weber_fraction",
+                                "ci95_low", "ci95_high", "reason", "pse", "position_other_pse",
+                                "weber_fraction_other_pse"}};
   const std::vector<std::string> people = source.participants();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (std::size_t i = 0; i < people.size(); ++i) {
       const ParticipantEstimate* const own =
-          source.own(blocks[b].block, people[i], blocks[b].block + ".weber_fraction");
+          source.own(blocks[b].block, people[i], own_name(source, blocks[b]));
       if (own == nullptr) continue;
-      const ParticipantEstimate* const free =
-          source.own(blocks[b].block, people[i], blocks[b].block + ".weber_fraction_free_pse");
+      const ParticipantEstimate* const other =
+          source.own(blocks[b].block, people[i], own_name(source, blocks[b], /*other=*/true));
       const double position =
           static_cast<double>(i) + 0.95 +
           0.36 * (static_cast<double>(b) - 0.5 * static_cast<double>(blocks.size() - 1));
       table.rows.push_back({static_cast<int>(b) + 1, blocks[b].block, position, people[i],
                             own->value, own->ci95.low, own->ci95.high, own->reason,
-                            position + 0.13,
-                            free == nullptr ? std::optional<double>() : free->value});
+                            pse_words(source, {blocks[b]}), position + 0.13,
+                            other == nullptr ? std::optional<double>() : other->value});
     }
   }
   return table;
@@ -75,7 +93,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   int num_without = 0;
   for (const std::vector<FigureCell>& row : table.rows) {
     if (row[4].number) values.push_back(*row[4].number);
-    if (row[9].number) values.push_back(*row[9].number);
+    if (row[10].number) values.push_back(*row[10].number);
     num_without += row[4].number ? 0 : 1;
   }
   if (values.empty()) return std::nullopt;
@@ -108,9 +126,12 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
             " with yerrorbars lt " + type + " dt 1 pt " + (b == 0 ? "7" : "5") +
             " ps 0.6 title " + gnuplot_quoted(source.words.short_title_of(blocks[b].block)) +
             ", " + from_table(table) +
-            "'position_free_pse':" + if_series(series, "weber_fraction_free_pse") +
+            "'position_other_pse':" + if_series(series, "weber_fraction_other_pse") +
             " with points lt " + type + " pt " + (b == 0 ? "6" : "4") + " ps 0.6 title " +
-            gnuplot_quoted(source.words.short_title_of(blocks[b].block) + ", PSE free");
+            gnuplot_quoted(source.words.short_title_of(blocks[b].block) +
+                           (source.section(blocks[b].block)->own_fractions_free_pse
+                                ? ", PSE at the reference"
+                                : ", PSE free"));
     const Estimate* const median =
         source.results.find(blocks[b].block + ".individual_weber_fraction_median");
     if (median != nullptr && median->value) {
@@ -119,9 +140,11 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   }
   figure.plot += plot + "\n";
   figure.caption =
-      "Maximum likelihood. Full marks: point of subjective equality (PSE) at the reference, "
-      "with 95 % likelihood-ratio intervals, which go to the edge where the data do "
-      "not bound them, and medians as horizontal lines. Open marks beside them: PSE free. ";
+      "Maximum likelihood. Full marks: point of subjective equality (PSE) " +
+      pse_words(source, blocks) +
+      ", with 95 % likelihood-ratio intervals, which go to the edge where the data do "
+      "not bound them, and medians as horizontal lines. Open marks beside them: the other PSE, "
+      "free or at the reference. ";
   for (const BlockDesign& block : blocks) {
     const FitsBorne borne = fits_borne(*source.section(block.block), block.block);
     figure.caption += source.words.short_title_of(block.block) + ": " +
@@ -149,7 +172,7 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
     BoxGroup group{.label = block.block, .position = static_cast<double>(groups.size()) + 1.0};
     for (const std::string& person : source.participants()) {
       const ParticipantEstimate* const own =
-          source.own(block.block, person, block.block + ".weber_fraction");
+          source.own(block.block, person, own_name(source, block));
       if (own == nullptr || !own->value || !reference) continue;
       group.values.emplace_back(person, *own->value * *reference);
       values.push_back(*own->value * *reference);
@@ -167,8 +190,8 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
       .title = "Difference thresholds",
       .caption =
           "The difference from the reference that is told in 84.13 % of trials: "
-          "Weber fraction, with the point of subjective equality at the reference, "
-          "times the reference" +
+          "Weber fraction, with the point of subjective equality " +
+          pse_words(source, blocks) + ", times the reference" +
           std::string(of_thesis ? " (Schmidt 2018 calls it the absolute threshold)" : "") +
           ". One circle a participant; boxes: quartiles and median, whiskers to the "
           "last value within 1.5 interquartile ranges. Logarithmic axis.",

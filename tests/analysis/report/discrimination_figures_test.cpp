@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/hand_made_study.h"
 #include "analysis/report/figures.h"
+#include "analysis/report/report_words.h"
 
 namespace jnd::analysis {
 namespace {
@@ -53,6 +57,78 @@ TEST(DiscriminationFigures, LevelsOfTheStudyFileHaveMeansHoweverManyTheyAre) {
     EXPECT_TRUE(draws(figures[0], "yerrorbars")) << procedure;
     EXPECT_TRUE(draws(figures[1], "yerrorbars")) << procedure;
   }
+}
+
+/// So many right answers of ten each.
+struct SomePeople {
+  explicit SomePeople(const std::vector<int>& nums_right) {
+    for (const int num_right : nums_right) {
+      study.add("P0" + std::to_string(++num_people));
+      study.compare_ten("thicker", num_right);
+    }
+  }
+  [[nodiscard]] FigureSource source() const {
+    return {.data = data, .results = results, .words = words};
+  }
+  int num_people = 0;
+  HandMadeStudy study;
+  StudyWords words;
+  StudyData data = {};
+  StudyResults results = {};
+};
+
+TEST(DiscriminationFigures, TheMedianPersonComesFirstAndThePooledCurveIsCalledWhatItIs) {
+  SomePeople people({9, 8, 7, 9, 6, 8});
+  people.data = load_study(people.study.store());
+  people.results = results_of(people.data, {}, {.num_resamples = 50});
+  const Figure figure = discrimination_figures(people.source()).at(0);
+  const Estimate* const person = people.results.find("thicker.weber_fraction_median_person");
+  ASSERT_NE(person, nullptr);
+  ASSERT_TRUE(person->value && person->ci95.low && person->ci95.high);
+  const std::string first = "median person: w = " + number_words(person->value, 2) + " (" +
+                            number_words(person->ci95.low, 2) + " .. " +
+                            number_words(person->ci95.high, 2) + ")";
+  EXPECT_TRUE(draws(figure, first)) << first << '\n' << figure.plot;
+  EXPECT_LT(figure.plot.find(first), figure.plot.find("through everybody’s answers: w = "));
+  EXPECT_TRUE(draws(figure, "through everybody’s answers: w = "));
+  EXPECT_FALSE(draws(figure, "fit to all pooled")) << figure.plot;
+  EXPECT_LT(figure.caption.find("median person"), figure.caption.find("everybody’s answers"));
+  EXPECT_NE(figure.caption.find("flatten"), std::string::npos) << figure.caption;
+}
+
+TEST(DiscriminationFigures, ErrorBarsOfSharesStayWithinNothingAndAll) {
+  SomePeople people({10, 10, 9, 5});
+  people.data = load_study(people.study.store());
+  people.results = results_of(people.data, {}, {.num_resamples = 50});
+  const FigureTable means = discrimination_figures(people.source()).at(0).tables.at(0);
+  ASSERT_EQ(means.columns.at(3), "low");
+  bool any_cut = false;
+  for (const std::vector<FigureCell>& row : means.rows) {
+    EXPECT_GE(row[3].number.value(), 0.0);
+    EXPECT_LE(row[4].number.value(), 1.0);
+    any_cut |= row[1].number.value() + row[2].number.value() > 1.0;
+  }
+  EXPECT_TRUE(any_cut) << "or this says nothing";
+}
+
+TEST(DiscriminationFigures, BoxesRestOnThePseOfThePrimaryValueAndSaySo) {
+  SomePeople people({9, 8, 7, 9, 6, 8});
+  people.data = load_study(people.study.store());
+  people.results = results_of(people.data, {}, {.num_resamples = 50});
+  const auto boxes_of = [&] { return weber_figures(people.source()).at(1); };
+  EXPECT_NE(boxes_of().caption.find("point of subjective equality free"), std::string::npos);
+  const auto is_free = [&](const std::vector<FigureCell>& row) {
+    const ParticipantEstimate* const own =
+        people.source().own("thicker", row.at(2).text, "thicker.weber_fraction_free_pse");
+    return own != nullptr && own->value && std::fabs(*own->value * 8.0 - *row[3].number) < 1e-9;
+  };
+  const FigureTable values = boxes_of().tables.at(1);
+  EXPECT_TRUE(std::ranges::all_of(values.rows, is_free));
+  Published published;
+  published.values["thicker.individual_weber_fraction_median"] = {.value = 0.5};
+  people.results = results_of(people.data, published, {.num_resamples = 50});
+  EXPECT_NE(boxes_of().caption.find("point of subjective equality at the reference"),
+            std::string::npos);
 }
 
 }  // namespace
