@@ -28,6 +28,13 @@ json interval(const Interval& ci95) {
   return json::array({number(ci95.low), number(ci95.high)});
 }
 
+json missing_json(const analysis::MissingSessions& sessions) {
+  return {{"open", sessions.open},
+          {"ended_early", sessions.ended_early},
+          {"num_pilots_left_out", sessions.num_pilots},
+          {"num_withdrawn", sessions.num_withdrawn}};
+}
+
 /// Text of the shipped laboratory of this name; "" if there is none.
 std::string shipped(const std::string& name) {
   std::ifstream file(share_folder() / "data" / "laboratories" / (name + ".json"),
@@ -139,11 +146,14 @@ json to_json(const analysis::StudyResults& results) {
                         {"excluded", std::move(excluded)},
                         {"free_answers", std::move(free_answers)}});
   }
-  return {
-      {"study", results.study},           {"simulated", results.simulated},
-      {"laboratory", results.laboratory}, {"laboratory_changed", results.laboratory_changed},
-      {"citation", results.citation},     {"num_participants", results.num_participants},
-      {"sections", std::move(sections)}};
+  return {{"study", results.study},
+          {"simulated", results.simulated},
+          {"laboratory", results.laboratory},
+          {"laboratory_changed", results.laboratory_changed},
+          {"citation", results.citation},
+          {"num_participants", results.num_participants},
+          {"sessions", missing_json(results.sessions)},
+          {"sections", std::move(sections)}};
 }
 
 }  // namespace jnd::app

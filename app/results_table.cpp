@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +8,14 @@
 #include <tuple>
 
 #include "analysis/fits/bounded_interval.h"
+#include "analysis/report/report_words.h"
 #include "app/results_basis.h"
 #include "app/results_output.h"
 
 namespace jnd::app {
 namespace {
 
+using analysis::counted_words;
 using analysis::Estimate;
 using analysis::Interval;
 
@@ -52,6 +55,29 @@ std::string published_text(const Estimate& estimate) {
              : fmt::format("{:.4f}", *estimate.published);
 }
 
+/// "2 sessions open: P13, P14"; "" for none.
+std::string named_sessions(const std::vector<std::string>& participants,
+                           const std::string& how) {
+  if (participants.empty()) return "";
+  return fmt::format("{} {}: {}", counted_words(std::ssize(participants), "session"), how,
+                     fmt::join(participants, ", "));
+}
+
+/// A line of what did not come to its end or is not told of; "" where every session did.
+std::string missing_words(const analysis::MissingSessions& sessions) {
+  std::vector<std::string> parts = {named_sessions(sessions.open, "open"),
+                                    named_sessions(sessions.ended_early, "ended early")};
+  if (sessions.num_pilots > 0) {
+    parts.push_back(counted_words(sessions.num_pilots, "pilot session") + " left out");
+  }
+  if (sessions.num_withdrawn > 0) {
+    parts.push_back(counted_words(sessions.num_withdrawn, "session") +
+                    " of participants who withdrew left no data");
+  }
+  std::erase(parts, "");
+  return parts.empty() ? "" : fmt::format("{}\n", fmt::join(parts, "; "));
+}
+
 std::string heading(const analysis::StudyResults& results) {
   std::string line =
       fmt::format("{}: {} participants", results.study, results.num_participants);
@@ -59,7 +85,7 @@ std::string heading(const analysis::StudyResults& results) {
     line += fmt::format(", SIMULATED (laboratory \"{}\"{})", results.laboratory,
                         results.laboratory_changed ? ", CHANGED from the shipped one" : "");
   }
-  return line + "\n";
+  return line + "\n" + missing_words(results.sessions);
 }
 
 constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}  {}\n";
@@ -218,8 +244,9 @@ std::string participants_rows(const analysis::ResultsSection& section, int colum
   std::string table;
   for (const analysis::ParticipantEstimate& own : section.participants) {
     if (std::ranges::find(plain, own.name) != plain.end()) continue;
-    table += fmt::format("  {:<{}} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
-                         column, text_of(own.name, own.value), text(own.ci95, own.value), own.reason);
+    table +=
+        fmt::format("  {:<{}} {:>10}  {:>20}  {}\n", own.participant + " " + own.name, column,
+                    text_of(own.name, own.value), text(own.ci95, own.value), own.reason);
   }
   for (std::size_t first = 0; first < plain.size();) {
     std::size_t end = first + 1;

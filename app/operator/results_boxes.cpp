@@ -28,6 +28,12 @@ Values own_values(const ResultsSource& source, const std::string& block,
   return values;
 }
 
+/// Whether the block's own fractions are told together with the pse free, as its primary value.
+bool has_free_pse(const ResultsSource& source, const BlockDesign& block) {
+  const analysis::ResultsSection* section = source.section(block.block);
+  return section != nullptr && section->own_fractions_free_pse;
+}
+
 using MovementColumn = std::optional<double> core::PresentationRow::*;
 
 Values movement_values(const ResultsSource& source, const std::string& block,
@@ -167,7 +173,11 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
   for (const BlockDesign& block : source.data.blocks) {
     const std::string label = short_title(source.title(block.block));
     if (block.compares() || block.tells_apart()) {
-      add_box(weber, label, own_values(source, block.block, block.block + ".weber_fraction"));
+      const bool free_pse = has_free_pse(source, block);
+      add_box(weber, label + (free_pse ? ", pse free" : ""),
+              own_values(
+                  source, block.block,
+                  block.block + (free_pse ? ".weber_fraction_free_pse" : ".weber_fraction")));
     }
     if (is_magnitude(block)) {
       add_box(exponent, label, own_values(source, block.block, block.block + ".a"));

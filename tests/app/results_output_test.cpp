@@ -67,6 +67,23 @@ TEST(ResultsOutput, TheTableHasEveryEstimateAndNoNan) {
   EXPECT_EQ(table.find("nan"), std::string::npos) << table;
 }
 
+TEST(ResultsOutput, SessionsThatAreMissingStandBelowTheHeading) {
+  analysis::StudyResults results = some_results();
+  EXPECT_EQ(to_table(results).find("session"), std::string::npos);
+  results.sessions = {
+      .open = {"P13"}, .ended_early = {"P02", "P05"}, .num_pilots = 1, .num_withdrawn = 2};
+  const std::string table = to_table(results);
+  EXPECT_NE(table.find("honey: 2 participants, SIMULATED (laboratory \"lab\")\n"
+                       "1 session open: P13; 2 sessions ended early: P02, P05; 1 pilot session "
+                       "left out; 2 sessions of participants who withdrew left no data\n"),
+            std::string::npos)
+      << table;
+  const nlohmann::json json = to_json(results);
+  EXPECT_EQ(json["sessions"], nlohmann::json::parse(
+                                  R"({"open": ["P13"], "ended_early": ["P02", "P05"],
+                                      "num_pilots_left_out": 1, "num_withdrawn": 2})"));
+}
+
 TEST(ResultsOutput, TheComparisonTellsWhatWasCalibratedFromWhatWasHeldOut) {
   const std::string table = to_comparison_table(some_results());
   EXPECT_NE(table.find("calibrated"), std::string::npos) << table;

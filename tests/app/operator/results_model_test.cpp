@@ -227,6 +227,16 @@ TEST(ResultsModel, AnAnswerOfZeroHasNoGeometricMean) {
   EXPECT_TRUE(figure.pooled.estimation[1].geometric.has_value());
 }
 
+TEST(ResultsModel, BoxesOfWeberFractionsHaveThePseOfThePrimaryValueAndSaySo) {
+  HandMadeStudy study(kTinyStudy);
+  add_six_comparers(study);
+  const ResultsModel model = model_of(study.folder());
+  const auto weber = std::ranges::find(model.boxes, "weber_fraction", &BoxFigure::name);
+  ASSERT_NE(weber, model.boxes.end());
+  EXPECT_EQ(weber->boxes.at(0).label, "Comparison, pse free");
+  EXPECT_EQ(weber->boxes.at(0).n, 6);
+}
+
 TEST(BoxOf, HasQuartilesWhiskersAndOutliersAsWorkedByHand) {
   // 1 2 3 4 5 100: quartiles 2.25 and 4.75, fences -1.5 and 8.5.
   const Box box = box_of("x", {{"a", 5}, {"b", 1}, {"c", 3}, {"d", 100}, {"e", 2}, {"f", 4}});
@@ -325,15 +335,20 @@ TEST(ResultsModel, TrialsSetAsideAndExcludedParticipantsAreNamed) {
   EXPECT_TRUE(has_chip(model, "P02: no answers in Comparison", Tone::kWarning));
 }
 
-TEST(ResultsModel, ComparisonsAreInWordsWithTheTitlesOfBlocks) {
-  HandMadeStudy study(replaced(
+/// Group D and Group E, which everybody compares in.
+std::string two_groups() {
+  return replaced(
       replaced(kTinyStudy, R"("name": "production", "procedure": "magnitude_production",
      "medium": "water", "scale": [1, 2], "target_percent": [100],
      "coarse_step_scale": 0.5, "fine_step_scale": 0.25,)",
                R"("name": "group_d", "title": {"en": "Group D"},
      "procedure": "constant_stimuli", "medium": "viscous", "viscosity_pa_s": [4, 16],
      "reference_viscosity_pa_s": 8, "repetitions": 2,)"),
-      R"("name": "comparison",)", R"("name": "group_e", "title": {"en": "Group E"},)"));
+      R"("name": "comparison",)", R"("name": "group_e", "title": {"en": "Group E"},)");
+}
+
+TEST(ResultsModel, ComparisonsAreInWordsWithTheTitlesOfBlocks) {
+  HandMadeStudy study(two_groups());
   for (const char* name : {"P01", "P02", "P03"}) {
     study.add(name);
     study.compare_ten("group_d", 6 + name[2] - '0');
@@ -353,10 +368,21 @@ TEST(ResultsModel, ComparisonsAreInWordsWithTheTitlesOfBlocks) {
   EXPECT_NE(first.detail.find("95 % "), std::string::npos) << first.detail;
   EXPECT_NE(first.detail.find("t(2) = "), std::string::npos) << first.detail;
   EXPECT_NE(first.detail.find("p = 0."), std::string::npos) << first.detail;
-  // Nobody moved: a comparison without values says why.
-  const ComparisonLine& last = model.comparisons.back();
-  EXPECT_FALSE(last.estimate.has_value());
-  EXPECT_FALSE(last.detail.empty());
+  EXPECT_TRUE(std::ranges::none_of(model.comparisons, [](const ComparisonLine& line) {
+    return line.name.find("troke") != std::string::npos;
+  })) << "nobody moved";
+}
+
+TEST(ResultsModel, AComparisonWithoutAValueSaysWhy) {
+  HandMadeStudy study(two_groups());
+  study.add("P01");
+  study.compare_ten("group_d", 10);
+  study.compare_ten("group_e", 10);
+  const ResultsModel model = model_of(study.folder());
+  const auto without = std::ranges::find_if(
+      model.comparisons, [](const ComparisonLine& line) { return !line.estimate; });
+  ASSERT_NE(without, model.comparisons.end());
+  EXPECT_FALSE(without->detail.empty());
 }
 
 TEST(ResultsModel, ADoubleBlindStudyIsRefusedInTheWordsOfEveryCommand) {
