@@ -35,8 +35,7 @@ std::string list_of(const std::vector<double>& values, const std::string& unit) 
 }
 
 bool length_is_expected(const Block& block) {
-  return block.procedure == "staircase" || block.procedure == "limits" ||
-         block.procedure == "quest_plus";
+  return experiments::procedure_named(block.procedure).adapts();
 }
 
 std::string trials_to_expect(const Block& block, int num_trials) {

@@ -1,5 +1,7 @@
 #include "experiments/adaptive/level_scale.h"
 
+#include <charconv>
+
 #include "core/require.h"
 
 namespace jnd::experiments {
@@ -25,6 +27,11 @@ std::vector<double> equally_spaced(LevelScale scale, double lowest, double highe
   }
   levels.push_back(highest);
   return levels;
+}
+
+std::string level_words(double level) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, level).ptr};
 }
 
 void require_level(LevelScale scale, std::string_view place, double level) {

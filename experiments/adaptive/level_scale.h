@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,9 @@ enum class LevelScale {
 /// Throws `Error` unless both are levels of the scale and `highest` is above `lowest`.
 [[nodiscard]] std::vector<double> equally_spaced(LevelScale scale, double lowest,
                                                  double highest, int count);
+
+/// A level as messages tell it: "8", "0.5".
+[[nodiscard]] std::string level_words(double level);
 
 /// Throws `Error`, naming `place`, unless a level is finite and, in a logarithmic scale, > 0.
 void require_level(LevelScale scale, std::string_view place, double level);

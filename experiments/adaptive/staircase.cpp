@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/psychometric_function.h"
 #include "core/require.h"
 
 namespace jnd::experiments {
@@ -16,10 +17,17 @@ using core::require;
 void require_levels(const StaircaseRule& rule) {
   require_level(rule.scale, "staircase.lowest", rule.lowest);
   require_level(rule.scale, "staircase.highest", rule.highest);
-  require(rule.highest > rule.lowest, "staircase.highest", "a level above the lowest",
-          rule.highest);
-  require(rule.start >= rule.lowest && rule.start <= rule.highest, "staircase.start",
-          "a level from the lowest to the highest", rule.start);
+  // Words only where they are told: a rule is checked in every trial.
+  if (!(rule.highest > rule.lowest)) {
+    require(false, "staircase.highest",
+            "a level above the lowest (" + level_words(rule.lowest) + ")", rule.highest);
+  }
+  if (!(rule.start >= rule.lowest && rule.start <= rule.highest)) {
+    require(false, "staircase.start",
+            "a level from the lowest (" + level_words(rule.lowest) + ") to the highest (" +
+                level_words(rule.highest) + ")",
+            rule.start);
+  }
   require_ascending(rule.scale, "staircase.grid", rule.grid);
   if (rule.grid.empty()) return;
   require(rule.grid.size() >= 2, "staircase.grid", "two levels or more", rule.grid.front());
@@ -48,8 +56,11 @@ void require_counts(const StaircaseRule& rule) {
   const int averaged = rule.num_reversals_averaged;
   require(averaged >= 2 && averaged % 2 == 0, "staircase.num_reversals_averaged",
           "an even number, 2 or more", averaged);
-  require(averaged <= rule.max_reversals.value_or(averaged), "staircase.num_reversals_averaged",
-          "no more than `max_reversals`", averaged);
+  if (averaged > rule.max_reversals.value_or(averaged)) {
+    require(false, "staircase.num_reversals_averaged",
+            "no more than `max_reversals` (" + std::to_string(*rule.max_reversals) + ")",
+            averaged);
+  }
 }
 
 /// Probability that `num_down` lowering answers in a row come before `num_up` raising ones.
@@ -205,6 +216,35 @@ double staircase_step_ratio(double target_probability, int num_up, int num_down)
   require(num_down >= 1, "staircase.num_down", "1 or more", num_down);
   const double down = down_before_up_probability(target_probability, num_up, num_down);
   return (1.0 - down) / down;
+}
+
+double expected_staircase_trials(const StaircaseRule& rule, double threshold, double spread) {
+  const double ratio = rule.down_per_up_ratio;
+  const double p = staircase_target_probability(rule.num_up, rule.num_down, ratio);
+  const double z = core::standard_normal_quantile(p);
+  const auto down = [&](double shift) {
+    const double raised = core::standard_normal_cdf(z + shift);
+    return down_before_up_probability(raised, rule.num_up, rule.num_down);
+  };
+  constexpr double kShift = 1e-4;
+  const double rise = (down(kShift) - down(-kShift)) / (2.0 * kShift * spread);
+  const double d = std::pow(p, rule.num_down), u = std::pow(1.0 - p, rule.num_up);
+  const double verdict_trials = (1.0 - d) * (1.0 - u) / (d * (1.0 - p) + p * u - d * u);
+  const double middle =
+      std::clamp(to_scale(rule.scale, threshold) + z * spread,
+                 to_scale(rule.scale, rule.lowest), to_scale(rule.scale, rule.highest));
+  const double way = to_scale(rule.scale, rule.start) - middle;
+  const double first = rule.step_sizes.front();
+  double num_trials =
+      way > 0.0 ? way / (first * ratio) * rule.num_down : -way / first * rule.num_up;
+  const double most_turns = 2.0 * std::min(1.0, ratio) / (1.0 + ratio);
+  for (int i = 0; i < rule.max_reversals.value_or(rule.max_trials); ++i) {
+    const double step = rule.step_sizes[std::min<std::size_t>(i, rule.step_sizes.size() - 1)];
+    const double turns =
+        2.0 * ratio / ((1.0 + ratio) * (1.0 + ratio)) + rise * step * ratio / (1.0 + ratio);
+    num_trials += verdict_trials / std::min(turns, most_turns);
+  }
+  return std::min(num_trials, static_cast<double>(rule.max_trials));
 }
 
 }  // namespace jnd::experiments

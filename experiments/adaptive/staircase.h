@@ -116,4 +116,22 @@ class Staircase {
 [[nodiscard]] double staircase_step_ratio(double target_probability, int num_up = 1,
                                           int num_down = 1);
 
+/// How many trials a staircase takes, at most `max_trials`, with an observer whose lowering
+/// answers follow a cumulative normal curve in the scale of the rule: half of them at
+/// `threshold` (unit of the quantity), standard deviation `spread` > 0 (of the scale). The way
+/// from the start to the level it swings about, in first steps, and for each reversal
+///
+///     trials of a verdict / probability that it turns,
+///
+/// both near that level. A verdict, a run of d lowering answers or of u raising ones, takes
+/// (1 - p^d) (1 - q^u) / (p^d q + p q^u - p^d q^u) trials (Feller 1968, sec. XIII.7). Were
+/// verdicts independent, they would turn with 2 r / (1 + r)^2, r being the step down over the
+/// step up s; that the curve drives the levels back adds b s r / (1 + r), b being how much
+/// the probability of a verdict downwards rises with the level: the stationary covariance of
+/// neighbouring verdicts of a random walk with a linear restoring drift. Bounds are left out.
+/// Within 20 % of simulated participants (1 to 3 down, steps of 5 to 100 %, 6 to 14 reversals).
+/// Throws `Error` unless the rule's numbers up and down and its ratio are sound.
+[[nodiscard]] double expected_staircase_trials(const StaircaseRule& rule, double threshold,
+                                               double spread);
+
 }  // namespace jnd::experiments

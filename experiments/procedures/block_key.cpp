@@ -95,8 +95,9 @@ BlockKey reference_key() {
   BlockKey key =
       amount_key("reference",
                  "The stimulus that every test stimulus is compared with; of "
-                 "`constant_stimuli` between the smallest and the largest of them, in "
-                 "`same_different` none of them. Of a `staircase` that aims at more "
+                 "`constant_stimuli` between the smallest and the largest of them, of "
+                 "`quest_plus` not beyond either, in `same_different` none of them. Of a "
+                 "`staircase` that aims at more "
                  "than 50 %, levels may all lie above it.");
   key.parameter.only_where = {{"task", {"reminder", "two_interval", "same_different"}}};
   return key;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "experiments/procedures/adaptive_trial.h"
 
 namespace jnd::experiments {
@@ -115,6 +116,28 @@ std::vector<PlannedTrial> LimitsProcedure::draw_next(const Block& block,
   const bool goes_on = !state.series.empty() && state.series.back().end == SeriesEnd::kRunning;
   const auto number = static_cast<int>(state.series.size()) + (goes_on ? 0 : 1);
   return {adaptive_trial(block, answered, *state.next_level, number, stream)};
+}
+
+void LimitsProcedure::check(const Block& block) const {
+  const LimitsRule rule = limits_rule_of(block);
+  if (rule.levels.size() < 2) {
+    throw core::Error("limits." + block.quantity + ": expected two levels or more, found one");
+  }
+  if (rule.scale == LevelScale::kLogarithmic && rule.levels.front() == 0.0) {
+    throw core::Error("limits." + block.quantity +
+                      ": expected levels > 0, as `level_scale` is `logarithmic`, found 0");
+  }
+  const int fewest = static_cast<int>(rule.levels.size()) - rule.max_start_offset;
+  if (rule.num_changed_in_a_row >= fewest) {
+    throw core::Error(
+        "limits.num_changed_in_a_row: expected fewer than the levels of the shortest series (" +
+        std::to_string(fewest) + "), found " + std::to_string(rule.num_changed_in_a_row));
+  }
+}
+
+int LimitsProcedure::most_trials(const Block& block) const noexcept {
+  return with_catch_trials(
+      block, block.settings.integer("num_series") * static_cast<int>(block.intensities.size()));
 }
 
 int LimitsProcedure::expected_trials(const Block& block) const noexcept {

@@ -59,4 +59,17 @@ int expected_trials(const Block& block) {
   return block.practice ? std::min(expected, block.practice->max_trials) : expected;
 }
 
+int most_trials(const Block& block) {
+  const int most = procedure_named(block.procedure).most_trials(block);
+  return block.practice ? std::min(most, block.practice->max_trials) : most;
+}
+
+std::string expected_trials_words(const Block& block) {
+  const bool adapts = procedure_named(block.procedure).adapts();
+  return (block.practice ? "at most "
+          : adapts       ? "about "
+                         : "") +
+         std::to_string(expected_trials(block));
+}
+
 }  // namespace jnd::experiments

@@ -33,5 +33,9 @@ struct PracticeState {
 
 /// How many trials to expect of the block, at most those of a practice.
 [[nodiscard]] int expected_trials(const Block& block);
+/// How many there can be, with as many catch trials as are to be expected among them.
+[[nodiscard]] int most_trials(const Block& block);
+/// "about 60" where the procedure adapts, "at most 40" of a practice, else "50".
+[[nodiscard]] std::string expected_trials_words(const Block& block);
 
 }  // namespace jnd::experiments

@@ -77,8 +77,14 @@ class Procedure {
   /// Throws `Error`, "staircase.highest: expected ...", where a block whose trials can be drawn
   /// cannot come to what it is for; the name behind the dot is that of a key.
   virtual void check(const Block&) const {}
-  /// How many trials to expect, for progress and planning.
+  /// Whether the answers decide how many trials there are.
+  [[nodiscard]] virtual bool adapts() const noexcept { return false; }
+  /// How many trials to expect, for progress and planning; no more than `most_trials`.
   [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
+  /// How many there can be, with as many catch trials as are to be expected among them.
+  [[nodiscard]] virtual int most_trials(const Block& block) const noexcept {
+    return expected_trials(block);
+  }
 };
 
 }  // namespace jnd::experiments

@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "experiments/adaptive/level_scale.h"
 #include "experiments/procedures/adaptive_trial.h"
+#include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
 namespace {
@@ -45,6 +47,11 @@ BlockKey stop(const char* key, const char* meaning, const char* unit) {
 
 ParameterGrid grid_of(const Block& block, const char* key) {
   const std::vector<double> ends = block.settings.numbers(key);
+  if (ends[0] > ends[1]) {
+    throw core::Error(std::string("quest_plus.") + key +
+                      ": expected the least value and then the largest, found " +
+                      plain_number(ends[0]) + " and then " + plain_number(ends[1]));
+  }
   const int count = block.settings.integer("grid_values");
   return {.values = ends[0] == ends[1]
                         ? std::vector<double>{ends[0]}
@@ -153,6 +160,24 @@ std::vector<PlannedTrial> QuestPlusProcedure::draw_next(
   if (quest->end(posterior) != QuestPlusEnd::kNotFinished) return {};
   const double level = quest->next_intensity(posterior, stream);
   return {adaptive_trial(block, answered, level, 0, stream)};
+}
+
+void QuestPlusProcedure::check(const Block& block) const {
+  const auto [lowest, highest] = std::ranges::minmax(block.intensities);
+  const double reference = block.reference_intensity.value_or(lowest);
+  if (reference < lowest || reference > highest) {
+    throw core::Error(
+        "quest_plus.reference: expected a number from the smallest to the largest test "
+        "stimulus (" +
+        plain_number(lowest) + " and " + plain_number(highest) + "), found " +
+        plain_number(reference));
+  }
+  const int max_trials = block.settings.integer("max_trials");
+  const int min_trials = block.settings.integer("min_trials");
+  if (min_trials > max_trials) {
+    throw core::Error("quest_plus.min_trials: expected no more than `max_trials` (" +
+                      std::to_string(max_trials) + "), found " + std::to_string(min_trials));
+  }
 }
 
 int QuestPlusProcedure::expected_trials(const Block& block) const noexcept {

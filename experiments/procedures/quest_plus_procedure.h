@@ -19,6 +19,8 @@ class QuestPlusProcedure final : public Procedure {
                                                     core::RandomStream& stream) const override;
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
+  void check(const Block& block) const override;
+  [[nodiscard]] bool adapts() const noexcept override { return true; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

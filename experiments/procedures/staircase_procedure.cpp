@@ -58,6 +58,26 @@ void check_side(double target, double reference, const StaircaseRule& rule) {
   }
 }
 
+/// Whom the number of trials is reckoned with.
+struct Observer {
+  double threshold = 0.0;  ///< Where half of the answers are "yes", unit of the quantity.
+  double spread = 0.0;     ///< Of the curve, in the scale of the block.
+};
+
+/// Compares with a Weber fraction of 0.3. Where nothing is compared, nobody knows the threshold
+/// before: the middle of the levels, and a curve that rises over a factor of e.
+Observer usual_observer(const Block& block) {
+  constexpr double kSpreadOfComparisonLn = 0.3;
+  constexpr double kSpreadOfDetectionLn = 1.0;
+  const StaircaseRule rule = staircase_rule_of(block, 1);
+  const double threshold =
+      block.reference_intensity.value_or(midpoint(rule.scale, rule.lowest, rule.highest));
+  const double spread_ln =
+      block.reference_intensity ? kSpreadOfComparisonLn : kSpreadOfDetectionLn;
+  return {threshold,
+          rule.scale == LevelScale::kLogarithmic ? spread_ln : spread_ln * threshold};
+}
+
 int num_series(const Block& block) {
   return static_cast<int>(block.settings.numbers("start").size());
 }
@@ -172,11 +192,17 @@ std::vector<double> StaircaseProcedure::possible_intensities(const Block& block)
 }
 
 int StaircaseProcedure::expected_trials(const Block& block) const noexcept {
-  // Some four trials for a reversal of a 1-up 2-down staircase.
-  constexpr int kTrialsPerReversal = 4;
-  const int each = std::min(block.settings.integer("max_trials"),
-                            kTrialsPerReversal * block.settings.integer("max_reversals"));
-  return with_catch_trials(block, num_series(block) * each);
+  const Observer observer = usual_observer(block);
+  double num_trials = 0.0;
+  for (int series = 1; series <= num_series(block); ++series) {
+    num_trials += expected_staircase_trials(staircase_rule_of(block, series),
+                                            observer.threshold, observer.spread);
+  }
+  return with_catch_trials(block, static_cast<int>(std::lround(num_trials)));
+}
+
+int StaircaseProcedure::most_trials(const Block& block) const noexcept {
+  return with_catch_trials(block, num_series(block) * block.settings.integer("max_trials"));
 }
 
 }  // namespace jnd::experiments

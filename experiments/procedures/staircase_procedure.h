@@ -20,7 +20,9 @@ class StaircaseProcedure final : public Procedure {
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
+  [[nodiscard]] bool adapts() const noexcept override { return true; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+  [[nodiscard]] int most_trials(const Block& block) const noexcept override;
 };
 
 /// The rule of the staircase that starts at the block's `series`-th starting level, from 1.

@@ -24,6 +24,10 @@ double total_duration_s(const std::vector<Exploration>& explorations) {
   return duration_s;
 }
 
+double trials_duration_s(const Block& block, int num_trials) {
+  return (block.free_space_between_s + block.expected_trial_s) * num_trials;
+}
+
 /// The most that a hand feels at this speed, whichever way it is turned.
 double moving_force_n(const core::MediumAmounts& amounts, const core::ForceMap* map,
                       double speed_m_per_s) {
@@ -132,8 +136,7 @@ double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
         } else if constexpr (std::is_same_v<Content, Training>) {
           return total_duration_s(content.examples);
         } else if constexpr (std::is_same_v<Content, Block>) {
-          return (content.free_space_between_s + content.expected_trial_s) *
-                 expected_trials(content);
+          return trials_duration_s(content, expected_trials(content));
         } else if constexpr (std::is_same_v<Content, Break>) {
           return content.duration_s;
         } else if constexpr (std::is_same_v<Content, PostExperiment>) {
@@ -145,6 +148,12 @@ double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
         }
       },
       stage.content);
+}
+
+double longest_duration_s(const Stage& stage, const ExpectedTimes& times) {
+  const auto* block = std::get_if<Block>(&stage.content);
+  return block == nullptr ? expected_duration_s(stage, times)
+                          : trials_duration_s(*block, most_trials(*block));
 }
 
 std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanRequest& request) {
@@ -161,6 +170,7 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
     for (std::size_t index = 0; index < plan.stages.size(); ++index) {
       const Stage& stage = *plan.stages[index].stage;
       plan.duration_s += expected_duration_s(stage);
+      plan.longest_duration_s += longest_duration_s(stage);
       const auto* block = std::get_if<Block>(&stage.content);
       if (block == nullptr) continue;
       const auto stage_index = static_cast<std::int64_t>(index);

@@ -22,6 +22,8 @@ struct ExpectedTimes {
 
 /// How long this stage is expected to take, in seconds.
 [[nodiscard]] double expected_duration_s(const Stage& stage, const ExpectedTimes& times = {});
+/// The same of a stage whose block has all trials that it can have.
+[[nodiscard]] double longest_duration_s(const Stage& stage, const ExpectedTimes& times = {});
 
 /// A block with the order in which its first trials will be drawn: all of them, unless the
 /// procedure adapts.
@@ -38,7 +40,8 @@ struct ParticipantPlan {
   Cell cell;
   std::vector<StageInstance> stages;
   std::vector<PlannedBlock> blocks;
-  double duration_s = 0.0;
+  double duration_s = 0.0;          ///< To be expected.
+  double longest_duration_s = 0.0;  ///< With all trials that its blocks can have.
 };
 
 struct PlanRequest {

@@ -9,14 +9,14 @@
 namespace jnd::experiments {
 
 Stretch longest_stretch(const std::vector<StageInstance>& stages) {
-  Stretch longest;
-  int num_trials = 0;
+  Stretch longest, current;
   for (const StageInstance& instance : stages) {
-    if (std::holds_alternative<Break>(instance.stage->content)) num_trials = 0;
+    if (std::holds_alternative<Break>(instance.stage->content)) current = {};
     const auto* block = std::get_if<Block>(&instance.stage->content);
     if (block == nullptr) continue;
-    num_trials += expected_trials(*block);
-    if (num_trials > longest.num_trials) longest = {num_trials, instance.stage};
+    current.num_trials += expected_trials(*block);
+    current.blocks.push_back(instance.stage);
+    if (current.num_trials > longest.num_trials) longest = current;
   }
   return longest;
 }

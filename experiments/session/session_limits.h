@@ -12,8 +12,8 @@ namespace jnd::experiments {
 /// The most trials that somebody does from one `break` to the next, or to an end of the
 /// session.
 struct Stretch {
-  int num_trials = 0;            ///< To be expected.
-  const Stage* block = nullptr;  ///< In which they come to so many; null for no trial.
+  int num_trials = 0;                  ///< To be expected.
+  std::vector<const Stage*> blocks{};  ///< That they are of.
 };
 
 /// Of a participant's own list of stages; the first of those that are equally long.

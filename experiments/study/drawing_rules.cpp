@@ -35,8 +35,8 @@ class Drawing : StudyCheck {
     core::RandomStream stream(1, "order");
     try {
       const Procedure& procedure = procedure_named(block.procedure);
-      (void)procedure.draw_next(block, {}, stream);
       procedure.check(block);
+      (void)procedure.draw_next(block, {}, stream);
     } catch (const core::Error& error) {
       tell(written, pointer, error.what());
     }

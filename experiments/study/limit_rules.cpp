@@ -5,11 +5,27 @@
 #include <utility>
 
 #include "experiments/order/counterbalance.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/session/session_limits.h"
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/rule_values.h"
 
 namespace jnd::experiments {
+namespace {
+
+/// "`practice` at most 40, `staircase` about 60".
+std::string words_of(const Stretch& stretch) {
+  constexpr std::size_t kMost = 8;
+  std::string words;
+  for (std::size_t i = 0; i < stretch.blocks.size() && i < kMost; ++i) {
+    const Stage& stage = *stretch.blocks[i];
+    words += (i > 0 ? ", `" : "`") + shown_text(stage.name, 30) + "` " +
+             expected_trials_words(std::get<Block>(stage.content));
+  }
+  return words + (stretch.blocks.size() > kMost ? " ..." : "");
+}
+
+}  // namespace
 
 void check_limit_rules(const LocatedJson& file, const Study& study,
                        std::vector<StudyProblem>& problems) {
@@ -38,9 +54,9 @@ void check_limit_rules(const LocatedJson& file, const Study& study,
   if (limits.max_trials_without_break &&
       longest.num_trials > *limits.max_trials_without_break) {
     report("max_trials_without_break",
-           "expected at least the " + std::to_string(longest.num_trials) +
-               " trials that are done without a `break` up to the end of `" +
-               shown_text(longest.block->name) + "`, found " +
+           "expected at least " + std::to_string(longest.num_trials) +
+               ", for so many trials are to be expected without a `break` (" +
+               words_of(longest) + "), found " +
                std::to_string(*limits.max_trials_without_break) + "; put a break in between");
   }
 }

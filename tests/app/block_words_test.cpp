@@ -27,7 +27,7 @@ TEST(BlockWords, AStaircaseTellsItsRuleAndWhereItsLevelsLie) {
   const StudyOutline outline = outline_of(study_with(kStaircase));
   ASSERT_EQ(outline.stages.size(), 1U);
   EXPECT_EQ(outline.stages[0].what,
-            "2 staircases, 1 up 2 down, each to 10 reversals or 60 trials: about 80 trials");
+            "2 staircases, 1 up 2 down, each to 10 reversals or 60 trials: about 54 trials");
   EXPECT_EQ(outline.stages[0].details,
             (std::vector<std::string>{
                 "viscous, from 1 to 30 Pa s", "viscous, starting at 16, 4 Pa s",

@@ -178,7 +178,7 @@ TEST(PlannedOrders, OfMatchesHaveTheirStandardsAndOfStaircasesWhatTheyDo) {
   EXPECT_TRUE(matches.starts_with("First half: ")) << matches;
   EXPECT_NE(matches.find("16 (from 0.5)"), std::string::npos) << matches;
   const auto stairs = planned_orders(shipped("viscosity_threshold"), one)[0].blocks;
-  EXPECT_NE((stairs[0] + stairs[1]).find("about 75 trials, 2 staircases, 1 up 1 down"),
+  EXPECT_NE((stairs[0] + stairs[1]).find("about 50 trials, 2 staircases, 1 up 1 down"),
             std::string::npos)
       << stairs[0] << stairs[1];
 }

@@ -106,6 +106,51 @@ TEST_P(EveryAdaptiveProcedure, LastsAboutAsLongAsIsExpected) {
 INSTANTIATE_TEST_SUITE_P(All, EveryAdaptiveProcedure,
                          ::testing::Values(kStaircase, kLimits, kQuestPlus));
 
+TEST(StaircaseProcedure, ExpectsTheTrialsThatItsRuleAndStepsTake) {
+  if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
+  for (const char* rule :
+       {R"("step_ratio": [1.5, 1.25, 1.1], "max_reversals": 10)",
+        R"("step_ratio": [1.1], "max_reversals": 10)",
+        R"("step_ratio": [1.5], "max_reversals": 6)",
+        R"("step_ratio": [1.25], "num_down": 1, "max_reversals": 10)",
+        R"("step_ratio": [1.3, 1.1], "num_down": 3, "max_reversals": 8)",
+        R"("step_ratio": [1.3], "num_down": 1, "down_per_up_ratio": 0.333)",
+        R"("level_scale": "linear", "step_viscosity_pa_s": [4, 2, 1], "max_reversals": 12)"}) {
+    const Block block = block_with(
+        R"("procedure": "staircase", "reference_viscosity_pa_s": 8, "max_trials": 500,
+           "start_viscosity_pa_s": [16, 4], "lowest_viscosity_pa_s": 1,
+           "highest_viscosity_pa_s": 64, )" +
+        std::string(rule));
+    double sum = 0.0;
+    constexpr int kRuns = 40;
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+      sum += static_cast<double>(answered_by_observer(block, seed).size());
+    }
+    const int expected = procedure_named("staircase").expected_trials(block);
+    EXPECT_NEAR(expected / (sum / kRuns), 1.0, 0.25) << rule;
+  }
+}
+
+TEST(StaircaseProcedure, ExpectsNoMoreThanItsMostTrials) {
+  const Procedure& staircase = procedure_named("staircase");
+  const Block few = block_with(R"("procedure": "staircase", "reference_viscosity_pa_s": 8,
+      "start_viscosity_pa_s": [16, 4], "lowest_viscosity_pa_s": 1,
+      "highest_viscosity_pa_s": 64, "step_ratio": [1.05], "catch_probability": 0.2,
+      "max_trials": 12)");
+  EXPECT_EQ(staircase.most_trials(few), 30);
+  EXPECT_EQ(staircase.expected_trials(few), 30);
+  const Block many = block_with(kStaircase);
+  EXPECT_EQ(staircase.most_trials(many), 400);
+  EXPECT_LT(staircase.expected_trials(many), 120);
+}
+
+TEST(LimitsProcedure, HasNoMoreTrialsThanSeriesHaveLevels) {
+  const Block block = block_with(kLimits);
+  const Procedure& limits = procedure_named("limits");
+  EXPECT_EQ(limits.most_trials(block), 120);
+  EXPECT_EQ(limits.expected_trials(block), 60);
+}
+
 TEST(StaircaseProcedure, FindsTheLevelAtWhichTheRuleBalances) {
   const Block block = block_with(kStaircase);
   const Staircase staircase(staircase_rule_of(block, 1));

@@ -93,6 +93,10 @@ TEST(Practice, NothingIsDrawnOnceItIsOverAndOneTrialBefore) {
   Block data = block;
   data.practice.reset();
   EXPECT_EQ(expected_trials(data), 60);
+  EXPECT_EQ(most_trials(block), 8);
+  EXPECT_EQ(most_trials(data), 60);
+  EXPECT_EQ(expected_trials_words(block), "at most 8");
+  EXPECT_EQ(expected_trials_words(data), "60");
   EXPECT_EQ(num_next(data, {}), 60U);
 }
 
