@@ -339,6 +339,13 @@ std::string one_of_words(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string item_count(const Parameter& parameter) {
+  if (parameter.min_items == parameter.max_items) {
+    return std::to_string(parameter.min_items) + ' ';
+  }
+  return parameter.min_items > 1 ? std::to_string(parameter.min_items) + " or more " : "";
+}
+
 std::string number_expectation(const Parameter& parameter) {
   const bool whole = parameter.kind == ValueKind::kInteger;
   std::string text = whole ? "a whole number" : "a number";
@@ -354,11 +361,9 @@ std::string number_expectation(const Parameter& parameter) {
 }
 
 std::string expectation(const Parameter& parameter) {
-  const std::string list =
-      parameter.min_items == 0 ? "a list of "
-      : parameter.min_items == 1
-          ? "a list of one or more "
-          : "a list of " + std::to_string(parameter.min_items) + " or more ";
+  const std::string count = item_count(parameter);
+  const std::string list = parameter.min_items == 1 && count.empty() ? "a list of one or more "
+                                                                     : "a list of " + count;
   switch (parameter.kind) {
     case ValueKind::kString:
       return parameter.allowed.empty() ? "a text in quotes" : one_of_words(parameter.allowed);

@@ -94,6 +94,8 @@ struct MediumQuantity {
 
 /// "a number > 0 and <= 1000 (Pa s)", "a list of texts", "`yes_no` or `text`".
 [[nodiscard]] std::string expectation(const Parameter& parameter);
+/// How many a list has to hold: "2 ", "2 or more "; "" where one is enough.
+[[nodiscard]] std::string item_count(const Parameter& parameter);
 /// Expectation of one element of a list of numbers.
 [[nodiscard]] std::string number_expectation(const Parameter& parameter);
 /// A number as a person writes it: "0.5", "1000".

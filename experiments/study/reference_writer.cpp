@@ -38,10 +38,7 @@ std::string heading_row(const std::vector<std::string>& names) {
 }
 
 std::string counted(const Parameter& parameter, const std::string& what) {
-  return (parameter.min_items > 1
-              ? "list of " + std::to_string(parameter.min_items) + " or more "
-              : "list of ") +
-         what;
+  return "list of " + item_count(parameter) + what;
 }
 
 std::string link_to(const ParameterTable& table) {

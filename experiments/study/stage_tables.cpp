@@ -68,21 +68,6 @@ const ParameterTable& post_experiment_item_table() {
   return kTable;
 }
 
-const ParameterTable& arm_table() {
-  static const ParameterTable kTable = {
-      .name = "arm",
-      .meaning = "One alternative of a counterbalance.",
-      .parameters = {{.key = "name",
-                      .kind = ValueKind::kName,
-                      .meaning = "Name of the arm in the data, unique in its counterbalance."},
-                     {.key = "stages",
-                      .kind = ValueKind::kStages,
-                      .meaning = "What happens in this arm; may be empty with `one_of`. A "
-                                 "counterbalance cannot stand inside an arm.",
-                      .min_items = 0}}};
-  return kTable;
-}
-
 const ParameterTable& counterbalance_table() {
   static const ParameterTable kTable = {
       .name = "counterbalance",
@@ -223,6 +208,21 @@ const ParameterTable& post_experiment_table() {
 }
 
 }  // namespace
+
+const ParameterTable& arm_table() {
+  static const ParameterTable kTable = {
+      .name = "arm",
+      .meaning = "One alternative of a counterbalance.",
+      .parameters = {{.key = "name",
+                      .kind = ValueKind::kName,
+                      .meaning = "Name of the arm in the data, unique in its counterbalance."},
+                     {.key = "stages",
+                      .kind = ValueKind::kStages,
+                      .meaning = "What happens in this arm; may be empty with `one_of`. A "
+                                 "counterbalance cannot stand inside an arm.",
+                      .min_items = 0}}};
+  return kTable;
+}
 
 std::vector<Parameter> stage_parameters(const std::string& kind, std::vector<Parameter> own) {
   std::vector<Parameter> parameters = {

@@ -18,6 +18,8 @@ namespace jnd::experiments {
 [[nodiscard]] Parameter friction_parameter();
 
 [[nodiscard]] const ParameterTable& block_table();
+/// One alternative of a counterbalance.
+[[nodiscard]] const ParameterTable& arm_table();
 [[nodiscard]] const ParameterTable& questionnaire_table();
 /// One answer to choose from.
 [[nodiscard]] const ParameterTable& option_table();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/study/shown_text.h"
+#include "experiments/study/stage_tables.h"
 
 namespace jnd::experiments {
 namespace {
@@ -86,6 +87,24 @@ std::string list_hint(const json& value, const Parameter& parameter) {
                         kind == ValueKind::kStages) &&
                        value.is_object() && !value.empty());
   return is_one ? "; put it in brackets: [...]" : "";
+}
+
+/// Whether this stands for a stage where an arm, which holds stages, is expected.
+bool is_stage(const json& value) {
+  return value.is_object() && value.contains("kind") && !value.contains("stages");
+}
+
+/// Where a key belongs that this table does not have: in the one other table that has it.
+std::string home_hint(const std::string& key) {
+  const ParameterTable* home = nullptr;
+  for (const ParameterTable* table : all_tables()) {
+    if (table->find(key) == nullptr) continue;
+    if (home != nullptr) return "";
+    home = table;
+  }
+  if (home == nullptr) return "";
+  return "; `" + key + "` is a key of `" + home->name + '`' +
+         (home == &study_table() ? " (the whole file)" : "");
 }
 
 bool is_blank(const std::string& text) {
@@ -183,8 +202,10 @@ void StructureCheck::check_keys(const json& object, const std::string& pointer,
     if (key == "comment") {
       check_value(value, child, comment_parameter());
     } else if (table.find(key) == nullptr) {
+      const std::string home = home_hint(key);
       report_key(child, "expected a key of `" + table.name + "`, found the unknown key `" +
-                            shown_text(key) + "`" + did_you_mean(key, candidates) +
+                            shown_text(key) + "`" +
+                            (home.empty() ? did_you_mean(key, candidates) : home) +
                             file_hint(value));
     }
   }
@@ -221,7 +242,9 @@ void StructureCheck::check_value(const json& value, const std::string& pointer,
     case ValueKind::kTexts:
     case ValueKind::kObjects:
     case ValueKind::kStages:
-      if (expect(value.is_array() && value.size() >= parameter.min_items)) {
+      if (expect(value.is_array() && value.size() >= parameter.min_items &&
+                 (parameter.min_items != parameter.max_items ||
+                  value.size() == parameter.max_items))) {
         check_list(value, pointer, parameter);
       }
       return;
@@ -306,6 +329,12 @@ void StructureCheck::check_list(const json& list, const std::string& pointer,
         check_stage(list[i], child);
         break;
       default:
+        if (parameter.nested == &arm_table() && is_stage(list[i])) {
+          report(child,
+                 R"(expected an arm, {"name": ..., "stages": [...]}, found a stage; put it )"
+                 "into the `stages` of an arm");
+          break;
+        }
         check_object(list[i], child, *parameter.nested);
     }
   }

@@ -56,6 +56,7 @@ class Rules : StudyCheck {
   void collect_arms(const json& stages) {
     for (const json& field : list(file_.root(), "participant_fields")) {
       if (!field.is_object()) continue;
+      fields_.insert(word(field, "name"));
       num_cells_ *= std::max(1.0, static_cast<double>(list(field, "options").size()));
     }
     for (const json& stage : stages) {
@@ -200,12 +201,16 @@ class Rules : StudyCheck {
         const std::string expected = "expected the name of a `one_of` counterbalance";
         const std::string found = ", found `" + shown_text(counterbalance) + "`";
         const auto other = methods_.find(counterbalance);
-        if (other == methods_.end() || other->second.empty()) {
+        const std::string known_names =
+            " (" + (names.empty() ? "there is none" : names_words(names)) + ")";
+        if (fields_.contains(counterbalance)) {
+          report(child, expected + known_names + found +
+                            ", a participant field, which cannot choose who gets a stage");
+        } else if (other == methods_.end() || other->second.empty()) {
           report(child, expected + found + did_you_mean(counterbalance, names));
         } else {
-          report(child, expected + " (" +
-                            (names.empty() ? "there is none" : names_words(names)) + ")" +
-                            found + ", whose method is `" + shown_text(other->second) +
+          report(child, expected + known_names + found + ", whose method is `" +
+                            shown_text(other->second) +
                             "` and of which everybody gets every arm");
         }
       } else if (std::find(known->second.begin(), known->second.end(), arm) ==
@@ -322,6 +327,7 @@ class Rules : StudyCheck {
 
   std::map<std::string, std::string> stage_names_, item_names_;  ///< Name to pointer.
   std::map<std::string, std::vector<std::string>> one_of_arms_;
+  std::set<std::string> fields_;                ///< Names of the study's participant fields.
   std::map<std::string, std::string> methods_;  ///< Of counterbalances, by their names.
   double num_cells_ = 1.0;
   double num_trials_ = 0.0;

@@ -169,7 +169,7 @@ TEST(StructureCheck, AllowsACommentInEveryObject) {
   EXPECT_EQ(
       problems_of(broken("\"kind\": \"break\"", "\"$schema\": \"s\", \"kind\": \"break\"")),
       "x.json:11:10: /stages/0/arms/0/stages/0/$schema: expected a key of `break`, found "
-      "the unknown key `$schema`");
+      "the unknown key `$schema`; `$schema` is a key of `study` (the whole file)");
 }
 
 TEST(StructureCheck, WantsObjectsWhereObjectsBelong) {
