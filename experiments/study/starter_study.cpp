@@ -83,15 +83,16 @@ constexpr const char* kStarter = R"json({
           "name": "estimation",
           "stages": [
             {
-              "comment": "The participant says how strong each stimulus feels. The other way round is magnitude_production, with target_percent and steps.",
+              "comment": "The participant says how strong each stimulus feels. With `modulus` `free` everybody chooses their own numbers; with `water_is_100` or `standard` the instruction has to say what is 100. The other way round is magnitude_production, with target_percent and steps.",
               "kind": "block",
               "name": "estimation",
               "procedure": "magnitude_estimation",
               "medium": "viscous",
               "viscosity_pa_s": [2, 4, 8, 16],
+              "modulus": "free",
               "repetitions": 3,
-              "instruction": {"en": "Say how thick each fluid feels. Free space is 0 percent, honey is 100 percent."},
-              "question": {"en": "How thick, in percent of honey?"},
+              "instruction": {"en": "Give the first fluid any number above 0 that fits how thick it feels, and every other one a number in proportion: twice the number for one that feels twice as thick."},
+              "question": {"en": "Which number fits how thick this feels?"},
               "free_space_between_s": 2,
               "expected_trial_s": 15
             }

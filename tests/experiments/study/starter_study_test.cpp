@@ -13,6 +13,13 @@ TEST(StarterStudy, HasNoProblemAndTheNameThatWasAskedFor) {
   EXPECT_EQ(read_study_text(text, "x").name, "honey_and_oil");
 }
 
+TEST(StarterStudy, AsksForTheNumbersThatItsModulusTakes) {
+  const std::string text = starter_study("a");
+  EXPECT_NE(text.find(R"("modulus": "free")"), std::string::npos);
+  EXPECT_EQ(text.find("percent of"), std::string::npos);
+  EXPECT_EQ(text.find("is 100 percent"), std::string::npos);
+}
+
 TEST(StarterStudy, ExplainsItselfInComments) {
   const std::string text = starter_study("a");
   int num_comments = 0;
