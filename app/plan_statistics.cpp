@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "app/json_text.h"
 #include "core/error.h"
 #include "experiments/participants/simulated_duration.h"
 
@@ -22,11 +23,14 @@ bool adapts(const PlannedBlock& block) {
          std::get<Block>(block.stage->content).practice;
 }
 
+/// Of seconds and trials.
+constexpr int kNumDecimals = 6;
+
 ordered_json to_json(const Spread& spread) {
-  return {{"mean", spread.mean},
-          {"standard_deviation", spread.standard_deviation},
-          {"least", spread.least},
-          {"most", spread.most}};
+  return {{"mean", to_decimals(spread.mean, kNumDecimals)},
+          {"standard_deviation", to_decimals(spread.standard_deviation, kNumDecimals)},
+          {"least", to_decimals(spread.least, kNumDecimals)},
+          {"most", to_decimals(spread.most, kNumDecimals)}};
 }
 
 ordered_json to_json(const OrderStatistics& orders) {
@@ -68,7 +72,7 @@ Spread spread_of(const std::vector<double>& values) {
   spread.least = *least;
   spread.most = *most;
   const auto n = static_cast<double>(values.size());
-  for (const double value : values) spread.mean += value / n;
+  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   if (values.size() == 1) return spread;
   double sum = 0.0;
   for (const double value : values) sum += std::pow(value - spread.mean, 2.0);
@@ -133,8 +137,8 @@ void add_to_json(const PlanStatistics& statistics, ordered_json& json) {
     ordered_json one = {{"block", block}};
     one["num_trials"] = to_json(spread);
     const LevelEnds& ends = statistics.level_ends.at(block);
-    one["lowest_ratio"] = ends.lowest_ratio;
-    one["highest_ratio"] = ends.highest_ratio;
+    one["lowest_ratio"] = to_decimals(ends.lowest_ratio, kNumDecimals);
+    one["highest_ratio"] = to_decimals(ends.highest_ratio, kNumDecimals);
     blocks.push_back(std::move(one));
   }
   auto trials = ordered_json::array();
@@ -143,8 +147,12 @@ void add_to_json(const PlanStatistics& statistics, ordered_json& json) {
     if (statistics.not_simulated.empty()) one["felt_s"] = to_json(length.felt_s);
     trials.push_back(std::move(one));
   }
+  std::vector<double> durations_s;
+  for (const double duration_s : statistics.durations_s) {
+    durations_s.push_back(to_decimals(duration_s, kNumDecimals));
+  }
   json["durations"] = {{"duration_s", to_json(spread_of(statistics.durations_s))},
-                       {"of_participants_s", statistics.durations_s},
+                       {"of_participants_s", durations_s},
                        {"simulated", statistics.not_simulated.empty()},
                        {"not_simulated", statistics.not_simulated},
                        {"adaptive_blocks", std::move(blocks)},

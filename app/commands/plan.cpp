@@ -53,7 +53,8 @@ struct Outcome {
   experiments::RangeLimits limits{};
   std::optional<StabilityCheck> stability;  ///< None: the device has no map.
   PlanStatistics statistics;
-  double duration_s = 0.0;     ///< Of the longest session, as expected.
+  double duration_s = 0.0;          ///< Of the longest session, as expected.
+  double longest_duration_s = 0.0;  ///< Of the same with all trials that blocks can have.
   std::string folder_problem;  ///< Why its sessions cannot go to the folder; "" if they can.
 };
 
@@ -88,6 +89,7 @@ Outcome outcome_of(const Options& options) {
       options.seed);
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
     outcome.duration_s = std::max(outcome.duration_s, plan.duration_s);
+    outcome.longest_duration_s = std::max(outcome.longest_duration_s, plan.longest_duration_s);
   }
   outcome.device =
       device::make_device(options.device, outcome.study.device.rate_hz)->capabilities();
@@ -150,23 +152,26 @@ ordered_json to_json(const experiments::ParticipantPlan& plan,
                      {"trials", std::move(trials)}});
     const auto simulated = statistics.num_trials.find(block.stage->name);
     if (simulated != statistics.num_trials.end()) {
-      order.back()["num_trials_simulated"] = simulated->second.mean;
+      order.back()["num_trials_simulated"] = to_decimals(simulated->second.mean, 6);
     }
   }
   return {{"id", plan.participant},
           {"cells", to_string(plan.cell)},
           {"order", std::move(order)},
-          {"duration_s", plan.duration_s}};
+          {"duration_s", to_decimals(plan.duration_s, 6)}};
 }
 
 ordered_json to_json(const experiments::RangeEntry& entry) {
   ordered_json json = {{"stage", entry.stage}, {"medium", entry.setting.medium}};
   if (!entry.setting.quantity.empty()) json[entry.setting.quantity] = entry.setting.intensity;
-  json["total_force_n"] = entry.total_force_n;
-  json["largest_point_force_n"] = entry.largest_point_force_n;
+  constexpr int kNumDecimals = 9;
+  json["total_force_n"] = to_decimals(entry.total_force_n, kNumDecimals);
+  json["largest_point_force_n"] = to_decimals(entry.largest_point_force_n, kNumDecimals);
   json["fits"] = entry.fits;
   json["fits_up_to_m_per_s"] =
-      entry.fits_up_to_m_per_s ? ordered_json(*entry.fits_up_to_m_per_s) : ordered_json();
+      entry.fits_up_to_m_per_s
+          ? ordered_json(to_decimals(*entry.fits_up_to_m_per_s, kNumDecimals))
+          : ordered_json();
   return json;
 }
 
@@ -207,7 +212,8 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
                        {"participants", std::move(participants)},
                        {"balance", std::move(balance)}};
   add_to_json(outcome.statistics, json);
-  json.update(ordered_json{{"duration_s", outcome.duration_s},
+  json.update(ordered_json{{"duration_s", to_decimals(outcome.duration_s, 6)},
+                           {"longest_duration_s", to_decimals(outcome.longest_duration_s, 6)},
                            {"device", options.device},
                            {"limits",
                             {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
@@ -234,6 +240,11 @@ void print_order(const experiments::PlannedBlock& block) {
         "      {}; {}\n", adaptive_words(content),
         fmt::join(adaptive_level_words(content, analysis::quantity_unit(content.quantity)),
                   "; "));
+    return;
+  }
+  if (content.practice) {
+    fmt::print("      levels {}\n",
+               list_of(content.intensities, analysis::quantity_unit(content.quantity)));
     return;
   }
   int repetition = 0;
@@ -287,7 +298,7 @@ void print(const Outcome& outcome, const Options& options) {
              outcome.plans.size(), options.seed, mean_s / 60.0);
   if (outcome.statistics.adapts) {
     fmt::print(", {:.0f} min with all trials that adaptive blocks may take",
-               outcome.duration_s / 60.0);
+               outcome.longest_duration_s / 60.0);
   }
   fmt::print("\n\n");
   for (const experiments::ParticipantPlan& plan : outcome.plans) {

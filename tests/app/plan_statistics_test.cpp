@@ -50,6 +50,9 @@ TEST(PlanStatistics, SpreadIsWorkedByHand) {
   EXPECT_DOUBLE_EQ(spread.most, 9.0);
   EXPECT_DOUBLE_EQ(spread_of({7.0}).standard_deviation, 0.0);
   EXPECT_DOUBLE_EQ(spread_of({}).mean, 0.0);
+  const Spread alike = spread_of(std::vector<double>(30, 50.0));
+  EXPECT_EQ(alike.mean, 50.0);
+  EXPECT_EQ(alike.standard_deviation, 0.0);
 }
 
 TEST(PlanStatistics, AdaptiveBlocksTakeAsLongAsSimulatedParticipantsNeed) {

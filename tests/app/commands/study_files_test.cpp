@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
@@ -221,6 +223,34 @@ TEST_F(StudyFileCommandsTest, PlanTellsStandardsFromStartingValues) {
       jnd({"plan", "viscosity_matching", "--participants", "1", "--seed", "5"}).out;
   EXPECT_NE(text.find("standards, and where each match starts"), std::string::npos) << text;
   EXPECT_NE(text.find("16 (from "), std::string::npos) << text;
+}
+
+TEST_F(StudyFileCommandsTest, PlanTellsThePracticeByItsLevelsAndNumbersWithoutTheirLastBits) {
+  const std::vector<std::string> plan = {"plan", "viscosity_staircase", "--participants", "3"};
+  EXPECT_NE(jnd(plan).out.find("practice: practice, at most 20 trials\n      levels "),
+            std::string::npos)
+      << jnd(plan).out;
+  std::vector<std::string> as_json = plan;
+  as_json.push_back("--json");
+  const std::string text = jnd(as_json).out;
+  EXPECT_EQ(text.find("0000000"), std::string::npos);
+  EXPECT_EQ(text.find("9999999"), std::string::npos);
+  EXPECT_EQ(text.find("e-1"), std::string::npos);
+}
+
+TEST_F(StudyFileCommandsTest, PlanTellsHowLongAllTrialsOfAStaircaseTake) {
+  const auto json = document(
+      jnd({"plan", "viscosity_threshold", "--participants", "2", "--seed", "5", "--json"}).out);
+  // 2 staircases of at most 30 trials, a fifth of all being catch trials, make 75 of 11 s.
+  const auto& order = json["participants"][0]["order"];
+  const auto stairs = std::find_if(order.begin(), order.end(), [](const auto& block) {
+    return block["block"] == "threshold_staircase";
+  });
+  ASSERT_NE(stairs, order.end());
+  EXPECT_LT((*stairs)["num_trials"], 65);
+  EXPECT_GE(json["longest_duration_s"].template get<double>(),
+            json["duration_s"].template get<double>() +
+                11.0 * (75 - (*stairs)["num_trials"].template get<int>()));
 }
 
 TEST_F(StudyFileCommandsTest, PlanExpectsFewerTrialsOfAPracticeThanItMayTake) {
