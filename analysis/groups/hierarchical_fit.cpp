@@ -80,7 +80,18 @@ Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
   return all;
 }
 
-HierarchicalStructure structure_of(const std::vector<bool>& has_orders_in,
+/// Somebody has answers in several conditions, so that what is their own there may go together.
+bool anybody_in_several(const Arranged& all) {
+  return std::ranges::any_of(all.people, [](const HierarchicalPerson& person) {
+    return std::ranges::any_of(person, [&](const HierarchicalCell& cell) {
+      return cell.condition != person.front().condition;
+    });
+  });
+}
+
+/// Of other people in each condition, one random effect of a kind is enough: nothing could tell
+/// how several go together.
+HierarchicalStructure structure_of(const std::vector<bool>& has_orders_in, bool are_within,
                                    const HierarchicalOptions& options) {
   const auto num_conditions = static_cast<int>(has_orders_in.size());
   HierarchicalStructure structure{.link = options.link,
@@ -90,7 +101,10 @@ HierarchicalStructure structure_of(const std::vector<bool>& has_orders_in,
   int parameter = structure.num_numbers();
   const bool correlated =
       options.slopes == HierarchicalSlopes::kCorrelated && num_conditions == 2;
-  if (correlated) {
+  if (correlated && !are_within) {
+    structure.loadings = {{0, 0, parameter}, {1, 0, parameter + 1}};
+    parameter += 2;
+  } else if (correlated) {
     structure.loadings = {{0, 0, parameter}, {1, 0, parameter + 1}, {1, 1, parameter + 2}};
     parameter += 3;
     structure.num_random_effects = 2;
@@ -113,10 +127,11 @@ HierarchicalStructure structure_of(const std::vector<bool>& has_orders_in,
       structure.loadings.push_back(
           {structure.own_place_at(condition), structure.num_random_effects, parameter});
       any = true;
-      if (personal) ++parameter, ++structure.num_random_effects;
+      if (personal) ++parameter;
+      if (personal && are_within) ++structure.num_random_effects;
     }
-    if (any && options.pse == HierarchicalPse::kShared) {
-      ++parameter;
+    if (any && options.pse == HierarchicalPse::kShared) ++parameter;
+    if (any && (options.pse == HierarchicalPse::kShared || !are_within)) {
       ++structure.num_random_effects;
     }
   }
@@ -172,6 +187,27 @@ std::optional<Eigen::VectorXd> start_of(const Arranged& all,
     }
   }
   return start;
+}
+
+/// The better of two searches where there is a lapse rate. None is a maximum of its own beside
+/// one with some lapses and steeper curves, and which of them a single search comes to hangs on
+/// nothing but where it starts: the second one starts on the other side of the first one's end,
+/// from the best curves there.
+HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
+                                   const HierarchicalStructure& structure,
+                                   const Eigen::VectorXd& start) {
+  constexpr double kNoLapses = 1e-6, kSomeLapsesAngle = 0.2;  // 2 in a hundred.
+  HierarchicalOptimum first = most_likely(likelihood, start);
+  if (!structure.has_lapses) return first;
+  const bool found_some =
+      first.status == FitStatus::kOk && structure.lapse_rate(first.parameters) > kNoLapses;
+  Eigen::VectorXd other = start;
+  other(structure.angle_at()) = found_some ? 0.0 : kSomeLapsesAngle;
+  HierarchicalOptimum second =
+      most_likely(likelihood, most_likely_with(likelihood, other, structure.angle_at()));
+  const bool is_better =
+      first.status != FitStatus::kOk || second.log_likelihood > first.log_likelihood;
+  return second.status == FitStatus::kOk && is_better ? second : first;
 }
 
 std::optional<double> fraction_at(HierarchicalLink link, double slope_number) {
@@ -285,7 +321,7 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
 void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
                  const HierarchicalOptimum& found) {
   const bool correlated = structure.num_conditions == 2 && structure.loadings.size() >= 3 &&
-                          structure.loadings[1].parameter != structure.loadings[0].parameter;
+                          structure.loadings[2].number == 1;
   if (correlated && fit.conditions[0].slope_sd > kNoSpread &&
       fit.conditions[1].slope_sd > kNoSpread) {
     const double own = found.parameters(structure.loadings[0].parameter);
@@ -393,14 +429,15 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   }
   fit.reason = why_no_curve(all);
   if (!fit.reason.empty()) return fit;
-  const HierarchicalStructure structure = structure_of(all.has_orders_in, options);
+  const HierarchicalStructure structure =
+      structure_of(all.has_orders_in, anybody_in_several(all), options);
   fit.num_nodes =
       options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
   fit.method = method_words(options, all.has_orders_in, fit.num_nodes);
   const std::optional<Eigen::VectorXd> start = start_of(all, structure, fit.reason);
   if (!start) return fit;
   const HierarchicalLikelihood likelihood(structure, all.people, fit.num_nodes);
-  const HierarchicalOptimum found = most_likely(likelihood, *start);
+  const HierarchicalOptimum found = better_optimum(likelihood, structure, *start);
   fit.status = found.status;
   fit.reason = found.reason;
   if (found.status != FitStatus::kOk) return fit;

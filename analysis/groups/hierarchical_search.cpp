@@ -58,8 +58,9 @@ Eigen::MatrixXd scores_of(const HierarchicalLikelihood& likelihood, const Eigen:
   return scores;
 }
 
+/// `held`: a parameter that stays as it is; -1 for none.
 Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
-                                    const Eigen::VectorXd& start) {
+                                    const Eigen::VectorXd& start, Eigen::Index held = -1) {
   const SmoothCost cost = [&](std::span<const double> x, double& value,
                               std::span<double> gradient) {
     const Eigen::VectorXd at =
@@ -67,6 +68,7 @@ Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
     Eigen::VectorXd rise;
     value = -likelihood(at, likelihood.num_nodes() > 1 ? &rise : nullptr);
     if (likelihood.num_nodes() == 1) rise = gradient_of(likelihood, at);
+    if (held >= 0) rise(held) = 0.0;
     for (std::size_t i = 0; i < gradient.size(); ++i) {
       gradient[i] = -rise(static_cast<Eigen::Index>(i));
     }
@@ -135,6 +137,11 @@ Inverse inverse_of(const Eigen::MatrixXd& information) {
 }
 
 }  // namespace
+
+Eigen::VectorXd most_likely_with(const HierarchicalLikelihood& likelihood,
+                                 const Eigen::VectorXd& start, Eigen::Index held) {
+  return roughly_most_likely(likelihood, start, held);
+}
 
 HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
                                 const Eigen::VectorXd& start) {

@@ -24,4 +24,8 @@ struct HierarchicalOptimum {
 [[nodiscard]] HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
                                               const Eigen::VectorXd& start);
 
+/// Roughly the largest with one parameter held where it is: a start for the search above.
+[[nodiscard]] Eigen::VectorXd most_likely_with(const HierarchicalLikelihood& likelihood,
+                                               const Eigen::VectorXd& start, Eigen::Index held);
+
 }  // namespace jnd::analysis

@@ -296,6 +296,59 @@ TEST(HierarchicalFit, ManyLapsesAreSaid) {
   EXPECT_NE(fit.note.find("looks random"), std::string::npos) << fit.note;
 }
 
+/// Four people's answers drawn, eight at each level, one of a hundred random.
+std::vector<ParticipantAnswers> drawn_people(const std::string& condition, double w,
+                                             std::uint64_t seed) {
+  std::vector<ParticipantAnswers> all;
+  for (std::int64_t person = 1; person <= 4; ++person) {
+    core::RandomStream random(seed, condition, {person});
+    ParticipantAnswers one{condition + std::to_string(person), condition, 1.0, {}};
+    for (const double x : {0.5, 0.7, 0.85, 1.2, 1.4, 2.0}) {
+      const double p = core::standard_normal_cdf(std::log(x) / std::log1p(w));
+      std::int64_t num_yes = 0;
+      for (int trial = 0; trial < 8; ++trial) {
+        const bool lapses = random.with_probability(0.02);
+        num_yes += random.with_probability(lapses ? 0.5 : p) ? 1 : 0;
+      }
+      one.rows.push_back({x, num_yes, 8});
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+TEST(HierarchicalFit, OfTwoMaximaWithAndWithoutLapsesTheLargerIsFound) {
+  // A search that starts at a lapse in a hundred ends at none here.
+  const std::vector<ParticipantAnswers> all = drawn_people("b", 0.28, 251);
+  HierarchicalOptions options = kAtReference;
+  const HierarchicalFit without = fit_hierarchical(all, options);
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit with = fit_hierarchical(all, options);
+  ASSERT_EQ(with.status, FitStatus::kOk) << with.reason;
+  EXPECT_GT(*with.lapse_rate, 0.01);
+  const double log_prior = 19.0 * std::log1p(-2.0 * *with.lapse_rate);  // Beta(1, 20)
+  EXPECT_GT(*with.log_likelihood + log_prior, *without.log_likelihood + 1e-6);
+}
+
+TEST(HierarchicalFit, ConditionsOfOtherPeopleAreToldAlikeInEitherOrder) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<ParticipantAnswers> first = drawn_people("a", 0.17, seed);
+    const std::vector<ParticipantAnswers> second = drawn_people("b", 0.28, seed);
+    std::vector<ParticipantAnswers> both = first, turned = second;
+    both.insert(both.end(), second.begin(), second.end());
+    turned.insert(turned.end(), first.begin(), first.end());
+    const HierarchicalOptions options{.pse = HierarchicalPse::kReference,
+                                      .lapses = HierarchicalLapses::kCommon};
+    const HierarchicalFit one = fit_hierarchical(both, options);
+    const HierarchicalFit other = fit_hierarchical(turned, options);
+    ASSERT_EQ(one.status, FitStatus::kOk) << one.reason;
+    ASSERT_EQ(other.status, FitStatus::kOk) << other.reason;
+    EXPECT_NEAR(*one.log_likelihood, *other.log_likelihood, 1e-5);
+    EXPECT_NEAR(one.differences[0].estimate, -other.differences[0].estimate, 1e-4);
+  }
+}
+
 TEST(HierarchicalFit, FewAnswersToHardComparisonsAreNotTakenForLapses) {
   // Drawn without lapses, five answers a level, none of which is easy: a lapse rate that
   // nothing held back would come out at some percent, and the Weber fraction a tenth too small.
