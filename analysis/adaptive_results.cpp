@@ -33,6 +33,15 @@ FractionAtTarget fraction_at_target(double threshold, double reference, double p
   return {.value = std::expm1(ratio)};
 }
 
+/// Why what a posterior says may be wrong; "" if it keeps away from the ends of its grids.
+std::string edge_words(const AdaptiveRun& run) {
+  std::string words;
+  for (const std::string& end : run.reached_ends) words += (words.empty() ? "" : " and ") + end;
+  return words.empty() ? ""
+                       : "the posterior reaches " + words +
+                             ", which decides about the value; it has no interval";
+}
+
 std::string percent_words(double probability) {
   return number_words(100.0 * probability, 1) + " %";
 }
@@ -71,8 +80,10 @@ class Writer {
                               " set aside had decided which came next, and stay in it"});
   }
   void tell(const AdaptiveRun& run, const std::string& name, const std::optional<double>& value,
-            const std::string& reason, const Interval& ci95 = {}) {
+            const std::string& reason, const Interval& ci95 = {},
+            const std::string& caution = "") {
     section_.participants.push_back({run.participant, full(name), value, ci95, reason});
+    if (!caution.empty()) section_.participants.back().cautions = {caution};
   }
   [[nodiscard]] std::string full(const std::string& name) const {
     return block_.block + "." + name;
@@ -88,6 +99,8 @@ class Writer {
     add_median_fraction(section_, full(name), {.name = full(name), .meaning = meaning}, values);
   }
   void tell_tracks(const AdaptiveRun& run);
+  /// Of the estimates from `first` on: who brought what to an end of the grid.
+  void caution_group(std::size_t first, int num_at_edge, int num_runs);
   /// What the rules of staircases and of QUEST+ know nothing of.
   [[nodiscard]] std::string of_both_orders() const {
     return has_intervals(data_, block_) ? "; too large where people favour an interval, for "
@@ -192,14 +205,18 @@ void Writer::write_limits() {
 
 void Writer::write_quest_plus() {
   std::map<std::string, OwnNumbers> values;
+  int num_at_edge = 0, num_runs = 0;
   for (const AdaptiveRun* run : runs()) {
     for (const PosteriorEstimate& one : run->posterior) {
       const std::string name = "quest_plus_" + one.parameter;
-      tell(*run, name, one.mean, "", {one.low, one.high});
+      tell(*run, name, one.mean, "", {one.low, one.high}, edge_words(*run));
       values[name][run->participant] = one.mean;
     }
+    num_at_edge += run->reached_ends.empty() ? 0 : 1;
+    ++num_runs;
   }
   for (const auto& [name, own] : values) {
+    const std::size_t first = section_.estimates.size();
     const std::string end =
         ": mean of the posterior at the end, with its central 95 % for "
         "each participant; ";
@@ -222,6 +239,20 @@ void Writer::write_quest_plus() {
                     end + "geometric mean over participants",
                 own);
     }
+    // Of fewer, their own values say so, and the mean of all hardly moves.
+    if (10 * num_at_edge > num_runs) caution_group(first, num_at_edge, num_runs);
+  }
+}
+
+void Writer::caution_group(std::size_t first, int num_at_edge, int num_runs) {
+  const std::string other = block_.compares() ? "weber_fraction_median_person" : "threshold";
+  for (std::size_t i = first; i < section_.estimates.size(); ++i) {
+    Estimate& estimate = section_.estimates[i];
+    estimate.ci95 = {};
+    estimate.cautions = {
+        "of " + std::to_string(num_at_edge) + " of " + counted_words(num_runs, "participant") +
+        " the posterior reaches an end of its grid, which decides about their values; " +
+        full(other) + " rests on the answers alone"};
   }
 }
 

@@ -38,10 +38,12 @@ struct LimitsEstimate {
 
 /// What QUEST+ knows of a parameter at the end.
 struct PosteriorEstimate {
-  std::string parameter;         ///< "pse", "weber_fraction", "threshold", "slope".
-  double mean = 0.0;             ///< Of a ratio exp(mean of ln).
-  double sd = 0.0;               ///< Of a ratio in ln.
-  double low = 0.0, high = 0.0;  ///< Central 95 % of the posterior, values of its grid.
+  std::string parameter;  ///< "pse", "weber_fraction", "threshold", "slope".
+  double mean = 0.0;      ///< Of a ratio exp(mean of ln).
+  double sd = 0.0;        ///< Of a ratio in ln.
+  /// Central 95 % of the posterior, values of its grid; no ends where it reaches an end of any
+  /// parameter's grid, as what lies beyond was ruled out before the first answer.
+  std::optional<double> low, high;
 };
 
 /// What a participant's answers in an adaptive block come to by the block's own rule, which
@@ -58,8 +60,9 @@ struct AdaptiveRun {
   std::optional<double> threshold;  ///< Mean over tracks, or of all transitions.
   LimitsEstimate limits;
   std::vector<PosteriorEstimate> posterior;
-  int num_set_aside = 0;  ///< Trials; QUEST+ alone leaves them out.
-  std::string problem;    ///< Why nothing can be said; "" if it can.
+  std::vector<std::string> reached_ends;  ///< "the lower end of `pse_viscosity_pa_s` (12)".
+  int num_set_aside = 0;                  ///< Trials; QUEST+ alone leaves them out.
+  std::string problem;                    ///< Why nothing can be said; "" if it can.
 };
 
 }  // namespace jnd::analysis

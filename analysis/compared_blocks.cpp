@@ -21,7 +21,7 @@ std::vector<ComparedBlocks> asked_for(const std::vector<BlockDesign>& blocks,
                                       const std::vector<BlockNames>& asked) {
   std::vector<ComparedBlocks> pairs;
   for (const auto& [first, second] : asked) {
-    ComparedBlocks pair{named(blocks, first), named(blocks, second), /*is_planned=*/true};
+    ComparedBlocks pair{named(blocks, first), named(blocks, second), /*has_primary=*/true};
     if (first == second) {
       throw core::Error("--compare: expected two different blocks, found `" + first +
                         "` twice");
@@ -62,8 +62,8 @@ std::vector<ComparedBlocks> compared_blocks(const std::vector<BlockDesign>& bloc
       if (!with_all) break;
     }
   }
-  const bool any_planned = std::ranges::any_of(pairs, &ComparedBlocks::is_planned);
-  for (ComparedBlocks& pair : pairs) pair.is_planned |= !any_planned;
+  const bool any_primary = std::ranges::any_of(pairs, &ComparedBlocks::has_primary);
+  for (ComparedBlocks& pair : pairs) pair.has_primary |= !any_primary;
   return pairs;
 }
 

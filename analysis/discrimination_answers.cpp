@@ -20,9 +20,12 @@ void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
   AnswerCount& cell = answers.cells[{*trial.intensity, order}];
   add_answer(cell, *trial.intensity, yes);
   cell.order = order;
+  std::optional<bool> first;
+  if (trial.test_interval) first = *trial.test_interval == 1;
   answers.in_order.push_back({.intensity = *trial.intensity,
                               .num_yes = yes ? 1.0 : 0.0,
-                              .trial = static_cast<double>(trial.trial)});
+                              .trial = static_cast<double>(trial.trial),
+                              .test_first = first});
 }
 
 }  // namespace
@@ -64,15 +67,23 @@ std::vector<AnswerCount> with_half_an_answer(std::vector<AnswerCount> rows) {
 }
 
 PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOptions& options) {
+  const bool is_likelihood = options.method == PsychometricMethod::kMaximumLikelihood;
   std::vector<AnswerCount> rows = answers.rows();
   if (options.corrected) rows = with_half_an_answer(std::move(rows));
   return fit_psychometric(rows, {.reference = answers.reference,
+                                 .method = options.method,
                                  .free_pse = options.free_pse,
-                                 .by_order = true,
+                                 .by_order = is_likelihood,
                                  .diagnostics = options.num_goodness > 0,
                                  .num_goodness = options.num_goodness,
                                  .seed = options.seed,
                                  .intervals = options.intervals});
+}
+
+std::string why_no_pse(const PsychometricFit& fit) {
+  if (fit.pse || fit.status != FitStatus::kOk) return fit.reason;
+  // The last doubt of such a fit names the order.
+  return fit.warnings.empty() ? "the answers do not bound it" : fit.warnings.back();
 }
 
 std::vector<ParticipantAnswers> participant_answers(

@@ -35,8 +35,10 @@ struct DiscriminationAnswers {
 
 /// One participant's fit, each order of the intervals with a pse of its own. `corrected`:
 /// `with_half_an_answer`, so that answers that separate the stimuli perfectly have a fraction
-/// too. It moves every fraction, so it is for those alone who have none.
+/// too. It moves every fraction, so it is for those alone who have none. Least squares take
+/// both orders of the intervals for one.
 struct OwnFitOptions {
+  PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   bool corrected = false;
   bool free_pse = false;
   bool intervals = false;
@@ -45,6 +47,10 @@ struct OwnFitOptions {
 };
 [[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,
                                       const OwnFitOptions& options);
+
+/// Why a fit with a Weber fraction has no pse and no order effect, "" where it has: with a free
+/// pse answers of one order of the intervals may be all alike.
+[[nodiscard]] std::string why_no_pse(const PsychometricFit& fit);
 
 /// As the hierarchical fit takes them.
 [[nodiscard]] std::vector<ParticipantAnswers> participant_answers(

@@ -7,7 +7,7 @@
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/groups/summary.h"
 #include "analysis/quantity_unit.h"
-#include "analysis/test_families.h"
+#include "analysis/report/report_words.h"
 
 namespace jnd::analysis {
 namespace {
@@ -85,13 +85,17 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   std::vector<std::size_t> everyone(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) everyone[i] = i;
   const PsychometricFit fit = pooled_fit(all, everyone, method, free_pse, Solver::kCeres);
-  if (!fit.weber_fraction) no_value(target, name, "the pooled answers are " + fit.reason);
   Estimate fraction{.value = fit.weber_fraction, .unit = "1"};
   Estimate pse{.value = fit.pse};
+  if (!fit.weber_fraction) {
+    fraction.reason = "the pooled answers are " + fit.reason;
+    no_value(target, name, fraction.reason);
+  }
+  if (!fit.pse) pse.reason = fit.weber_fraction ? why_no_pse(fit) : fraction.reason;
   if (fit.weber_fraction && all.size() > 1) {
-    const auto resampled = [&](bool of_pse) {
-      return resample_participants(
-                 all.size(), target.options.num_resamples, target.options.seed,
+    const auto resampled = [&](bool of_pse, double estimate) {
+      return resample_factor(
+                 all.size(), target.options.num_resamples, target.options.seed, estimate,
                  [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
                    const PsychometricFit other =
                        pooled_fit(all, drawn, method, free_pse, Solver::kNewton);
@@ -100,8 +104,8 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
                  })
           .ci95;
     };
-    fraction.ci95 = resampled(false);
-    if (free_pse) pse.ci95 = resampled(true);
+    fraction.ci95 = resampled(false, *fit.weber_fraction);
+    if (free_pse && fit.pse) pse.ci95 = resampled(true, *fit.pse);
   }
   add(target, fraction, name, "pooled-curve w: " + meaning, all.size());
   if (fit.order_effect_ln && !free_pse) {
@@ -113,6 +117,27 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   add(target, pse, "pse", "pse of the pooled curve: " + meaning, all.size());
 }
 
+/// Of which lapse rates the interval of a fraction holds.
+std::string interval_basis(const HierarchicalFit& fit) {
+  const Interval& left = fit.lapse_rate_with_prior_ci95;
+  if (!left.low || !left.high) return "";
+  return "; interval over lapse rates of " + number_words(left.low) + " to " +
+         number_words(left.high) + ", which answers and prior leave";
+}
+
+/// How far the prior of the lapse rate moves the fraction.
+std::string prior_effect(const HierarchicalFit& fit) {
+  if (fit.conditions.empty() || !fit.lapse_rate_without_prior) return "";
+  const HierarchicalCondition& one = fit.conditions.front();
+  if (!one.weber_fraction || !one.weber_fraction_without_prior) return "";
+  const double change = *one.weber_fraction_without_prior / *one.weber_fraction - 1.0;
+  const long percent = std::lround(100.0 * change);
+  return "; interval by the answers alone; without its prior " +
+         number_words(fit.lapse_rate_without_prior) + ", and the median person's w " +
+         number_words(one.weber_fraction_without_prior) + " (" + (percent > 0 ? "+" : "") +
+         std::to_string(percent) + " %)";
+}
+
 void add_median_person(const Target& target, const Everybody& all, HierarchicalPse pse) {
   const bool is_primary = pse == primary_pse(all);
   const bool free_pse = pse == HierarchicalPse::kPersonal;
@@ -121,25 +146,30 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
                                                      : free_pse ? "_free_pse"
                                                                 : "_at_reference");
   const HierarchicalFit fit =
-      fit_hierarchical(participant_answers(all, target.block.block),
-                       {.pse = pse, .lapses = HierarchicalLapses::kCommon});
+      fit_hierarchical(participant_answers(all, target.block.block), {.pse = pse});
   Estimate fraction{.unit = "1"}, place{.unit = unit_of(target.block)};
   Estimate spread{.unit = "1"}, lapses{.unit = "1"};
   if (fit.status == FitStatus::kOk) {
     const HierarchicalCondition& one = fit.conditions.front();
     fraction.value = one.weber_fraction;
     fraction.ci95 = one.weber_fraction_ci95;
+    fraction.cautions = one.cautions;
     place.value = one.pse;
     place.ci95 = one.pse_ci95.value_or(Interval{});
     spread.value = one.slope_sd;
     lapses.value = fit.lapse_rate;
+    lapses.ci95 = fit.lapse_rate_ci95;
   } else {
     no_value(target, name, fit.reason);
+    for (Estimate* missing : {&fraction, &place, &spread, &lapses}) {
+      missing->reason = fit.reason;
+    }
   }
   const std::string method =
       "hierarchical " + (fit.method.empty() ? std::string("probit") : fit.method);
   add(target, fraction, name,
-      "median person's w: " + method + (is_primary ? " (primary)" : " (secondary)"),
+      "median person's w: " + method + (is_primary ? " (primary)" : " (secondary)") +
+          interval_basis(fit),
       all.size());
   if (free_pse) {
     add(target, place, "pse_median_person", "median person's pse: " + method, all.size());
@@ -149,7 +179,8 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
       "sd of ln ln(1 + w) between people: " + method +
           (fit.note.empty() ? "" : "; " + fit.note),
       all.size());
-  add(target, lapses, "lapse_rate", "half the share of random answers, of everybody: " + method,
+  add(target, lapses, "lapse_rate",
+      "half the share of random answers, of everybody: " + method + prior_effect(fit),
       all.size());
 }
 
@@ -223,24 +254,10 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
   }
 }
 
-void add_trial_trends(ResultsSection& section, const Everybody& all, const BlockDesign& block) {
-  std::vector<double> drift, learning;
-  for (const DiscriminationAnswers& one : all) {
-    const TrialTrend trend = trial_trend(one.in_order, one.reference);
-    if (trend.drift) drift.push_back(*trend.drift);
-    if (trend.learning) learning.push_back(*trend.learning);
-  }
-  section.comparisons.push_back(
-      {.name = block.block +
-               ": the test is called \"more\" more often over the trials, exploratory "
-               "(mean of participants' z)",
-       .comparison = one_sample_t_test(drift),
-       .family = kTrialTrendsFamily});
-  section.comparisons.push_back(
-      {.name = block.block + ": right answers become more frequent over the trials, "
-                             "exploratory (mean of participants' z)",
-       .comparison = one_sample_t_test(learning),
-       .family = kTrialTrendsFamily});
+void add_primary_estimate(ResultsSection& section, const StudyData& data,
+                          const BlockDesign& block, const ResultsOptions& options) {
+  const Everybody all = discrimination_answers(data, block, false, section.excluded);
+  if (!all.empty()) add_median_person({section, block, options, "", ""}, all, primary_pse(all));
 }
 
 Comparison median_person_difference(const Everybody& first_answers, const BlockDesign& first,
@@ -250,8 +267,7 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   const std::vector<ParticipantAnswers> others =
       participant_answers(second_answers, second.block);
   both.insert(both.end(), others.begin(), others.end());
-  const HierarchicalFit fit =
-      fit_hierarchical(both, {.pse = pse, .lapses = HierarchicalLapses::kCommon});
+  const HierarchicalFit fit = fit_hierarchical(both, {.pse = pse, .lapse_profile = false});
   Comparison comparison{.status = fit.status, .reason = fit.reason, .method = fit.method};
   if (!fit.note.empty()) comparison.method += " (" + fit.note + ")";
   comparison.num_a = static_cast<int>(first_answers.size());

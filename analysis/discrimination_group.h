@@ -19,9 +19,10 @@ namespace jnd::analysis {
 void add_group_estimates(ResultsSection& section, const StudyData& data,
                          const BlockDesign& block, const ResultsOptions& options);
 
-/// Adds whether answers change over the trials: exploratory, one family with the other blocks.
-void add_trial_trends(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
-                      const BlockDesign& block);
+/// Adds the primary one of these alone, from as much of the answers as `data` holds; nothing
+/// without any.
+void add_primary_estimate(ResultsSection& section, const StudyData& data,
+                          const BlockDesign& block, const ResultsOptions& options);
 
 /// Difference of two blocks in the median person's ln ln(1 + w), slopes of the same person
 /// correlated, first minus second.

@@ -30,7 +30,7 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     if (fixed.order_effect_ln) {
       add("order_effect_ln_at_reference", fixed.order_effect_ln, {}, "");
     }
-    add("pse", free.pse, free.pse_ci95.value_or(Interval{}), free.reason);
+    add("pse", free.pse, free.pse_ci95.value_or(Interval{}), why_no_pse(free));
     if (fixed.goodness.p_value) add("goodness_p", fixed.goodness.p_value, {}, "");
     if (free.goodness.p_value) add("goodness_p_free_pse", free.goodness.p_value, {}, "");
   }

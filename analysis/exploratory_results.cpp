@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "analysis/groups/within_slope.h"
@@ -177,6 +178,8 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
   for (const BlockDesign& block : data.blocks) {
     for (const auto& [parameter, words] :
          {std::pair{"k", "ln k"}, {"a", "a"}, {"weber_fraction", "ln ln(1 + w)"}}) {
+      // Numbers of everybody's own choice: k is as they chose them.
+      if (parameter == std::string("k") && block.protocol.modulus == "free") continue;
       Outcome outcome{.name = std::string(words) + " of " + block.block};
       for (const ResultsSection& section : sections) {
         for (const ParticipantEstimate& own : section.participants) {
@@ -191,22 +194,57 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
   return outcomes;
 }
 
-void compare_arms(ResultsSection& section, const StudyData& data, const Outcome& outcome,
-                  const std::string& counterbalance) {
-  std::map<std::string, std::vector<double>> by_arm;
+/// Participants by the arm that they were in.
+using Arms = std::map<std::string, std::vector<std::string>>;
+
+Arms people_in(const StudyData& data, const std::string& counterbalance) {
+  Arms people;
   for (const ParticipantData& participant : data.participants) {
     const auto arms = arms_of(participant.cells);
     const auto arm = arms.find(counterbalance);
-    const auto value = outcome.by_participant.find(participant.participant);
-    if (arm == arms.end() || value == outcome.by_participant.end()) continue;
-    by_arm[arm->second].push_back(value->second);
+    if (arm != arms.end()) people[arm->second].push_back(participant.participant);
   }
+  return people;
+}
+
+/// A row of a square, or one of many orders: these are there so that order evens out over
+/// people, not to be told apart by the few in each. Of two methods the order is compared.
+bool is_sequence(const std::string& arm) {
+  constexpr std::string_view kRow = "row_";
+  const bool is_row =
+      arm.starts_with(kRow) && arm.find_first_not_of("0123456789", kRow.size()) == arm.npos;
+  return is_row || std::ranges::count(arm, ',') > 1;
+}
+
+void compare_arms(ResultsSection& section, const Arms& people, const Outcome& outcome,
+                  const std::string& counterbalance) {
+  std::map<std::string, std::vector<double>> by_arm;
+  for (const auto& [arm, participants] : people) {
+    for (const std::string& participant : participants) {
+      const auto value = outcome.by_participant.find(participant);
+      if (value != outcome.by_participant.end()) by_arm[arm].push_back(value->second);
+    }
+  }
+  // Of one there is no spread.
+  std::erase_if(by_arm, [](const auto& arm) { return arm.second.size() < 2; });
   for (auto a = by_arm.begin(); a != by_arm.end(); ++a) {
     for (auto b = std::next(a); b != by_arm.end(); ++b) {
       add_tests(section,
                 counterbalance + ": " + a->first + " - " + b->first + ": " + outcome.name,
                 welch_t_test(a->second, b->second), rank_sum_test(a->second, b->second));
     }
+  }
+}
+
+/// Says which arms are too small to be compared.
+void name_small_arms(ResultsSection& section, const Arms& people,
+                     const std::string& counterbalance) {
+  if (people.size() < 2) return;
+  for (const auto& [arm, participants] : people) {
+    if (participants.size() > 1) continue;
+    section.excluded.push_back(
+        {participants.front(),
+         counterbalance + ": not compared, the only one in " + counterbalance + " = " + arm});
   }
 }
 
@@ -222,10 +260,16 @@ ResultsSection exploratory_results(const StudyData& data,
   for (const ParticipantData& participant : data.participants) {
     for (const auto& [name, arm] : arms_of(participant.cells)) counterbalances.insert(name);
   }
+  const std::vector<Outcome> outcomes = outcomes_of(data, sections);
   for (const std::string& counterbalance : counterbalances) {
-    for (const Outcome& outcome : outcomes_of(data, sections)) {
-      compare_arms(section, data, outcome, counterbalance);
+    const Arms people = people_in(data, counterbalance);
+    if (std::ranges::any_of(people, [](const auto& arm) { return is_sequence(arm.first); })) {
+      continue;
     }
+    for (const Outcome& outcome : outcomes) {
+      compare_arms(section, people, outcome, counterbalance);
+    }
+    if (!outcomes.empty()) name_small_arms(section, people, counterbalance);
   }
   return section;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "analysis/discrimination_answers.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/threshold_group.h"
 #include "analysis/threshold_results.h"
@@ -82,7 +83,7 @@ ResultsSection interval_results(const StudyData& data, const BlockDesign& block)
     };
     tell("interval_bias", bias, bias ? "" : kOneIntervalAlone);
     tell("order_effect_ln", fit.order_effect_ln,
-         fit.status == FitStatus::kOk && !bias ? kOneIntervalAlone : fit.reason);
+         fit.status == FitStatus::kOk && !bias ? kOneIntervalAlone : why_no_pse(fit));
     if (bias) biases[participant.participant] = *bias;
     if (fit.order_effect_ln) effects[participant.participant] = *fit.order_effect_ln;
   }

@@ -227,6 +227,7 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
     PowerFit own = between(curves_of(parts, {i}, Solver::kCeres), intensities, Solver::kCeres);
     // Residuals between two curves say nothing of the answers' spread.
     own.k_ci95 = own.a_ci95 = {};
+    own.is_exact = false;
     return own;
   });
   compare_exponents(section, parts);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace jnd::analysis {
@@ -114,6 +115,14 @@ void keep_common(MagnitudeBlock& first, MagnitudeBlock& second) {
   }
   first = kept(first, places_in_first);
   second = kept(second, places_in_second);
+}
+
+std::vector<Means> telling(const std::vector<Means>& participants) {
+  std::vector<Means> found;
+  std::ranges::copy_if(participants, std::back_inserter(found), [](const Means& own) {
+    return !own.empty() && own.rbegin()->first > 0.0;
+  });
+  return found;
 }
 
 Means group_means(const std::vector<Means>& participants,

@@ -52,6 +52,9 @@ struct MagnitudeBlock {
 /// Leaves only those who are in both, in the order of the first.
 void keep_common(MagnitudeBlock& first, MagnitudeBlock& second);
 
+/// Those who have a mean at an x > 0: the others say nothing of a power law.
+[[nodiscard]] std::vector<Means> telling(const std::vector<Means>& participants);
+
 /// Mean over the participants drawn, at each x that one of them has.
 [[nodiscard]] Means group_means(const std::vector<Means>& participants,
                                 const std::vector<std::size_t>& drawn);

@@ -22,6 +22,26 @@ struct Kind {
 constexpr Kind kEstimation = {fit_estimation, fit_log_estimation};
 constexpr Kind kProduction = {fit_production, fit_log_production};
 
+/// Who has answers but none that has a logarithm.
+void name_without_logarithms(ResultsSection& section, const std::string& name,
+                             const MagnitudeBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    if (telling({block.means[i]}).empty() || !block.log_means[i].empty()) continue;
+    section.excluded.push_back(
+        {block.names[i], name + ".geometric: every answer is 0, which has no logarithm"});
+  }
+}
+
+/// Who has answers at intensity 0 alone.
+void name_without_intensities(ResultsSection& section, const std::string& name,
+                              const MagnitudeBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    if (!telling({block.means[i]}).empty()) continue;
+    section.excluded.push_back(
+        {block.names[i], name + ": no power law, no answer at an intensity above 0"});
+  }
+}
+
 /// The line through the logarithms of geometric means, as magnitudes have been analysed since
 /// Stevens; and the fit of equalised moduli, with how far the moduli lie apart.
 void add_geometric(ResultsSection& section, const BlockDesign& design,
@@ -29,20 +49,22 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
                    const ResultsOptions& options) {
   const std::string& name = design.block;
   const std::string zeros = block.num_zeros > 0 ? std::string(", ") + kZeroRule : "";
+  const std::vector<Means> log_means = telling(block.log_means);
+  const std::vector<Means> without_zeros = telling(block.log_means_without_zeros);
   (void)add_power_law(
       section, name + ".geometric",
-      "line through the logarithms of the geometric means" + zeros, block.size(),
+      "line through the logarithms of the geometric means" + zeros, log_means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver) {
-        return kind.fit_logs(group_means(block.log_means, drawn));
+        return kind.fit_logs(group_means(log_means, drawn));
       },
       options);
   if (block.num_zeros > 0) {
     (void)add_power_law(
         section, name + ".geometric_without_zeros",
         "line through the logarithms of the geometric means, answers of 0 left out",
-        block.size(),
+        without_zeros.size(),
         [&](const std::vector<std::size_t>& drawn, Solver) {
-          return kind.fit_logs(group_means(block.log_means_without_zeros, drawn));
+          return kind.fit_logs(group_means(without_zeros, drawn));
         },
         options);
   }
@@ -51,8 +73,12 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
        .value = block.num_zeros,
        .unit = "1",
        .meaning = std::string("answers of 0 where one above 0 was expected; for logarithms: ") +
-                  kZeroRule,
+                  kZeroRule +
+                  (log_means.size() < telling(block.means).size()
+                       ? ", and nothing of who has none above 0"
+                       : ""),
        .n = static_cast<int>(block.size())});
+  name_without_logarithms(section, name, block);
   if (!design.own_log_moduli.empty()) return;  // Every fit is of equalised moduli.
   const auto moduli = log_moduli(block);
   if (!moduli) {
@@ -113,7 +139,7 @@ std::string unit_words(const BlockDesign& design) {
 }
 
 /// Who chose their own numbers says nothing by their size; how they relate is all there is.
-void add_moduli(ResultsSection& section, const BlockDesign& design,
+void add_moduli(ResultsSection& section, const BlockDesign& design, const MagnitudeBlock& block,
                 const ResultsOptions& options) {
   if (design.counts_in_water()) return;
   if (design.protocol.modulus == "standard") {
@@ -135,6 +161,8 @@ void add_moduli(ResultsSection& section, const BlockDesign& design,
                        "their own numbers; moduli were equalised before every fit"});
   std::vector<double> moduli;
   for (const auto& [participant, log_modulus] : design.own_log_moduli) {
+    if (std::ranges::find(block.names, participant) == block.names.end())
+      continue;  // Left out.
     moduli.push_back(log_modulus);
     section.participants.push_back(
         {participant, design.block + ".modulus", std::exp(log_modulus), {}, ""});
@@ -219,12 +247,13 @@ std::vector<Produced> produced(const Means& log_means_at_target) {
 
 void add_intensity_on_magnitude(ResultsSection& section, const std::string& name,
                                 const MagnitudeBlock& block, const ResultsOptions& options) {
+  const std::vector<Means> log_means = telling(block.log_means);
   (void)add_power_law(
       section, name + ".intensity_on_magnitude",
       "regression of I on S, in logarithms: what was answered is fitted, not what was asked",
-      block.size(),
+      log_means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver) {
-        return fit_intensity_on_magnitude(produced(group_means(block.log_means, drawn)));
+        return fit_intensity_on_magnitude(produced(group_means(log_means, drawn)));
       },
       options);
   add_own_power_laws(
@@ -240,23 +269,24 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
   const std::string& name = design.block;
   ResultsSection section{.name = name, .excluded = block.excluded};
   if (block.size() == 0) return section;
+  name_without_intensities(section, name, block);
+  const std::vector<Means> means = telling(block.means);
   const PowerFit whole = add_power_law(
-      section, name, "power law through the group means", block.size(),
+      section, name, "power law through the group means", means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
-        return fit_estimation(group_means(block.means, drawn), PowerMethod::kNonlinear, solver);
+        return fit_estimation(group_means(means, drawn), PowerMethod::kNonlinear, solver);
       },
       options);
-  add_r_squared(section, name, whole, static_cast<int>(block.size()),
-                by_x(block.means).contains(0.0));
+  add_r_squared(section, name, whole, static_cast<int>(means.size()));
   (void)add_power_law(
       section, name + ".data_points",
       "power law through the participants' means (where everybody answered every stimulus the "
       "same as through the group means, by construction)",
-      block.size(),
+      means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         std::vector<Magnitude> rows;
         for (const std::size_t index : drawn) {
-          for (const auto& [intensity, magnitude] : block.means[index]) {
+          for (const auto& [intensity, magnitude] : means[index]) {
             rows.push_back({intensity, magnitude});
           }
         }
@@ -265,9 +295,9 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
       options);
   (void)add_power_law(
       section, name + ".log_log", "line through the logarithms of the group means",
-      block.size(),
+      means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
-        return fit_estimation(group_means(block.means, drawn), PowerMethod::kLogLog, solver);
+        return fit_estimation(group_means(means, drawn), PowerMethod::kLogLog, solver);
       },
       options);
   add_geometric(section, design, block, kEstimation, options);
@@ -278,7 +308,7 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
                      [&](std::size_t i) { return fit_log_estimation(block.log_means[i]); });
   add_own_exponents(section, name, options);
   add_estimation_means(section, design, block);
-  add_moduli(section, design, options);
+  add_moduli(section, design, block, options);
   add_trial_correlations(section, data, design, options);
   return section;
 }

@@ -43,6 +43,20 @@ void add_reason(ResultsSection& section, const std::string& prefix, const std::s
   section.excluded.push_back({"everyone", prefix + ": no power law, " + reason});
 }
 
+/// ", 1 at intensity 0 left out": of the means or points that a fit had.
+std::string at_zero_words(const PowerFit& fit) {
+  if (fit.num_at_zero == 0) return "";
+  return ", " + std::to_string(fit.num_at_zero) + " at intensity 0 left out";
+}
+
+/// Both ends are the value, but for rounding.
+bool has_no_width(const Interval& ci95) {
+  constexpr double kRounding = 1e-9;
+  return ci95.low && ci95.high &&
+         std::fabs(*ci95.high - *ci95.low) <=
+             kRounding * std::max(std::fabs(*ci95.low), std::fabs(*ci95.high));
+}
+
 }  // namespace
 
 PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
@@ -55,27 +69,30 @@ PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
     Estimate estimate{.name = prefix + "." + letter,
                       .value = whole.*value,
                       .unit = "1",
-                      .meaning = meaning + (*letter == 'k' ? ": factor" : ": exponent"),
-                      .n = static_cast<int>(num_participants)};
+                      .meaning = meaning + at_zero_words(whole) +
+                                 (*letter == 'k' ? ": factor" : ": exponent"),
+                      .n = static_cast<int>(num_participants),
+                      .reason = whole.reason};
     if (estimate.value && num_participants > 1) estimate.ci95 = resamples.of(value);
+    if (has_no_width(estimate.ci95)) {
+      estimate.ci95 = {};
+      estimate.cautions.emplace_back("no interval: it is the same whoever is drawn");
+    }
     section.estimates.push_back(std::move(estimate));
   }
   return whole;
 }
 
 void add_r_squared(ResultsSection& section, const std::string& prefix, const PowerFit& fit,
-                   int num_participants, bool with_zero) {
+                   int num_participants) {
   if (!fit.r_squared) return;
-  section.estimates.push_back({.name = prefix + ".r_squared",
-                               .value = fit.r_squared,
-                               .unit = "1",
-                               .meaning = "share of the spread of the " +
-                                          std::to_string(fit.num_rows) +
-                                          " means that the power law explains" +
-                                          (with_zero ? ", the one at intensity 0 included, "
-                                                       "where every power law is 0"
-                                                     : ""),
-                               .n = num_participants});
+  section.estimates.push_back(
+      {.name = prefix + ".r_squared",
+       .value = fit.r_squared,
+       .unit = "1",
+       .meaning = "share of the spread of the " + std::to_string(fit.num_rows) +
+                  " means that the power law explains" + at_zero_words(fit),
+       .n = num_participants});
 }
 
 void add_mean(ResultsSection& section, const std::string& name, const std::string& meaning,
@@ -136,8 +153,13 @@ void add_own_power_laws(ResultsSection& section, const std::string& prefix,
                         const std::function<PowerFit(std::size_t)>& fit) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const PowerFit own = fit(i);
-    section.participants.push_back({names[i], prefix + ".k", own.k, own.k_ci95, own.reason});
-    section.participants.push_back({names[i], prefix + ".a", own.a, own.a_ci95, own.reason});
+    const std::vector<std::string> cautions =
+        own.is_exact ? std::vector{"no interval: " + own.no_interval}
+                     : std::vector<std::string>{};
+    section.participants.push_back(
+        {names[i], prefix + ".k", own.k, own.k_ci95, own.reason, cautions});
+    section.participants.push_back(
+        {names[i], prefix + ".a", own.a, own.a_ci95, own.reason, cautions});
   }
 }
 

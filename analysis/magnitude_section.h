@@ -13,15 +13,15 @@ using GroupFit = std::function<PowerFit(const std::vector<std::size_t>&, Solver)
 
 /// Adds PREFIX.k and PREFIX.a, each with its interval over resampled participants, and returns
 /// the fit of everyone. Where there is none, says of "everyone" why, unless the reason stands
-/// in the section already.
+/// in the section already. Where every resample has one and the same value, as of people who
+/// all answer alike, there is no interval, and it is said.
 PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
                        const std::string& meaning, std::size_t num_participants,
                        const GroupFit& fit, const ResultsOptions& options);
 
-/// Adds PREFIX.r_squared of a fit that has one. `with_zero`: one of the means is at intensity
-/// 0, where every power law is 0.
+/// Adds PREFIX.r_squared of a fit that has one.
 void add_r_squared(ResultsSection& section, const std::string& prefix, const PowerFit& fit,
-                   int num_participants, bool with_zero = false);
+                   int num_participants);
 
 /// Adds the mean of one number each, with Student's interval.
 void add_mean(ResultsSection& section, const std::string& name, const std::string& meaning,
@@ -43,7 +43,8 @@ void add_spread(ResultsSection& section, const std::string& name, const std::str
     const std::vector<double>& values, const ResultsOptions& options,
     const std::function<std::optional<double>(const Summary&)>& statistic);
 
-/// Adds every participant's own k and a.
+/// Adds every participant's own k and a. One that passes through every mean has no interval,
+/// for nothing tells its scatter, and says so.
 void add_own_power_laws(ResultsSection& section, const std::string& prefix,
                         const std::vector<std::string>& names,
                         const std::function<PowerFit(std::size_t)>& fit);

@@ -9,7 +9,11 @@ namespace {
 
 /// Ends of names, after the block's.
 std::vector<std::string> primary_names(const BlockDesign& block) {
-  if (block.procedure == "magnitude_estimation") return {".k", ".a"};
+  if (block.procedure == "magnitude_estimation") {
+    // Everybody's own numbers: their size means nothing.
+    if (block.protocol.modulus == "free") return {".a"};
+    return {".k", ".a"};
+  }
   if (block.procedure == "magnitude_production") return {".k", ".a"};
   if (block.procedure == "matching") {
     const bool of_one_quantity = block.protocol.standard_quantity == block.quantity;
@@ -38,6 +42,24 @@ bool is_primary(const std::string& name, const StudyData& data) {
   });
 }
 
+/// Names of participants' own values that stand for the primary ones, after the block's.
+std::vector<std::string> own_primary_names(const BlockDesign& block, bool free_pse) {
+  std::vector<std::string> names = primary_names(block);
+  std::ranges::replace(names, std::string(".weber_fraction_median_person"),
+                       std::string(free_pse ? ".weber_fraction_free_pse" : ".weber_fraction"));
+  return names;
+}
+
+void mark_own(ResultsSection& section, const StudyData& data) {
+  for (const BlockDesign& block : data.blocks) {
+    for (const std::string& end : own_primary_names(block, section.own_fractions_free_pse)) {
+      for (ParticipantEstimate& own : section.participants) {
+        own.primary = own.primary || own.name == block.block + end;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void mark_primary(StudyResults& results, const StudyData& data) {
@@ -48,6 +70,7 @@ void mark_primary(StudyResults& results, const StudyData& data) {
     for (NamedComparison& named : section.comparisons) {
       named.primary = named.name.ends_with("(primary)");
     }
+    mark_own(section, data);
   }
 }
 

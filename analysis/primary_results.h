@@ -5,8 +5,9 @@
 namespace jnd::analysis {
 
 /// Marks what answers the question that each block was asked, one or two numbers a block, and
-/// the tests planned between blocks: what a reader looks for first. Everything else is beside
-/// it: other estimators, sensitivity, exploration.
+/// of blocks that are compared the test by these numbers: what a reader looks for first.
+/// Everything else is beside it: other estimators, sensitivity. A primary test need not be a
+/// planned one: its family says what it is.
 void mark_primary(StudyResults& results, const StudyData& data);
 
 }  // namespace jnd::analysis

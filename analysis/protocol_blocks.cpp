@@ -10,6 +10,7 @@ using nlohmann::json;
 ProtocolBlock block_of(const json& stage) {
   ProtocolBlock block;
   block.task = string_at(stage, "task", block.task);
+  block.interval_order = string_at(stage, "interval_order", block.interval_order);
   block.is_practice = stage.contains("practice");
   const auto feedback = stage.find("feedback");
   block.feedback = feedback != stage.end() && feedback->is_boolean() && feedback->get<bool>();

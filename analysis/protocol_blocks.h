@@ -12,7 +12,8 @@ struct ProtocolBlock {
   /// "reminder", "yes_no", "two_interval" or "same_different"; where none stands in the file, a
   /// reminder, which magnitudes are not asked by.
   std::string task = "reminder";
-  bool is_practice = false;       ///< Its trials are no data.
+  std::string interval_order = "random";  ///< Or "balanced": which interval holds the test.
+  bool is_practice = false;               ///< Its trials are no data.
   bool feedback = false;          ///< Participants were told whether an answer was right.
   std::string standard_medium;    ///< "water"; "" for a block without a standard.
   std::string standard_quantity;  ///< What its reference intensities are: "scale".

@@ -38,7 +38,7 @@ QuestionnaireItem item_of(const json& object, const std::string& stage, const ch
   item.num_steps =
       steps != object.end() && steps->is_number_integer() ? steps->get<int>() : kDefaultSteps;
   const auto good = object.find("high_is_good");
-  item.high_is_good = good != object.end() && good->is_boolean() && good->get<bool>();
+  if (good != object.end() && good->is_boolean()) item.high_is_good = good->get<bool>();
   return item;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ struct QuestionnaireItem {
   std::string name;  ///< "safety"
   std::string
       kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which", "scale", "words".
-  std::string question;                    ///< In English, or in the first language there is.
-  std::string unit;                        ///< Of a number; "" without.
-  int num_steps = 0;                       ///< Of a scale, counted from 1.
-  bool high_is_good = false;               ///< Of a scale: the last step is the favourable end.
+  std::string question;  ///< In English, or in the first language there is.
+  std::string unit;      ///< Of a number; "" without.
+  int num_steps = 0;     ///< Of a scale, counted from 1.
+  /// Of a scale: whether the last step is the favourable end; absent where neither is.
+  std::optional<bool> high_is_good{};
   std::vector<std::string> options;        ///< Of a choice, as stored.
   std::vector<std::string> option_labels;  ///< As read, in the language of the question.
   std::string low_label, high_label;       ///< Of a scale: what stands at its ends.

@@ -37,13 +37,27 @@ std::optional<double> number_of(const std::string& text) {
 
 std::string prefix_of(const QuestionnaireItem& item) { return "questionnaire." + item.name; }
 
-/// Everybody's own number; a scale's with 1 as the worst step.
+/// What its steps mean: "rating from 1, the worst, to 10, the best: "; of a scale without a
+/// favourable end what stands at its ends.
+std::string steps_words(const QuestionnaireItem& item) {
+  const std::string last = std::to_string(item.num_steps);
+  if (item.high_is_good) {
+    return "rating from 1, the worst, to " + last + ", the best" +
+           (*item.high_is_good ? ": " : " (turned round: it was asked with 1 as the best): ");
+  }
+  const auto end = [](const std::string& step, const std::string& label) {
+    return label.empty() ? step : step + ", “" + label + "”";
+  };
+  return "step from " + end("1", item.low_label) + ", to " + end(last, item.high_label) + ": ";
+}
+
+/// Everybody's own number; a scale's with 1 as the worst step, where one is.
 std::vector<double> add_own_numbers(ResultsSection& section, const QuestionnaireItem& item,
                                     const ItemAnswers& answers) {
   std::vector<double> values;
   for (const auto& [participant, text] : answers) {
     std::optional<double> value = number_of(text);
-    if (value && item.kind == "scale" && !item.high_is_good)
+    if (value && item.kind == "scale" && !item.high_is_good.value_or(true))
       value = item.num_steps + 1 - *value;
     section.participants.push_back({participant,
                                     prefix_of(item),
@@ -68,9 +82,7 @@ void add_scale(ResultsSection& section, const QuestionnaireItem& item,
                const ItemAnswers& answers) {
   const std::vector<double> values = add_own_numbers(section, item, answers);
   const Summary summary = summary_of(values);
-  const std::string steps =
-      "rating from 1, the worst, to " + std::to_string(item.num_steps) + ", the best" +
-      (item.high_is_good ? ": " : " (turned round: it was asked with 1 as the best): ");
+  const std::string steps = steps_words(item);
   add_mean(section, prefix_of(item), "mean " + steps + item.question, values);
   add(section, prefix_of(item) + ".sd", summary.standard_deviation, "1",
       "standard deviation between participants", values.size());

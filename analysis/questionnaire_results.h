@@ -5,8 +5,8 @@
 namespace jnd::analysis {
 
 /// What was answered outside of trials, item by item, as in tables D.3 and D.4 of the thesis:
-/// - scales: mean, standard deviation and median, turned so that 1 is the worst step, with
-///   everybody's own;
+/// - scales: mean, standard deviation and median, turned so that 1 is the worst step, where one
+///   end is the favourable one, with everybody's own;
 /// - numbers: mean, standard deviation, smallest and largest, with everybody's own;
 /// - choices, yes or no: how many participants gave which answer;
 /// - words: as they were written, in `free_answers`.

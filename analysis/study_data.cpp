@@ -82,10 +82,13 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   const std::string place = store.folder().string();
   std::map<std::string, BlockDesign> blocks;
   std::map<std::string, std::map<std::string, ProtocolBlock>> protocols;  // By SHA-256.
+  std::set<std::string> devices;
   for (const core::SessionRow& session : store.sessions()) {
     if (session.pilot && !with_pilots) continue;
     data.protocol_sha256 = session.protocol_sha256;
     data.simulated = data.simulated || session.simulated;
+    devices.insert(session.device);
+    data.device = devices.size() == 1 ? session.device : "";
     const auto [its_protocol, is_new] = protocols.try_emplace(session.protocol_sha256);
     if (is_new) {
       const json protocol =
@@ -139,6 +142,9 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
       if (!standing.contains(trial.trial) && !trial.is_catch && !is_practice(trial.block)) {
         participant.excluded_trials.push_back(std::move(trial));
       }
+    }
+    for (TrialRecord& record : trial_records(store, session.session)) {
+      if (!is_practice(record.block)) participant.records.push_back(std::move(record));
     }
     for (core::PresentationRow& row : store.presentations(session.session)) {
       const auto block = block_of_trial.find(row.trial);

@@ -10,6 +10,7 @@
 #include "analysis/adaptive_run.h"
 #include "analysis/protocol_blocks.h"
 #include "analysis/questionnaire_items.h"
+#include "analysis/trial_records.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {
@@ -22,11 +23,14 @@ struct ParticipantData {
   std::vector<core::TrialRow> excluded_trials;  ///< Set aside by hand, otherwise complete.
   std::vector<core::TrialRow> practice_trials;  ///< No data: how people came to know the task.
   std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
+  std::vector<TrialRecord> records;      ///< Of every trial that was drawn but for practice.
   std::string cells;                     ///< Counterbalancing, as a session keeps it.
   std::vector<core::AnswerRow> answers;  ///< Outside of trials, in the order of the sessions.
   /// Blocks and stages of questions of the study that none of their sessions has, for they were
   /// in another arm.
   std::set<std::string> of_other_arms;
+  /// Blocks whose trials were all set aside by the analysis, and why.
+  std::map<std::string, std::string> left_out{};
 
   [[nodiscard]] std::vector<core::TrialRow> trials_in(const std::string& block) const;
 };
@@ -82,9 +86,11 @@ struct StudyData {
   std::string study;  ///< Name in its file.
   std::string protocol_sha256;
   bool simulated = false;
-  std::string laboratory_text;                      ///< The whole file; "" with persons.
-  std::string laboratory;                           ///< Name; "" with persons.
+  std::string laboratory_text;  ///< The whole file; "" with persons.
+  std::string laboratory;       ///< Name; "" with persons.
+  std::string device;           ///< Of all sessions; "" where they had different ones.
   std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
+  bool delivered = false;  ///< Intensities are those that came out, not those commanded.
   MissingSessions sessions;
   std::vector<ParticipantData> participants;  ///< By pseudonym.
   std::vector<BlockDesign> blocks;            ///< As the study file has them.

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
+#include "analysis/catch_results.h"
 #include "analysis/exploratory_results.h"
+#include "analysis/inverted_answers.h"
+#include "analysis/missing_values.h"
 #include "analysis/primary_results.h"
+#include "analysis/published_comparison.h"
 #include "analysis/questionnaire_results.h"
 #include "analysis/test_families.h"
 #include "analysis/threshold_results.h"
+#include "analysis/trial_losses.h"
 
 namespace jnd::analysis {
 namespace {
@@ -28,6 +33,7 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
   if (block.compares() && has_intervals(data, block)) {
     sections.push_back(interval_results(data, block));
   }
+  if (has_catch_trials(data, block)) sections.push_back(catch_results(data, block));
 }
 
 /// How many trials everybody practised, how many of the last ones were right, and whether that
@@ -72,6 +78,11 @@ const Estimate* StudyResults::find(const std::string& name) const {
 void name_without_answers(std::vector<ExcludedParticipant>& excluded,
                           const ParticipantData& participant, const std::string& stage) {
   if (participant.of_other_arms.contains(stage)) return;
+  const auto left_out = participant.left_out.find(stage);
+  if (left_out != participant.left_out.end()) {
+    excluded.push_back({participant.participant, left_out->second});
+    return;
+  }
   excluded.push_back({participant.participant, "no answers in " + stage});
 }
 
@@ -82,7 +93,8 @@ StudyResults results_of(const StudyData& data, const Published& published,
                        .laboratory = data.laboratory,
                        .citation = published.citation,
                        .num_participants = static_cast<int>(data.participants.size()),
-                       .sessions = data.sessions};
+                       .sessions = data.sessions,
+                       .losses = level_losses(data)};
   const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
   const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
   const std::vector<BlockDesign> discriminations = comparing_blocks(data);
@@ -100,10 +112,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
     results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
   }
   for (const BlockDesign& block : discriminations) {
-    const bool is_median_published =
-        published.values.contains(block.block + ".individual_weber_fraction_median");
-    results.sections.push_back(
-        discrimination_results(data, block, options, is_median_published));
+    results.sections.push_back(discrimination_results(data, block, options));
   }
   for (const BlockDesign& block : data.blocks) {
     add_threshold_sections(results.sections, data, block, options);
@@ -119,23 +128,16 @@ StudyResults results_of(const StudyData& data, const Published& published,
   if (!data.practice.empty()) results.sections.push_back(practice_results(data));
   if (!data.items.empty()) results.sections.push_back(questionnaire_results(data));
 
+  caution_of_inverted(results, data);
+  explain_missing(results);
   mark_primary(results, data);
+  add_without_affected(results, data, options);
   mark_movement_family(results.sections);
-  mark_planned_family(results.sections);
+  mark_pairs_family(results.sections, !options.compared.empty());
   adjust_by_family(results.sections);
+  add_published(results, data, published, options);
   for (ResultsSection& section : results.sections) {
-    const bool counts_alike = std::ranges::all_of(data.blocks, [&](const BlockDesign& block) {
-      return block.block != section.name || block.counts_in_water();
-    });
     for (Estimate& estimate : section.estimates) {
-      const auto found =
-          counts_alike ? published.values.find(estimate.name) : published.values.end();
-      if (found != published.values.end()) {
-        estimate.published = found->second.value;
-        estimate.published_positive = found->second.positive;
-        estimate.published_sd = found->second.standard_deviation;
-        estimate.published_place = found->second.place;
-      }
       estimate.calibrated = data.simulated && is_named(data.calibrated_on, data, estimate.name);
       estimate.implied = data.simulated && is_named(data.implied, data, estimate.name);
     }

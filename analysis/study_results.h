@@ -7,6 +7,7 @@
 #include "analysis/compared_blocks.h"
 #include "analysis/fits/fit_status.h"
 #include "analysis/groups/comparison.h"
+#include "analysis/predictive.h"
 #include "analysis/published.h"
 #include "analysis/study_data.h"
 
@@ -21,12 +22,19 @@ struct Estimate {
   std::string meaning;  ///< What is estimated and how, in one phrase.
   std::optional<double> published;
   std::optional<double> published_sd;
-  std::string published_place;      ///< Where it stands, and as what it is printed there.
+  std::string published_place;      ///< Where it stands in the publication.
+  std::string published_statistic;  ///< How it was computed there, and here.
   bool published_positive = false;  ///< Published as above zero, without a number.
+  /// Of means: their difference in units of both standard errors, that of the published mean
+  /// among them.
+  std::optional<double> published_z;
+  std::optional<PredictiveTail> predictive;  ///< Where simulated people are known.
   bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
   bool implied = false;     ///< It follows, nearly or wholly, from values that were.
   bool primary = false;     ///< It answers what its block asks; see `mark_primary`.
   int n = 0;                ///< Participants it rests on.
+  std::string reason{};     ///< Why there is no value; "" if there is one.
+  std::vector<std::string> cautions{};  ///< Why it may be wrong for these data, one each.
 
   /// Whether there is a published finding to compare with.
   [[nodiscard]] bool is_published() const { return published || published_positive; }
@@ -37,13 +45,21 @@ struct ExcludedParticipant {
   std::string reason;
 };
 
+/// What makes numbers of a section doubtful, which have them nevertheless.
+struct Caution {
+  std::string participant;  ///< Whose answers; "everyone" of the group's.
+  std::string caution;
+};
+
 /// One participant's own number, or why there is none.
 struct ParticipantEstimate {
   std::string participant;
   std::string name;  ///< "group_d.weber_fraction"
   std::optional<double> value;
-  Interval ci95;       ///< Of this participant's answers alone.
-  std::string reason;  ///< Why there is no value; "" if there is one.
+  Interval ci95;                        ///< Of this participant's answers alone.
+  std::string reason;                   ///< Why there is no value; "" if there is one.
+  std::vector<std::string> cautions{};  ///< Why it may be wrong, one each.
+  bool primary = false;  ///< Of this person what the primary estimate is of the group.
 };
 
 /// A test between two conditions.
@@ -54,6 +70,7 @@ struct NamedComparison {
   std::optional<double> p_value_holm;
   std::string family;  ///< "exploratory, movement"; "" with a test that stands alone.
   bool primary = false;
+  std::vector<std::string> cautions{};  ///< Why it may be wrong for these data, one each.
 };
 
 /// What a participant said in words of their own.
@@ -72,14 +89,37 @@ template <typename AnyEstimate>
 
 struct ResultsSection {
   std::string name;  ///< "magnitude_estimation", "group_d", "movement" ...
-  /// Of a block of comparisons: what is told of everybody's own Weber fractions together, their
-  /// median and box, has the pse free, as the primary value; else it is at the reference.
+  /// Of a block of comparisons: the primary value, and so everybody's own Weber fraction that
+  /// stands for it, has the pse free; else it is at the reference.
   bool own_fractions_free_pse = false;
   std::vector<Estimate> estimates;
   std::vector<ParticipantEstimate> participants;
   std::vector<NamedComparison> comparisons;
   std::vector<ExcludedParticipant> excluded;
   std::vector<FreeAnswer> free_answers;
+  std::vector<Caution> cautions{};
+};
+
+/// What happened to the trials of a block at one level: loss need not be random.
+struct LevelLoss {
+  std::string block;
+  std::optional<double> level;  ///< As in `TrialRecord`; absent for all levels, or none.
+  bool is_catch = false;
+  int num_drawn = 0, num_answered = 0, num_set_aside = 0;
+  // Trials, each counted wherever it belongs:
+  int num_repeated = 0;    ///< Run again, for an answer was taken back or an attempt given up.
+  int num_discarded = 0;   ///< An attempt was given up, interrupted or invalid.
+  int num_faulted = 0;     ///< The loop latched a fault meanwhile.
+  int num_limited = 0;     ///< The limiter changed the force of a stimulus.
+  int num_strokeless = 0;  ///< Test or reference was never felt over a whole stroke.
+  int num_affected = 0;    ///< Answers that count, with any of the above.
+
+  [[nodiscard]] int num_unanswered() const noexcept {
+    return num_drawn - num_answered - num_set_aside;
+  }
+  [[nodiscard]] bool is_any() const noexcept {
+    return num_answered != num_drawn || num_repeated + num_faulted + num_affected > 0;
+  }
 };
 
 /// Everything a study's design calls for, as plain data; the command line, the report and the
@@ -92,7 +132,9 @@ struct StudyResults {
   std::string citation;             ///< Of the published values; "" without any.
   int num_participants = 0;
   MissingSessions sessions;
+  std::vector<LevelLoss> losses;  ///< Of every level of every block.
   std::vector<ResultsSection> sections;
+  Predictive predictive;  ///< What published values are compared with.
 
   [[nodiscard]] const Estimate* find(const std::string& name) const;
 };
@@ -125,12 +167,9 @@ void name_without_answers(std::vector<ExcludedParticipant>& excluded,
                                               const BlockDesign& estimation,
                                               const BlockDesign& production,
                                               const ResultsOptions& options);
-/// `is_median_published`: the median of people's own fractions stands beside a published one,
-/// which has the pse at the reference, whatever the primary value of the block has.
 [[nodiscard]] ResultsSection discrimination_results(const StudyData& data,
                                                     const BlockDesign& block,
-                                                    const ResultsOptions& options,
-                                                    bool is_median_published = false);
+                                                    const ResultsOptions& options);
 [[nodiscard]] ResultsSection discrimination_comparison(const StudyData& data,
                                                        const ComparedBlocks& blocks);
 [[nodiscard]] ResultsSection movement_results(const StudyData& data);

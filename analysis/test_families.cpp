@@ -20,15 +20,17 @@ void mark_movement_family(std::vector<ResultsSection>& sections) {
   }
 }
 
-void mark_planned_family(std::vector<ResultsSection>& sections) {
-  std::vector<NamedComparison*> planned;
+void mark_pairs_family(std::vector<ResultsSection>& sections, bool were_asked_for) {
   for (ResultsSection& section : sections) {
     for (NamedComparison& named : section.comparisons) {
-      if (named.primary) planned.push_back(&named);
+      if (named.primary) named.family = were_asked_for ? kAskedFamily : kPairsFamily;
     }
   }
-  if (planned.size() < 2) return;
-  for (NamedComparison* named : planned) named->family = kPlannedFamily;
+}
+
+std::string family_note(const NamedComparison& named) {
+  if (named.family == kPairsFamily) return kPairsNote;
+  return named.family == kAskedFamily ? kAskedNote : "";
 }
 
 void adjust_by_family(std::vector<ResultsSection>& sections) {

@@ -40,6 +40,10 @@ std::int64_t num_repetitions(const std::vector<std::vector<core::TrialRow>>& tri
   return largest;
 }
 
+std::string name_of(std::int64_t first, std::int64_t second) {
+  return "trial_correlation.t" + std::to_string(first) + "_t" + std::to_string(second);
+}
+
 /// Median of the correlations of all pairs and participants.
 void add_median(ResultsSection& section, const std::vector<std::vector<double>>& by_participant,
                 const ResultsOptions& options) {
@@ -75,8 +79,7 @@ void add_trial_correlations(ResultsSection& section, const StudyData& data,
   const std::int64_t num = num_repetitions(trials);
   for (std::int64_t first = 1; first <= num; ++first) {
     for (std::int64_t second = first + 1; second <= num; ++second) {
-      const std::string name =
-          "trial_correlation.t" + std::to_string(first) + "_t" + std::to_string(second);
+      const std::string name = name_of(first, second);
       std::vector<double> correlations;
       for (std::size_t i = 0; i < trials.size(); ++i) {
         if (trials[i].empty()) continue;
@@ -101,6 +104,20 @@ void add_trial_correlations(ResultsSection& section, const StudyData& data,
     }
   }
   add_median(section, by_participant, options);
+}
+
+std::map<std::string, double> own_trial_correlations(
+    const std::vector<core::TrialRow>& trials) {
+  std::map<std::string, double> correlations;
+  const std::int64_t num = num_repetitions({trials});
+  for (std::int64_t first = 1; first <= num; ++first) {
+    for (std::int64_t second = first + 1; second <= num; ++second) {
+      const Comparison own =
+          correlation_of(repetition_curve(trials, first), repetition_curve(trials, second));
+      if (own.estimate) correlations[name_of(first, second)] = *own.estimate;
+    }
+  }
+  return correlations;
 }
 
 }  // namespace jnd::analysis

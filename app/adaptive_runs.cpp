@@ -153,9 +153,14 @@ void run_quest_plus(const Block& block, const std::vector<LevelTrial>& trials,
                        [](const LevelTrial& trial) { return !trial.set_aside; });
   run.is_logarithmic = true;
   run.tracks.push_back(track_of(1, trials));
-  for (const QuestPlusEstimate& one : quest.estimates(quest.posterior(answers_of(standing)))) {
-    if (one.low == one.high) continue;  // A parameter that is taken for known.
+  const std::vector<QuestPlusEstimate> estimates =
+      quest.estimates(quest.posterior(answers_of(standing)));
+  run.reached_ends = reached_ends(block, estimates);
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (quest.rule().model.parameters[i].grid.values.size() == 1) continue;  // Taken for known.
+    const QuestPlusEstimate& one = estimates[i];
     run.posterior.push_back({one.name, one.mean, one.sd, one.low, one.high});
+    if (!run.reached_ends.empty()) run.posterior.back().low = run.posterior.back().high = {};
   }
 }
 

@@ -85,6 +85,7 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
                                                const experiments::Laboratory* laboratory,
                                                const device::DeviceCapabilities& device) {
   device::HapticLoop::Parameters loop;
+  loop.starts_armed = device.simulated;
   loop.heartbeat_timeout_s = device.heartbeat_timeout_s;
   loop.force_map = parameters.force_map.get();
   loop.rate_hz = parameters.rate_hz;
@@ -216,7 +217,9 @@ struct Apparatus::Implementation {
       }
     }
     velocity_m_per_s /= core::kNumContactPoints;
-    meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s, loop.period_s());
+    const double num_periods = static_cast<double>(1 + sample.num_missed_before);
+    meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s,
+               num_periods * loop.period_s());
     const double speed_m_per_s = velocity_m_per_s.norm();
     ++sums.num_ticks;
     sums.speed_m_per_s += speed_m_per_s;
@@ -237,6 +240,26 @@ struct Apparatus::Implementation {
     }
     simulated_clock.advance_ns(
         std::llround(static_cast<double>(num_ticks) * 1e9 / parameters.rate_hz));
+  }
+
+  /// As somebody beside the device asked for. A connection has to be good for a while before it
+  /// may be armed; whatever else is wrong is for a person to look at. Throws `core::Error`.
+  void arm() {
+    constexpr auto kPatience = std::chrono::seconds(10);
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (true) {
+      beat();
+      loop.rearm();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      telemetry.fetch();
+      const core::Telemetry& now = telemetry.value();
+      if (now.arming == core::Arming::kArming || now.arming == core::Arming::kArmed) return;
+      const bool may_come =
+          now.fault == core::Fault::kNotArmed || now.fault == core::Fault::kLinkLost;
+      if (may_come && std::chrono::steady_clock::now() < end) continue;
+      throw core::Error("device: expected to be armed, found: " +
+                        std::string(words(now.fault)));
+    }
   }
 
   void run_realtime(std::int64_t until_tick) {
@@ -280,10 +303,14 @@ struct Apparatus::Implementation {
 };
 
 Apparatus::Apparatus(const Parameters& parameters)
-    : implementation_(std::make_unique<Implementation>(parameters, nullptr)) {}
+    : implementation_(std::make_unique<Implementation>(parameters, nullptr)) {
+  if (parameters.arm && parameters.realtime && !is_simulated()) implementation_->arm();
+}
 
 Apparatus::Apparatus(const Parameters& parameters, const experiments::Laboratory& laboratory)
-    : implementation_(std::make_unique<Implementation>(parameters, &laboratory)) {}
+    : implementation_(std::make_unique<Implementation>(parameters, &laboratory)) {
+  if (parameters.arm && parameters.realtime && !is_simulated()) implementation_->arm();
+}
 
 Apparatus::~Apparatus() = default;
 
@@ -333,6 +360,12 @@ void Apparatus::run_for(double duration_s) {
 }
 
 void Apparatus::rearm() { implementation_->loop.rearm(); }
+
+void Apparatus::disarm() { implementation_->loop.disarm(); }
+
+bool Apparatus::is_simulated() const noexcept {
+  return implementation_->device->capabilities().simulated;
+}
 
 std::vector<core::Sample> Apparatus::flight_record() const {
   const core::FlightRecorder& recorder = implementation_->loop.flight_recorder();

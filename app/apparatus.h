@@ -41,6 +41,9 @@ class Apparatus {
     std::int64_t first_time_ns = 0;                   ///< Of the simulated clock, likewise.
     bool realtime = false;           ///< Paced by a real-time thread; else as fast as it goes.
     bool allow_no_realtime = false;  ///< A real device also without real-time rights.
+    /// A real device is armed at once, as somebody asked for who is beside it. A simulated one
+    /// starts armed.
+    bool arm = false;
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.
     std::optional<std::filesystem::path> recording;
     core::Durability durability = core::Durability::kEveryCommit;
@@ -78,9 +81,11 @@ class Apparatus {
   /// Lets this much time pass. Throws `Error` if the loop latched a fault.
   void run_for(double duration_s);
 
-  /// Asks for the force back, faded in from zero, after a stop that was released or a fault.
-  /// Telemetry tells whether it came: what is still wrong latches again.
+  /// Asks for the force, faded in from zero: at first, after a stop that was released, or a
+  /// fault. Telemetry tells whether it came: what is still wrong latches again.
   void rearm();
+  /// No force until `rearm`.
+  void disarm();
 
   /// The last second before the fault that the loop has latched, the fault's tick last; empty
   /// without one. Before `rearm`.
@@ -89,6 +94,7 @@ class Apparatus {
   /// Number of the next sample.
   [[nodiscard]] std::int64_t next_tick() const noexcept;
   [[nodiscard]] const core::Telemetry& telemetry() const noexcept;
+  [[nodiscard]] bool is_simulated() const noexcept;
   /// The laboratory's own lumped hand, and no device with mechanics of its own.
   [[nodiscard]] bool is_laboratory_hand() const noexcept;
   /// The most that the points together ever get: the least of the limiter's and the device's.

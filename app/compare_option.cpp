@@ -20,7 +20,8 @@ void add_compare_option(CLI::App& command, std::vector<std::string>& given) {
   command
       .add_option("--compare", given,
                   "Blocks whose Weber fractions are compared, once for each two; default: "
-                  "every two of a quantity, or of many each with the next")
+                  "every two of a quantity, or of many each with the next, as exploratory. "
+                  "Asking here plans nothing: the results say that they were asked for")
       ->type_name("FIRST,SECOND")
       ->allow_extra_args(false);
 }

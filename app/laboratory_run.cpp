@@ -1,6 +1,7 @@
 #include "app/laboratory_run.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "app/trial_player.h"
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "experiments/participants/simulated_participant.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/session/session.h"
 
 namespace jnd::app {
@@ -16,6 +18,8 @@ namespace {
 using namespace experiments;
 
 /// Plays the experimenter and the participant of one session.
+constexpr char kArmedBy[] = "armed by --arm";
+
 class SimulatedVisit {
  public:
   explicit SimulatedVisit(const LaboratoryRun& run)
@@ -28,6 +32,7 @@ class SimulatedVisit {
                               .home_height_m = participant_.home_height_m(),
                               .realtime = run.realtime,
                               .allow_no_realtime = run.allow_no_realtime,
+                              .arm = run.arm,
                               .durability = run.durability,
                               .injected_faults = run.injected_faults},
                 .laboratory = &run.laboratory,
@@ -40,16 +45,19 @@ class SimulatedVisit {
     result.realtime = visit_.apparatus().realtime();
     try {
       visit_.begin(run_.choice, run_.language);
+      visit_.keep_arming(kArmedBy);
       while (!session_.state().ended && session_.current_stage() != nullptr) {
         if (!session_.state().stage_open) session_.enter_stage();
         stage_progress();
         std::visit([this](const auto& content) { run_stage(content); },
                    session_.current_stage()->content);
         session_.finish_stage();
+        visit_.keep_arming(kArmedBy);
         visit_.keep_timing();
       }
       if (!session_.state().ended) session_.complete();
       result.ended = true;
+      result.cautions = std::move(cautions_);
     } catch (const Cancelled&) {
       // First of all: the disk may take its time.
       visit_.apparatus().render(core::free_space());
@@ -58,7 +66,8 @@ class SimulatedVisit {
     } catch (const core::Error&) {
       visit_.apparatus().render(core::free_space());
       // A fault of the loop is an event of the session, whatever else it ends.
-      if (visit_.apparatus().telemetry().fault != core::Fault::kNone) {
+      if (core::is_failure(visit_.apparatus().telemetry().fault)) {
+        visit_.keep_arming(kArmedBy);
         visit_.keep_fault();
         visit_.keep_timing();
       }
@@ -125,6 +134,12 @@ class SimulatedVisit {
       player_.run_trial(block);
       trial_progress();
     }
+    const std::string caution =
+        procedure_named(block.procedure)
+            .caution(block, session_.state().answered_in(session_.state().stage));
+    if (!caution.empty()) {
+      cautions_.push_back(session_.current_stage()->name + ": " + caution);
+    }
   }
 
   void answer_item(const std::string& item, const std::string& answer) {
@@ -151,6 +166,7 @@ class SimulatedVisit {
   Visit visit_;
   Session& session_;
   TrialPlayer player_;
+  std::vector<std::string> cautions_;
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ struct LaboratoryRun {
   bool realtime = false;     ///< Paced by the clock; else as fast as it goes.
   std::vector<device::ScheduledFault> injected_faults = {};  ///< For tests and rehearsals.
   bool allow_no_realtime = false;  ///< A real device also without real-time rights.
+  bool arm = false;                ///< A real device: somebody beside it asked for force.
   core::Durability durability = core::Durability::kEveryCommit;
   /// How an interrupted session goes on: "repeat", "restart" or "end".
   std::string choice = "repeat";
@@ -37,6 +38,8 @@ struct LaboratoryRunResult {
   bool ended = false;  ///< False: cancelled, and can be resumed.
   std::int64_t num_ticks = 0;
   std::string realtime;  ///< "simulated", or what the real-time thread was given.
+  /// What the answers of a block say against it, "BLOCK: ..."; see `Procedure::caution`.
+  std::vector<std::string> cautions;
 };
 
 /// Joins device, loop, session and storage for one session: every presentation in closed loop,

@@ -1,4 +1,5 @@
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -89,5 +90,7 @@ int invoke(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A reader of ours that goes away must not take a session with it.
   std::signal(SIGPIPE, SIG_IGN);
+  // Whatever it writes, exports and reports too, tells of persons: for its owner only.
+  ::umask(S_IRWXG | S_IRWXO);
   return printed(invoke(argc, argv));
 }

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace jnd::app {
 
@@ -19,5 +21,9 @@ namespace jnd::app {
 
 /// A finite number within these bounds.
 [[nodiscard]] CLI::Validator number_between(double lowest, double highest);
+
+/// A number from 0 to below 1, also as a fraction of whole numbers such as 1/3, which it is
+/// replaced by; or one of the words.
+[[nodiscard]] CLI::Validator rate(const std::vector<std::string>& words = {});
 
 }  // namespace jnd::app

@@ -186,11 +186,13 @@ void tell_power(const PowerDesign& design, const std::vector<analysis::PlannedRu
     analysis::UnfinishedFolder folder(output.out);
     analysis::write_text_file(folder.path() / "power.json", document);
     const auto drawn = analysis::write_figures(
-        analysis::power_figures(design.analysis, summaries,
-                                {.study = design.study,
-                                 .laboratory = design.laboratory,
-                                 .num_runs = design.request.num_runs,
-                                 .null_hypothesis = design.request.null_hypothesis}),
+        analysis::power_figures(
+            design.analysis, summaries,
+            {.study = design.study,
+             .laboratory = design.laboratory,
+             .num_runs = design.request.num_runs,
+             .null_hypothesis =
+                 design.request.null_hypothesis || analysis::nothing_differs(design.analysis)}),
         folder.path(), {.simulated = true, .gnuplot = analysis::find_tool({"gnuplot"})});
     folder.publish();
     for (const analysis::DrawnFigure& figure : drawn) {

@@ -60,11 +60,12 @@ ordered_json request_json(const PowerDesign& design) {
           {"hierarchical", design.request.hierarchical}};
 }
 
-ordered_json to_json(const PlannedPower& power, const PlannedName& name) {
+ordered_json to_json(const PlannedPower& power, const PlannedName& name, bool alike) {
   return {{"name", name.name},
           {"primary", name.meaning == kPrimaryTest},
           {"meaning", name.meaning},
           {"power", power.power},
+          {"power_is", alike ? "false_positive_rate" : "power"},
           {"power_ci95", {power.power_low, power.power_high}},
           {"num_significant", power.num_significant},
           {"num_undefined", power.num_undefined},
@@ -170,7 +171,8 @@ ordered_json to_json(const PlannedRun& run) {
     json.push_back({{"estimates", std::move(estimates)},
                     {"tests", std::move(tests)},
                     {"with_answers", size.num_with_answers},
-                    {"degenerate", size.num_degenerate}});
+                    {"degenerate", size.num_degenerate},
+                    {"at_grid_end", size.num_at_grid_end}});
   }
   return json;
 }
@@ -188,10 +190,12 @@ PlannedRun planned_run_of(const ordered_json& json, const PlannedAnalysis& analy
     }
     read.num_with_answers = size.at("with_answers").get<std::vector<int>>();
     read.num_degenerate = size.at("degenerate").get<std::vector<int>>();
+    read.num_at_grid_end = size.at("at_grid_end").get<std::vector<int>>();
     if (read.estimates.size() != estimate_names(analysis).size() ||
         read.tests.size() != test_names(analysis).size() ||
         read.num_with_answers.size() != analysis.blocks.size() ||
-        read.num_degenerate.size() != analysis.blocks.size()) {
+        read.num_degenerate.size() != analysis.blocks.size() ||
+        read.num_at_grid_end.size() != analysis.blocks.size()) {
       throw core::Error("run: expected as many numbers as its design asks for, found others");
     }
   }
@@ -207,6 +211,9 @@ ordered_json power_result(const PowerDesign& design,
   const std::vector<PlannedName> estimates = estimate_names(design.analysis);
   ordered_json json = request_json(design);
   json["level"] = kPlannedLevel;
+  const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
+  json["true_difference"] = number(true_difference(design.analysis));
+  json["nothing_differs"] = alike;
   auto sizes = ordered_json::array();
   for (std::size_t size = 0; size < summaries.size(); ++size) {
     const PlannedSummary& summary = summaries[size];
@@ -216,11 +223,15 @@ ordered_json power_result(const PowerDesign& design,
                         {"tests", ordered_json::array()},
                         {"estimates", ordered_json::array()}};
     for (std::size_t test = 0; test < tests.size(); ++test) {
-      one["tests"].push_back(to_json(summary.tests[test], tests[test]));
+      one["tests"].push_back(to_json(summary.tests[test], tests[test], alike));
     }
     for (std::size_t estimate = 0; estimate < estimates.size(); ++estimate) {
       one["estimates"].push_back(to_json(summary.estimates[estimate], estimates[estimate],
                                          design.analysis.blocks[estimates[estimate].block]));
+    }
+    one["at_grid_end"] = ordered_json::object();
+    for (std::size_t block = 0; block < design.analysis.blocks.size(); ++block) {
+      one["at_grid_end"][design.analysis.blocks[block].name] = summary.at_grid_end[block];
     }
     sizes.push_back(std::move(one));
   }

@@ -84,6 +84,10 @@ PlannedPerson person_of(const PlannedAnalysis& analysis,
     for (std::size_t place = 0; place < analysis.blocks.size(); ++place) {
       if (analysis.blocks[place].name != block.stage->name) continue;
       person[place] = answers_of(block.trials, analysis.blocks[place].quantity);
+      const auto& written = std::get<Block>(block.stage->content);
+      person[place].at_grid_end =
+          written.procedure == "quest_plus" &&
+          !procedure_named(written.procedure).caution(written, block.trials).empty();
     }
   }
   return person;

@@ -28,11 +28,19 @@ std::string power_table(const PowerDesign& design,
                         const std::vector<PlannedSummary>& summaries) {
   std::string table = heading(design);
   const std::vector<PlannedName> tests = test_names(design.analysis);
+  const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
+  if (!tests.empty()) {
+    table += fmt::format("\nTrue difference in ln ln(1 + w): {}{}\n",
+                         text(true_difference(design.analysis)),
+                         alike ? ". Nothing differs: the share with p < 0.05 is the rate of "
+                                 "false positives, not a power"
+                               : "");
+  }
   for (std::size_t test = 0; test < tests.size(); ++test) {
     table += fmt::format("\n{}{}\n  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", tests[test].name,
                          tests[test].meaning.empty() ? "" : " (" + tests[test].meaning + ")",
-                         "participants", design.request.null_hypothesis ? "p < 0.05" : "power",
-                         "95 % of the share", "undefined", "difference");
+                         "participants", alike ? "p < 0.05" : "power", "95 % of the share",
+                         "undefined", "difference");
     for (const PlannedSummary& summary : summaries) {
       const PlannedPower& power = summary.tests[test];
       table += fmt::format(

@@ -1,5 +1,7 @@
 #include "app/presenter.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <utility>
 
@@ -16,6 +18,7 @@ const PresentationState& Presenter::presentation() const {
 void Presenter::begin(const Block& block, const std::string& interval) {
   session_.begin_presentation(interval, apparatus_.next_tick());
   amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
+  missed_before_ = apparatus_.telemetry().num_missed_ticks;
   limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
   apparatus_.render(amounts_);
   // The disk may have taken its time: what is felt begins here.
@@ -67,11 +70,24 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   if (amounts_.is_plain_damping()) {
     summary.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
   }
+  felt.num_ticks = felt.last_tick - presentation().first_tick + 1;
+  felt.missed_ticks = last.num_missed_ticks - missed_before_;
+  summary.missed_ticks = felt.missed_ticks;
   summary.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
   session_.end_presentation(felt.last_tick, summary);
   under_way_ = false;
   measuring_ = false;
   return felt;
+}
+
+std::string Presenter::missed_reason(const Felt& felt) const {
+  const auto missed = static_cast<double>(felt.missed_ticks);
+  const auto due = static_cast<double>(felt.num_ticks);
+  if (!(missed > needs_.max_missed_ratio * due)) return "";
+  return fmt::format(
+      "missed ticks: {} of {} never ran, more than the {:g} % that the study "
+      "allows",
+      felt.missed_ticks, felt.num_ticks, 100.0 * needs_.max_missed_ratio);
 }
 
 void Presenter::abandon() {

@@ -33,6 +33,8 @@ class Presenter {
     double device_damping_n_s_per_m = 0.0;
     std::int64_t last_tick = 0;
     double duration_s = 0.0;
+    std::int64_t num_ticks = 0;     ///< That were due, from the event of its beginning on.
+    std::int64_t missed_ticks = 0;  ///< Those of them that never ran.
   };
 
   /// Stores the presentation's beginning, then switches the medium: "test", "reference" or
@@ -46,6 +48,9 @@ class Presenter {
   void ramp_is_over();
   /// Stores what it came to up to now.
   Felt end(Afterwards afterwards = Afterwards::kSameMedium);
+  /// Why what was felt counts for nothing, in words for events: more of its ticks never ran
+  /// than the study allows. "" where it counts.
+  [[nodiscard]] std::string missed_reason(const Felt& felt) const;
   /// It counts for nothing: a fault, a pause. The event of the attempt's end is the caller's,
   /// and so is free space, first: this waits for the disk.
   void abandon();
@@ -64,6 +69,7 @@ class Presenter {
   bool measuring_ = false;
   std::int64_t switched_tick_ = 0;  ///< The first that can have been in the medium.
   std::int64_t limited_before_ = 0;
+  std::int64_t missed_before_ = 0;
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;
 };

@@ -1,5 +1,7 @@
 #include "app/results_basis.h"
 
+#include <fmt/format.h>
+
 namespace jnd::app {
 
 using analysis::Estimate;
@@ -16,6 +18,17 @@ std::optional<bool> holds_published(const Estimate& estimate) {
   if (!estimate.published || (!ci95.low && !ci95.high)) return std::nullopt;
   return (!ci95.low || *estimate.published >= *ci95.low) &&
          (!ci95.high || *estimate.published <= *ci95.high);
+}
+
+std::string tail_words(const Estimate& estimate, const analysis::Predictive& predictive) {
+  if (!estimate.predictive || predictive.num_studies < 1) return "";
+  const double share = estimate.predictive->tail;
+  const char* side = estimate.predictive->is_below ? "below" : "above";
+  if (share > 0.0) {
+    return fmt::format("{:.3f} {} (se {:.3f})", share, side,
+                       estimate.predictive->standard_error);
+  }
+  return fmt::format("< {:.3f} {}", 1.0 / predictive.num_studies, side);
 }
 
 }  // namespace jnd::app

@@ -5,12 +5,15 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "analysis/published_comparison.h"
 #include "app/command.h"
+#include "app/predictive_studies.h"
 #include "app/results_basis.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "app/study_data.h"
 #include "core/error.h"
+#include "core/storage/sha256.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::app {
@@ -35,6 +38,26 @@ json missing_json(const analysis::MissingSessions& sessions) {
           {"num_withdrawn", sessions.num_withdrawn}};
 }
 
+json losses_json(const std::vector<analysis::LevelLoss>& losses) {
+  json levels = json::array();
+  for (const analysis::LevelLoss& one : losses) {
+    levels.push_back({{"block", one.block},
+                      {"level", number(one.level)},
+                      {"is_catch", one.is_catch},
+                      {"num_drawn", one.num_drawn},
+                      {"num_answered", one.num_answered},
+                      {"num_set_aside", one.num_set_aside},
+                      {"num_unanswered", one.num_unanswered()},
+                      {"num_repeated", one.num_repeated},
+                      {"num_discarded", one.num_discarded},
+                      {"num_faulted", one.num_faulted},
+                      {"num_limited", one.num_limited},
+                      {"num_strokeless", one.num_strokeless},
+                      {"num_affected", one.num_affected}});
+  }
+  return levels;
+}
+
 /// Text of the shipped laboratory of this name; "" if there is none.
 std::string shipped(const std::string& name) {
   std::ifstream file(share_folder() / "data" / "laboratories" / (name + ".json"),
@@ -52,6 +75,60 @@ void require_compared(const analysis::StudyData& data,
   }
 }
 
+/// Of the people given, or those shipped; or says why there are none.
+void compare_with_simulated(analysis::StudyResults& results, const analysis::StudyData& data,
+                            const analysis::Published& published,
+                            const analysis::PredictivePeople* people) {
+  if (!data.simulated || published.num_participants < 1) return;
+  if (data.delivered) {
+    results.predictive.reason =
+        "simulated studies are of commanded intensities, and these results of delivered ones";
+    return;
+  }
+  std::optional<analysis::PredictivePeople> stored;
+  if (people == nullptr) {
+    stored = shipped_people({.study = data.study,
+                             .study_sha256 = data.protocol_sha256,
+                             .laboratory = data.laboratory,
+                             .laboratory_sha256 = core::sha256(data.laboratory_text),
+                             .device = data.device});
+  }
+  if (people == nullptr && !stored) {
+    results.predictive.reason =
+        "no simulated people are stored for this laboratory, study file and device; "
+        "--predictive simulates some";
+    return;
+  }
+  analysis::add_predictive(results, published, people == nullptr ? *stored : *people);
+}
+
+json predictive_json(const Estimate& estimate) {
+  if (!estimate.predictive) return nullptr;
+  const analysis::PredictiveTail& tail = *estimate.predictive;
+  return {{"median", number(tail.median)},
+          {"middle95", json::array({number(tail.low), number(tail.high)})},
+          {"tail", tail.tail},
+          {"side", tail.is_below ? "below" : "above"},
+          {"tail_standard_error", tail.standard_error},
+          {"num_studies", tail.values.size()}};
+}
+
+json joint_json(const std::optional<analysis::JointTail>& joint) {
+  if (!joint) return nullptr;
+  return {{"p_value", joint->p_value},
+          {"standard_error", joint->standard_error},
+          {"num_statistics", joint->num_statistics}};
+}
+
+json predictive_json(const analysis::Predictive& predictive) {
+  return {{"num_people", predictive.num_people},
+          {"num_studies", predictive.num_studies},
+          {"num_participants", predictive.num_participants},
+          {"joint", joint_json(predictive.joint)},
+          {"joint_held_out", joint_json(predictive.joint_held_out)},
+          {"reason", predictive.reason}};
+}
+
 }  // namespace
 
 analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
@@ -62,13 +139,15 @@ analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
 }
 
 analysis::StudyResults results_of_data(const analysis::StudyData& data,
-                                       const analysis::ResultsOptions& options) {
+                                       const analysis::ResultsOptions& options,
+                                       const analysis::PredictivePeople* people) {
   require_compared(data, options);
-  analysis::StudyResults results = analysis::results_of(
-      data, analysis::published_for(data.study, share_folder() / "data" / "published"),
-      options);
+  const analysis::Published published =
+      analysis::published_for(data.study, share_folder() / "data" / "published");
+  analysis::StudyResults results = analysis::results_of(data, published, options);
   results.laboratory_changed =
       data.simulated && data.laboratory_text != shipped(data.laboratory);
+  compare_with_simulated(results, data, published, people);
   return results;
 }
 
@@ -91,12 +170,21 @@ json to_json(const analysis::StudyResults& results) {
            {"basis", results.simulated && estimate.is_published() ? json(basis_of(estimate))
                                                                   : json(nullptr)},
            {"published_inside_ci95", inside ? json(*inside) : json(nullptr)},
+           {"published_statistic", estimate.published_statistic},
+           {"published_z", number(estimate.published_z)},
+           {"predictive_p",
+            estimate.predictive ? json(estimate.predictive->p_value) : json(nullptr)},
+           {"predictive", predictive_json(estimate)},
            {"primary", estimate.primary},
-           {"n", estimate.n}});
+           {"n", estimate.n},
+           {"reason", estimate.reason},
+           {"cautions", estimate.cautions}});
     }
     json comparisons = json::array();
     for (const analysis::NamedComparison& named : section.comparisons) {
       const analysis::Comparison& c = named.comparison;
+      json statistics = json::object();
+      for (const auto& [name, value] : c.all_statistics()) statistics[name] = number(value);
       comparisons.push_back({{"name", named.name},
                              {"status", std::string(to_string(c.status))},
                              {"reason", c.reason},
@@ -104,11 +192,14 @@ json to_json(const analysis::StudyResults& results) {
                              {"estimate", number(c.estimate)},
                              {"ci95", interval(c.ci95)},
                              {"statistic", number(c.statistic)},
+                             {"statistic_name", c.statistic_name},
+                             {"statistics", std::move(statistics)},
                              {"degrees_of_freedom", number(c.degrees_of_freedom)},
                              {"p_value", number(c.p_value)},
                              {"p_value_holm", number(named.p_value_holm)},
                              {"family", named.family},
                              {"primary", named.primary},
+                             {"cautions", named.cautions},
                              {"cohen_dz", number(c.cohen_dz)},
                              {"cohen_dz_ci95", interval(c.cohen_dz_ci95)},
                              {"hedges_g", number(c.hedges_g)},
@@ -126,11 +217,17 @@ json to_json(const analysis::StudyResults& results) {
                               {"name", own.name},
                               {"value", number(own.value)},
                               {"ci95", interval(own.ci95)},
-                              {"reason", own.reason}});
+                              {"reason", own.reason},
+                              {"primary", own.primary},
+                              {"cautions", own.cautions}});
     }
     json excluded = json::array();
     for (const analysis::ExcludedParticipant& one : section.excluded) {
       excluded.push_back({{"participant", one.participant}, {"reason", one.reason}});
+    }
+    json cautions = json::array();
+    for (const analysis::Caution& one : section.cautions) {
+      cautions.push_back({{"participant", one.participant}, {"caution", one.caution}});
     }
     json free_answers = json::array();
     for (const analysis::FreeAnswer& one : section.free_answers) {
@@ -144,7 +241,8 @@ json to_json(const analysis::StudyResults& results) {
                         {"participants", std::move(participants)},
                         {"comparisons", std::move(comparisons)},
                         {"excluded", std::move(excluded)},
-                        {"free_answers", std::move(free_answers)}});
+                        {"free_answers", std::move(free_answers)},
+                        {"cautions", std::move(cautions)}});
   }
   return {{"study", results.study},
           {"simulated", results.simulated},
@@ -153,6 +251,8 @@ json to_json(const analysis::StudyResults& results) {
           {"citation", results.citation},
           {"num_participants", results.num_participants},
           {"sessions", missing_json(results.sessions)},
+          {"predictive", predictive_json(results.predictive)},
+          {"losses", losses_json(results.losses)},
           {"sections", std::move(sections)}};
 }
 

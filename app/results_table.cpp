@@ -9,8 +9,10 @@
 
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/report/report_words.h"
+#include "analysis/test_families.h"
 #include "app/results_basis.h"
 #include "app/results_output.h"
+#include "app/statistic_words.h"
 
 namespace jnd::app {
 namespace {
@@ -35,11 +37,20 @@ std::string text_of(const std::string& name, const std::optional<double>& value)
   return is_whole && is_count(name) ? fmt::format("{:.0f}", *value) : text(value);
 }
 
-std::string text(const Interval& whole, const std::optional<double>& value) {
-  const Interval ci95 = analysis::bounded_by_data(whole, value);
+std::string text(const Interval& ci95) {
   if (!ci95.low && !ci95.high) return "-";
   return fmt::format("{} .. {}", ci95.low ? text(ci95.low) : "open",
                      ci95.high ? text(ci95.high) : "open");
+}
+
+std::string text(const Interval& whole, const std::optional<double>& value) {
+  return text(analysis::bounded_by_data(whole, value));
+}
+
+/// Of an estimate, or of a participant's own.
+template <typename AnyEstimate>
+std::string interval_text(const AnyEstimate& one) {
+  return text(analysis::told_interval(one.name, one.ci95, one.value));
 }
 
 std::string p_text(const std::optional<double>& p_value) {
@@ -50,9 +61,9 @@ std::string p_text(const std::optional<double>& p_value) {
 std::string published_text(const Estimate& estimate) {
   if (estimate.published_positive) return "> 0";
   if (!estimate.published) return "-";
-  return estimate.published_sd
-             ? fmt::format("{:.4f} (sd {:.4f})", *estimate.published, *estimate.published_sd)
-             : fmt::format("{:.4f}", *estimate.published);
+  const std::string value = analysis::shortest_words(*estimate.published);
+  if (!estimate.published_sd) return value;
+  return value + " (sd " + analysis::shortest_words(*estimate.published_sd) + ")";
 }
 
 /// "2 sessions open: P13, P14"; "" for none.
@@ -88,19 +99,51 @@ std::string heading(const analysis::StudyResults& results) {
   return line + "\n" + missing_words(results.sessions);
 }
 
-constexpr char kRow[] = "  {:<46} {:>10}  {:>20}  {:>5}  {:>22}  {}\n";
+constexpr char kRow[] = "  {:<45} {:>8}  {:>26}  {:>4}  {:>19}  {}\n";
 
-std::string header() {
-  return fmt::format(kRow, "", "value", "95 % interval", "unit", "published", "inside") + "  " +
-         std::string(119, '-') + "\n";
+std::string comparison_header(bool has_simulated) {
+  return fmt::format(kRow, "", has_simulated ? "this run" : "value",
+                     has_simulated ? "simulated studies" : "95 % interval", "unit", "published",
+                     has_simulated ? "tail" : "z") +
+         "  " + std::string(121, '-') + "\n";
 }
 
-std::string row(const Estimate& estimate) {
-  const std::optional<bool> inside = holds_published(estimate);
+/// "0.7013 (0.4434 .. 1.0189)": median and middle 95 %.
+std::string simulated_text(const Estimate& estimate) {
+  if (!estimate.predictive) return "-";
+  const analysis::PredictiveTail& of = *estimate.predictive;
+  const auto end = [&](double value) {
+    return std::isfinite(value) ? text_of(estimate.name, value) : std::string("no bound");
+  };
+  return fmt::format("{} ({} .. {})", end(of.median), end(of.low), end(of.high));
+}
+
+std::string published_row(const Estimate& estimate, const analysis::Predictive& predictive) {
+  const bool has_simulated = predictive.num_studies > 0;
+  const std::string z =
+      estimate.published_z ? fmt::format("{:.1f}", *estimate.published_z) : "";
   return fmt::format(kRow, estimate.name, text_of(estimate.name, estimate.value),
-                     text(estimate.ci95, estimate.value),
+                     has_simulated ? simulated_text(estimate) : interval_text(estimate),
                      estimate.unit == "1" ? "" : estimate.unit, published_text(estimate),
-                     inside ? (*inside ? "yes" : "no") : "");
+                     has_simulated ? tail_words(estimate, predictive) : z);
+}
+
+/// Who has no answers, and what has no value. Nobody is left out of a published statistic for
+/// lacking a fit of their own with another pse.
+bool bears_on_published(const analysis::ResultsSection& section,
+                        const analysis::ExcludedParticipant& one) {
+  return section.name == "as_published" || one.participant == "everyone" ||
+         one.reason.starts_with("no answers in ");
+}
+
+/// "all, 15 together 0.012 (standard error 0.004)"; "" without any.
+std::string joint_text(const std::optional<analysis::JointTail>& joint,
+                       const std::string& which) {
+  if (!joint) return "";
+  return fmt::format(
+      "  {}, {} together: as far out are {:.3f} of the simulated studies "
+      "(standard error {:.3f})\n",
+      which, joint->num_statistics, joint->p_value, joint->standard_error);
 }
 
 /// Of the column of names: of the longest one, but long ones alone do not widen it for ever.
@@ -119,14 +162,28 @@ int name_width(const analysis::StudyResults& results) {
   return static_cast<int>(width);
 }
 
+/// A line for each, below the number that it is of.
+std::string caution_lines(const std::vector<std::string>& cautions) {
+  std::string lines;
+  for (const std::string& caution : cautions) {
+    lines += fmt::format("      caution: {}\n", caution);
+  }
+  return lines;
+}
+
 /// A row of `jnd results`: what the number is, and what was published if anything was.
-std::string explained_row(const Estimate& estimate, int width) {
+std::string explained_row(const Estimate& estimate, int width,
+                          const analysis::Predictive& predictive) {
   std::string line =
       fmt::format("  {:<{}} {:>10}  {:>20}  {:>5}  n {:>3}  {}", estimate.name, width,
-                  text_of(estimate.name, estimate.value), text(estimate.ci95, estimate.value),
+                  text_of(estimate.name, estimate.value), interval_text(estimate),
                   estimate.unit == "1" ? "" : estimate.unit, estimate.n, estimate.meaning);
   if (estimate.is_published()) line += "; published " + published_text(estimate);
-  return line + "\n";
+  if (const std::string tail = tail_words(estimate, predictive); !tail.empty()) {
+    line += ", tail " + tail;
+  }
+  if (!estimate.reason.empty()) line += "; no value: " + estimate.reason;
+  return line + "\n" + caution_lines(estimate.cautions);
 }
 
 /// "d 0.50 (0.10 .. 0.90)", with the name of the effect size; "" without one.
@@ -152,20 +209,19 @@ std::string comparison_row(const analysis::NamedComparison& named) {
   std::string line = fmt::format("  {}: ", named.name);
   if (!named.family.empty()) line = fmt::format("  {} [{}]: ", named.name, named.family);
   if (c.hodges_lehmann) {
-    line += fmt::format("Hodges-Lehmann {} ({}), {} = {:.1f}, ", text(c.hodges_lehmann),
-                        text(c.hodges_lehmann_ci95, c.hodges_lehmann),
-                        c.kind == Kind::kRankSum ? "U" : "smaller sum of ranks",
-                        c.statistic.value_or(0.0));
+    line += fmt::format("Hodges-Lehmann {} ({}), ", text(c.hodges_lehmann),
+                        text(c.hodges_lehmann_ci95, c.hodges_lehmann));
+  } else if (c.kind == Kind::kDispersion) {
+    line += fmt::format("mean z^2 {}, ", text(c.estimate));
   } else {
     const bool correlation = c.kind == Kind::kPearson || c.kind == Kind::kSpearman;
     const char* what = correlation ? "r" : c.kind == Kind::kOneSample ? "mean" : "difference";
-    line += fmt::format("{} {} ({}), t({:.1f}) = {:.2f}, ", what, text(c.estimate),
-                        text(c.ci95, c.estimate), c.degrees_of_freedom.value_or(0.0),
-                        c.statistic.value_or(0.0));
+    line += fmt::format("{} {} ({}), ", what, text(c.estimate), text(c.ci95, c.estimate));
   }
+  line += statistic_words(c) + ", ";
   line += p_text(c.p_value) + effect_text(c);
   if (named.p_value_holm) line += fmt::format(", Holm {}", p_text(named.p_value_holm));
-  return line + "\n";
+  return line + "\n" + caution_lines(named.cautions);
 }
 
 /// What each block was asked for, before everything else.
@@ -175,16 +231,20 @@ std::string in_short(const analysis::StudyResults& results, int width) {
     for (const Estimate& estimate : section.estimates) {
       if (!estimate.primary) continue;
       table += fmt::format("  {:<{}} {:>10}  {:>20}  {:>5}  n {:>3}\n", estimate.name, width,
-                           text_of(estimate.name, estimate.value),
-                           text(estimate.ci95, estimate.value),
+                           text_of(estimate.name, estimate.value), interval_text(estimate),
                            estimate.unit == "1" ? "" : estimate.unit, estimate.n);
+      table += caution_lines(estimate.cautions);
     }
   }
+  std::string note;
   for (const analysis::ResultsSection& section : results.sections) {
     for (const analysis::NamedComparison& named : section.comparisons) {
-      if (named.primary) table += comparison_row(named);
+      if (!named.primary) continue;
+      table += comparison_row(named);
+      note = analysis::family_note(named);
     }
   }
+  if (!note.empty()) table += "  " + note + "\n";
   return table.empty() ? "" : "\nin short: the primary values, explained below\n" + table;
 }
 
@@ -196,7 +256,8 @@ std::vector<std::string> plain_names(const analysis::ResultsSection& section) {
   }
   std::erase_if(names, [&](const std::string& name) {
     return std::ranges::any_of(section.participants, [&](const auto& own) {
-      return own.name == name && (own.ci95.low || own.ci95.high || !own.reason.empty());
+      return own.name == name &&
+             (own.ci95.low || own.ci95.high || !own.reason.empty() || !own.cautions.empty());
     });
   });
   return names;
@@ -244,9 +305,9 @@ std::string participants_rows(const analysis::ResultsSection& section, int colum
   std::string table;
   for (const analysis::ParticipantEstimate& own : section.participants) {
     if (std::ranges::find(plain, own.name) != plain.end()) continue;
-    table +=
-        fmt::format("  {:<{}} {:>10}  {:>20}  {}\n", own.participant + " " + own.name, column,
-                    text_of(own.name, own.value), text(own.ci95, own.value), own.reason);
+    table += fmt::format("  {:<{}} {:>10}  {:>20}  {}\n", own.participant + " " + own.name,
+                         column, text_of(own.name, own.value), interval_text(own), own.reason);
+    table += caution_lines(own.cautions);
   }
   for (std::size_t first = 0; first < plain.size();) {
     std::size_t end = first + 1;
@@ -260,6 +321,35 @@ std::string participants_rows(const analysis::ResultsSection& section, int colum
   return table;
 }
 
+/// "group_d, 1.853", "group_d, catch trials", "matching".
+std::string level_text(const analysis::LevelLoss& loss) {
+  if (loss.is_catch) return loss.block + ", catch trials";
+  return loss.block + (loss.level ? fmt::format(", {:.4g}", *loss.level) : "");
+}
+
+/// Trials that did not go as they were meant to, level by level; "" without any.
+std::string losses_table(const std::vector<analysis::LevelLoss>& losses, int width) {
+  const auto row = [width](const std::string& name, const auto&... counts) {
+    std::string line = fmt::format("  {:<{}}", name, width);
+    ((line += fmt::format(" {:>9}", counts)), ...);
+    return line + "\n";
+  };
+  std::string rows;
+  for (const analysis::LevelLoss& one : losses) {
+    if (!one.is_any()) continue;
+    rows += row(level_text(one), one.num_drawn, one.num_answered, one.num_set_aside,
+                one.num_repeated, one.num_discarded, one.num_faulted, one.num_limited,
+                one.num_strokeless);
+  }
+  if (rows.empty()) return "";
+  return "\nlosses: trials of every level at which one has no answer, or was repeated, "
+         "faulted,\n"
+         "limited in force or without a whole stroke\n" +
+         row("", "drawn", "answered", "set aside", "repeated", "discarded", "faulted",
+             "limited", "no stroke") +
+         rows;
+}
+
 /// What an open end means, where there is one.
 std::string note_of(const std::string& table) {
   const bool any = table.find("open .. ") != std::string::npos ||
@@ -271,10 +361,13 @@ std::string note_of(const std::string& table) {
 
 std::string to_table(const analysis::StudyResults& results) {
   const int width = name_width(results);
-  std::string table = heading(results) + in_short(results, width);
+  std::string table =
+      heading(results) + in_short(results, width) + losses_table(results.losses, width);
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n", section.name);
-    for (const Estimate& estimate : section.estimates) table += explained_row(estimate, width);
+    for (const Estimate& estimate : section.estimates) {
+      table += explained_row(estimate, width, results.predictive);
+    }
     table += participants_rows(section, width);
     for (const analysis::NamedComparison& named : section.comparisons) {
       table += comparison_row(named);
@@ -285,12 +378,15 @@ std::string to_table(const analysis::StudyResults& results) {
     for (const analysis::ExcludedParticipant& one : section.excluded) {
       table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
     }
+    for (const analysis::Caution& one : section.cautions) {
+      table += fmt::format("  caution: {}: {}\n", one.participant, one.caution);
+    }
   }
   return table + note_of(table);
 }
 
 std::string to_comparison_table(const analysis::StudyResults& results) {
-  std::string table = heading(results) + header();
+  std::string table = heading(results) + comparison_header(results.predictive.num_studies > 0);
   const std::pair<const char*, const char*> kBases[] = {
       {"calibrated", "calibrated: the laboratory was fitted to the published value"},
       {"implied", "held out, but implied: follows nearly from what was calibrated"},
@@ -307,14 +403,20 @@ std::string to_comparison_table(const analysis::StudyResults& results) {
                    (results.laboratory_changed ? ", before it was changed\n" : "\n");
         }
         first = false;
-        table += row(estimate);
+        table += published_row(estimate, results.predictive) + caution_lines(estimate.cautions);
       }
     }
   }
   for (const analysis::ResultsSection& section : results.sections) {
     for (const analysis::ExcludedParticipant& one : section.excluded) {
+      if (!bears_on_published(section, one)) continue;
       table += fmt::format("  left out: {}: {}\n", one.participant, one.reason);
     }
+  }
+  table += joint_text(results.predictive.joint, "all");
+  table += joint_text(results.predictive.joint_held_out, "those held out, not implied");
+  if (!results.predictive.reason.empty()) {
+    table += fmt::format("  without simulated studies: {}\n", results.predictive.reason);
   }
   return table + note_of(table);
 }

@@ -21,6 +21,11 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
+namespace {
+
+constexpr char kWithoutRights[] = "real-time thread, also without real-time rights";
+
+}  // namespace
 
 std::string default_laboratory(std::string_view device) {
   return device::kind_of(device) == "exoskeleton" ? "thesis_exoskeleton" : "thesis";
@@ -134,12 +139,18 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     row.device = setup.device;
     row.laboratory = laboratory_text(setup);
     row.program_version = JND_VERSION;
-    row.realtime = setup.realtime ? "real-time thread" : "simulated";
+    row.realtime = !setup.realtime           ? "simulated"
+                   : setup.allow_no_realtime ? kWithoutRights
+                                             : "real-time thread";
     row.recorded = setup.record;
     row.rate_hz = setup.study.device.rate_hz;
     sessions.push_back(store.add_session(row));
   }
   return sessions;
+}
+
+bool may_lack_rights(const core::SessionRow& session) {
+  return session.realtime == kWithoutRights;
 }
 
 std::vector<std::string> next_participants(const core::StudyStore& store, int count) {
@@ -161,8 +172,8 @@ std::vector<std::string> next_participants(const std::set<std::string>& taken, i
 
 experiments::Study stored_study(const core::StudyStore& store, std::int64_t session) {
   const core::SessionRow row = store.session(session);
-  return experiments::read_study_text(store.protocol(row.protocol_sha256).text,
-                                      store.folder().string() + ": stored protocol");
+  return experiments::read_stored_study(store.protocol(row.protocol_sha256).text,
+                                        store.folder().string() + ": stored protocol");
 }
 
 std::vector<const experiments::Stage*> stages_of_session(const experiments::Study& study,

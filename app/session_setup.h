@@ -26,7 +26,8 @@ struct SessionSetup {
   std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
   bool pilot = false;
   bool realtime = false;
-  bool record = true;  ///< Samples, besides the summaries of strokes.
+  bool allow_no_realtime = false;  ///< A real device also without real-time rights; kept.
+  bool record = true;              ///< Samples, besides the summaries of strokes.
   /// What every participant of it brings; none: what each brings is drawn.
   experiments::FieldValues fields{};
 };
@@ -66,6 +67,9 @@ void require_device_starts(const std::string& name, double rate_hz);
 [[nodiscard]] std::vector<std::int64_t> add_sessions(
     core::StudyStore& store, const SessionSetup& setup,
     const std::vector<std::string>& participants);
+
+/// A real device was allowed without real-time rights when the session was begun.
+[[nodiscard]] bool may_lack_rights(const core::SessionRow& session);
 
 /// "P01", "P02", ...: the next free pseudonyms of a study.
 [[nodiscard]] std::vector<std::string> next_participants(const core::StudyStore& store,

@@ -1,5 +1,6 @@
 #include "app/study_report.h"
 
+#include "app/inverted_option.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/study_data.h"
@@ -22,7 +23,8 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   require_unblinded(store);
   analysis::require_free_folder(request.out);
   reading(0.0);
-  const analysis::StudyData data = load_study_data(store, request.pilot);
+  analysis::StudyData data = load_study_data(store, request.pilot);
+  apply_inverted_option(request.inverted, data);
   reading(0.2);
   StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};
   reading(1.0);

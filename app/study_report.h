@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "analysis/report/report.h"
 #include "analysis/study_results.h"
@@ -14,6 +15,7 @@ struct StudyReportRequest {
   bool pilot = false;
   int jobs = 2;  ///< >= 1; the report is the same for any.
   analysis::ResultsOptions results;
+  std::string inverted = "in";  ///< Of `apply_inverted_option`.
   /// Told how much is done, 0 to 1; what it throws ends the work, and nothing of it stays.
   std::function<void(double)> on_progress;
 };

@@ -34,6 +34,27 @@ struct TrialPlayer::CameOff {
   std::uint8_t bits;
 };
 
+/// Thrown after what was felt, which counts for nothing.
+struct TrialPlayer::Missed {
+  std::string reason;
+};
+
+/// Free space again, and the trial anew. A machine that cannot keep up does not get better by
+/// asking once more and once more.
+void TrialPlayer::begin_anew(const std::string& reason) {
+  constexpr int kMostInARow = 3;
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  session_.discard_attempt(reason);
+  if (++num_missed_in_a_row_ < kMostInARow) return;
+  throw core::Error(
+      "haptic loop: expected a machine that keeps its time, found three attempts "
+      "in a row with " +
+      reason +
+      "; close what burdens the machine, look at `jnd doctor`, then resume the "
+      "session");
+}
+
 void TrialPlayer::stop_if_loose() const {
   const std::uint8_t came_off = attachment_.came_off_bits(apparatus_.telemetry());
   if (came_off != 0) throw CameOff{came_off};
@@ -206,6 +227,9 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   StiffnessMeter stiffness(surface_m);
   run_strokes(intent, stiffness);
   const Presenter::Felt felt = presenter_.end();
+  if (const std::string reason = presenter_.missed_reason(felt); !reason.empty()) {
+    throw Missed{reason};
+  }
   return {.amount = block.is_solid() ? stiffness.stiffness_n_per_m()
                                      : felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
@@ -245,8 +269,11 @@ void TrialPlayer::run_trial(const Block& block) {
   session_.start_trial(apparatus_.next_tick());
   try {
     play_trial(block, trial);
+    num_missed_in_a_row_ = 0;
   } catch (const CameOff& off) {
     put_fingers_back(off.bits);
+  } catch (const Missed& missed) {
+    begin_anew(missed.reason);
   }
 }
 

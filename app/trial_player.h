@@ -34,7 +34,8 @@ class TrialPlayer {
   /// A medium outside of any trial.
   void explore(const experiments::Exploration& exploration);
   /// The session's current trial, to its answer; or to where a finger came off, which is put
-  /// back: then it is still the current one.
+  /// back, or the loop missed more ticks than the study allows: then it is still the current
+  /// one. Throws `core::Error` where that is so three times in a row.
   void run_trial(const experiments::Block& block);
 
  private:
@@ -46,11 +47,13 @@ class TrialPlayer {
 
   [[nodiscard]] double device_damping(const Presenter::Felt& felt) const;
   struct CameOff;
+  struct Missed;
   class StiffnessMeter;
 
   void feel(const experiments::Exploration& exploration);
   void stop_if_loose() const;
   void put_fingers_back(std::uint8_t loose_bits);
+  void begin_anew(const std::string& reason);
   void play_trial(const experiments::Block& block, std::int64_t trial);
   void wait(double duration_s);
   void rest(double duration_s);
@@ -75,6 +78,7 @@ class TrialPlayer {
   const experiments::SimulatedParticipant& participant_;
   Presenter presenter_;
   AttachmentWatch attachment_;
+  int num_missed_in_a_row_ = 0;
 };
 
 }  // namespace jnd::app

@@ -81,6 +81,8 @@ Visit::Visit(const Parameters& parameters)
 
 Apparatus::Parameters Visit::apparatus_parameters() const {
   Apparatus::Parameters apparatus = parameters_.apparatus;
+  apparatus.allow_no_realtime |=
+      may_lack_rights(parameters_.store.session(parameters_.session));
   apparatus.rate_hz = parameters_.study.device.rate_hz;
   apparatus.ramp_s = parameters_.study.device.ramp_s;
   apparatus.immersion = parameters_.study.device.immersion;
@@ -124,9 +126,20 @@ void Visit::keep_timing() {
                           .tick_cost = buckets_of(timing.tick_cost)});
 }
 
+void Visit::keep_arming(const std::string& by) {
+  if (apparatus_.realtime_thread() == nullptr) return;
+  const core::Telemetry& now = apparatus_.telemetry();
+  if (told_arming_ == now.arming) return;
+  told_arming_ = now.arming;
+  std::string cause = apparatus_.is_simulated() ? "simulated device, armed by the program" : by;
+  if (now.arming == core::Arming::kFaulted) cause = name(now.fault);
+  if (now.arming == core::Arming::kDisarmed) cause = "nobody has armed it";
+  session_.arming_changed(std::string(name(now.arming)), cause);
+}
+
 void Visit::keep_fault() {
   const core::Fault fault = apparatus_.telemetry().fault;
-  if (fault == core::Fault::kNone) return;
+  if (!core::is_failure(fault)) return;
   session_.fault(std::string(words(fault)));
   const std::vector<core::Sample> last_second = apparatus_.flight_record();
   if (last_second.empty()) return;

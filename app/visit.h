@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/apparatus.h"
+#include "core/safety/fault.h"
 #include "core/storage/study_store.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study.h"
@@ -43,6 +45,9 @@ class Visit {
   /// Stores how punctual the loop has been since it was started; after every stage, so that a
   /// crash costs one.
   void keep_timing();
+  /// Stores whether there may be force, where that has changed since it was told last; `by`:
+  /// who armed a real device. Nothing in simulated time.
+  void keep_arming(const std::string& by);
   /// Stores the fault that the loop has latched, and the last second before it; does nothing
   /// without one.
   void keep_fault();
@@ -65,6 +70,7 @@ class Visit {
   std::vector<core::EventRow> history_;
   std::int64_t recorded_tick_;
   Apparatus apparatus_;
+  std::optional<core::Arming> told_arming_;
   StoredLog log_{*this};
   experiments::Session session_;
 };

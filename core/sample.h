@@ -15,7 +15,15 @@ using PlainVector = std::array<double, 3>;
 /// One recorded tick of the haptic loop, workspace frame. Trivially copyable: it leaves the
 /// haptic thread through an `SpscQueue`.
 struct Sample {
-  std::int64_t tick = 0;  ///< Counted from 0 at the start of the session's recording.
+  /// Counted from 0 at the start of the session's recording, a period of the loop each: ticks
+  /// that were due and never ran are counted, too.
+  std::int64_t tick = 0;
+  std::int64_t num_missed_before = 0;  ///< Such ticks right before this one.
+  /// Of CLOCK_MONOTONIC when the tick began, to 1 us in recordings. 0 in simulated time, which
+  /// is that of the ticks.
+  std::int64_t monotonic_ns = 0;
+  std::int64_t device_time_ns =
+      0;  ///< Of the measurement, by the device's own clock; likewise.
   std::uint32_t command_sequence = 0;
   std::uint8_t attached_bits = 0;  ///< Bit i: contact point i holds the hand.
   std::uint8_t immersed_bits = 0;  ///< Bit i: contact point i is in the medium.

@@ -12,15 +12,16 @@ void add_vector_names(std::vector<std::string>& names, const std::string& what,
 
 }  // namespace
 
-std::vector<std::string> sample_column_names(bool with_joints) {
+std::vector<std::string> sample_column_names(const SampleColumns& columns) {
   std::vector<std::string> names = {"tick"};
+  if (columns.times) names.insert(names.end(), {"monotonic_s", "device_time_s"});
   for (const std::string_view point : kContactPointNames) {
     add_vector_names(names, std::string(point) + "_position", "m");
     add_vector_names(names, std::string(point) + "_velocity", "m_per_s");
     add_vector_names(names, std::string(point) + "_force", "n");
   }
   add_vector_names(names, "end_effector_position", "m");
-  if (with_joints) {
+  if (columns.joints) {
     for (const std::string_view joint : kJointNames) {
       names.push_back(std::string(joint) + "_position_rad");
     }
@@ -34,8 +35,13 @@ std::vector<std::string> sample_column_names(bool with_joints) {
   return names;
 }
 
-std::vector<double> sample_values(const Sample& sample, bool with_joints) {
+std::vector<double> sample_values(const Sample& sample, const SampleColumns& columns) {
+  constexpr double kSPerNs = 1e-9;
   std::vector<double> values = {static_cast<double>(sample.tick)};
+  if (columns.times) {
+    values.push_back(kSPerNs * static_cast<double>(sample.monotonic_ns));
+    values.push_back(kSPerNs * static_cast<double>(sample.device_time_ns));
+  }
   const auto add = [&values](const auto& numbers) {
     values.insert(values.end(), numbers.begin(), numbers.end());
   };
@@ -45,7 +51,7 @@ std::vector<double> sample_values(const Sample& sample, bool with_joints) {
     add(sample.tip_force_n[point]);
   }
   add(sample.end_effector_position_m);
-  if (with_joints) {
+  if (columns.joints) {
     add(sample.joint_position_rad);
     add(sample.joint_torque_n_m);
   }

@@ -7,12 +7,29 @@
 
 namespace jnd::core {
 
+/// Columns that not every recording has.
+struct SampleColumns {
+  bool times = false;   ///< The monotonic time and the device's: of real time.
+  bool joints = false;  ///< Of a device with joints.
+
+  /// Those that either has.
+  friend SampleColumns operator|(const SampleColumns& a, const SampleColumns& b) noexcept {
+    return {.times = a.times || b.times, .joints = a.joints || b.joints};
+  }
+};
+
 /// A sample as a row of a table, for files that people and other programs read: one spelling of
 /// its columns for all of them. Units end the names. Not real time.
-[[nodiscard]] std::vector<std::string> sample_column_names(bool with_joints);
+[[nodiscard]] std::vector<std::string> sample_column_names(const SampleColumns& columns);
 
 /// In the order of `sample_column_names`. Whole numbers (tick, bits) are exact.
-[[nodiscard]] std::vector<double> sample_values(const Sample& sample, bool with_joints);
+[[nodiscard]] std::vector<double> sample_values(const Sample& sample,
+                                                const SampleColumns& columns);
+
+/// Whether it was taken in real time.
+[[nodiscard]] inline bool has_times(const Sample& sample) noexcept {
+  return sample.monotonic_ns != 0;
+}
 
 /// Whether any joint is not 0, NaN included.
 [[nodiscard]] bool has_joints(const Sample& sample) noexcept;

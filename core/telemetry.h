@@ -14,9 +14,11 @@ namespace jnd::core {
 /// Trivially copyable: it leaves the haptic thread through a `LatestValue`.
 struct Telemetry {
   std::int64_t num_ticks = 0;          ///< Ticks done by this loop; 0 is "none yet".
+  std::int64_t num_missed_ticks = 0;   ///< That were due and never ran, so far.
   Sample sample;                       ///< The last one, as recorded.
   std::uint64_t command_sequence = 0;  ///< Of the command in force.
   Fault fault = Fault::kNone;
+  Arming arming = Arming::kDisarmed;
   bool limited = false;           ///< The limiter changed the force in this tick.
   bool ramp_finished = true;      ///< The medium in force is the commanded one.
   double authority_ratio = 1;     ///< 1 normally; below while the force fades out or back in.

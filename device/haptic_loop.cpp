@@ -72,6 +72,11 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
   core::require_positive(parameters.max_jump_m, "max_jump_m");
   core::require_positive(parameters.flight_recorder_s, "flight_recorder_s");
   point_authority_ratio_.fill(1.0);
+  known_stop_presses_ = doors.emergency_stop.num_presses();
+  if (!parameters.starts_armed) {
+    fault_ = Fault::kNotArmed;
+    authority_ratio_ = 0.0;
+  }
   telemetry_.sample.tick = parameters.first_tick - 1;
 }
 
@@ -79,6 +84,7 @@ void HapticLoop::render() noexcept {
   // The stop comes first, before anything that could go wrong.
   obey_emergency_stop();
   rearm_if_requested();
+  disarm_if_requested();  // After it: who asks for both gets no force.
   obey_watchdog();
   if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost);
   advance_authority();
@@ -108,25 +114,53 @@ void HapticLoop::write_device() noexcept {
   num_failed_writes_ = std::min(num_failed_writes_ + 1, kNumHalts);
 }
 
+/// Also one that was released again before anybody looked.
 void HapticLoop::obey_emergency_stop() noexcept {
-  if (doors_.emergency_stop.is_pressed()) latch(Fault::kEmergencyStop);
+  const std::uint64_t num_presses = doors_.emergency_stop.num_presses();
+  if (num_presses != known_stop_presses_ || doors_.emergency_stop.is_pressed()) {
+    latch(Fault::kEmergencyStop);
+  }
+  known_stop_presses_ = num_presses;
 }
 
 /// It has halted the device, or whoever ticks lost time: whatever was latched before, there is
 /// no force since.
 void HapticLoop::obey_watchdog() noexcept {
   stalled_ |= doors_.watchdog != nullptr && doors_.watchdog->has_bitten();
+  if (suspended_) latch(Fault::kSuspended);
   if (stalled_) latch(Fault::kWatchdog);
+}
+
+/// A hand that is being put in moves the device about: that is no fault while there is no
+/// force.
+static bool is_of_motion(Fault fault) noexcept {
+  return fault == Fault::kPositionJump || fault == Fault::kOverVelocity ||
+         fault == Fault::kOutsideWorkspace || fault == Fault::kStaleSample;
 }
 
 void HapticLoop::latch(Fault fault) noexcept {
   // The first fault is the one to tell, but the fading of a lost heartbeat must not soften what
   // comes on top of it.
-  if (fault_ == Fault::kNone || (fault_ == Fault::kHeartbeatLost && fault != fault_)) {
+  if (fault_ == Fault::kNotArmed && is_of_motion(fault)) return;
+  const bool gives_way = fault_ == Fault::kHeartbeatLost || fault_ == Fault::kNotArmed;
+  if (fault_ == Fault::kNone || (gives_way && fault != fault_)) {
     fault_ = fault;
     ++telemetry_.num_faults;
   }
   if (fault_ != Fault::kHeartbeatLost) authority_ratio_ = 0.0;
+}
+
+void HapticLoop::disarm_if_requested() noexcept {
+  if (!disarm_requested_.load(std::memory_order_relaxed)) return;
+  disarm_requested_.store(false, std::memory_order_relaxed);
+  if (fault_ == Fault::kNone || fault_ == Fault::kHeartbeatLost) fault_ = Fault::kNotArmed;
+  authority_ratio_ = 0.0;
+}
+
+core::Arming HapticLoop::arming() const noexcept {
+  if (fault_ == Fault::kNotArmed) return core::Arming::kDisarmed;
+  if (fault_ != Fault::kNone) return core::Arming::kFaulted;
+  return authority_ratio_ < 1.0 ? core::Arming::kArming : core::Arming::kArmed;
 }
 
 void HapticLoop::rearm_if_requested() noexcept {
@@ -144,6 +178,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   has_last_state_ = false;
   num_stale_ticks_ = 0;
   stalled_ = false;
+  suspended_ = false;
   if (doors_.watchdog != nullptr) doors_.watchdog->forgive();
   flight_recorder_.thaw();
 }
@@ -224,7 +259,10 @@ Fault HapticLoop::check_against_last() noexcept {
   // Time that stands still, or a point that moves without getting anywhere.
   const bool stale = elapsed_s <= 0.0 || moves_without_getting_anywhere;
   num_stale_ticks_ = stale ? num_stale_ticks_ + 1 : 0;
-  return num_stale_ticks_ > max_stale_ticks_ ? Fault::kStaleSample : Fault::kNone;
+  num_missed_while_stale_ = stale ? num_missed_while_stale_ + num_missed_ : 0;
+  if (num_stale_ticks_ <= max_stale_ticks_) return Fault::kNone;
+  // A loop that cannot keep its own time cannot tell what the device keeps.
+  return num_missed_while_stale_ > 0 ? Fault::kHostTooSlow : Fault::kStaleSample;
 }
 
 void HapticLoop::take_command() noexcept {
@@ -301,7 +339,10 @@ void HapticLoop::warm() const noexcept {
 void HapticLoop::report() noexcept {
   const core::HapticCommand& command = doors_.commands.value();
   core::Sample& sample = telemetry_.sample;
-  ++sample.tick;
+  sample.tick += 1 + num_missed_;
+  sample.num_missed_before = num_missed_;
+  sample.monotonic_ns = monotonic_ns_;
+  sample.device_time_ns = state_.device_time_ns;
   sample.command_sequence = static_cast<std::uint32_t>(command.sequence);
   sample.attached_bits = attached_bits_;
   sample.immersed_bits = immersed_bits_;
@@ -325,14 +366,17 @@ void HapticLoop::report() noexcept {
   }
 
   flight_recorder_.record(sample);
-  if (fault_ != Fault::kNone) flight_recorder_.freeze();
+  if (core::is_failure(fault_)) flight_recorder_.freeze();
   if (doors_.samples != nullptr && !doors_.samples->try_push(sample)) {
     telemetry_.num_dropped_samples = doors_.samples->num_dropped();
   }
 
   ++telemetry_.num_ticks;
+  telemetry_.num_missed_ticks += num_missed_;
+  num_missed_ = 0;
   telemetry_.command_sequence = command.sequence;
   telemetry_.fault = fault_;
+  telemetry_.arming = arming();
   telemetry_.limited = limited_;
   telemetry_.ramp_finished = ramp_.finished();
   telemetry_.authority_ratio = authority_ratio_;

@@ -33,6 +33,9 @@ namespace jnd::device {
 class HapticLoop {
  public:
   struct Parameters {
+    /// With full force from the first tick, of a simulated device alone. Otherwise there is
+    /// none before `rearm`, and the fault is `kNotArmed` until then.
+    bool starts_armed = false;
     double rate_hz = 1000.0;                ///< > 0.
     double fade_speed_m_per_s = 0.005;      ///< See `distribute_drag`, > 0.
     core::ForceLimiter::Parameters limits;  ///< The device's own limits apply besides.
@@ -83,11 +86,26 @@ class HapticLoop {
   /// where others have pushed them out; changes nothing. Real time.
   void warm() const noexcept;
 
-  /// Asks for the force back, faded in from zero. Takes effect in the next tick, unless the
-  /// emergency stop is still pressed. If the device may not be armed now, that is a fault anew:
-  /// the request is refused, not kept, for nobody expects the force minutes later. Any thread.
-  /// Real time.
+  /// Asks for the force, faded in from zero, for the first time or after a fault. Takes effect
+  /// in the next tick, unless the emergency stop is still pressed. If the device may not be
+  /// armed now, that is a fault anew: the request is refused, not kept, for nobody expects the
+  /// force minutes later. Any thread. Real time.
   void rearm() noexcept { rearm_requested_.store(true, std::memory_order_release); }
+
+  /// Of the next tick, by whoever drives the loop in real time: the monotonic clock now, and
+  /// how many ticks were due since the last one and never ran. Its number leaves those out, so
+  /// that a number is a time. In simulated time nobody says this. Real time.
+  void due(std::int64_t monotonic_ns, std::int64_t num_missed) noexcept {
+    monotonic_ns_ = monotonic_ns;
+    num_missed_ += num_missed;
+  }
+
+  /// No force from the next tick on, until `rearm`: nothing is wrong. Any thread. Real time.
+  void disarm() noexcept { disarm_requested_.store(true, std::memory_order_release); }
+
+  /// The machine slept between two ticks: the next one latches a fault. As `stalled`. Real
+  /// time.
+  void suspended() noexcept { suspended_ = true; }
 
   /// Time was lost between two ticks, more than a hand should have been left to itself: the
   /// next one latches a fault. By whoever calls `tick`. Real time.
@@ -105,6 +123,8 @@ class HapticLoop {
   void obey_emergency_stop() noexcept;
   void obey_watchdog() noexcept;
   void rearm_if_requested() noexcept;
+  void disarm_if_requested() noexcept;
+  [[nodiscard]] core::Arming arming() const noexcept;
   void advance_authority() noexcept;
   void watch_attachment() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
@@ -120,12 +140,17 @@ class HapticLoop {
   double period_s_;
   bool has_joints_;
   bool stalled_ = false;
+  bool suspended_ = false;
+  std::int64_t monotonic_ns_ = 0;
+  std::int64_t num_missed_ = 0;  ///< Since the last tick.
   std::int64_t max_stale_ticks_;
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
   core::FlightRecorder flight_recorder_;
   std::atomic<bool> rearm_requested_{false};
+  std::atomic<bool> disarm_requested_{false};
+  std::uint64_t known_stop_presses_ = 0;
 
   core::Fault fault_ = core::Fault::kNone;
   double authority_ratio_ = 1.0;
@@ -138,6 +163,7 @@ class HapticLoop {
   core::HapticState last_state_;
   bool has_last_state_ = false;
   std::int64_t num_stale_ticks_ = 0;
+  std::int64_t num_missed_while_stale_ = 0;
   std::uint8_t attached_bits_ = 0;
   std::uint8_t immersed_bits_ = 0;
   core::HandMotion motion_;

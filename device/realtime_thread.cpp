@@ -18,24 +18,34 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
-std::int64_t monotonic_ns() noexcept {
+std::int64_t time_ns(clockid_t clock) noexcept {
   timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
+  clock_gettime(clock, &now);
   return static_cast<std::int64_t>(now.tv_sec) * kNsPerS + now.tv_nsec;
 }
 
-void sleep_until(std::int64_t time_ns) noexcept {
-  const timespec until{.tv_sec = static_cast<time_t>(time_ns / kNsPerS),
-                       .tv_nsec = static_cast<long>(time_ns % kNsPerS)};
+std::int64_t monotonic_ns() noexcept { return time_ns(CLOCK_MONOTONIC); }
+std::int64_t boottime_ns() noexcept { return time_ns(CLOCK_BOOTTIME); }
+
+/// For how long the machine has slept since it was started, at the least: the monotonic clock
+/// is read last, so that being held up in between makes it less.
+std::int64_t slept_ns(std::int64_t (*boottime)() noexcept) noexcept {
+  const std::int64_t boottime_ns = boottime();
+  return boottime_ns - monotonic_ns();
+}
+
+void sleep_until(std::int64_t until_ns) noexcept {
+  const timespec until{.tv_sec = static_cast<time_t>(until_ns / kNsPerS),
+                       .tv_nsec = static_cast<long>(until_ns % kNsPerS)};
   // Woken early by a signal: sleep on.
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
   }
 }
 
 /// Without the pause instruction: under a hypervisor too many of them give the CPU away.
-std::int64_t spin_until(std::int64_t time_ns) noexcept {
+std::int64_t spin_until(std::int64_t until_ns) noexcept {
   std::int64_t now_ns = monotonic_ns();
-  while (now_ns < time_ns) now_ns = monotonic_ns();
+  while (now_ns < until_ns) now_ns = monotonic_ns();
   return now_ns;
 }
 
@@ -96,8 +106,13 @@ void RealtimeThread::run() noexcept {
   const std::int64_t max_stall_ns = parameters_.max_stall_s > 0.0
                                         ? std::llround(1e9 * parameters_.max_stall_s)
                                         : std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kSleepNs = 1'000'000;  // Far above what two readings are apart.
+  const auto boottime =
+      parameters_.boottime_ns != nullptr ? parameters_.boottime_ns : boottime_ns;
+  std::int64_t known_sleep_ns = slept_ns(boottime);
   AdaptiveSpin spin(std::llround(1e9 * parameters_.max_spin_s), period_ns);
   std::int64_t due_ns = monotonic_ns() + period_ns;
+  std::int64_t num_missed = 0;  // Before the next tick.
   while (!stop_.load(std::memory_order_relaxed)) {
     const std::int64_t wake_up_ns = due_ns - spin.length_ns();
     if (wake_up_ns > monotonic_ns()) {
@@ -111,16 +126,25 @@ void RealtimeThread::run() noexcept {
       loop_->warm();
     }
     const std::int64_t started_ns = spin_until(due_ns);
+    const std::int64_t sleep_ns = slept_ns(boottime);
+    if (sleep_ns - known_sleep_ns > kSleepNs) loop_->suspended();
+    known_sleep_ns = std::max(known_sleep_ns, sleep_ns);
     if (started_ns - due_ns >= max_stall_ns) loop_->stalled();
+    // Woken up too late by whole periods: this is the tick of now, and those never ran.
+    const std::int64_t num_overslept =
+        std::max<std::int64_t>(0, started_ns - due_ns) / period_ns;
+    timing_.record_missed(num_overslept);
+    loop_->due(started_ns, num_missed + num_overslept);
     loop_->render();
     const std::int64_t written_ns = monotonic_ns();
     loop_->report();
     const std::int64_t ended_ns = monotonic_ns();
     timing_.record_tick(written_ns - due_ns, ended_ns - started_ns);
 
-    due_ns += period_ns;
+    due_ns += (1 + num_overslept) * period_ns;
+    num_missed = 0;
     if (ended_ns >= due_ns + period_ns) {
-      const std::int64_t num_missed = (ended_ns - due_ns) / period_ns;
+      num_missed = (ended_ns - due_ns) / period_ns;
       timing_.record_missed(num_missed);
       // Held up within the tick, in the device: what it wrote stood for as long.
       if (num_missed * period_ns >= max_stall_ns) loop_->stalled();

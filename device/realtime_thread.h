@@ -30,6 +30,9 @@ class RealtimeThread {
     /// Lost between two ticks, so much is a fault of the loop, >= 0; 0: never.
     double max_stall_s = 0.0;
     bool keep_cpus_awake = true;  ///< Where it is allowed, until `stop`: see `AwakeCpus`.
+    /// The clock that goes on while the machine sleeps, which the monotonic one does not: more
+    /// between the two than at the start is a fault of the loop. nullptr: CLOCK_BOOTTIME.
+    std::int64_t (*boottime_ns)() noexcept = nullptr;
   };
 
   /// Throws `core::Error` for a parameter out of range. Not real time.

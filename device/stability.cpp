@@ -75,8 +75,8 @@ bool settles(HapticDevice& device, const core::HapticCommand& command, double ra
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  HapticLoop loop({.rate_hz = rate_hz, .flight_recorder_s = 0.001}, device,
-                  {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true, .rate_hz = rate_hz, .flight_recorder_s = 0.001},
+                  device, {commands, telemetry, stop});
   core::HapticCommand at_once = command;
   at_once.sequence = 1;
   at_once.ramp_s = 0.0;

@@ -93,7 +93,7 @@ Written write_samples(const fs::path& file, const BidsBlock& block, double rate_
   std::vector<std::string> names;
   for (const RecordingColumn& column : columns) names.push_back(column.name);
   CsvTableWriter table(file, names, TableStyle::kBidsWithoutNames);
-  const bool with_joints = recording.has_joints();
+  const core::SampleColumns which = recording.columns();
   Written written;
   std::int64_t next = block.first_tick;
   const auto latency = [&](std::int64_t tick) {
@@ -112,7 +112,7 @@ Written write_samples(const fs::path& file, const BidsBlock& block, double rate_
     if (sample.tick < next) return;  // Told before, by an earlier segment.
     mark_missing(sample.tick);
     latency(sample.tick);
-    const std::vector<double> values = core::sample_values(sample, with_joints);
+    const std::vector<double> values = core::sample_values(sample, which);
     for (std::size_t i = 1; i < values.size(); ++i) {
       table.fixed_cell(values[i], columns[i].decimals, columns[i].tolerance);
     }
@@ -168,7 +168,7 @@ std::string write_bids_motion(const fs::path& folder, const BidsTask& task,
                               const ExportedRecording& recording) {
   if (!holds_any(recording, block)) return "";
   const fs::path front = folder / (task.front + "_tracksys-haptic");
-  const std::vector<RecordingColumn> columns = recording_columns(recording.has_joints());
+  const std::vector<RecordingColumn> columns = recording_columns(recording.columns());
   const std::vector<BidsChannel> channels = channels_of(columns);
   std::string name = front.filename().string() + "_motion.tsv";
   const Written written =

@@ -171,22 +171,22 @@ class Export {
     for (const core::SessionRow& session : sessions_) {
       const ExportedRecording recording(store_, session, options_);
       if (!recording.problem().empty()) outcome_.problems.push_back(recording.problem());
-      write_gaps(gaps, session, recording.gaps());
+      write_gaps(gaps, session, recording);
       if (recording.any()) write_recording(session, recording);
     }
     gaps.finish();
   }
 
   void write_recording(const core::SessionRow& session, const ExportedRecording& recording) {
-    const bool with_joints = recording.has_joints();
-    any_joints_ |= with_joints;
+    const core::SampleColumns which = recording.columns();
+    any_columns_ = any_columns_ | which;
     outcome_.samples = true;
-    const std::vector<RecordingColumn> columns = recording_columns(with_joints);
+    const std::vector<RecordingColumn> columns = recording_columns(which);
     const fs::path name = store_.recording_file(session.session).stem().concat(".csv");
     CsvTableWriter samples(folder_.path() / "recordings" / name,
-                           core::sample_column_names(with_joints), TableStyle::kCsv);
+                           core::sample_column_names(which), TableStyle::kCsv);
     recording.read(0, INT64_MAX, [&](const core::Sample& sample) {
-      const std::vector<double> values = core::sample_values(sample, with_joints);
+      const std::vector<double> values = core::sample_values(sample, which);
       for (std::size_t i = 0; i < values.size(); ++i) {
         samples.fixed_cell(values[i], columns[i].decimals, columns[i].tolerance);
       }
@@ -209,7 +209,7 @@ class Export {
     if (options_.recordings) tables.emplace_back("recordings/gaps.csv", &gap_columns());
     write_codebook(rows, tables);
     if (options_.recordings) {
-      for (const RecordingColumn& column : recording_columns(any_joints_)) {
+      for (const RecordingColumn& column : recording_columns(any_columns_)) {
         rows.cell("recordings/*.csv").cell(column.name).cell(column.unit);
         rows.cell(column.meaning).end_row();
       }
@@ -229,7 +229,7 @@ class Export {
   std::map<std::string, Participant> participants_;
   std::vector<FieldColumn> fields_;
   std::vector<CsvColumn> participant_columns_;  ///< Its texts are those of `fields_`.
-  bool any_joints_ = false;                     ///< In any of the recordings.
+  core::SampleColumns any_columns_;             ///< In any of the recordings.
   ExportOutcome outcome_;
 };
 

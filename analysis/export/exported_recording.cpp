@@ -16,7 +16,7 @@ std::vector<core::TickRange> claimed_ticks(const core::StudyStore& store,
   return core::merged(std::move(claimed));
 }
 
-/// What of the claimed ticks is not recorded.
+/// What of the claimed ticks is not among these.
 std::vector<core::TickRange> lost_ticks(const std::vector<core::TickRange>& recorded,
                                         const std::vector<core::TickRange>& claimed) {
   std::vector<core::TickRange> lost;
@@ -55,10 +55,15 @@ ExportedRecording::ExportedRecording(const core::StudyStore& store,
     : keep_going_(options.keep_going) {
   const std::filesystem::path file = store.recording_file(session.session);
   const bool exists = std::filesystem::exists(file);
-  if (exists) ticks_ = reader_.emplace(file).ticks();
+  std::vector<core::TickRange> accounted;
+  if (exists) {
+    ticks_ = reader_.emplace(file).ticks();
+    missed_ = reader_->missed();
+    accounted = reader_->accounted();
+  }
   const std::vector<core::TickRange> claimed = claimed_ticks(store, session);
-  const std::vector<core::TickRange> lost = lost_ticks(ticks_, claimed);
-  gaps_ = gaps_of(ticks_, lost);
+  const std::vector<core::TickRange> lost = lost_ticks(accounted, claimed);
+  gaps_ = gaps_of(ticks_, lost_ticks(ticks_, claimed));
   if (lost.empty()) return;
   problem_ =
       told(file.string(), session, core::num_ticks(claimed), core::num_ticks(lost), exists);

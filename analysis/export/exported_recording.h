@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/export/export_options.h"
+#include "core/sample_table.h"
 #include "core/storage/recording.h"
 
 namespace jnd::analysis {
@@ -19,14 +20,23 @@ class ExportedRecording {
 
   /// Whether there is any sample.
   [[nodiscard]] bool any() const noexcept { return !ticks_.empty(); }
-  [[nodiscard]] bool has_joints() const { return any() && reader_->has_joints(); }
+  /// Those that it has beside the usual ones.
+  [[nodiscard]] core::SampleColumns columns() const {
+    return any() ? core::SampleColumns{.times = reader_->has_times(),
+                                       .joints = reader_->has_joints()}
+                 : core::SampleColumns{};
+  }
   /// The ticks of its samples, ascending and merged.
   [[nodiscard]] const std::vector<core::TickRange>& ticks() const noexcept { return ticks_; }
   /// Ticks that it lacks: between its samples, and what an event speaks of before the first and
-  /// after the last.
+  /// after the last. Those that never ran are gaps, too.
   [[nodiscard]] const std::vector<core::TickRange>& gaps() const noexcept { return gaps_; }
-  /// A sentence if it lacks ticks of which an event speaks; "" otherwise, and for a session of
-  /// which only summaries were kept.
+  /// How many of a gap's ticks never ran; the others are lost.
+  [[nodiscard]] std::int64_t num_missed(const core::TickRange& gap) const {
+    return core::num_ticks({gap}) - core::num_ticks(core::missing_in(missed_, gap));
+  }
+  /// A sentence if it has lost ticks of which an event speaks; "" otherwise, and for a session
+  /// of which only summaries were kept.
   [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
   void read(std::int64_t first_tick, std::int64_t last_tick,
             const std::function<void(const core::Sample&)>& visit) const;
@@ -34,7 +44,7 @@ class ExportedRecording {
  private:
   std::function<void()> keep_going_;
   std::optional<core::RecordingReader> reader_;
-  std::vector<core::TickRange> ticks_, gaps_;
+  std::vector<core::TickRange> ticks_, gaps_, missed_;
   std::string problem_;
 };
 

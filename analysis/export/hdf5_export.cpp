@@ -32,8 +32,8 @@ Hdf5Number type_of(const RecordingColumn& column) {
 }
 
 void write_samples(const Hdf5Group& group, const ExportedRecording& recording) {
-  const bool with_joints = recording.has_joints();
-  const std::vector<RecordingColumn> columns = recording_columns(with_joints);
+  const core::SampleColumns which = recording.columns();
+  const std::vector<RecordingColumn> columns = recording_columns(which);
   std::vector<Hdf5Column> datasets;
   std::vector<std::vector<double>> buffers(columns.size());
   for (const RecordingColumn& column : columns) {
@@ -46,7 +46,7 @@ void write_samples(const Hdf5Group& group, const ExportedRecording& recording) {
     }
   };
   recording.read(0, INT64_MAX, [&](const core::Sample& sample) {
-    const std::vector<double> values = core::sample_values(sample, with_joints);
+    const std::vector<double> values = core::sample_values(sample, which);
     for (std::size_t i = 0; i < values.size(); ++i) {
       buffers[i].push_back(on_grid(values[i], columns[i]));
     }
@@ -135,12 +135,12 @@ class Export {
       write_questionnaire(table, session, answers, questions_.of(session));
     });
     write_table(group, "gaps", gap_columns(),
-                [&](TableWriter& table) { write_gaps(table, session, recording.gaps()); });
+                [&](TableWriter& table) { write_gaps(table, session, recording); });
     group.attribute("recorded", std::int64_t{recording.any()});
     group.attribute("missing_ticks", core::num_ticks(recording.gaps()));
     if (!recording.problem().empty()) outcome_.problems.push_back(recording.problem());
     if (!recording.any()) return;
-    any_joints_ |= recording.has_joints();
+    any_columns_ = any_columns_ | recording.columns();
     outcome_.samples = true;
     write_samples(group, recording);
   }
@@ -155,7 +155,7 @@ class Export {
                              {"session_*/questionnaires", &questionnaire_columns()},
                              {"session_*/gaps", &gap_columns()},
                              {"codebook", &codebook_columns()}});
-      for (const RecordingColumn& column : recording_columns(any_joints_)) {
+      for (const RecordingColumn& column : recording_columns(any_columns_)) {
         table.cell("session_*").cell(column.name).cell(column.unit);
         table.cell(column.meaning).end_row();
       }
@@ -167,7 +167,7 @@ class Export {
   const Hdf5Group& root_;
   std::vector<core::SessionRow> sessions_;
   StudyQuestions questions_{store_};
-  bool any_joints_ = false;
+  core::SampleColumns any_columns_;
   ExportOutcome outcome_;
 };
 

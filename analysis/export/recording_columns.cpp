@@ -10,6 +10,9 @@ namespace {
 
 std::string meaning_of(std::string_view name) {
   if (name == "tick") return "Counted from 0 in the session";
+  if (name == "monotonic_s") return "Only of real time; of the machine's monotonic clock";
+  if (name == "device_time_s")
+    return "Only of real time; of the measurement, the device's clock";
   if (name == "attached_bits") return "Bit i: point i holds the hand";
   if (name == "immersed_bits") return "Bit i: point i is in the medium";
   if (name == "limited") return "1: the force limiter changed the force";
@@ -31,15 +34,15 @@ struct Unit {
 
 /// The decimals are those of the units in core/storage/sample_codec.h. "_n_m" stands before
 /// "_m", for the first that fits counts.
-constexpr Unit kUnits[] = {{"_n_m", "N m", 4, true}, {"_rad", "rad", 6, true},
-                           {"_m_per_s", "m/s", 4},   {"_m", "m", 7},
-                           {"_n", "N", 3},           {"tick", "tick", 0}};
+constexpr Unit kUnits[] = {
+    {"_n_m", "N m", 4, true}, {"_rad", "rad", 6, true}, {"_m_per_s", "m/s", 4}, {"_m", "m", 7},
+    {"_n", "N", 3},           {"_s", "s", 6},           {"tick", "tick", 0}};
 
 }  // namespace
 
-std::vector<RecordingColumn> recording_columns(bool with_joints) {
+std::vector<RecordingColumn> recording_columns(const core::SampleColumns& which) {
   std::vector<RecordingColumn> columns;
-  for (std::string& name : core::sample_column_names(with_joints)) {
+  for (std::string& name : core::sample_column_names(which)) {
     RecordingColumn column{.name = std::move(name)};
     column.meaning = meaning_of(column.name);
     for (const Unit& unit : kUnits) {

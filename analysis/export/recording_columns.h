@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/sample_table.h"
+
 namespace jnd::analysis {
 
 /// A column of a recording.
@@ -15,7 +17,8 @@ struct RecordingColumn {
   /// single precision.
   double tolerance = 1e-3;
 };
-[[nodiscard]] std::vector<RecordingColumn> recording_columns(bool with_joints);
+[[nodiscard]] std::vector<RecordingColumn> recording_columns(
+    const core::SampleColumns& columns);
 
 /// The double nearest to the step that was stored; a value that is none stays as it is.
 [[nodiscard]] double on_grid(double value, const RecordingColumn& column);

@@ -114,6 +114,7 @@ const std::vector<CsvColumn>& presentation_columns() {
        kReal},
       {"commanded_damping_n_s_per_m", "N s/m", "Commanded; empty for water", kReal},
       {"limited_ticks", "ticks", "Ticks in which the force limiter changed the force", kCount},
+      {"missed_ticks", "ticks", "Ticks that were due and never ran", kCount},
       {"finger_lag_s", "s", "By which thumb, index and middle trail behind the palm", kReal},
       {"excluded", "", "1: its trial is set aside", kCount},
   };
@@ -175,8 +176,10 @@ const std::vector<CsvColumn>& gap_columns() {
       {"session", "", "Number of the session in the study", kCount},
       {"participant", "", "Pseudonym"},
       {"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-      {"first_tick", "tick", "First sample that was lost", kCount},
-      {"last_tick", "tick", "Last sample that was lost; nothing is filled in", kCount},
+      {"first_tick", "tick", "First tick without a sample", kCount},
+      {"last_tick", "tick", "Last tick without a sample; nothing is filled in", kCount},
+      {"missed_ticks", "ticks",
+       "Those that never ran, for the loop was held up; others are lost", kCount},
   };
   return kColumns;
 }

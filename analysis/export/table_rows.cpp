@@ -134,7 +134,7 @@ void write_presentations(TableWriter& table, const core::SessionRow& session,
     table.cell(row.interval).cell(row.intensity).cell(row.first_tick).cell(row.last_tick);
     table.cell(row.num_strokes).cell(row.stroke_width_m).cell(row.max_speed_m_per_s);
     table.cell(row.mean_height_m).cell(row.delivered_damping_n_s_per_m);
-    table.cell(row.commanded_damping_n_s_per_m).cell(row.limited_ticks);
+    table.cell(row.commanded_damping_n_s_per_m).cell(row.limited_ticks).cell(row.missed_ticks);
     table.cell(row.finger_lag_s).cell(excluded).end_row();
   }
 }
@@ -172,9 +172,10 @@ void write_questionnaire(TableWriter& table, const core::SessionRow& session,
 }
 
 void write_gaps(TableWriter& table, const core::SessionRow& session,
-                const std::vector<core::TickRange>& gaps) {
-  for (const core::TickRange& gap : gaps) {
-    begin_row(table, session).cell(gap.first_tick).cell(gap.last_tick).end_row();
+                const ExportedRecording& recording) {
+  for (const core::TickRange& gap : recording.gaps()) {
+    begin_row(table, session).cell(gap.first_tick).cell(gap.last_tick);
+    table.cell(recording.num_missed(gap)).end_row();
   }
 }
 

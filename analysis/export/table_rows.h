@@ -66,7 +66,7 @@ void write_questionnaire(TableWriter& table, const core::SessionRow& session,
                          const std::vector<core::AnswerRow>& answers,
                          const std::vector<QuestionnaireItem>& questions);
 void write_gaps(TableWriter& table, const core::SessionRow& session,
-                const std::vector<core::TickRange>& gaps);
+                const ExportedRecording& recording);
 
 /// A row for every column of every table, by the name that the data set gives the table.
 void write_codebook(

@@ -16,4 +16,11 @@ Interval bounded_by_data(const Interval& ci95, const std::optional<double>& esti
   return shown;
 }
 
+Interval told_interval(const std::string& name, const Interval& ci95,
+                       const std::optional<double>& estimate) noexcept {
+  const bool has_its_unit = name.ends_with(".k") || name.ends_with(".modulus") ||
+                            name.find("geometric_mean_at_") != std::string::npos;
+  return has_its_unit ? ci95 : bounded_by_data(ci95, estimate);
+}
+
 }  // namespace jnd::analysis

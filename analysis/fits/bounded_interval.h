@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "analysis/fits/fit_status.h"
 
 namespace jnd::analysis {
@@ -13,5 +15,11 @@ inline constexpr char kNotBounded[] = "not bounded by these data";
 /// a bound and stays, and so does every interval that reaches below 0.
 [[nodiscard]] Interval bounded_by_data(const Interval& ci95,
                                        const std::optional<double>& estimate) noexcept;
+
+/// The same of the number of this name among results. What everybody's own numbers have as
+/// unit, such as the factor k of a power law, may be as uncertain as they are large: of ".k",
+/// ".modulus" and geometric means every end is told as it is.
+[[nodiscard]] Interval told_interval(const std::string& name, const Interval& ci95,
+                                     const std::optional<double>& estimate) noexcept;
 
 }  // namespace jnd::analysis

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +27,27 @@ struct DataGroup {
 [[nodiscard]] std::vector<DataGroup<AnswerCount>> read_answer_counts(
     const CsvTable& table, const std::vector<std::string>& group_by = {});
 
-/// The same for the columns intensity, magnitude.
+/// What different cells of a column a group's rows have, those without trials left out; none
+/// without such a column.
+template <typename Row>
+[[nodiscard]] std::set<std::string> different_cells(const CsvTable& table,
+                                                    const std::string& column,
+                                                    const DataGroup<Row>& group) {
+  const std::optional<std::size_t> place = table.find(column);
+  std::set<std::string> cells;
+  if (!place) return cells;
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < group.rows.size(); ++i) {
+    while (table.line(line) != group.lines[i]) ++line;  // A group keeps the table's order.
+    if constexpr (requires { group.rows[i].num_trials; }) {
+      if (group.rows[i].num_trials == 0) continue;
+    }
+    cells.insert(table.cell(line, *place));
+  }
+  return cells;
+}
+
+/// As `read_answer_counts`, for the columns intensity, magnitude.
 [[nodiscard]] std::vector<DataGroup<Magnitude>> read_magnitudes(
     const CsvTable& table, const std::vector<std::string>& group_by = {});
 

@@ -19,7 +19,9 @@ Json to_json(const PsychometricFit& fit) {
   json["deviance"] = number(fit.deviance);
   json["pse"] = number(fit.pse);
   json["pse_ci95"] = fit.pse_ci95 ? interval(*fit.pse_ci95) : Json(nullptr);
+  json["guess_rate"] = fit.guess_rate;
   json["lapse_rate"] = number(fit.lapse_rate);
+  json["lapses_at"] = fit.symmetric_lapse ? "both ends" : "upper end";
   json["r_squared"] = number(fit.r_squared);
   json["bootstrap"] = nullptr;
   if (!fit.bootstrap.method.empty()) {
@@ -45,8 +47,10 @@ Json to_json(const PowerFit& fit) {
   json["a_standard_error"] = number(fit.a_standard_error);
   json["k_ci95"] = interval(fit.k_ci95);
   json["a_ci95"] = interval(fit.a_ci95);
+  json["no_interval"] = sentence(fit.no_interval);
   json["r_squared"] = number(fit.r_squared);
   json["num_rows"] = fit.num_rows;
+  json["num_at_zero"] = fit.num_at_zero;
   json["excluded"] = Json::array();
   for (const PowerFit::Excluded& excluded : fit.excluded) {
     json["excluded"].push_back({{"row", excluded.row + 1},
@@ -66,6 +70,11 @@ Json to_json(const Comparison& comparison) {
   json["estimate"] = number(comparison.estimate);
   json["ci95"] = interval(comparison.ci95);
   json["statistic"] = number(comparison.statistic);
+  json["statistic_name"] = comparison.statistic_name;
+  json["statistics"] = Json::object();
+  for (const auto& [name, value] : comparison.all_statistics()) {
+    json["statistics"][name] = number(value);
+  }
   json["degrees_of_freedom"] = number(comparison.degrees_of_freedom);
   json["p_value"] = number(comparison.p_value);
   using Kind = Comparison::Kind;
@@ -85,6 +94,7 @@ Json to_json(const Comparison& comparison) {
     json["rank_biserial"] = number(comparison.rank_biserial);
     json["rank_biserial_ci95"] = nullptr;
   }
+  if (kind == Kind::kWilcoxon) json["num_zeros"] = comparison.num_zeros;
   json["num_a"] = comparison.num_a;
   json["num_b"] = comparison.num_b;
   return json;

@@ -13,6 +13,9 @@ namespace {
 constexpr std::string_view kTooFew =
     "too few rows: a power law needs two different intensities > 0";
 constexpr int kFewestRowsOfInterval = 4;
+/// Of a residual in units of the largest magnitude, or of one in logarithms: what rounding
+/// leaves of none.
+constexpr double kNoResidual = 1e-9;
 constexpr std::string_view kOutOfRange = "k or a exceeds the range of numbers";
 
 /// Variances of intercept and slope of a line over x per unit of variance, the intercept's
@@ -60,16 +63,27 @@ void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, d
   fit.status = FitStatus::kOk;
   fit.reason.clear();
   fit.k = std::exp(log_k);
-  fit.a = a;
   const double about_mean = sum_about_mean(values);
+  fit.a = about_mean > 0.0 ? a : 0.0;  // Rounding makes a little of values that are all alike.
   if (about_mean > 0.0) fit.r_squared = 1.0 - squares / about_mean;
-  if (fit.num_rows <= 2) return;
+  if (fit.num_rows <= 2) {
+    fit.no_interval = "no degree of freedom is left";
+    return;
+  }
   const double residual_variance = squares / (fit.num_rows - 2);
   const double log_k_error = std::sqrt(residual_variance * variance.intercept);
   const double a_error = std::sqrt(residual_variance * variance.slope);
   fit.k_standard_error = in_range(*fit.k * log_k_error, false);
   fit.a_standard_error = in_range(a_error, false);
-  if (fit.num_rows < kFewestRowsOfInterval) return;
+  if (std::sqrt(squares / fit.num_rows) <= kNoResidual) {
+    fit.is_exact = true;
+    fit.no_interval = "the power law passes through every row";
+    return;
+  }
+  if (fit.num_rows < kFewestRowsOfInterval) {
+    fit.no_interval = "one degree of freedom is too few";
+    return;
+  }
   const double t = boost::math::quantile(
       boost::math::students_t(static_cast<double>(fit.num_rows - 2)), 0.975);
   fit.k_ci95 = {in_range(std::exp(log_k - t * log_k_error), true),
@@ -77,7 +91,19 @@ void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, d
   fit.a_ci95 = {in_range(a - t * a_error, false), in_range(a + t * a_error, false)};
 }
 
-void fit_nonlinear(PowerFit& fit, const std::vector<Magnitude>& data, Solver solver) {
+/// At intensity 0 a law has no magnitude that depends on k and a: 0 for every a > 0.
+constexpr std::string_view kAtZero =
+    "the intensity is 0, where k I^a is 0 for every k and every a > 0";
+
+void fit_nonlinear(PowerFit& fit, const std::vector<Magnitude>& all, Solver solver) {
+  std::vector<Magnitude> data;
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    if (all[row].intensity > 0.0) {
+      data.push_back(all[row]);
+    } else {
+      fit.excluded.push_back({row, all[row], std::string(kAtZero)});
+    }
+  }
   fit.num_rows = static_cast<int>(data.size());
   if (std::ranges::any_of(data, [](const Magnitude& row) { return row.magnitude < 0.0; })) {
     fit.warnings.emplace_back("a magnitude lies below 0, which no power law reaches");
@@ -90,7 +116,6 @@ void fit_nonlinear(PowerFit& fit, const std::vector<Magnitude>& data, Solver sol
   std::vector<double> predicted, log_intensity, magnitudes;
   for (const Magnitude& row : data) {
     magnitudes.push_back(row.magnitude / minimum.largest);
-    if (row.intensity == 0.0) continue;
     log_intensity.push_back(std::log(row.intensity));
     predicted.push_back(std::exp(minimum.log_k + minimum.a * log_intensity.back()) /
                         minimum.largest);
@@ -150,6 +175,7 @@ PowerFit fit_power(const std::vector<Magnitude>& data, PowerMethod method, Solve
   PowerFit fit;
   fit.method = method;
   fit.status = FitStatus::kDegenerate;
+  fit.num_at_zero = static_cast<int>(std::ranges::count(data, 0.0, &Magnitude::intensity));
   method == PowerMethod::kNonlinear ? fit_nonlinear(fit, data, solver)
                                     : fit_logarithms(fit, data);
   return fit;
@@ -159,6 +185,7 @@ PowerFit power_between(const core::PowerFunction& first, const core::PowerFuncti
                        const std::vector<double>& intensities, Solver solver) {
   std::vector<Magnitude> rows;
   for (const double intensity : intensities) {
+    if (intensity == 0.0) continue;
     rows.push_back({intensity, first.magnitude(intensity)});
     rows.push_back({intensity, second.magnitude(intensity)});
   }

@@ -16,7 +16,7 @@ struct Magnitude {
 };
 
 enum class PowerMethod {
-  kNonlinear,  ///< "nls": least squares of the magnitudes, every row.
+  kNonlinear,  ///< "nls": least squares of the magnitudes, rows with intensity > 0.
   kLogLog,     ///< "loglog": a line through the logarithms, rows with both > 0.
 };
 
@@ -45,16 +45,24 @@ struct PowerFit {
   std::optional<double> k_standard_error, a_standard_error;
   /// By Student's t with n - 2 degrees of freedom; for k on ln k, so that it stays > 0. Open
   /// below two degrees of freedom: at one t reaches 12.7 standard errors, of a standard error
-  /// that rests on a single number.
+  /// that rests on a single number; and where the law passes through every row, so that no
+  /// residual tells how far the rows scatter.
   Interval k_ci95, a_ci95;
+  /// Why there is no interval though there is a law; "" if there is one.
+  std::string no_interval;
+  bool is_exact = false;  ///< That is because it passes through every row, more than two.
   std::optional<double> r_squared;  ///< 1 - sse / sst; loglog: of the logarithms.
   std::vector<Excluded> excluded;
   std::vector<std::string> warnings;  ///< What a reader has to know, one sentence each.
   int num_rows = 0;                   ///< Rows that were fitted.
+  int num_at_zero = 0;                ///< Rows at intensity 0, which are left out.
 };
 
-/// Fits Stevens' power law S = k I^a, k > 0, with 0^a = 0. nls starts wherever a grid of
-/// exponents, for each of which the best k is known, has a minimum: what is found is global.
+/// Fits Stevens' power law S = k I^a, k > 0. nls starts wherever a grid of exponents, for each
+/// of which the best k is known, has a minimum: what is found is global.
+///
+/// Rows at intensity 0 are left out: there the law is 0 for every k and every a > 0 (k for
+/// a = 0, infinite for a < 0), so they say nothing of either, and are no degrees of freedom.
 ///
 /// `degenerate` where no k > 0 and finite a is best: fewer than two different intensities > 0,
 /// magnitudes all 0, or data that only one intensity's magnitude carries, where the best
@@ -64,8 +72,9 @@ struct PowerFit {
                                  PowerMethod method = PowerMethod::kNonlinear,
                                  Solver solver = Solver::kCeres);
 
-/// The least-squares power law through two curves at once, both evaluated at `intensities`: how
-/// the thesis joins estimation and production (sec. 4) into one unbiased law.
+/// The least-squares power law through two curves at once, both evaluated at `intensities`, of
+/// which one at 0 tells nothing: how the thesis joins estimation and production (sec. 4) into
+/// one unbiased law.
 [[nodiscard]] PowerFit power_between(const core::PowerFunction& first,
                                      const core::PowerFunction& second,
                                      const std::vector<double>& intensities,

@@ -21,14 +21,12 @@ constexpr std::string_view kFalling =
 constexpr std::string_view kOutOfRange = "k or a exceeds the range of numbers";
 constexpr std::string_view kLost = "the search for the optimum did not come to rest";
 
-/// Rows with I > 0, intensities as t = (ln I - origin) / unit, which lies in [-1, 1]; with
-/// b = a unit and c = k exp(a origin), S = c exp(b t). Magnitudes over the largest of them. The
-/// other rows are predicted as 0.
+/// Intensities as t = (ln I - origin) / unit, which lies in [-1, 1]; with
+/// b = a unit and c = k exp(a origin), S = c exp(b t). Magnitudes over the largest of them.
 struct ScaledRows {
   double origin = 0.0, unit = 1.0, largest = 0.0;
   double smallest_gap = std::numeric_limits<double>::infinity();
   std::vector<double> t, magnitude;
-  double zero_squares = 0.0;  ///< Of the magnitudes at intensity 0.
 };
 
 /// The best c for one b, what is left over, and its derivatives in b, all of the sum of squares
@@ -54,7 +52,7 @@ Profile profile(const ScaledRows& rows, double b) {
     d2 += 4.0 * e * e * t * t;
   }
   const double c = n0 / d0;
-  double value = rows.zero_squares;
+  double value = 0.0;
   for (std::size_t row = 0; row < rows.t.size(); ++row) {
     const double residual = rows.magnitude[row] - c * std::exp(b * (rows.t[row] - top));
     value += residual * residual;
@@ -79,7 +77,7 @@ double limit(const ScaledRows& rows, double end) {
     num_rows += 1.0;
   }
   const double mean = std::max(0.0, sum / num_rows);
-  double squares = rows.zero_squares;
+  double squares = 0.0;
   for (std::size_t row = 0; row < rows.t.size(); ++row) {
     const double residual = rows.magnitude[row] - (rows.t[row] == end ? mean : 0.0);
     squares += residual * residual;
@@ -95,10 +93,6 @@ ScaledRows scaled(const std::vector<Magnitude>& data) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Magnitude& row : data) {
     const double magnitude = rows.largest > 0.0 ? row.magnitude / rows.largest : 0.0;
-    if (row.intensity == 0.0) {
-      rows.zero_squares += magnitude * magnitude;
-      continue;
-    }
     rows.t.push_back(std::log(row.intensity));
     rows.magnitude.push_back(magnitude);
     low = std::min(low, rows.t.back());
@@ -239,10 +233,9 @@ PowerMinimum power_minimum(const std::vector<Magnitude>& data, Solver solver) {
 
   const Found best = lowest_minimum(rows, solver);
   const double rising = limit(rows, 1.0), falling = limit(rows, -1.0);
-  const double nothing = squares + rows.zero_squares;
-  const double bound = std::min({rising, falling, nothing});
+  const double bound = std::min({rising, falling, squares});
   if (!(best.at.value < bound * (1.0 - 1e-13) - 1e-28)) {
-    return none(bound == nothing ? kNotPositive : rising < falling ? kSteep : kFalling);
+    return none(bound == squares ? kNotPositive : rising < falling ? kSteep : kFalling);
   }
   if (!best.agreed) return {FitStatus::kNotConverged, kLost};
   const double a = best.b / rows.unit;

@@ -16,8 +16,9 @@ struct PowerMinimum {
   double sum_of_squares = 0.0;  ///< Of the residuals over `largest`.
 };
 
-/// The global minimum. For each exponent the best k is known; where the sum of squares that is
-/// left turns from falling to rising on a grid of exponents, the solver goes downhill.
+/// The global minimum; every intensity is > 0. For each exponent the best k is known; where the
+/// sum of squares that is left turns from falling to rising on a grid of exponents, the solver
+/// goes downhill.
 [[nodiscard]] PowerMinimum power_minimum(const std::vector<Magnitude>& data, Solver solver);
 
 }  // namespace jnd::analysis

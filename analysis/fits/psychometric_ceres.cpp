@@ -7,20 +7,20 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr double kLargestLapse = 0.5 - 1e-9;
-/// A lapse on its bound 0 is a stationary point of lapse = sin^2(angle) / 2: start inside.
+/// A lapse on its bound 0 is a stationary point of lapse = limit sin^2(angle): start inside.
 constexpr double kSmallestAngle = 0.05;
 /// Below this the lapse is taken to be on its way to 0, and held there.
 constexpr double kNoLapse = 1e-6;
 
 /// Ceres's parameters: those that are free, in the order slope, offset, lapse. For least
 /// squares the slope by its logarithm, within whose reach the cost is smooth; for the
-/// likelihood, which is concave in the slope itself, the lapse as sin^2(angle) / 2, which keeps
-/// it in [0, 0.5] without a bound.
+/// likelihood, which is concave in the slope itself, the lapse as limit sin^2(angle), which
+/// keeps it in [0, limit] without a bound.
 class FreeVector {
  public:
-  FreeVector(const FreeParameters& free, const PsychometricCurve& start, bool likelihood)
-      : free_(free), start_(start), likelihood_(likelihood) {}
+  FreeVector(const PsychometricEnds& ends, const FreeParameters& free,
+             const PsychometricCurve& start, bool likelihood)
+      : ends_(ends), free_(free), start_(start), likelihood_(likelihood) {}
 
   [[nodiscard]] std::vector<double> start() const {
     std::vector<double> x;
@@ -40,7 +40,7 @@ class FreeVector {
     if (free_[1]) curve.offset = x[place++];
     if (free_[2]) {
       const double sine = std::sin(x[place]);
-      curve.lapse = likelihood_ ? 0.5 * sine * sine : x[place];
+      curve.lapse = likelihood_ ? ends_.lapse_limit() * sine * sine : x[place];
     }
     return curve;
   }
@@ -56,17 +56,18 @@ class FreeVector {
     if (free_[1]) to[place++] = by_curve(1);
     if (free_[2]) {
       // Where the lapse's own derivative is infinite, at a lapse of 0, the angle's is 0.
-      const double by_angle = 0.5 * std::sin(2.0 * x[place]);
+      const double by_angle = ends_.lapse_limit() * std::sin(2.0 * x[place]);
       to[place] = !likelihood_ ? by_curve(2) : by_angle == 0.0 ? 0.0 : by_curve(2) * by_angle;
     }
   }
 
  private:
   [[nodiscard]] double start_angle() const {
-    return std::max(std::asin(std::sqrt(2.0 * std::min(start_.lapse, kLargestLapse))),
-                    kSmallestAngle);
+    const double lapse = std::min(start_.lapse, ends_.largest_lapse());
+    return std::max(std::asin(std::sqrt(lapse / ends_.lapse_limit())), kSmallestAngle);
   }
 
+  const PsychometricEnds& ends_;
   const FreeParameters& free_;
   const PsychometricCurve& start_;
   bool likelihood_;
@@ -74,7 +75,7 @@ class FreeVector {
 
 PsychometricCurve most_likely(const PsychometricLevels& levels, const FreeParameters& free,
                               const PsychometricCurve& start) {
-  const FreeVector vector(free, start, true);
+  const FreeVector vector(levels.ends, free, start, true);
   const SmoothCost cost = [&](std::span<const double> x, double& value,
                               std::span<double> gradient) {
     const PsychometricCurve curve = vector.curve(x);
@@ -95,7 +96,7 @@ PsychometricCurve most_likely(const PsychometricLevels& levels, const FreeParame
 
 PsychometricCurve least_squares(const PsychometricLevels& levels, const FreeParameters& free,
                                 const PsychometricCurve& start) {
-  const FreeVector vector(free, start, false);
+  const FreeVector vector(levels.ends, free, start, false);
   const std::vector<double> first = vector.start();
   SquaresProblem problem;
   const bool at_zero = levels.zero_trials > 0.0;
@@ -103,17 +104,19 @@ PsychometricCurve least_squares(const PsychometricLevels& levels, const FreePara
   problem.evaluate = [&](std::span<const double> x, std::span<double> residuals,
                          std::span<double> jacobian) {
     const PsychometricCurve curve = vector.curve(x);
-    const double share = 1.0 - 2.0 * curve.lapse;
+    const double low = levels.ends.low(curve.lapse), rise = levels.ends.rise(curve.lapse);
     for (std::size_t level = 0; level < residuals.size(); ++level) {
-      Eigen::Vector3d row(0.0, 0.0, 1.0);  // At intensity 0, f is the lapse.
+      // At intensity 0, f is at its lower end.
+      Eigen::Vector3d row(0.0, 0.0, levels.ends.low_by_lapse());
       if (level == levels.size()) {
-        residuals[level] = curve.lapse - levels.zero_yes / levels.zero_trials;
+        residuals[level] = low - levels.zero_yes / levels.zero_trials;
       } else {
         const double u = levels.abscissa[level];
         const SigmoidTails tails =
             sigmoid_tails(levels.sigmoid, curve.slope * u + curve.offset);
-        residuals[level] = curve.lapse + share * tails.lower - levels.proportion(level);
-        row << share * tails.density * u, share * tails.density, tails.upper - tails.lower;
+        residuals[level] = low + rise * tails.lower - levels.proportion(level);
+        row << rise * tails.density * u, rise * tails.density,
+            levels.ends.by_lapse(tails.lower, tails.upper);
       }
       if (!jacobian.empty()) {
         vector.chain(x, row, jacobian.subspan(level * x.size(), x.size()));
@@ -123,7 +126,7 @@ PsychometricCurve least_squares(const PsychometricLevels& levels, const FreePara
   };
   if (free[2]) {
     problem.bounds.resize(first.size());
-    problem.bounds.back() = {0.0, kLargestLapse};
+    problem.bounds.back() = {0.0, levels.ends.largest_lapse()};
   }
   const PsychometricCurve found = vector.curve(ceres_minimum(problem, first));
   // On a bound Ceres crawls, for its steps take no account of it: go on along the bound.

@@ -24,8 +24,8 @@ using PsychometricDescent = PsychometricOptimum (*)(const PsychometricLevels& le
                                                     const PsychometricCurve& start);
 
 /// Newton's method with the exact Hessian, made positive definite where it is not, a step that
-/// keeps the slope > 0 and the lapse in [0, 0.5), and backtracking: some microseconds, for the
-/// many refits of a bootstrap and a profile.
+/// keeps the slope > 0 and the lapse within its limits, and backtracking: some microseconds,
+/// for the many refits of a bootstrap and a profile.
 [[nodiscard]] PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
                                                       PsychometricMethod method,
                                                       const FreeParameters& free,

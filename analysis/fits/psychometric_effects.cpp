@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <map>
+#include <utility>
 
+#include "analysis/fits/answer_scatter.h"
 #include "analysis/fits/probit_regression.h"
+#include "core/psychometric_function.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -79,10 +84,85 @@ Eigen::MatrixXd design_of(const Eigen::VectorXd& log_ratio, const std::vector<Te
   return design;
 }
 
+std::string four_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+bool holds_zero(const Interval& ci95) { return *ci95.low <= 0.0 && *ci95.high >= 0.0; }
+
+/// "95 % -0.2 to 0.3"
+std::string words_of(const Interval& ci95) {
+  return "95 % " + four_digits(*ci95.low) + " to " + four_digits(*ci95.high);
+}
+
+/// "response_bias and drift", those that are told of the reference.
+std::string told_at_reference(const std::vector<Term>& terms) {
+  const bool drifts = std::ranges::find(terms, "drift", &Term::name) != terms.end();
+  return drifts ? "response_bias and drift are" : "response_bias is";
+}
+
+/// That the answers scatter more than the regression has it, as rows of several sessions do;
+/// "" where they do not. Of what was asked alike, rows of one answer each count together, with
+/// the mean of their probabilities.
+std::string scatter_of(const std::vector<OrderedAnswers>& answers,
+                       const Eigen::VectorXd& expected_z, double num_fitted) {
+  std::map<std::pair<double, int>, FittedAnswers> singles;
+  std::vector<FittedAnswers> fitted;
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    const OrderedAnswers& one = answers[row];
+    const double probability =
+        core::standard_normal_cdf(expected_z(static_cast<Eigen::Index>(row)));
+    if (one.num_trials > 1.0) {
+      fitted.push_back({one.num_yes, one.num_trials, probability});
+    } else if (one.num_trials > 0.0) {
+      const int order = !one.test_first ? 0 : *one.test_first ? 1 : 2;
+      FittedAnswers& all = singles[{one.intensity, order}];
+      all.num_yes += one.num_yes;
+      all.num_trials += 1.0;
+      all.probability += (probability - all.probability) / all.num_trials;
+    }
+  }
+  for (const auto& [asked, all] : singles) fitted.push_back(all);
+  const std::optional<double> p_value = misfit_p_value(fitted, num_fitted);
+  if (!p_value || !(*p_value < kScatterBelow)) return "";
+  return "the answers scatter more than independent ones of this regression do (deviance, p < "
+         "0.01), as those of several sessions or people may: every interval is too narrow and "
+         "every p too small; run jnd fit effects on each session alone, and compare what they "
+         "found as one value a session";
+}
+
+/// That the answers fall, or that nothing was asked near the reference.
+std::vector<std::string> warnings_of(const PsychometricEffects& found,
+                                     const std::vector<OrderedAnswers>& answers,
+                                     double reference, const std::vector<Term>& terms) {
+  std::vector<std::string> warnings;
+  if (*found.slope_ci95.high < 0.0) {
+    warnings.push_back("the answers fall as the intensity grows (slope " +
+                       four_digits(*found.slope) + ", " + words_of(found.slope_ci95) +
+                       "), as of somebody who answers the wrong way round: then every effect "
+                       "but learning has the wrong sign");
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const OrderedAnswers& one : answers) {
+    if (!(one.num_trials > 0.0)) continue;
+    least = std::min(least, one.intensity);
+    most = std::max(most, one.intensity);
+  }
+  if (reference < least || reference > most) {
+    warnings.push_back("the reference " + four_digits(reference) +
+                       " lies outside the levels, " + four_digits(least) + " to " +
+                       four_digits(most) + ": " + told_at_reference(terms) +
+                       " extrapolated to where nothing was asked");
+  }
+  return warnings;
+}
+
 }  // namespace
 
-std::vector<PsychometricEffect> psychometric_effects(const std::vector<OrderedAnswers>& answers,
-                                                     double reference) {
+PsychometricEffects psychometric_effects(const std::vector<OrderedAnswers>& answers,
+                                         double reference) {
   check(answers, reference);
   const auto size = static_cast<Eigen::Index>(answers.size());
   Eigen::VectorXd log_ratio(size), num_yes(size), num_trials(size);
@@ -97,7 +177,17 @@ std::vector<PsychometricEffect> psychometric_effects(const std::vector<OrderedAn
       answers.empty()
           ? ProbitRegression{.status = FitStatus::kDegenerate, .reason = "no answers"}
           : fit_probit(design_of(log_ratio, terms, terms.size()), num_yes, num_trials);
-  std::vector<PsychometricEffect> effects;
+  PsychometricEffects found;
+  if (full.status == FitStatus::kOk) {
+    const double reach = kWaldReach * std::sqrt(full.covariance(0, 0));
+    found.slope = full.coefficients(0);
+    found.slope_ci95 = {*found.slope - reach, *found.slope + reach};
+    found.warnings = warnings_of(found, answers, reference, terms);
+    const Eigen::MatrixXd design = design_of(log_ratio, terms, terms.size());
+    const std::string scatter =
+        scatter_of(answers, design * full.coefficients, static_cast<double>(design.cols()));
+    if (!scatter.empty()) found.warnings.push_back(scatter);
+  }
   for (std::size_t term = 0; term < terms.size(); ++term) {
     PsychometricEffect effect{.status = full.status,
                               .reason = full.reason,
@@ -106,14 +196,20 @@ std::vector<PsychometricEffect> psychometric_effects(const std::vector<OrderedAn
     if (full.status == FitStatus::kOk) {
       const auto at = static_cast<Eigen::Index>(term) + 1;
       // Of the slope's change, the mean slope is the unit, taken as known.
-      const double unit = effect.name == "learning" ? full.coefficients(0) : 1.0;
+      const bool is_share = effect.name == "learning";
+      const double unit = is_share ? *found.slope : 1.0;
       const double reach = kWaldReach * std::sqrt(full.covariance(at, at)) / std::fabs(unit);
-      effect.estimate = full.coefficients(at) / unit;
-      effect.ci95 = {*effect.estimate - reach, *effect.estimate + reach};
+      if (is_share && holds_zero(found.slope_ci95)) {
+        effect.reason = "the mean slope is not told from 0 (" + words_of(found.slope_ci95) +
+                        "), so that its change is no share of it";
+      } else {
+        effect.estimate = full.coefficients(at) / unit;
+        effect.ci95 = {*effect.estimate - reach, *effect.estimate + reach};
+      }
       const ProbitRegression without =
           fit_probit(design_of(log_ratio, terms, term), num_yes, num_trials);
       effect.status = without.status;
-      effect.reason = without.reason;
+      if (without.status != FitStatus::kOk) effect.reason = without.reason;
       if (without.status == FitStatus::kOk) {
         const double gain = 2.0 * (full.log_likelihood - without.log_likelihood);
         effect.statistic = std::max(0.0, gain);
@@ -121,9 +217,9 @@ std::vector<PsychometricEffect> psychometric_effects(const std::vector<OrderedAn
             boost::math::complement(boost::math::chi_squared(1.0), *effect.statistic));
       }
     }
-    effects.push_back(std::move(effect));
+    found.effects.push_back(std::move(effect));
   }
-  return effects;
+  return found;
 }
 
 TrialTrend trial_trend(const std::vector<OrderedAnswers>& answers, double reference) {

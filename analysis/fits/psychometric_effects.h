@@ -22,7 +22,7 @@ inline constexpr char kEffectTest[] = "likelihood ratio";
 /// One term of the regression, tested by the likelihood ratio against leaving it out.
 struct PsychometricEffect {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;
+  std::string reason;   ///< Why there is no estimate; "" if there is one.
   std::string name;     ///< "response_bias", "interval_order", "drift", "learning"
   std::string meaning;  ///< Of the estimate, in words.
   std::optional<double> estimate;
@@ -31,17 +31,27 @@ struct PsychometricEffect {
   std::optional<double> p_value;
 };
 
+struct PsychometricEffects {
+  /// Of z over ln(x / reference), halfway through the trials: 1 / ln(1 + w). Below 0 where the
+  /// answers fall.
+  std::optional<double> slope;
+  Interval slope_ci95;  ///< Wald's.
+  std::vector<PsychometricEffect> effects;
+  std::vector<std::string> warnings;  ///< What the effects rest on, where that is doubtful.
+};
+
 /// Probit regression of the answers on ln(x / reference) and what else was known of each row:
 /// - response_bias: z at the reference, above 0 if "yes" is said too readily there. Where the
 ///   reference always came first it holds the order of the intervals too.
 /// - interval_order: z where the test came first minus z where it came second.
 /// - drift: change of z at the reference from the first trial to the last.
 /// - learning: change of the slope from the first trial to the last, over its mean: above 0 if
-///   discrimination became finer.
+///   discrimination became finer. Where the interval of the mean slope holds 0 there is nothing
+///   to be a share of: no estimate, but the test of whether the slope changes stays.
 /// Exploratory: nobody planned them, and nothing is adjusted for there being several. Effects
 /// whose column is missing or never varies are left out. Throws `core::Error` for an intensity
 /// or a reference that is not > 0, or counts as `fit_psychometric`.
-[[nodiscard]] std::vector<PsychometricEffect> psychometric_effects(
+[[nodiscard]] PsychometricEffects psychometric_effects(
     const std::vector<OrderedAnswers>& answers, double reference);
 
 /// Whether one participant's answers change over the trials: the sum over levels of the

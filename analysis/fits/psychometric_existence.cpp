@@ -20,8 +20,6 @@ constexpr std::string_view kNoOther =
     "none, so nothing tells how fine the discrimination is";
 constexpr std::string_view kOneIntensity =
     "one intensity: a slope and a pse need answers at two intensities > 0 or more";
-constexpr std::string_view kYesAtZero =
-    "impossible: a yes at intensity 0 has probability 0 without lapses";
 constexpr std::string_view kAllAlike =
     "all alike: every answer is the same, so the pse lies beyond all levels";
 constexpr std::string_view kAllAlikeAtReference =
@@ -35,6 +33,10 @@ constexpr std::string_view kStep =
 constexpr std::string_view kFlat =
     "flat: the answers do not rise with the intensity, so the Weber fraction grows without "
     "bound";
+constexpr std::string_view kAtChance =
+    "flat: the answers do not rise above the guess rate with the intensity, so the Weber "
+    "fraction "
+    "grows without bound";
 constexpr std::string_view kInverted =
     "inverted: yes becomes rarer as the intensity rises, so no Weber fraction > 0 fits";
 
@@ -69,8 +71,9 @@ PsychometricExistence flat_or_inverted(const PsychometricLevels& levels, bool fr
   if (!free_pse && reach_of(levels).all_alike()) {
     return {PsychometricSupremum::kFlat, kAllAlikeAtReference};
   }
-  return {PsychometricSupremum::kFlat,
-          rise_of_answers(levels, free_pse) < 0.0 ? kInverted : kFlat};
+  const double rise = rise_of_answers(levels, free_pse);
+  if (levels.ends.guess > 0.0 && !(rise < 0.0)) return {PsychometricSupremum::kFlat, kAtChance};
+  return {PsychometricSupremum::kFlat, rise < 0.0 ? kInverted : kFlat};
 }
 
 }  // namespace
@@ -81,7 +84,7 @@ double rise_of_answers(const PsychometricLevels& levels, bool free_pse) noexcept
     yes += levels.num_yes[level];
     trials += levels.num_trials[level];
   }
-  const double expected = free_pse ? yes / trials : 0.5;
+  const double expected = free_pse ? yes / trials : levels.ends.middle(levels.ends.known_lapse);
   double sum = 0.0, size = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const double u = levels.abscissa[level];
@@ -93,24 +96,30 @@ double rise_of_answers(const PsychometricLevels& levels, bool free_pse) noexcept
 
 std::string_view why_unidentified(const PsychometricLevels& levels, bool free_pse,
                                   bool free_lapse) {
-  const int at_zero = levels.zero_trials > 0.0 ? 1 : 0;
-  if (levels.size() == 0 && at_zero == 0) return kNoTrials;
+  if (levels.size() == 0 && !(levels.zero_trials > 0.0)) return kNoTrials;
+  // Intensity 0 tells the lower end, which guesses alone have fixed.
+  const int at_zero = levels.zero_trials > 0.0 && levels.ends.symmetric ? 1 : 0;
   if (free_pse) {
     if (levels.size() < 2) return kOneIntensity;
     const int num_levels = static_cast<int>(levels.size()) + at_zero;
     return free_lapse && num_levels < 3 ? kTooFewForLapse : std::string_view();
   }
-  std::vector<double> distances;  // A curve through the reference is symmetric about it.
+  std::vector<double> distances;
+  bool at_reference = false;
   for (const double u : levels.abscissa) {
-    if (u != 0.0) distances.push_back(std::fabs(u));
+    // Between ends that lapses move alike, a curve through the reference is symmetric about it.
+    if (u != 0.0) distances.push_back(levels.ends.symmetric ? std::fabs(u) : u);
+    at_reference = at_reference || u == 0.0;
   }
   std::sort(distances.begin(), distances.end());
-  const auto last = std::unique(distances.begin(), distances.end(),
-                                [](double a, double b) { return b - a <= 1e-12 * b; });
+  const auto last = std::unique(distances.begin(), distances.end(), [](double a, double b) {
+    return b - a <= 1e-12 * std::fabs(b);
+  });
   const int num_distances = static_cast<int>(last - distances.begin());
   if (num_distances == 0) return kNoOther;
-  return free_lapse && num_distances + at_zero < 2 ? kTooFewForSlopeAndLapse
-                                                   : std::string_view();
+  const int at_middle = at_reference && !levels.ends.symmetric ? 1 : 0;
+  return free_lapse && num_distances + at_zero + at_middle < 2 ? kTooFewForSlopeAndLapse
+                                                               : std::string_view();
 }
 
 PsychometricExistence existence_from_counts(const PsychometricLevels& levels, bool free_pse) {

@@ -22,13 +22,16 @@ struct PsychometricExistence {
   std::string_view reason;
 };
 
+inline constexpr std::string_view kYesAtZero =
+    "impossible: a yes at intensity 0 has probability 0 without lapses";
+
 /// Why the levels alone, whatever the answers, cannot identify the free parameters; "" if they
 /// can.
 [[nodiscard]] std::string_view why_unidentified(const PsychometricLevels& levels, bool free_pse,
                                                 bool free_lapse);
 
-/// Whether maximum likelihood without lapses has an optimum, exactly, from the counts alone: it
-/// is concave (Albert and Anderson 1984). For levels that identify.
+/// Whether maximum likelihood without lapses and guesses has an optimum, exactly, from the
+/// counts alone: it is concave (Albert and Anderson 1984). For levels that identify.
 [[nodiscard]] PsychometricExistence existence_from_counts(const PsychometricLevels& levels,
                                                           bool free_pse);
 

@@ -18,6 +18,14 @@ inline constexpr std::string_view kWeberFractionMeaning =
     "(x84.13 - pse) / pse, where the curve, lapses aside, is 50 % at the pse and "
     "Phi(1) = 84.13 % at x84.13";
 
+/// The same where guesses are right at a rate.
+[[nodiscard]] constexpr std::string_view weber_fraction_meaning(double guess_rate) noexcept {
+  return guess_rate > 0.0
+             ? "(x84.13 - pse) / pse, where the curve, guesses and lapses aside, is "
+               "50 % at the pse and Phi(1) = 84.13 % at x84.13"
+             : kWeberFractionMeaning;
+}
+
 /// What makes a family: a shape, over the intensity or its logarithm.
 struct PsychometricFamilyTraits {
   PsychometricFamily family;

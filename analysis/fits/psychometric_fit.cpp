@@ -2,17 +2,20 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "analysis/fits/chance_level.h"
+#include "analysis/fits/falling_test.h"
 #include "analysis/fits/interval_order_fit.h"
+#include "analysis/fits/psychometric_beta_binomial.h"
 #include "analysis/fits/psychometric_bootstrap.h"
 #include "analysis/fits/psychometric_goodness.h"
 #include "analysis/fits/psychometric_interval.h"
 #include "analysis/fits/psychometric_posterior.h"
 #include "analysis/fits/psychometric_search.h"
+#include "analysis/fits/psychometric_warnings.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -21,6 +24,8 @@ namespace {
 constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
 /// Half the 95 % quantile of chi-squared with one degree of freedom.
 constexpr double kLikelihoodDrop = 1.9207294103470617;
+constexpr char kNotRelative[] =
+    "the pse is not above 0: there is nothing that a Weber fraction is relative to";
 
 std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
@@ -73,13 +78,34 @@ std::optional<double> standard_error(const PsychometricLevels& levels,
   return finite(std::sqrt(by_curve.dot(information.inverse() * by_curve) * scale));
 }
 
-void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
-                     const PsychometricOptions& options, const FreeParameters& free,
-                     const PsychometricOptimum& optimum) {
+/// The 95 % quantile of F with one degree of freedom above and these below.
+double fisher_quantile(int degrees_of_freedom) {
+  return boost::math::quantile(boost::math::fisher_f(1.0, degrees_of_freedom), 0.95);
+}
+
+void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
+                     const PsychometricLevels& levels, const PsychometricOptions& options,
+                     const FreeParameters& free, const PsychometricOptimum& optimum) {
   const bool free_pse = free[1];
   double drop = kLikelihoodDrop;
   if (options.method == kMaximumLikelihood) {
-    fit.standard_error = standard_error(levels, optimum.curve, free, optimum.cost.hessian, 1.0);
+    double scale = 1.0;
+    if (options.overdispersion == Overdispersion::kScaled) {
+      const PsychometricLevels by_row = levels_by_row(data, levels);
+      const int degrees_of_freedom =
+          residual_degrees_of_freedom(by_row, free, optimum.curve.lapse);
+      if (degrees_of_freedom < 1) {
+        fit.overdispersion.note =
+            "no degree of freedom is left to tell how far answers scatter";
+        if (free_pse) fit.pse_ci95 = Interval{};
+        return;
+      }
+      scale = std::max(1.0, pearson_statistic(by_row, optimum.curve) / degrees_of_freedom);
+      fit.overdispersion.factor = scale;
+      drop = 0.5 * scale * fisher_quantile(degrees_of_freedom);
+    }
+    fit.standard_error =
+        standard_error(levels, optimum.curve, free, optimum.cost.hessian, scale);
   } else {
     const int degrees_of_freedom = fit.num_levels - 1 - free[1] - free[2];
     if (free_pse) fit.pse_ci95 = Interval{};
@@ -87,15 +113,25 @@ void add_uncertainty(PsychometricFit& fit, const PsychometricLevels& levels,
     const double variance = optimum.cost.value / degrees_of_freedom;
     fit.standard_error = standard_error(levels, optimum.curve, free,
                                         squared_jacobian(levels, optimum.curve), variance);
-    drop =
-        variance * boost::math::quantile(boost::math::fisher_f(1.0, degrees_of_freedom), 0.95);
+    drop = variance * fisher_quantile(degrees_of_freedom);
   }
+  if (!fit.weber_fraction) fit.standard_error.reset();
   if (!options.intervals) return;
-  fit.weber_fraction_ci95 =
-      weber_fraction_interval(levels, options.method, free, optimum, drop);
+  if (fit.weber_fraction) {
+    fit.weber_fraction_ci95 =
+        weber_fraction_interval(levels, options.method, free, optimum, drop);
+  }
   if (free_pse) {
     fit.pse_ci95 = pse_interval(levels, options.method, free, optimum, drop);
   }
+}
+
+void add_uncertainty(PsychometricFit& fit, const BetaBinomialFit& scattered) {
+  fit.standard_error = scattered.standard_error;
+  fit.weber_fraction_ci95 = scattered.weber_fraction_ci95;
+  fit.pse_ci95 = scattered.pse_ci95;
+  fit.overdispersion.correlation = scattered.correlation;
+  fit.overdispersion.log_likelihood = scattered.log_likelihood;
 }
 
 /// The curve in the family's own words.
@@ -116,97 +152,49 @@ void add_parameters(PsychometricFit& fit, const PsychometricLevels& levels,
   }
 }
 
-/// Whether the deviance is beyond what chi-squared with as many degrees of freedom has in one
-/// of a hundred data sets.
-bool is_far_off(const PsychometricFit& fit, int degrees_of_freedom) {
-  constexpr double kLevel = 0.01;
-  if (degrees_of_freedom < 1 || !fit.deviance) return false;
-  const boost::math::chi_squared chance(degrees_of_freedom);
-  return boost::math::cdf(boost::math::complement(chance, *fit.deviance)) < kLevel;
-}
-
-bool all_alike(const std::vector<AnswerCount>& data) {
-  const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
-  const auto every = [](const AnswerCount& row) { return row.num_yes == row.num_trials; };
-  return std::ranges::all_of(data, none) || std::ranges::all_of(data, every);
-}
-
-/// What the value rests on, where that is less than it seems.
-void add_doubts(PsychometricFit& fit, const std::vector<AnswerCount>& data,
-                const PsychometricLevels& levels, int degrees_of_freedom) {
-  if (all_alike(data)) {
-    fit.warnings.emplace_back(
-        "every answer is the same: the Weber fraction rests on the assumed pse alone");
-  }
-  if (*fit.pse * (1.0 + *fit.weber_fraction) > levels.intensity.back()) {
-    fit.warnings.emplace_back(
-        "the Weber fraction lies beyond the stimuli: no level is as high as where the curve is "
-        "84.13 %");
-  }
-  // Least squares does not seek the lowest deviance, and a simulated p goes before.
-  const bool other =
-      fit.method == PsychometricMethod::kLeastSquares || fit.goodness.p_value.has_value();
-  if (!other && is_far_off(fit, degrees_of_freedom)) {
-    fit.warnings.emplace_back(
-        "the answers lie farther from the curve than chance has them (deviance, chi-squared: "
-        "p < 0.01): the curve is not theirs, and the intervals are too narrow");
-  }
-}
-
-/// What is known to make the intervals above too narrow.
-void add_warnings(PsychometricFit& fit, const PsychometricLevels& levels,
-                  const PsychometricOptions& options) {
-  constexpr double kFewTrials = 15.0;
-  double most_trials = levels.zero_trials;
-  for (const double trials : levels.num_trials) most_trials = std::max(most_trials, trials);
-  if (fit.bootstrap.n > 0 && most_trials < kFewTrials) {
-    fit.warnings.emplace_back(
-        "bootstrap intervals cover less than 95 % at so few answers a level (79 to 93 % at "
-        "five): rather use the likelihood ratio's");
-  }
-  const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;
-  if (free_pse && options.intervals && options.method == kMaximumLikelihood &&
-      most_trials < kFewTrials) {
-    fit.warnings.emplace_back(
-        "with a free pse and so few answers a level, likelihood-ratio intervals hold the truth "
-        "somewhat too rarely (92 % at five answers a level, not 95 %)");
-  }
-  if (options.method == PsychometricMethod::kLeastSquares) {
-    fit.warnings.emplace_back(
-        "least squares takes every level's proportion as equally precise, which they are not: "
-        "rather use maximum likelihood's interval");
-  }
-  if (fit.goodness.p_value && *fit.goodness.p_value < 0.05) {
-    fit.warnings.emplace_back(
-        "the answers lie farther from the curve than chance has them (p < 0.05): the intervals "
-        "are too narrow");
-  }
-}
-
 }  // namespace
 
 PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                                  const PsychometricOptions& options) {
   const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;
   const PsychometricLevels levels =
-      pooled_levels(data, options.reference, free_pse, options.family);
+      pooled_levels(data, options.reference, free_pse, options.family,
+                    {options.guess_rate, options.symmetric_lapse,
+                     options.free_lapse ? 0.0 : options.lapse_rate});
+  core::require(options.overdispersion == Overdispersion::kNone ||
+                    (options.method == kMaximumLikelihood && options.num_bootstrap == 0 &&
+                     !options.posterior && !options.by_order),
+                "overdispersion", "maximum likelihood without bootstrap, posterior and orders",
+                1.0);
   if (options.by_order && orders_vary(data)) {
     core::require(options.family == PsychometricFamily::kWeber &&
-                      options.method == kMaximumLikelihood && !options.free_lapse &&
-                      options.num_bootstrap == 0 && !options.posterior,
+                      options.method == kMaximumLikelihood &&
+                      levels.ends.are_bare(options.free_lapse) && options.num_bootstrap == 0 &&
+                      !options.posterior,
                   "by_order", "the Weber curve by maximum likelihood alone", 1.0);
     PsychometricFit fit = fit_by_interval_order(data, options);
     if (fit.status != FitStatus::kOk || !fit.order_effect_ln) return fit;
-    add_warnings(fit, levels, options);
-    add_doubts(fit, data, levels, fit.num_levels - (options.free_pse ? 3 : 2));
+    add_psychometric_warnings(fit, data, levels, options,
+                              fit.num_levels - (options.free_pse ? 3 : 2), false);
     return fit;
   }
   PsychometricFit fit;
   fit.family = options.family;
   fit.method = options.method;
+  fit.guess_rate = options.guess_rate;
+  fit.overdispersion.model = options.overdispersion;
+  fit.symmetric_lapse = options.symmetric_lapse;
   fit.num_levels = static_cast<int>(levels.size()) + (levels.zero_trials > 0.0 ? 1 : 0);
   for (const AnswerCount& row : data) fit.num_trials += row.num_trials;
 
+  const std::optional<double> falls = options.advice ? significant_fall(data) : std::nullopt;
+  if (falls) {
+    fit.warnings.push_back(falling_warning(*falls));
+  } else if (options.guess_unknown) {
+    if (const auto chance = suspected_chance(data)) {
+      fit.warnings.push_back(chance_warning(*chance));
+    }
+  }
   const PsychometricSearch search(levels, options.method, free_pse, options.free_lapse);
   if (options.posterior) fit.posterior = posterior_on_grid(levels, search.free());
   const PsychometricSearchResult found = search.find(
@@ -220,20 +208,26 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   fit.reason = found.reason;
   if (found.supremum != PsychometricSupremum::kAttained) return fit;
 
-  const PsychometricCurve& curve = found.optimum.curve;
+  PsychometricCurve curve = found.optimum.curve;
+  std::optional<BetaBinomialFit> scattered;
+  if (options.overdispersion == Overdispersion::kBetaBinomial) {
+    scattered =
+        fit_beta_binomial(levels_by_row(data, levels), search.free(), curve, options.intervals);
+    fit.status = scattered->status;
+    fit.reason = scattered->reason;
+    if (fit.status != FitStatus::kOk) return fit;
+    curve = scattered->curve;
+  }
   const double weber_fraction = curve.weber_fraction(levels);
   const double pse = free_pse ? curve.pse(levels) : options.reference;
-  if (!levels.logarithmic() && !(pse > 0.0)) {
-    fit.reason =
-        "the pse is not above 0: there is nothing that a Weber fraction is relative to";
-    return fit;
-  }
-  if (!(std::isfinite(weber_fraction) && std::isfinite(pse) && pse > 0.0)) {
+  const bool relative = levels.logarithmic() || pse > 0.0;
+  if (!std::isfinite(pse) || (relative && !(std::isfinite(weber_fraction) && pse > 0.0))) {
     fit.reason = "flat: the answers rise so little that the values exceed the range of numbers";
     return fit;
   }
   fit.status = FitStatus::kOk;
-  fit.weber_fraction = weber_fraction;
+  fit.reason = relative ? "" : kNotRelative;
+  if (relative) fit.weber_fraction = weber_fraction;
   fit.pse = pse;
   fit.lapse_rate = curve.lapse;
   const double log_likelihood = -psychometric_cost(levels, kMaximumLikelihood, curve).value;
@@ -244,17 +238,21 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
     const double about_mean = sum_about_mean(levels);
     if (about_mean > 0.0) fit.r_squared = 1.0 - found.optimum.cost.value / about_mean;
   }
-  add_uncertainty(fit, levels, options, search.free(), found.optimum);
-  if (options.num_bootstrap > 0) {
+  if (scattered) {
+    add_uncertainty(fit, *scattered);
+  } else {
+    add_uncertainty(fit, data, levels, options, search.free(), found.optimum);
+  }
+  if (options.num_bootstrap > 0 && relative) {
     fit.bootstrap = bootstrapped_weber_fraction(
         search, levels, curve, {options.num_bootstrap, options.seed, options.bootstrap_kind});
   }
   if (options.diagnostics) {
     fit.goodness = goodness_of_fit(search, levels, curve, options.num_goodness, options.seed);
   }
-  add_warnings(fit, levels, options);
-  add_doubts(fit, data, levels,
-             residual_degrees_of_freedom(levels, search.free(), curve.lapse));
+  add_psychometric_warnings(fit, data, levels, options,
+                            residual_degrees_of_freedom(levels, search.free(), curve.lapse),
+                            falls.has_value());
   return fit;
 }
 

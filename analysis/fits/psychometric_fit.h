@@ -37,6 +37,21 @@ enum class PsychometricMethod {
   return method == PsychometricMethod::kMaximumLikelihood ? "ml" : "lsq";
 }
 
+/// How far the intervals allow answers to scatter.
+enum class Overdispersion {
+  kNone,  ///< Independent binomial answers.
+  /// Variances times Pearson's chi-squared over its degrees of freedom, >= 1: over the rows, of
+  /// rows with a single answer over the levels.
+  kScaled,
+  kBetaBinomial,  ///< See `BetaBinomialFit`: the values move, too.
+};
+
+/// "none", "scaled", "beta-binomial"
+[[nodiscard]] constexpr std::string_view to_string(Overdispersion overdispersion) noexcept {
+  if (overdispersion == Overdispersion::kScaled) return "scaled";
+  return overdispersion == Overdispersion::kBetaBinomial ? "beta-binomial" : "none";
+}
+
 enum class BootstrapKind {
   kParametric,     ///< Answers drawn from the fitted curve.
   kNonparametric,  ///< Answers drawn from the answers, within each level.
@@ -54,15 +69,27 @@ struct PsychometricOptions {
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   bool free_pse = false;  ///< Some families have it free always.
   bool free_lapse = false;
+  /// Share of right answers where nothing is felt, [0, 1): 0 for yes and no, 1 / m for a forced
+  /// choice among m.
+  double guess_rate = 0.0;
+  double lapse_rate = 0.0;  ///< Where it is not free; leaves the curve a rise.
+  /// Lapses at both ends, else at the upper end alone: see `PsychometricEnds`.
+  bool symmetric_lapse = true;
   /// Where the rows' orders differ, let them have pses of their own: kWeber by maximum
-  /// likelihood without lapses only. Else the orders are pooled.
+  /// likelihood without lapses and guesses only. Else the orders are pooled.
   bool by_order = false;
+  /// By maximum likelihood, without bootstrap and posterior, which draw binomial answers.
+  Overdispersion overdispersion = Overdispersion::kNone;
   int num_bootstrap = 0;  ///< Refits of the bootstrap; 0 leaves it out.
   BootstrapKind bootstrap_kind = BootstrapKind::kParametric;
   bool diagnostics = false;  ///< Residuals and overdispersion.
-  int num_goodness = 0;      ///< Redraws for the p values beside them; 0 leaves those out.
-  bool posterior = false;    ///< Also the Bayesian estimate.
-  std::uint64_t seed = 1;    ///< Of both: the same seed gives the same numbers.
+  /// Warnings also name the options of `jnd fit weber` that the answers call for, and say
+  /// where the answers fall.
+  bool advice = false;
+  bool guess_unknown = false;  ///< Also a warning where the counts look like right answers.
+  int num_goodness = 0;        ///< Redraws for the p values beside them; 0 leaves those out.
+  bool posterior = false;      ///< Also the Bayesian estimate.
+  std::uint64_t seed = 1;      ///< Of both: the same seed gives the same numbers.
   bool intervals = true;  ///< False leaves out the profile intervals, where only w is wanted.
   Solver solver = Solver::kCeres;
 };
@@ -82,6 +109,7 @@ struct BootstrapInterval {
 struct PsychometricGoodness {
   int n = 0;                      ///< Redraws behind the p values; 0: none were asked for.
   std::optional<double> p_value;  ///< Share of redrawn data with at least this deviance.
+  std::string reason;             ///< Why p was asked for and there is none; else "".
   int degrees_of_freedom = 0;     ///< Levels minus parameters.
   std::optional<double> overdispersion;  ///< Pearson's chi-squared over these; about 1.
   /// Of the deviance residuals with the fitted probability: a curve of the wrong shape.
@@ -90,6 +118,15 @@ struct PsychometricGoodness {
     double intensity, fitted, deviance_residual;
   };
   std::vector<Residual> residuals;  ///< By level > 0; the squares add up to the deviance.
+};
+
+/// What was found of answers that scatter more than independent ones.
+struct PsychometricOverdispersion {
+  Overdispersion model = Overdispersion::kNone;
+  std::optional<double> factor;          ///< scaled: of the variances.
+  std::optional<double> correlation;     ///< beta-binomial: of two answers of one row.
+  std::optional<double> log_likelihood;  ///< beta-binomial; `PsychometricFit` has the binomial.
+  std::string note;                      ///< Why there is none; "" if there is.
 };
 
 /// Medians and central 95 % of the posterior.
@@ -105,13 +142,15 @@ struct PsychometricPosterior {
 /// A fitted psychometric function, with the words of the JSON output. Where `status` is not
 /// kOk no number is given, however plausible one would look.
 ///
-/// What the intervals assume: answers independent and binomial at each level, and the curve
-/// right. A drifting criterion or lapses left out of the model make them too narrow. At five
-/// trials a level the mean of individual Weber fractions is biased without bound, their median
-/// is not; likelihood-ratio intervals cover 95 % there, the bootstrap's only 79 to 93 %.
+/// What the intervals assume, but for `overdispersion`: answers independent and binomial at
+/// each level, and the curve right. A drifting criterion or lapses left out of the model make
+/// them too narrow. At five trials a level the mean of individual Weber fractions is biased
+/// without bound, their median is not; likelihood-ratio intervals cover 95 % there, the
+/// bootstrap's only 79 to 93 %.
 struct PsychometricFit {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;  ///< Why there is no value; "" if there is one.
+  /// Why there is no value, or, of a curve whose pse is not > 0, no Weber fraction; else "".
+  std::string reason;
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   std::optional<double> weber_fraction;
   /// ml: likelihood ratio, profiled over what else is free. lsq: the profile of the sum of
@@ -127,6 +166,8 @@ struct PsychometricFit {
   /// ln pse, test second, less ln pse, test first; with `by_order` alone.
   std::optional<double> order_effect_ln;
   std::optional<double> lapse_rate;
+  double guess_rate = 0.0;          ///< As it was given.
+  bool symmetric_lapse = true;      ///< Whether lapses are at both ends.
   std::optional<double> r_squared;  ///< lsq: 1 - sse / sst about the mean proportion.
   BootstrapInterval bootstrap;
   PsychometricFamily family = PsychometricFamily::kWeber;
@@ -135,6 +176,7 @@ struct PsychometricFit {
     double value;
   };
   std::vector<Parameter> parameters;  ///< In the family's own words, beside w, pse and lapse.
+  PsychometricOverdispersion overdispersion;
   PsychometricGoodness goodness;
   PsychometricPosterior posterior;
   /// Where an interval above is known to be too narrow, or the value to rest on less than it
@@ -144,20 +186,22 @@ struct PsychometricFit {
   std::int64_t num_trials = 0;  ///< Over all levels.
 };
 
-/// Fits a curve of the family, p(x) = lapse + (1 - 2 lapse) F. For all of them the pse is where
-/// F = 0.5, and F = Phi(1) = 84.13 % at pse (1 + w); for kGauss w is the standard deviation
-/// over the pse. kWeber is Phi( ln(x / pse) / ln(1 + w) ), the curve of
-/// core::PsychometricFunction, in its slope s = 1 / ln(1 + w) > 0: there it is a probit line,
-/// whose likelihood has one optimum (Bergmann Tiest et al. 2013 for the curve). Rows of the
-/// same intensity are pooled into one level. The optimum is global: least squares and free
-/// lapses, which can have several, are searched from a grid.
+/// Fits a curve of the family, p(x) = lapse + (1 - 2 lapse) F, or between other ends with
+/// guesses: see `PsychometricEnds`. For all of them the pse is where F = 0.5, and F = Phi(1)
+/// = 84.13 % at pse (1 + w); for kGauss w is the standard deviation over the pse. kWeber is
+/// Phi( ln(x / pse) / ln(1 + w) ), the curve of core::PsychometricFunction, in its slope s = 1
+/// / ln(1 + w) > 0: there it is a probit line, whose likelihood has one optimum (Bergmann Tiest
+/// et al. 2013 for the curve). Rows of the same intensity are pooled into one level. The
+/// optimum is global: least squares, lapses and guesses, which can have several, are searched
+/// from a grid.
 ///
 /// `degenerate` exactly where the supremum is not attained, or by more than one curve: at
-/// infinite slope (separated), at slope 0 (flat, inverted, all alike), with fewer levels than
-/// it takes to tell the free parameters apart, or with a pse that is not > 0, to which no
-/// fraction is relative. A lapse rate on its bound 0 is an optimum. Throws `core::Error` for a
-/// reference not > 0, an intensity not finite and >= 0, or counts that are not 0 <= num_yes <=
-/// num_trials, or `by_order` with what it does not take. Not real time.
+/// infinite slope (separated), at slope 0 (flat, inverted, all alike), or with
+/// fewer levels than it takes to tell the free parameters apart. Of kGauss with a pse that is
+/// not > 0 the Weber fraction alone is absent, for it is relative to nothing. A lapse rate on
+/// its bound 0 is an optimum. Throws `core::Error` for a reference not > 0, an intensity not
+/// finite and >= 0, or counts that are not 0 <= num_yes <= num_trials, rates out of range, or
+/// `by_order` with what it does not take. Not real time.
 [[nodiscard]] PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                                                const PsychometricOptions& options);
 

@@ -85,6 +85,10 @@ double deviance_of(const PsychometricLevels& levels, double log_likelihood) {
   return std::max(0.0, 2.0 * (saturated - log_likelihood));
 }
 
+double pearson_statistic(const PsychometricLevels& levels, const PsychometricCurve& curve) {
+  return residuals_of(levels, curve).pearson;
+}
+
 int residual_degrees_of_freedom(const PsychometricLevels& levels, const FreeParameters& free,
                                 double lapse) {
   return static_cast<int>(levels.size()) - 1 - (free[1] ? 1 : 0) -
@@ -112,6 +116,13 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
   }
   goodness.level_correlation = correlation(residuals.fitted, residuals.deviance);
   if (num_redraws == 0) return goodness;
+  if (goodness.degrees_of_freedom < 1) {
+    goodness.reason =
+        "no degree of freedom is left: a curve with as many parameters as levels suits "
+        "whatever "
+        "is answered";
+    return goodness;
+  }
 
   const double deviance = deviance_of(levels, log_likelihood(levels, fitted));
   const AnswerRedraw redraw(levels, fitted);

@@ -7,6 +7,10 @@ namespace jnd::analysis {
 /// Twice the log-likelihood that the saturated model, each level's own proportion, has more.
 [[nodiscard]] double deviance_of(const PsychometricLevels& levels, double log_likelihood);
 
+/// Pearson's: the sum over levels > 0 of squared standardised residuals.
+[[nodiscard]] double pearson_statistic(const PsychometricLevels& levels,
+                                       const PsychometricCurve& curve);
+
 /// Levels minus parameters that are free; a lapse rate on its bound 0 is not.
 [[nodiscard]] int residual_degrees_of_freedom(const PsychometricLevels& levels,
                                               const FreeParameters& free, double lapse);

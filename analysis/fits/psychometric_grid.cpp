@@ -58,7 +58,7 @@ void PsychometricGrid::add(const PsychometricLevels& levels, bool free_pse, doub
   for (const double u : levels.abscissa) {
     const double z = slope * (u - place);
     lower_tail_.push_back(sigmoid_tails(levels.sigmoid, z).lower);
-    // A level at a fixed pse is at f = 0.5 whatever the slope.
+    // A level at a fixed pse is at F = 0.5 whatever the slope.
     if ((free_pse || u != 0.0) && std::fabs(z) < sigmoid_reach(levels.sigmoid)) ++num_rising;
   }
   points_.push_back({slope, place, num_rising < (free_pse ? 2 : 1)});
@@ -90,7 +90,7 @@ bool PsychometricGrid::is_lowest_around(std::size_t slope, std::size_t point,
 std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels& levels,
                                                         PsychometricMethod method,
                                                         bool free_lapse) const {
-  constexpr double kLargestLapse = 0.49;
+  const double largest_lapse = 0.98 * levels.ends.lapse_limit();
   std::vector<double> cost, lapse;
   cost.reserve(points_.size());
   lapse.reserve(points_.size());
@@ -98,7 +98,7 @@ std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels
     const BestLapse best =
         best_lapse(levels, method, free_lapse, &lower_tail_[point * levels.size()]);
     cost.push_back(best.cost);
-    lapse.push_back(std::min(best.lapse, kLargestLapse));
+    lapse.push_back(std::min(best.lapse, largest_lapse));
   }
   std::vector<std::pair<double, std::size_t>> lowest;
   for (std::size_t slope = 0; slope + 1 < slope_begin_.size(); ++slope) {

@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "analysis/fits/psychometric_limits.h"
 
@@ -45,6 +46,31 @@ std::optional<double> crossing(const std::function<double(double)>& excess, doub
   return std::nullopt;
 }
 
+/// Newton's method from one curve and, where there can be several minima, from others: with a
+/// lapse rate that is free from a larger one; between ends of their own, where the likelihood
+/// is not concave even without, from `others`. The lowest counts.
+PsychometricOptimum lowest_from(const PsychometricLevels& levels, PsychometricMethod method,
+                                const FreeParameters& free, const PsychometricCurve& start,
+                                const std::vector<PsychometricCurve>& others) {
+  PsychometricOptimum best = minimised_by_newton(levels, method, free, start);
+  const auto consider = [&](const PsychometricCurve& from) {
+    const PsychometricOptimum other = minimised_by_newton(levels, method, free, from);
+    if (other.cost.value < best.cost.value) best = other;
+  };
+  if (free[2]) {
+    PsychometricCurve with_lapses = start;
+    with_lapses.lapse = std::min(0.05, 0.5 * levels.ends.lapse_limit());
+    consider(with_lapses);
+  }
+  for (const PsychometricCurve& other : others) consider(other);
+  return best;
+}
+
+/// Whether the cost can have several minima for its ends alone.
+bool has_ends_of_its_own(const PsychometricLevels& levels) noexcept {
+  return levels.ends.guess > 0.0 || levels.ends.known_lapse > 0.0;
+}
+
 /// Cost at a given slope, at its best over what else is free. Follows the optimum as the slope
 /// moves, because with lapses there can be several.
 class SlopeProfile {
@@ -57,14 +83,12 @@ class SlopeProfile {
     const double slope = std::exp(log_slope);
     const PsychometricCurve start = {slope, last_.offset * (slope / last_.slope), last_.lapse};
     if (!free_[1] && !free_[2]) return psychometric_cost(levels_, method_, start).value;
-    PsychometricOptimum best = minimised_by_newton(levels_, method_, free_, start);
-    if (free_[2]) {
-      PsychometricCurve with_lapses = start;
-      with_lapses.lapse = 0.05;
-      const PsychometricOptimum other =
-          minimised_by_newton(levels_, method_, free_, with_lapses);
-      if (other.cost.value < best.cost.value) best = other;
+    std::vector<PsychometricCurve> others;
+    if (free_[1] && has_ends_of_its_own(levels_)) {
+      for (const double u : levels_.abscissa)
+        others.push_back({slope, -slope * u, start.lapse});
     }
+    const PsychometricOptimum best = lowest_from(levels_, method_, free_, start, others);
     last_ = best.curve;
     return best.cost.value;
   }
@@ -98,14 +122,13 @@ class LinearFractionProfile {
     const double offset = -sigmoid_jnd(levels_.sigmoid) * std::exp(minus_log_fraction);
     // The same pse with a steeper or a flatter curve.
     const PsychometricCurve start = {last_.slope * offset / last_.offset, offset, last_.lapse};
-    PsychometricOptimum best = minimised_by_newton(levels_, method_, free_, start);
-    if (free_[2]) {
-      PsychometricCurve with_lapses = start;
-      with_lapses.lapse = 0.05;
-      const PsychometricOptimum other =
-          minimised_by_newton(levels_, method_, free_, with_lapses);
-      if (other.cost.value < best.cost.value) best = other;
+    std::vector<PsychometricCurve> others;
+    if (has_ends_of_its_own(levels_)) {
+      for (const double factor : {0.5, 2.0}) {
+        others.push_back({factor * start.slope, offset, start.lapse});
+      }
     }
+    const PsychometricOptimum best = lowest_from(levels_, method_, free_, start, others);
     last_ = best.curve;
     return best.cost.value;
   }
@@ -140,7 +163,15 @@ class PseProfile {
     // The best slope may be 0 or infinite here, though it is not at the optimum.
     double best = std::min(flat_limit_cost(shifted_, method_, false, free_[2]),
                            step_limit_cost(shifted_, method_, false, free_[2]));
-    const PsychometricOptimum found = minimised_by_newton(shifted_, method_, free_, last_);
+    PsychometricOptimum found = minimised_by_newton(shifted_, method_, free_, last_);
+    if (has_ends_of_its_own(levels_)) {
+      for (const double factor : {0.25, 4.0}) {
+        PsychometricCurve other = last_;
+        other.slope *= factor;
+        const PsychometricOptimum there = minimised_by_newton(shifted_, method_, free_, other);
+        if (there.cost.value < found.cost.value) found = there;
+      }
+    }
     if (found.cost.value < best) {
       best = found.cost.value;
       last_ = found.curve;

@@ -10,6 +10,7 @@ using namespace json_values;
 Json to_json(const PsychometricGoodness& goodness) {
   Json json = {{"n", goodness.n},
                {"p_value", number(goodness.p_value)},
+               {"reason", sentence(goodness.reason)},
                {"degrees_of_freedom", goodness.degrees_of_freedom},
                {"overdispersion", number(goodness.overdispersion)},
                {"residual_level_correlation", number(goodness.level_correlation)},
@@ -39,7 +40,7 @@ Json to_json(const PsychometricPosterior& posterior) {
 
 void add_psychometric_details(Json& json, const PsychometricFit& fit) {
   json["family"] = traits_of(fit.family).name;
-  json["weber_fraction_meaning"] = kWeberFractionMeaning;
+  json["weber_fraction_meaning"] = weber_fraction_meaning(fit.guess_rate);
   json["parameters"] = Json::object();
   for (const PsychometricFit::Parameter& one : fit.parameters) {
     json["parameters"][std::string(one.name)] = number(one.value);
@@ -50,6 +51,11 @@ void add_psychometric_details(Json& json, const PsychometricFit& fit) {
     json["bootstrap"]["bias_correction"] = number(fit.bootstrap.bias_correction);
     json["bootstrap"]["acceleration"] = number(fit.bootstrap.acceleration);
   }
+  const PsychometricOverdispersion& scatter = fit.overdispersion;
+  json["overdispersion"] = {{"model", to_string(scatter.model)},
+                            {"factor", number(scatter.factor)},
+                            {"correlation", number(scatter.correlation)},
+                            {"log_likelihood", number(scatter.log_likelihood)}};
   json["goodness_of_fit"] =
       fit.goodness.residuals.empty() ? Json(nullptr) : to_json(fit.goodness);
   json["posterior"] =
@@ -57,12 +63,15 @@ void add_psychometric_details(Json& json, const PsychometricFit& fit) {
   json["warnings"] = fit.warnings;
 }
 
-Json to_json(const std::vector<PsychometricEffect>& effects) {
+Json to_json(const PsychometricEffects& found) {
   Json json = {{"status", to_string(FitStatus::kOk)},
                {"ci95_method", kEffectInterval},
                {"p_value_method", kEffectTest},
-               {"effects", Json::array()}};
-  for (const PsychometricEffect& effect : effects) {
+               {"slope", number(found.slope)},
+               {"slope_ci95", interval(found.slope_ci95)},
+               {"effects", Json::array()},
+               {"warnings", found.warnings}};
+  for (const PsychometricEffect& effect : found.effects) {
     if (effect.status != FitStatus::kOk) json["status"] = to_string(effect.status);
     json["effects"].push_back({{"name", effect.name},
                                {"status", to_string(effect.status)},

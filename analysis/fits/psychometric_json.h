@@ -12,7 +12,7 @@ namespace jnd::analysis {
 /// interval, goodness of fit, posterior, warnings. Every number is finite or null.
 void add_psychometric_details(nlohmann::ordered_json& json, const PsychometricFit& fit);
 
-/// `status`, the first that is not "ok", and the list `effects`.
-[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<PsychometricEffect>& effects);
+/// `status`, the last that is not "ok", the slope, the list `effects` and the warnings.
+[[nodiscard]] nlohmann::ordered_json to_json(const PsychometricEffects& found);
 
 }  // namespace jnd::analysis

@@ -36,6 +36,14 @@ struct Pool {
   [[nodiscard]] double mean() const noexcept { return total > 0.0 ? yes / total : 0.0; }
 };
 
+/// f without lapses, and its derivative in the lapse, where F = `lower`.
+double without_lapses(const PsychometricEnds& ends, double lower) noexcept {
+  return ends.guess == 0.0 ? lower : ends.guess + (1.0 - ends.guess) * lower;
+}
+double by_lapse(const PsychometricEnds& ends, double lower) noexcept {
+  return ends.symmetric ? 1.0 - 2.0 * lower : -lower;
+}
+
 Pool pool_at_zero(const PsychometricLevels& levels, PsychometricMethod method) {
   Pool pool;
   if (levels.zero_trials > 0.0) pool.add(levels.zero_yes, levels.zero_trials, method);
@@ -45,23 +53,26 @@ Pool pool_at_zero(const PsychometricLevels& levels, PsychometricMethod method) {
 /// Derivative of -(log-likelihood) in the lapse.
 double lapse_gradient(const PsychometricLevels& levels, double lapse,
                       const double* lower_tail) noexcept {
+  const PsychometricEnds& ends = levels.ends;
   double sum = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double gain = 1.0 - 2.0 * lower_tail[level];
-    const double f = lower_tail[level] + lapse * gain;
+    const double gain = by_lapse(ends, lower_tail[level]);
+    const double f = without_lapses(ends, lower_tail[level]) + lapse * gain;
     const double yes = levels.num_yes[level];
     const double no = levels.num_trials[level] - yes;
     if (yes > 0.0) sum -= yes * gain / f;
     if (no > 0.0) sum += no * gain / (1.0 - f);
   }
-  if (levels.zero_yes > 0.0) sum -= levels.zero_yes / lapse;
-  return sum + (levels.zero_trials - levels.zero_yes) / (1.0 - lapse);
+  if (!ends.symmetric) return sum;
+  const double low = ends.low(lapse);
+  if (levels.zero_yes > 0.0) sum -= levels.zero_yes / low;
+  return sum + (levels.zero_trials - levels.zero_yes) / (1.0 - low);
 }
 
 double likelihood_lapse(const PsychometricLevels& levels, const double* lower_tail) noexcept {
-  double low = 0.0, high = 0.5;
+  double low = 0.0, high = levels.ends.lapse_limit();
   if (!(lapse_gradient(levels, low, lower_tail) < 0.0)) return 0.0;
-  if (lapse_gradient(levels, high, lower_tail) < 0.0) return 0.5;
+  if (lapse_gradient(levels, high, lower_tail) < 0.0) return high;
   for (int halving = 0; halving < 9; ++halving) {  // A start for Newton: 1e-3 will do.
     const double middle = 0.5 * (low + high);
     (lapse_gradient(levels, middle, lower_tail) < 0.0 ? low : high) = middle;
@@ -71,31 +82,103 @@ double likelihood_lapse(const PsychometricLevels& levels, const double* lower_ta
 
 double least_squares_lapse(const PsychometricLevels& levels,
                            const double* lower_tail) noexcept {
+  const PsychometricEnds& ends = levels.ends;
   double numerator = 0.0, denominator = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double gain = 1.0 - 2.0 * lower_tail[level];
-    numerator += gain * (levels.proportion(level) - lower_tail[level]);
+    const double gain = by_lapse(ends, lower_tail[level]);
+    numerator += gain * (levels.proportion(level) - without_lapses(ends, lower_tail[level]));
     denominator += gain * gain;
   }
-  if (levels.zero_trials > 0.0) {
-    numerator += levels.zero_yes / levels.zero_trials;
+  if (levels.zero_trials > 0.0 && ends.symmetric) {
+    numerator += levels.zero_yes / levels.zero_trials - ends.guess;
     denominator += 1.0;
   }
-  return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 0.5) : 0.0;
+  return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, ends.lapse_limit()) : 0.0;
+}
+
+/// Least value of a convex cost of the lapse in [0, limit], by golden sections: near the
+/// minimum it is as good as exact, because the cost is flat there.
+template <typename Cost>
+double least_over_lapse(const PsychometricEnds& ends, const Cost& cost) {
+  constexpr double kGolden = 0.6180339887498949;
+  double low = 0.0, high = ends.lapse_limit();
+  const double best_end = std::min(cost(low), cost(high));
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = cost(left), at_right = cost(right);
+  for (int section = 0; section < 60; ++section) {
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      left = high - kGolden * (high - low);
+      at_left = cost(left);
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      right = low + kGolden * (high - low);
+      at_right = cost(right);
+    }
+  }
+  return std::min({best_end, at_left, at_right});
+}
+
+/// Whether lapses are errors of one kind at both ends, with one closed form for all.
+bool pool_as_errors(const PsychometricEnds& ends, bool free_lapse) noexcept {
+  return ends.symmetric && ends.guess == 0.0 && (free_lapse || ends.known_lapse == 0.0);
+}
+
+/// `step_limit_cost` and `flat_limit_cost` between ends that errors do not share.
+double step_between_ends(const PsychometricLevels& levels, PsychometricMethod method,
+                         std::size_t num_below, bool level_at, bool free_pse, bool free_lapse) {
+  const Pool zero = pool_at_zero(levels, method);
+  Pool below, at, above;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    Pool& pool = level < num_below ? below : level_at && level == num_below ? at : above;
+    pool.add(levels.num_yes[level], levels.num_trials[level], method);
+  }
+  const PsychometricEnds& ends = levels.ends;
+  const auto cost = [&](double lapse) {
+    const double low = ends.low(lapse), high = low + ends.rise(lapse);
+    const double at_threshold =
+        free_pse ? std::clamp(at.mean(), low, std::max(low, high)) : ends.middle(lapse);
+    return zero.cost(low, method) + below.cost(low, method) + at.cost(at_threshold, method) +
+           above.cost(high, method);
+  };
+  return free_lapse ? least_over_lapse(ends, cost) : cost(ends.known_lapse);
+}
+
+double flat_between_ends(const PsychometricLevels& levels, PsychometricMethod method,
+                         bool free_pse, bool free_lapse) {
+  const Pool zero = pool_at_zero(levels, method);
+  Pool rest;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    rest.add(levels.num_yes[level], levels.num_trials[level], method);
+  }
+  const PsychometricEnds& ends = levels.ends;
+  const auto cost = [&](double lapse) {
+    const double low = ends.low(lapse), high = low + ends.rise(lapse);
+    const double f =
+        free_pse ? std::clamp(rest.mean(), low, std::max(low, high)) : ends.middle(lapse);
+    return zero.cost(low, method) + rest.cost(f, method);
+  };
+  return free_lapse ? least_over_lapse(ends, cost) : cost(ends.known_lapse);
 }
 
 }  // namespace
 
 BestLapse best_lapse(const PsychometricLevels& levels, PsychometricMethod method,
                      bool free_lapse, const double* lower_tail) noexcept {
-  double lapse = 0.0;
+  const PsychometricEnds& ends = levels.ends;
+  double lapse = ends.known_lapse;
   if (free_lapse) {
     lapse = method == kMaximumLikelihood ? likelihood_lapse(levels, lower_tail)
                                          : least_squares_lapse(levels, lower_tail);
   }
-  double cost = pool_at_zero(levels, method).cost(lapse, method);
+  double cost = pool_at_zero(levels, method).cost(ends.low(lapse), method);
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const double f = lower_tail[level] + lapse * (1.0 - 2.0 * lower_tail[level]);
+    const double f =
+        without_lapses(ends, lower_tail[level]) + lapse * by_lapse(ends, lower_tail[level]);
     if (method == kMaximumLikelihood) {
       const double yes = levels.num_yes[level];
       const double no = levels.num_trials[level] - yes;
@@ -113,6 +196,9 @@ double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod meth
                        bool free_pse, bool free_lapse) {
   // Cost with `num_below` levels below the threshold and the level after them at it, if any.
   const auto cost_with = [&](std::size_t num_below, bool level_at) {
+    if (!pool_as_errors(levels.ends, free_lapse)) {
+      return step_between_ends(levels, method, num_below, level_at, free_pse, free_lapse);
+    }
     Pool errors = pool_at_zero(levels, method);
     Pool at;
     for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -147,6 +233,9 @@ double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod meth
 
 double flat_limit_cost(const PsychometricLevels& levels, PsychometricMethod method,
                        bool free_pse, bool free_lapse) {
+  if (!pool_as_errors(levels.ends, free_lapse)) {
+    return flat_between_ends(levels, method, free_pse, free_lapse);
+  }
   const Pool zero = pool_at_zero(levels, method);
   Pool rest;
   for (std::size_t level = 0; level < levels.size(); ++level) {

@@ -25,41 +25,49 @@ struct LevelCost {
   double value, z, lapse, zz, z_lapse, lapse_lapse;
 };
 
-/// k ln f + (n-k) ln(1-f), negated. Without lapses by log tails, which do not underflow.
-LevelCost minus_log_likelihood(Sigmoid sigmoid, double yes, double no, double z,
-                               double lapse) noexcept {
-  const double share = 1.0 - 2.0 * lapse;
+/// k ln f + (n-k) ln(1-f), negated. Where f falls to 0 or rises to 1, by log tails, which do
+/// not underflow.
+LevelCost minus_log_likelihood(const PsychometricLevels& levels, double yes, double no,
+                               double z, double lapse) noexcept {
+  const PsychometricEnds& ends = levels.ends;
+  const double low = ends.low(lapse), rise = ends.rise(lapse);
+  const bool from_zero = low == 0.0, to_one = lapse == 0.0;
   double log_f, log_g, f_z, g_z, f_lapse, g_lapse,
       bend;  // f's derivatives over f, and over 1-f.
-  if (lapse == 0.0) {
-    const LogSigmoidTails tails = log_sigmoid_tails(sigmoid, z);
+  if (from_zero || to_one) {
+    const LogSigmoidTails tails = log_sigmoid_tails(levels.sigmoid, z);
+    const double log_rise = std::log(rise), by_lapse = ends.by_lapse(tails.lower, tails.upper);
     bend = tails.bend;
-    log_f = tails.log_lower;
-    log_g = tails.log_upper;
-    f_z = tails.mills_lower;
-    g_z = tails.mills_upper;
-    f_lapse = (tails.upper - tails.lower) / tails.lower;
-    g_lapse = (tails.upper - tails.lower) / tails.upper;
+    const double f = low + rise * tails.lower, g = lapse + rise * tails.upper;
+    log_f = from_zero ? log_rise + tails.log_lower : std::log(f);
+    log_g = to_one ? log_rise + tails.log_upper : std::log(g);
+    f_z = from_zero ? tails.mills_lower : rise * tails.mills_lower * tails.lower / f;
+    g_z = to_one ? tails.mills_upper : rise * tails.mills_upper * tails.upper / g;
+    f_lapse = by_lapse / f;
+    g_lapse = by_lapse / g;
+    // The upper end alone moves f in proportion to f.
+    if (from_zero && !ends.symmetric) f_lapse = -1.0 / rise;
   } else {
-    const SigmoidTails tails = sigmoid_tails(sigmoid, z);
+    const SigmoidTails tails = sigmoid_tails(levels.sigmoid, z);
     bend = tails.bend;
-    const double f = lapse + share * tails.lower;
-    const double g = lapse + share * tails.upper;
+    const double f = low + rise * tails.lower;
+    const double g = lapse + rise * tails.upper;
     log_f = std::log(f);
     log_g = std::log(g);
-    f_z = share * tails.density / f;
-    g_z = share * tails.density / g;
-    f_lapse = (tails.upper - tails.lower) / f;
-    g_lapse = (tails.upper - tails.lower) / g;
+    f_z = rise * tails.density / f;
+    g_z = rise * tails.density / g;
+    f_lapse = ends.by_lapse(tails.lower, tails.upper) / f;
+    g_lapse = ends.by_lapse(tails.lower, tails.upper) / g;
   }
   // A zero count contributes nothing, even where its logarithm is infinite.
+  const double shrinking = ends.lapse_share() / rise;
   LevelCost cost{};
   if (yes > 0.0) {
     cost.value -= yes * log_f;
     cost.z -= yes * f_z;
     cost.lapse -= yes * f_lapse;
     cost.zz += yes * f_z * (f_z - bend);
-    cost.z_lapse += yes * f_z * (2.0 / share + f_lapse);
+    cost.z_lapse += yes * f_z * (shrinking + f_lapse);
     cost.lapse_lapse += yes * f_lapse * f_lapse;
   }
   if (no > 0.0) {
@@ -67,46 +75,49 @@ LevelCost minus_log_likelihood(Sigmoid sigmoid, double yes, double no, double z,
     cost.z += no * g_z;
     cost.lapse += no * g_lapse;
     cost.zz += no * g_z * (g_z + bend);
-    cost.z_lapse += no * g_z * (g_lapse - 2.0 / share);
+    cost.z_lapse += no * g_z * (g_lapse - shrinking);
     cost.lapse_lapse += no * g_lapse * g_lapse;
   }
   return cost;
 }
 
-LevelCost squared_residual(Sigmoid sigmoid, double proportion, double z,
+LevelCost squared_residual(const PsychometricLevels& levels, double proportion, double z,
                            double lapse) noexcept {
-  const SigmoidTails tails = sigmoid_tails(sigmoid, z);
-  const double share = 1.0 - 2.0 * lapse;
-  const double residual = lapse + share * tails.lower - proportion;
-  const double f_z = share * tails.density;
-  const double f_lapse = tails.upper - tails.lower;
+  const SigmoidTails tails = sigmoid_tails(levels.sigmoid, z);
+  const PsychometricEnds& ends = levels.ends;
+  const double rise = ends.rise(lapse);
+  const double residual = ends.low(lapse) + rise * tails.lower - proportion;
+  const double f_z = rise * tails.density;
+  const double f_lapse = ends.by_lapse(tails.lower, tails.upper);
   return {.value = residual * residual,
           .z = 2.0 * residual * f_z,
           .lapse = 2.0 * residual * f_lapse,
           .zz = 2.0 * f_z * (f_z + residual * tails.bend),
-          .z_lapse = 2.0 * (f_z * f_lapse - 2.0 * residual * tails.density),
+          .z_lapse = 2.0 * (f_z * f_lapse - ends.lapse_share() * residual * tails.density),
           .lapse_lapse = 2.0 * f_lapse * f_lapse};
 }
 
-/// Cost of the level at intensity 0, where f = lapse whatever the slope.
+/// Cost of the level at intensity 0, where f is at its lower end whatever the slope.
 LevelCost cost_at_zero(const PsychometricLevels& levels, PsychometricMethod method,
                        double lapse) noexcept {
   LevelCost cost{};
   if (levels.zero_trials == 0.0) return cost;
+  const double low = levels.ends.low(lapse), by_lapse = levels.ends.low_by_lapse();
   const double no = levels.zero_trials - levels.zero_yes;
   if (method == PsychometricMethod::kLeastSquares) {
-    const double residual = lapse - levels.zero_yes / levels.zero_trials;
-    return {residual * residual, 0.0, 2.0 * residual, 0.0, 0.0, 2.0};
+    const double residual = low - levels.zero_yes / levels.zero_trials;
+    return {residual * residual, 0.0, 2.0 * residual * by_lapse, 0.0, 0.0, 2.0 * by_lapse};
   }
+  if (levels.zero_yes > 0.0) cost.value -= levels.zero_yes * std::log(low);
+  if (no > 0.0) cost.value -= no * std::log1p(-low);
+  if (by_lapse == 0.0) return cost;
   if (levels.zero_yes > 0.0) {
-    cost.value -= levels.zero_yes * std::log(lapse);
-    cost.lapse -= levels.zero_yes / lapse;
-    cost.lapse_lapse += levels.zero_yes / (lapse * lapse);
+    cost.lapse -= levels.zero_yes / low;
+    cost.lapse_lapse += levels.zero_yes / (low * low);
   }
   if (no > 0.0) {
-    cost.value -= no * std::log1p(-lapse);
-    cost.lapse += no / (1.0 - lapse);
-    cost.lapse_lapse += no / ((1.0 - lapse) * (1.0 - lapse));
+    cost.lapse += no / (1.0 - low);
+    cost.lapse_lapse += no / ((1.0 - low) * (1.0 - low));
   }
   return cost;
 }
@@ -148,15 +159,22 @@ double PsychometricLevels::weber_fraction_at(double slope, double pse) const noe
 }
 
 PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double reference,
-                                 bool free_pse, PsychometricFamily family) {
+                                 bool free_pse, PsychometricFamily family,
+                                 const PsychometricEnds& ends) {
   check(data, reference);
+  core::require(ends.guess >= 0.0 && ends.guess < 1.0, "guess_rate", "a number in [0, 1)",
+                ends.guess);
+  core::require(ends.known_lapse >= 0.0 && ends.known_lapse < ends.lapse_limit(), "lapse_rate",
+                "a number >= 0 that leaves the curve a rise", ends.known_lapse);
   struct Count {
     double num_yes = 0.0, num_trials = 0.0;
   };
   std::map<double, Count> by_intensity;
   const bool logarithmic = traits_of(family).logarithmic;
-  PsychometricLevels levels{
-      .family = family, .sigmoid = traits_of(family).sigmoid, .reference = reference};
+  PsychometricLevels levels{.family = family,
+                            .sigmoid = traits_of(family).sigmoid,
+                            .ends = ends,
+                            .reference = reference};
   for (const AnswerCount& row : data) {
     if (row.num_trials == 0) continue;
     if (row.intensity == 0.0 && logarithmic) {
@@ -191,6 +209,44 @@ PsychometricLevels pooled_levels(const std::vector<AnswerCount>& data, double re
   return levels;
 }
 
+PsychometricLevels levels_by_row(const std::vector<AnswerCount>& data,
+                                 const PsychometricLevels& pooled) {
+  struct Entry {
+    std::size_t level = 0;
+    double num_yes = 0.0, num_trials = 0.0;
+  };
+  std::vector<Entry> single(pooled.size()), entries;
+  for (const AnswerCount& row : data) {
+    if (row.num_trials == 0 || (row.intensity == 0.0 && pooled.logarithmic())) continue;
+    const auto found = std::ranges::lower_bound(pooled.intensity, row.intensity);
+    const auto level = static_cast<std::size_t>(found - pooled.intensity.begin());
+    if (row.num_trials > 1) {
+      entries.push_back(
+          {level, static_cast<double>(row.num_yes), static_cast<double>(row.num_trials)});
+      continue;
+    }
+    single[level].num_yes += static_cast<double>(row.num_yes);
+    single[level].num_trials += 1.0;
+  }
+  for (std::size_t level = 0; level < single.size(); ++level) {
+    if (single[level].num_trials == 0.0) continue;
+    entries.push_back({level, single[level].num_yes, single[level].num_trials});
+  }
+  std::ranges::stable_sort(entries, {}, &Entry::level);
+  PsychometricLevels by_row = pooled;
+  by_row.intensity.clear();
+  by_row.abscissa.clear();
+  by_row.num_yes.clear();
+  by_row.num_trials.clear();
+  for (const Entry& entry : entries) {
+    by_row.intensity.push_back(pooled.intensity[entry.level]);
+    by_row.abscissa.push_back(pooled.abscissa[entry.level]);
+    by_row.num_yes.push_back(entry.num_yes);
+    by_row.num_trials.push_back(entry.num_trials);
+  }
+  return by_row;
+}
+
 double PsychometricCurve::weber_fraction(const PsychometricLevels& levels) const noexcept {
   return levels.weber_fraction_at(slope, pse(levels));
 }
@@ -201,8 +257,8 @@ double PsychometricCurve::pse(const PsychometricLevels& levels) const noexcept {
 
 double PsychometricCurve::probability(const PsychometricLevels& levels,
                                       std::size_t level) const noexcept {
-  return lapse +
-         (1.0 - 2.0 * lapse) *
+  return levels.ends.low(lapse) +
+         levels.ends.rise(lapse) *
              sigmoid_tails(levels.sigmoid, slope * levels.abscissa[level] + offset).lower;
 }
 
@@ -216,10 +272,9 @@ PsychometricCost psychometric_cost(const PsychometricLevels& levels, Psychometri
     const double z = curve.slope * u + curve.offset;
     const double yes = levels.num_yes[level];
     const double trials = levels.num_trials[level];
-    const LevelCost cost =
-        method == kMaximumLikelihood
-            ? minus_log_likelihood(levels.sigmoid, yes, trials - yes, z, curve.lapse)
-            : squared_residual(levels.sigmoid, yes / trials, z, curve.lapse);
+    const LevelCost cost = method == kMaximumLikelihood
+                               ? minus_log_likelihood(levels, yes, trials - yes, z, curve.lapse)
+                               : squared_residual(levels, yes / trials, z, curve.lapse);
     value += cost.value;
     slope += cost.z * u;
     offset += cost.z;
@@ -247,11 +302,11 @@ Eigen::Matrix3d squared_jacobian(const PsychometricLevels& levels,
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const double u = levels.abscissa[level];
     const SigmoidTails tails = sigmoid_tails(levels.sigmoid, curve.slope * u + curve.offset);
-    const double f_z = (1.0 - 2.0 * curve.lapse) * tails.density;
-    const Eigen::Vector3d row(f_z * u, f_z, tails.upper - tails.lower);
+    const double f_z = levels.ends.rise(curve.lapse) * tails.density;
+    const Eigen::Vector3d row(f_z * u, f_z, levels.ends.by_lapse(tails.lower, tails.upper));
     sum += row * row.transpose();
   }
-  if (levels.zero_trials > 0.0) sum(2, 2) += 1.0;
+  if (levels.zero_trials > 0.0 && levels.ends.symmetric) sum(2, 2) += 1.0;
   return sum;
 }
 

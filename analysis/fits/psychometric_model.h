@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "analysis/fits/psychometric_ends.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/fits/sigmoid.h"
 
@@ -13,6 +14,7 @@ namespace jnd::analysis {
 struct PsychometricLevels {
   PsychometricFamily family = PsychometricFamily::kWeber;
   Sigmoid sigmoid = Sigmoid::kNormal;  ///< The family's.
+  PsychometricEnds ends;
   double reference = 1.0;
   double origin = 1.0;  ///< Intensity at abscissa 0: the reference, or a level if pse is free.
   double unit = 1.0;    ///< Largest |ln(x / origin)|, or |x - origin|; 1 if that is 0.
@@ -39,13 +41,19 @@ struct PsychometricLevels {
 /// Pools the rows. Throws `core::Error` as `fit_psychometric` says.
 [[nodiscard]] PsychometricLevels pooled_levels(
     const std::vector<AnswerCount>& data, double reference, bool free_pse,
-    PsychometricFamily family = PsychometricFamily::kWeber);
+    PsychometricFamily family = PsychometricFamily::kWeber, const PsychometricEnds& ends = {});
 
-/// The curve, linear in z = slope abscissa + offset: f = lapse + (1 - 2 lapse) F(z).
+/// The same levels on the same abscissa, but every row an entry of its own, ascending: answers
+/// of one row may have more in common than those of two, such as a person or a session. Rows of
+/// a single answer have nothing in common with themselves, so those of one level stay together.
+[[nodiscard]] PsychometricLevels levels_by_row(const std::vector<AnswerCount>& data,
+                                               const PsychometricLevels& pooled);
+
+/// The curve, linear in z = slope abscissa + offset: between the ends of the levels, F(z).
 struct PsychometricCurve {
   double slope = 1.0;   ///< unit / ln(1 + w) of the Weber curve
   double offset = 0.0;  ///< -slope times the pse's place on the abscissa
-  double lapse = 0.0;   ///< [0, 0.5)
+  double lapse = 0.0;   ///< [0, ends.lapse_limit())
 
   [[nodiscard]] double weber_fraction(const PsychometricLevels& levels) const noexcept;
   [[nodiscard]] double pse(const PsychometricLevels& levels) const noexcept;

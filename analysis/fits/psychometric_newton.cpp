@@ -9,7 +9,6 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kMaxIterations = 500;
-constexpr double kLargestLapse = 0.5 - 1e-9;
 constexpr double kLapseScale = 0.1;  ///< A step of the lapse as large as one of ln slope.
 constexpr double kLargestRadius = 1e3;
 /// Newton's last step is at most this, so that the error left is about its square.
@@ -78,20 +77,21 @@ PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
                                         PsychometricMethod method, const FreeParameters& free,
                                         const PsychometricCurve& start) noexcept {
   PsychometricOptimum best{start, psychometric_cost(levels, method, start), false};
+  const double largest_lapse = levels.ends.largest_lapse();
   double radius = 2.0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const PsychometricCurve& curve = best.curve;
     FreeParameters moving = free;
     // On a bound that the cost presses against, the lapse stays.
     if (curve.lapse <= 0.0 && best.cost.gradient(2) >= 0.0) moving[2] = false;
-    if (curve.lapse >= kLargestLapse && best.cost.gradient(2) <= 0.0) moving[2] = false;
+    if (curve.lapse >= largest_lapse && best.cost.gradient(2) <= 0.0) moving[2] = false;
     ScaledCost here = scaled(curve, best.cost, moving);
     Eigen::Vector3d step = trusted_step(here, radius);
     const double wanted_lapse = curve.lapse + step(2) * kLapseScale;
-    const bool onto_bound = moving[2] && (wanted_lapse < 0.0 || wanted_lapse > kLargestLapse);
+    const bool onto_bound = moving[2] && (wanted_lapse < 0.0 || wanted_lapse > largest_lapse);
     if (onto_bound) {
       // Go onto the bound, and with the others to where they are best there.
-      const double onto = std::clamp(wanted_lapse, 0.0, kLargestLapse) - curve.lapse;
+      const double onto = std::clamp(wanted_lapse, 0.0, largest_lapse) - curve.lapse;
       PsychometricCost shifted = best.cost;
       shifted.gradient += best.cost.hessian.col(2) * onto;
       moving[2] = false;
@@ -104,7 +104,8 @@ PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
     const Eigen::Vector3d change = here.scale.cwiseProduct(step);
     PsychometricCurve next = {curve.slope + change(0), curve.offset + change(1),
                               std::max(0.0, curve.lapse + change(2))};
-    if (onto_bound && fraction == 1.0) next.lapse = wanted_lapse < 0.0 ? 0.0 : kLargestLapse;
+    if (!free[2]) next.lapse = curve.lapse;
+    if (onto_bound && fraction == 1.0) next.lapse = wanted_lapse < 0.0 ? 0.0 : largest_lapse;
 
     const PsychometricCost cost = psychometric_cost(levels, method, next);
     const double gain = best.cost.value - cost.value;

@@ -4,32 +4,19 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/fits/posterior_axis.h"
 
 namespace jnd::analysis {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTail = 0.025;           ///< On either side of an interval.
 constexpr double kLapsePriorPower = 9.0;  ///< Beta(1, 10): (1 - lapse)^9.
 
-/// Evenly spaced values of one parameter, an odd number of them.
-struct Axis {
-  double low = 0.0, high = 0.0;
-  std::size_t size = 1;
-
-  [[nodiscard]] double step() const noexcept {
-    return size > 1 ? (high - low) / static_cast<double>(size - 1) : 0.0;
-  }
-  [[nodiscard]] double at(std::size_t i) const noexcept {
-    return low + step() * static_cast<double>(i);
-  }
-  /// Simpson's weight; 1 for a parameter that is held.
-  [[nodiscard]] double weight(std::size_t i) const noexcept {
-    if (size == 1) return 1.0;
-    const double share = i == 0 || i + 1 == size ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-    return share * step() / 3.0;
-  }
-};
-
+using Axis = PosteriorAxis;
 using Axes = std::array<Axis, 3>;  ///< ln(1 / slope), place of the pse, lapse rate.
 using Marginals = std::array<std::vector<double>, 3>;
 
@@ -45,7 +32,8 @@ Axes prior_axes(const PsychometricLevels& levels, const FreeParameters& free) {
     axes[1] = {levels.abscissa.front() - 0.5 * range, levels.abscissa.back() + 0.5 * range,
                121};
   }
-  if (free[2]) axes[2] = {0.0, 0.5 - 1e-9, 31};
+  axes[2] = {levels.ends.known_lapse, levels.ends.known_lapse, 1};
+  if (free[2]) axes[2] = {0.0, std::min(0.5, levels.ends.lapse_limit()) - 1e-9, 31};
   return axes;
 }
 
@@ -54,22 +42,20 @@ double log_likelihood_of(const PsychometricLevels& levels, const std::vector<dou
   const auto term = [](double count, double probability) {
     return count > 0.0 ? count * std::log(probability) : 0.0;
   };
-  const double share = 1.0 - 2.0 * lapse;
+  const double low = levels.ends.low(lapse), rise = levels.ends.rise(lapse);
   double sum = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    sum += term(levels.num_yes[level], lapse + share * tail[level]);
-    sum += term(levels.num_trials[level] - levels.num_yes[level], lapse + share * upper[level]);
+    sum += term(levels.num_yes[level], low + rise * tail[level]);
+    sum += term(levels.num_trials[level] - levels.num_yes[level], lapse + rise * upper[level]);
   }
-  return sum + term(levels.zero_yes, lapse) +
-         term(levels.zero_trials - levels.zero_yes, 1.0 - lapse);
+  return sum + term(levels.zero_yes, low) +
+         term(levels.zero_trials - levels.zero_yes, 1.0 - low);
 }
 
-/// Posterior over the grid, up to a factor, integrated over all but one parameter, for each.
-/// `joint` is given that of the first two, the place within the slope.
-Marginals marginals_over(const PsychometricLevels& levels, const Axes& axes,
-                         std::vector<double>* joint = nullptr) {
-  std::vector<double> log_density;
-  log_density.reserve(axes[0].size * axes[1].size * axes[2].size);
+/// Posterior over the grid, up to a factor: slope, place, lapse, the last fastest.
+std::vector<double> density_over(const PsychometricLevels& levels, const Axes& axes) {
+  std::vector<double> density;
+  density.reserve(axes[0].size * axes[1].size * axes[2].size);
   std::vector<double> lower(levels.size()), upper(levels.size());
   double largest = -kInfinity;
   for (std::size_t i = 0; i < axes[0].size; ++i) {
@@ -83,132 +69,50 @@ Marginals marginals_over(const PsychometricLevels& levels, const Axes& axes,
       }
       for (std::size_t k = 0; k < axes[2].size; ++k) {
         const double lapse = axes[2].at(k);
-        log_density.push_back(log_likelihood_of(levels, lower, upper, lapse) +
-                              kLapsePriorPower * std::log1p(-lapse));
-        largest = std::max(largest, log_density.back());
+        density.push_back(log_likelihood_of(levels, lower, upper, lapse) +
+                          kLapsePriorPower * std::log1p(-lapse));
+        largest = std::max(largest, density.back());
       }
     }
   }
-  Marginals marginals;
-  for (std::size_t axis = 0; axis < 3; ++axis) marginals[axis].assign(axes[axis].size, 0.0);
-  if (joint != nullptr) joint->assign(axes[0].size * axes[1].size, 0.0);
+  for (double& value : density) value = std::exp(value - largest);
+  return density;
+}
+
+/// Calls `visit(i, j, k, density)` for every point of the grid.
+template <typename Visit>
+void over_grid(const Axes& axes, const std::vector<double>& density, const Visit& visit) {
   std::size_t place = 0;
   for (std::size_t i = 0; i < axes[0].size; ++i) {
     for (std::size_t j = 0; j < axes[1].size; ++j) {
-      for (std::size_t k = 0; k < axes[2].size; ++k) {
-        const double density = std::exp(log_density[place++] - largest);
-        marginals[0][i] += density * axes[1].weight(j) * axes[2].weight(k);
-        marginals[1][j] += density * axes[0].weight(i) * axes[2].weight(k);
-        marginals[2][k] += density * axes[0].weight(i) * axes[1].weight(j);
-        if (joint != nullptr) (*joint)[i * axes[1].size + j] += density * axes[2].weight(k);
-      }
+      for (std::size_t k = 0; k < axes[2].size; ++k) visit(i, j, k, density[place++]);
     }
   }
+}
+
+/// Integrated over all but one parameter, for each.
+Marginals marginals_of(const Axes& axes, const std::vector<double>& density) {
+  Marginals marginals;
+  for (std::size_t axis = 0; axis < 3; ++axis) marginals[axis].assign(axes[axis].size, 0.0);
+  over_grid(axes, density, [&](std::size_t i, std::size_t j, std::size_t k, double value) {
+    marginals[0][i] += value * axes[1].weight(j) * axes[2].weight(k);
+    marginals[1][j] += value * axes[0].weight(i) * axes[2].weight(k);
+    marginals[2][k] += value * axes[0].weight(i) * axes[1].weight(j);
+  });
   return marginals;
-}
-
-/// The stretch of the axis where the density matters, one step wider.
-Axis narrowed(const Axis& axis, const std::vector<double>& density) {
-  constexpr double kNegligible = 1e-10;
-  if (axis.size == 1) return axis;
-  const double least = kNegligible * *std::max_element(density.begin(), density.end());
-  std::size_t first = 0, last = axis.size - 1;
-  while (density[first] < least) ++first;
-  while (density[last] < least) --last;
-  return {axis.at(first == 0 ? 0 : first - 1), axis.at(std::min(last + 1, axis.size - 1)),
-          axis.size};
-}
-
-/// The marginal on a sixteen times finer axis: its logarithm is nearly a parabola, so a cubic
-/// through four neighbours of that keeps seven digits where one through the density would not.
-std::vector<double> refined(Axis& axis, const std::vector<double>& density) {
-  constexpr std::size_t kFiner = 16;
-  constexpr double kSteep = 30.0;
-  std::vector<double> logs;
-  for (const double value : density) logs.push_back(std::log(std::max(value, 1e-300)));
-  const std::size_t last = density.size() - 1;
-  std::vector<double> finer;
-  for (std::size_t i = 0; i < last; ++i) {
-    const std::size_t from = std::clamp<std::size_t>(i, 1, last - 2) - 1;
-    // Beside a value ruled out, such as a lapse rate of 0, a cubic would swing.
-    const auto [least, most] =
-        std::minmax_element(logs.begin() + static_cast<std::ptrdiff_t>(from),
-                            logs.begin() + static_cast<std::ptrdiff_t>(from + 4));
-    const bool smooth = *most - *least < kSteep;
-    for (std::size_t part = 0; part < kFiner; ++part) {
-      const double t = static_cast<double>(i - from) +
-                       static_cast<double>(part) / static_cast<double>(kFiner);
-      const double cubic = -logs[from] * (t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0 +
-                           logs[from + 1] * t * (t - 2.0) * (t - 3.0) / 2.0 -
-                           logs[from + 2] * t * (t - 1.0) * (t - 3.0) / 2.0 +
-                           logs[from + 3] * t * (t - 1.0) * (t - 2.0) / 6.0;
-      const double share = t - static_cast<double>(i - from);
-      const double line = logs[i] + share * (logs[i + 1] - logs[i]);
-      finer.push_back(std::exp(smooth ? cubic : line));
-    }
-  }
-  finer.push_back(density[last]);
-  axis.size = finer.size();
-  return finer;
-}
-
-/// The density's integral up to each value, by the cubic through four neighbours.
-std::vector<double> cumulated(const Axis& axis, const std::vector<double>& density) {
-  const std::size_t n = density.size();
-  std::vector<double> sum(n, 0.0);
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    double area = 0.0;
-    if (i == 0) {
-      area = 9.0 * density[0] + 19.0 * density[1] - 5.0 * density[2] + density[3];
-    } else if (i + 2 == n) {
-      area =
-          9.0 * density[n - 1] + 19.0 * density[n - 2] - 5.0 * density[n - 3] + density[n - 4];
-    } else {
-      area = 13.0 * (density[i] + density[i + 1]) - density[i - 1] - density[i + 2];
-    }
-    sum[i + 1] = sum[i] + std::max(0.0, area) * axis.step() / 24.0;
-  }
-  return sum;
-}
-
-/// Where the integral reaches a probability.
-double quantile_of(Axis axis, const std::vector<double>& coarse, double probability) {
-  const std::vector<double> density = refined(axis, coarse);
-  const std::vector<double> sum = cumulated(axis, density);
-  const double wanted = probability * sum.back();
-  std::size_t cell = 0;
-  while (cell + 2 < sum.size() && sum[cell + 1] < wanted) ++cell;
-  // Hermite's cubic through both ends with the density as slope, by bisection: it rises.
-  const double h = axis.step(), from = sum[cell], to = sum[cell + 1];
-  double low = 0.0, high = 1.0;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double t = 0.5 * (low + high), u = 1.0 - t;
-    const double value = from * (1.0 + 2.0 * t) * u * u + to * t * t * (3.0 - 2.0 * t) +
-                         h * t * u * (u * density[cell] - t * density[cell + 1]);
-    (value < wanted ? low : high) = t;
-  }
-  return axis.at(cell) + h * 0.5 * (low + high);
-}
-
-/// Integral up to `x`: Hermite's cubic with the density as slope.
-double cumulated_at(const Axis& axis, const std::vector<double>& density,
-                    const std::vector<double>& sum, double x) {
-  if (!(x > axis.low)) return 0.0;
-  if (!(x < axis.high)) return sum.back();
-  const double h = axis.step();
-  const auto cell = std::min(static_cast<std::size_t>((x - axis.low) / h), sum.size() - 2);
-  const double t = (x - axis.at(cell)) / h, u = 1.0 - t;
-  return sum[cell] * (1.0 + 2.0 * t) * u * u + sum[cell + 1] * t * t * (3.0 - 2.0 * t) +
-         h * t * u * (u * density[cell] - t * density[cell + 1]);
 }
 
 /// Over the intensity itself w is spread / pse: its distribution is that of ln spread, shifted
 /// by ln pse, over all places. A pse that is not > 0 counts as w without bound.
 class LinearFraction {
  public:
-  LinearFraction(const PsychometricLevels& levels, const Axes& axes) : axis_(axes[0]) {
-    std::vector<double> joint;
-    (void)marginals_over(levels, axes, &joint);
+  LinearFraction(const PsychometricLevels& levels, const Axes& axes,
+                 const std::vector<double>& density)
+      : axis_(axes[0]) {
+    std::vector<double> joint(axes[0].size * axes[1].size, 0.0);
+    over_grid(axes, density, [&](std::size_t i, std::size_t j, std::size_t k, double value) {
+      joint[i * axes[1].size + j] += value * axes[2].weight(k);
+    });
     for (std::size_t j = 0; j < axes[1].size; ++j) {
       Column column;
       for (std::size_t i = 0; i < axis_.size; ++i) {
@@ -263,8 +167,83 @@ std::string words_of_priors(const PsychometricLevels& levels, const FreeParamete
                       std::string(free[1] ? "between" : "from the reference among") + " the " +
                       of + " to four times their range";
   if (free[1]) words += "; pse uniform within their range and half of it to either side";
-  if (free[2]) words += "; lapse rate Beta(1, 10) below 0.5";
+  if (free[2]) {
+    const bool halved = levels.ends.lapse_limit() < 0.5;
+    words += "; lapse rate Beta(1, 10) below " +
+             std::string(halved ? "where the curve no longer rises" : "0.5");
+  }
   return words;
+}
+
+/// Mass that a wider prior would add below and above the medians, over all that it has now.
+struct MassBeyond {
+  double fraction_low = 0.0, fraction_high = 0.0, pse_low = 0.0, pse_high = 0.0;
+};
+
+/// At each end of each prior: what would lie beyond it, within as far as the interval's end
+/// lies from the median, and on which sides of the medians it would lie, as the answers have it
+/// at that end. A lapse rate of 0, or one that leaves no curve, is no end of the prior's
+/// making.
+MassBeyond beyond_the_prior(const PsychometricLevels& levels, const Axes& prior,
+                            const Axes& axes, const std::vector<double>& density,
+                            const Marginals& marginals,
+                            const PsychometricPosterior& posterior) {
+  MassBeyond all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axes[axis].size == 1) continue;
+    for (const bool at_high : {false, true}) {
+      if (axis == 2 && (!at_high || prior[2].high > levels.ends.lapse_limit() - 1e-6)) continue;
+      const double near = 0.5 * axes[axis].step();
+      const bool reaches = at_high ? axes[axis].high > prior[axis].high - near
+                                   : axes[axis].low < prior[axis].low + near;
+      if (!reaches) continue;
+      const double median = quantile_of(axes[axis], marginals[axis], 0.5);
+      const double end =
+          quantile_of(axes[axis], marginals[axis], at_high ? 1.0 - kTail : kTail);
+      const double mass =
+          mass_beyond(axes[axis], marginals[axis], at_high, std::fabs(median - end));
+      const std::size_t at = at_high ? axes[axis].size - 1 : 0;
+      double sum = 0.0, fraction_below = 0.0, pse_below = 0.0;
+      over_grid(axes, density, [&](std::size_t i, std::size_t j, std::size_t k, double value) {
+        if (std::array{i, j, k}[axis] != at) return;
+        const double weight = value * (axis == 0 ? 1.0 : axes[0].weight(i)) *
+                              (axis == 1 ? 1.0 : axes[1].weight(j)) *
+                              (axis == 2 ? 1.0 : axes[2].weight(k));
+        const double pse = levels.intensity_at(axes[1].at(j));
+        const double fraction = levels.weber_fraction_at(std::exp(-axes[0].at(i)), pse);
+        sum += weight;
+        if (fraction < posterior.weber_fraction.value_or(kInfinity)) fraction_below += weight;
+        if (pse < posterior.pse.value_or(0.0)) pse_below += weight;
+      });
+      if (!(sum > 0.0)) continue;
+      all.fraction_low += mass * fraction_below / sum;
+      all.fraction_high += mass * (1.0 - fraction_below / sum);
+      all.pse_low += mass * pse_below / sum;
+      all.pse_high += mass * (1.0 - pse_below / sum);
+    }
+  }
+  return all;
+}
+
+/// Opens the ends that the prior has made: where more would lie beyond it than in the
+/// interval's own tail.
+void open_ends(PsychometricPosterior& posterior, const MassBeyond& beyond) {
+  const auto opened = [](Interval& ends, double low, double high) {
+    if (low > kTail) ends.low.reset();
+    if (high > kTail) ends.high.reset();
+    return low > kTail || high > kTail;
+  };
+  const bool fraction =
+      opened(posterior.weber_fraction_ci95, beyond.fraction_low, beyond.fraction_high);
+  const bool pse =
+      posterior.pse_ci95 && opened(*posterior.pse_ci95, beyond.pse_low, beyond.pse_high);
+  if (!fraction && !pse) return;
+  const std::string what = fraction && pse ? "the Weber fraction and the pse"
+                           : fraction      ? "the Weber fraction"
+                                           : "the pse";
+  posterior.note = "the answers do not bound " + what +
+                   " within the prior: value and interval rest on it, and the end concerned is "
+                   "open";
 }
 
 }  // namespace
@@ -274,18 +253,21 @@ PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
   PsychometricPosterior posterior;
   posterior.status = FitStatus::kDegenerate;
   posterior.reason = why_unidentified(levels, free[1], free[2]);
-  if (posterior.reason.empty() && levels.zero_yes > 0.0 && !free[2]) {
-    posterior.reason = "impossible: a yes at intensity 0 has probability 0 without lapses";
+  if (posterior.reason.empty() && levels.zero_yes > 0.0 &&
+      !levels.ends.low_is_possible(free[2])) {
+    posterior.reason = kYesAtZero;
   }
   if (!posterior.reason.empty()) return posterior;
   const Axes prior = prior_axes(levels, free);
   Axes axes = prior;
-  Marginals marginals = marginals_over(levels, axes);
+  std::vector<double> density = density_over(levels, axes);
+  Marginals marginals = marginals_of(axes, density);
   for (int narrowing = 0; narrowing < 3; ++narrowing) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       axes[axis] = narrowed(axes[axis], marginals[axis]);
     }
-    marginals = marginals_over(levels, axes);
+    density = density_over(levels, axes);
+    marginals = marginals_of(axes, density);
   }
   const auto quantile = [&](std::size_t axis, double probability) {
     return quantile_of(axes[axis], marginals[axis], probability);
@@ -299,7 +281,7 @@ PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
     posterior.weber_fraction = fraction(0.5);
     posterior.weber_fraction_ci95 = {fraction(0.025), fraction(0.975)};
   } else {
-    const LinearFraction fraction(levels, axes);
+    const LinearFraction fraction(levels, axes, density);
     posterior.weber_fraction = fraction.quantile(0.5);
     posterior.weber_fraction_ci95 = {fraction.quantile(0.025), fraction.quantile(0.975)};
   }
@@ -309,21 +291,7 @@ PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
                                   levels.intensity_at(quantile(1, 0.975))};
   }
   if (free[2]) posterior.lapse_rate = quantile(2, 0.5);
-  // Density left at an end of the prior: what lies beyond was ruled out beforehand.
-  constexpr double kLeftOver = 0.01;
-  const double highest = *std::max_element(marginals[0].begin(), marginals[0].end());
-  const double near = 0.5 * axes[0].step();
-  const bool at_low =
-      axes[0].low < prior[0].low + near && marginals[0].front() > kLeftOver * highest;
-  const bool at_high =
-      axes[0].high > prior[0].high - near && marginals[0].back() > kLeftOver * highest;
-  if (at_low || at_high) {
-    if (at_low) posterior.weber_fraction_ci95.low.reset();
-    if (at_high) posterior.weber_fraction_ci95.high.reset();
-    posterior.note =
-        "the answers do not bound the Weber fraction within the prior: value and interval rest "
-        "on it, and the end concerned is open";
-  }
+  open_ends(posterior, beyond_the_prior(levels, prior, axes, density, marginals, posterior));
   return posterior;
 }
 

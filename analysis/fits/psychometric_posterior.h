@@ -10,7 +10,9 @@ namespace jnd::analysis {
 /// to four times their range; a free pse uniform from half a range below the levels to half a
 /// range above, on the family's abscissa; a free lapse rate Beta(1, 10) below 0.5. They know
 /// the stimuli and no result. A value exists even where maximum likelihood has none; it then
-/// rests on the prior, which `note` says. Throws nothing; `degenerate` without two levels.
+/// rests on the prior, which `note` says. An end of an interval is open where a wider prior, of
+/// any parameter, would put more beyond it than the interval's own tail of 2.5 %
+/// (`mass_beyond`). Throws nothing; `degenerate` without two levels.
 [[nodiscard]] PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
                                                       const FreeParameters& free);
 

@@ -68,7 +68,7 @@ PsychometricSearch::PsychometricSearch(const PsychometricLevels& levels,
       free_pse_(free_pse),
       free_lapse_(free_lapse),
       free_{true, free_pse, free_lapse} {
-  if (method == kMaximumLikelihood && !free_lapse) return;
+  if (method == kMaximumLikelihood && levels.ends.are_bare(free_lapse)) return;
   if (why_unidentified(levels, free_pse, free_lapse).empty()) grid_.emplace(levels, free_pse);
 }
 
@@ -116,6 +116,10 @@ PsychometricSearchResult PsychometricSearch::find(const PsychometricLevels& leve
                                                   const PsychometricCurve* near) const {
   const std::string_view why = why_unidentified(levels, free_pse_, free_lapse_);
   if (!why.empty()) return {PsychometricSupremum::kUnidentified, why, {}};
+  if (method_ == kMaximumLikelihood && levels.zero_yes > 0.0 &&
+      !levels.ends.low_is_possible(free_lapse_)) {
+    return {PsychometricSupremum::kImpossible, kYesAtZero, {}};
+  }
   PsychometricOptimum found;
   if (!grid_) {
     const PsychometricExistence existence = existence_from_counts(levels, free_pse_);

@@ -16,15 +16,15 @@ struct PsychometricSearchResult {
 };
 
 /// Finds the global optimum over one set of levels, for as many sets of answers as wanted: the
-/// grid that least squares and free lapses start from is computed once.
+/// grid that least squares, lapses and guesses start from is computed once.
 ///
-/// Maximum likelihood without lapses is concave, and whether its optimum exists is decided
-/// exactly from the counts. Otherwise the best stationary point is compared with the infimum at
-/// infinite slope and at slope 0, both known in closed form; a difference below 1e-13 of the
-/// cost counts as none.
+/// Maximum likelihood without lapses and guesses is concave, and whether its optimum exists is
+/// decided exactly from the counts. Otherwise the best stationary point is compared with the
+/// infimum at infinite slope and at slope 0, both known in closed form; a difference below
+/// 1e-13 of the cost counts as none.
 class PsychometricSearch {
  public:
-  /// `levels` is read for its intensities and trials only.
+  /// `levels` is read for its intensities, trials and ends only.
   PsychometricSearch(const PsychometricLevels& levels, PsychometricMethod method, bool free_pse,
                      bool free_lapse);
 

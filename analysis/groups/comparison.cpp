@@ -134,6 +134,12 @@ Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
   return result;
 }
 
+std::vector<std::pair<std::string, double>> Comparison::all_statistics() const {
+  std::vector<std::pair<std::string, double>> all = other_statistics;
+  if (statistic) all.emplace_back(statistic_name, *statistic);
+  return all;
+}
+
 Comparison paired_t_test(const std::vector<double>& a, const std::vector<double>& b,
                          EffectSizes effects) {
   require_pairs(a, b);
@@ -272,14 +278,27 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
   const int exponent = exponent_of(largest_magnitude(a, b));
   const std::vector<double> difference = shrunk_differences(a, b, exponent);
   result.estimate = grown(summary_of(difference).mean, exponent);
-  const SignedRanks ranks = signed_ranks(difference);
+  // Each difference is as exact as its own pair, whatever the others measure.
+  std::vector<double> roundings;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double larger = std::max(std::fabs(a[i]), std::fabs(b[i]));
+    roundings.push_back(rounding(std::ldexp(larger, -exponent)));
+  }
+  const SignedRanks ranks = signed_ranks(difference, roundings);
   if (ranks.num_nonzero == 0) {
     result.reason = "all differences are 0: there is nothing to rank";
     return result;
   }
   result.statistic = std::min(ranks.positive_sum, ranks.negative_sum);
+  result.statistic_name = "T";
+  result.other_statistics = {{"V", ranks.positive_sum}};
   result.p_value = ranks.p_value;
-  result.method += ranks.exact ? ", exact" : ", normal approximation corrected for ties";
+  result.num_zeros = ranks.num_zeros;
+  result.method += rank_method(ranks.exact, ranks.has_ties);
+  if (ranks.num_zeros > 0) {
+    result.method += ", without " + std::to_string(ranks.num_zeros) +
+                     (ranks.num_zeros == 1 ? " difference of 0" : " differences of 0");
+  }
   result.hodges_lehmann = grown(ranks.median, exponent);
   result.hodges_lehmann_ci95 = grown(ranks.median_ci95, exponent);
   result.rank_biserial = rank_biserial_of(ranks);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "analysis/groups/comparison.h"
 
 namespace jnd::analysis {
@@ -10,5 +12,8 @@ void require_finite(const std::vector<double>& values, const char* name);
 /// A comparison that nothing is known of yet: degenerate until it is filled in.
 [[nodiscard]] Comparison started(Comparison::Kind kind, const char* method, std::size_t num_a,
                                  std::size_t num_b);
+
+/// ", exact with ties": how the p value of a rank test comes about, after the test's name.
+[[nodiscard]] std::string rank_method(bool exact, bool has_ties);
 
 }  // namespace jnd::analysis

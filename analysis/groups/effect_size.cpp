@@ -77,17 +77,25 @@ void add_effect_of_differences(Comparison& comparison, double cohen_dz, int num_
 
 void add_effect_of_groups(Comparison& comparison, const PublishedGroup& a,
                           const PublishedGroup& b) {
-  const double degrees_of_freedom = a.num_values + b.num_values - 2.0;
-  const double variance = ((a.num_values - 1) * a.standard_deviation * a.standard_deviation +
-                           (b.num_values - 1) * b.standard_deviation * b.standard_deviation) /
-                          degrees_of_freedom;
-  const double per_noncentrality = std::sqrt(1.0 / a.num_values + 1.0 / b.num_values);
-  const double d = (a.mean - b.mean) / std::sqrt(variance);
+  const double n_a = a.num_values, n_b = b.num_values;
+  const double variance_a = a.standard_deviation * a.standard_deviation;
+  const double variance_b = b.standard_deviation * b.standard_deviation;
+  const double sum = variance_a + variance_b;
+  const double error = variance_a / n_a + variance_b / n_b;
+  const double degrees_of_freedom =
+      (n_a - 1.0) * (n_b - 1.0) * sum * sum /
+      ((n_b - 1.0) * variance_a * variance_a + (n_a - 1.0) * variance_b * variance_b);
+  // Two values, and a group that does not vary: nothing tells the bias.
+  constexpr double kTooFew = 1.0 + 1e-9;
+  if (!(degrees_of_freedom > kTooFew)) return;
+  const double of_test = error * error /
+                         (variance_a * variance_a / (n_a * n_a * (n_a - 1.0)) +
+                          variance_b * variance_b / (n_b * n_b * (n_b - 1.0)));
+  const double difference = a.mean - b.mean;
   const double factor = hedges_factor(degrees_of_freedom);
-  comparison.hedges_g = factor * d;
-  comparison.hedges_g_ci95 =
-      scaled(noncentrality_ci95(d / per_noncentrality, degrees_of_freedom),
-             factor * per_noncentrality);
+  comparison.hedges_g = factor * difference / std::sqrt(0.5 * sum);
+  comparison.hedges_g_ci95 = scaled(noncentrality_ci95(difference / std::sqrt(error), of_test),
+                                    factor * std::sqrt(error / (0.5 * sum)));
 }
 
 Interval fisher_interval(double r, double standard_error_of_z) {

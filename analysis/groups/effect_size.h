@@ -16,7 +16,12 @@ namespace jnd::analysis {
 /// Fills in Cohen's dz and, from three differences on, Hedges' g.
 void add_effect_of_differences(Comparison& comparison, double cohen_dz, int num_values);
 
-/// Fills in Hedges' g of two groups. The pooled standard deviation is > 0.
+/// Fills in Hedges' g of two groups whose spreads may differ: over the root of the mean of
+/// their variances, with the degrees of freedom of that (Delacre, Lakens, Ley, Liu and Leys
+/// 2021), and its interval by the noncentral t of Welch's test. The pooled standard deviation,
+/// beside a test that does not take the spreads for equal, has intervals that hold the truth in
+/// 58 % of studies where the smaller group varies more. Any standard deviation is
+/// > 0. None with one degree of freedom: two values, and a group that does not vary.
 void add_effect_of_groups(Comparison& comparison, const PublishedGroup& a,
                           const PublishedGroup& b);
 

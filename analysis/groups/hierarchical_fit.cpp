@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <map>
 
-#include "analysis/fits/interval_order_fit.h"
-#include "analysis/fits/psychometric_model.h"
+#include "analysis/groups/hierarchical_arrangement.h"
+#include "analysis/groups/hierarchical_cautions.h"
+#include "analysis/groups/hierarchical_lapses.h"
+#include "analysis/groups/hierarchical_levels.h"
 #include "analysis/groups/hierarchical_search.h"
 #include "analysis/groups/hierarchical_words.h"
 #include "core/error.h"
@@ -15,178 +16,9 @@
 namespace jnd::analysis {
 namespace {
 
-/// A spread between people that is less is none.
-constexpr double kNoSpread = 1e-6;
-
-/// The answers as the model takes them.
-struct Arranged {
-  std::vector<std::string> conditions;  ///< In the order of their first answers.
-  std::vector<double> reference;        ///< Of each condition.
-  std::vector<std::string> participants;
-  std::vector<HierarchicalPerson> people;
-  std::vector<std::vector<AnswerCount>> pooled;  ///< Rows of each condition.
-  std::vector<int> num_in_condition;
-  bool yes_at_zero = false;
-  std::vector<bool> has_orders_in;  ///< Of each condition: rows differ in the order.
-};
-
-template <typename Name>
-std::size_t place_of(std::vector<Name>& names, const Name& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) names.push_back(name);
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-Arranged arranged(const std::vector<ParticipantAnswers>& answers) {
-  Arranged all;
-  for (const ParticipantAnswers& one : answers) {
-    std::map<double, std::vector<AnswerCount>> by_order;
-    for (const AnswerCount& row : one.rows) by_order[row.order].push_back(row);
-    HierarchicalCell cell;
-    for (const auto& [order, rows] : by_order) {
-      const PsychometricLevels levels = pooled_levels(rows, one.reference, false);
-      all.yes_at_zero = all.yes_at_zero || levels.zero_yes > 0.0;
-      for (std::size_t level = 0; level < levels.size(); ++level) {
-        cell.log_ratio.push_back(levels.abscissa[level] * levels.unit);
-        cell.num_yes.push_back(levels.num_yes[level]);
-        cell.num_no.push_back(levels.num_trials[level] - levels.num_yes[level]);
-        cell.order.push_back(order);
-      }
-    }
-    if (cell.log_ratio.empty()) continue;
-    const std::size_t condition = place_of(all.conditions, one.condition);
-    const std::size_t person = place_of(all.participants, one.participant);
-    all.reference.resize(all.conditions.size(), one.reference);
-    all.pooled.resize(all.conditions.size());
-    all.num_in_condition.resize(all.conditions.size());
-    all.people.resize(all.participants.size());
-    core::require(one.reference == all.reference[condition], "reference",
-                  "the same for everybody in condition \"" + one.condition + "\"",
-                  one.reference);
-    all.has_orders_in.resize(all.conditions.size());
-    if (orders_vary(one.rows)) all.has_orders_in[condition] = true;
-    cell.condition = static_cast<int>(condition);
-    ++all.num_in_condition[condition];
-    all.people[person].push_back(std::move(cell));
-    all.pooled[condition].insert(all.pooled[condition].end(), one.rows.begin(), one.rows.end());
-  }
-  // One order alone is none.
-  for (HierarchicalPerson& person : all.people) {
-    for (HierarchicalCell& cell : person) {
-      if (all.has_orders_in[static_cast<std::size_t>(cell.condition)]) continue;
-      std::fill(cell.order.begin(), cell.order.end(), 0.0);
-    }
-  }
-  return all;
-}
-
-/// Somebody has answers in several conditions, so that what is their own there may go together.
-bool anybody_in_several(const Arranged& all) {
-  return std::ranges::any_of(all.people, [](const HierarchicalPerson& person) {
-    return std::ranges::any_of(person, [&](const HierarchicalCell& cell) {
-      return cell.condition != person.front().condition;
-    });
-  });
-}
-
-/// Of other people in each condition, one random effect of a kind is enough: nothing could tell
-/// how several go together.
-HierarchicalStructure structure_of(const std::vector<bool>& has_orders_in, bool are_within,
-                                   const HierarchicalOptions& options) {
-  const auto num_conditions = static_cast<int>(has_orders_in.size());
-  HierarchicalStructure structure{.link = options.link,
-                                  .num_conditions = num_conditions,
-                                  .has_places = options.pse != HierarchicalPse::kReference,
-                                  .has_orders_in = has_orders_in};
-  int parameter = structure.num_numbers();
-  const bool correlated =
-      options.slopes == HierarchicalSlopes::kCorrelated && num_conditions == 2;
-  if (correlated && !are_within) {
-    structure.loadings = {{0, 0, parameter}, {1, 0, parameter + 1}};
-    parameter += 2;
-  } else if (correlated) {
-    structure.loadings = {{0, 0, parameter}, {1, 0, parameter + 1}, {1, 1, parameter + 2}};
-    parameter += 3;
-    structure.num_random_effects = 2;
-  } else {
-    for (int condition = 0; condition < num_conditions; ++condition) {
-      structure.loadings.push_back({condition, 0, parameter});
-    }
-    parameter += 1;
-  }
-  // With either interval, what is a person's own is the bias for one of them: one of each kind
-  // a person where it is shared, one a condition where it is personal.
-  for (const bool has_orders : {false, true}) {
-    bool any = false;
-    for (int condition = 0; condition < num_conditions; ++condition) {
-      if (has_orders_in[static_cast<std::size_t>(condition)] != has_orders) continue;
-      const bool personal = options.pse == HierarchicalPse::kPersonal ||
-                            (has_orders && options.pse == HierarchicalPse::kReference);
-      const bool shared = options.pse == HierarchicalPse::kShared;
-      if (!personal && !shared) continue;
-      structure.loadings.push_back(
-          {structure.own_place_at(condition), structure.num_random_effects, parameter});
-      any = true;
-      if (personal) ++parameter;
-      if (personal && are_within) ++structure.num_random_effects;
-    }
-    if (any && options.pse == HierarchicalPse::kShared) ++parameter;
-    if (any && (options.pse == HierarchicalPse::kShared || !are_within)) {
-      ++structure.num_random_effects;
-    }
-  }
-  structure.has_lapses = options.lapses == HierarchicalLapses::kCommon;
-  structure.num_parameters = parameter + (structure.has_lapses ? 1 : 0);
-  return structure;
-}
-
 int usual_num_nodes(int num_random_effects) {
   constexpr int kNodes[] = {15, 9, 5, 3, 3};
   return kNodes[num_random_effects - 1];
-}
-
-/// Where the search starts: the pooled curves, people who differ by a fifth, and a lapse in a
-/// hundred. Absent, with a reason, where a condition's pooled answers have no curve.
-std::optional<Eigen::VectorXd> start_of(const Arranged& all,
-                                        const HierarchicalStructure& structure,
-                                        std::string& reason) {
-  constexpr double kSlopeSd = 0.2, kPlaceSd = 0.1, kLapseAngle = 0.15;
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(structure.num_parameters);
-  if (structure.has_lapses) start(structure.angle_at()) = kLapseAngle;
-  for (int condition = 0; condition < structure.num_conditions; ++condition) {
-    const auto at = static_cast<std::size_t>(condition);
-    const PsychometricFit pooled =
-        fit_psychometric(all.pooled[at], {.reference = all.reference[at],
-                                          .free_pse = structure.has_places,
-                                          .by_order = true,
-                                          .intervals = false,
-                                          .solver = Solver::kNewton});
-    if (pooled.status != FitStatus::kOk) {
-      const std::string& name = all.conditions[at];
-      reason = (name.empty() ? "the pooled answers are " : name + ": the pooled answers are ") +
-               pooled.reason;
-      return std::nullopt;
-    }
-    const double slope = 1.0 / std::log1p(*pooled.weber_fraction);
-    const double place = std::log(pooled.pse.value_or(all.reference[at]) / all.reference[at]);
-    const bool linear = structure.link == HierarchicalLink::kLinear;
-    start(condition) = linear ? slope : std::log(slope);
-    const double scale = linear ? slope : 1.0;
-    if (structure.has_places) {
-      start(structure.place_at(condition)) = linear ? -slope * place : place;
-    }
-    if (structure.has_orders()) {
-      start(structure.order_at(condition)) =
-          (linear ? -slope : 1.0) * pooled.order_effect_ln.value_or(0.0);
-    }
-    for (const HierarchicalStructure::Loading& one : structure.loadings) {
-      if (one.number == condition) start(one.parameter) = kSlopeSd * scale;
-      if (one.number == structure.own_place_at(condition)) {
-        start(one.parameter) = kPlaceSd * scale;
-      }
-    }
-  }
-  return start;
 }
 
 /// The better of two searches where there is a lapse rate. None is a maximum of its own beside
@@ -245,7 +77,7 @@ Interval pse_interval(const HierarchicalStructure& structure, const Hierarchical
   return {pse * std::exp(-reach), pse * std::exp(reach)};
 }
 
-void fill_conditions(HierarchicalFit& fit, const Arranged& all,
+void fill_conditions(HierarchicalFit& fit, const HierarchicalArrangement& all,
                      const HierarchicalStructure& structure, const HierarchicalOptimum& found,
                      const HierarchicalOptions& options) {
   for (int condition = 0; condition < structure.num_conditions; ++condition) {
@@ -278,7 +110,9 @@ void fill_conditions(HierarchicalFit& fit, const Arranged& all,
       if (loading.number == structure.own_place_at(condition)) one.place_sd = std::fabs(value);
     }
     one.slope_sd = std::sqrt(slope_variance);
-    if (one.slope_sd <= kNoSpread) one.slope_sd = 0.0;  // As the note then says.
+    for (double* spread : {&one.slope_sd, &one.place_sd}) {
+      if (*spread <= kNoSpread) *spread = 0.0;  // As the note then says.
+    }
     fit.conditions.push_back(std::move(one));
   }
 }
@@ -317,9 +151,9 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
   }
 }
 
-/// Correlation of the slopes in two conditions, and a word on spreads that ended at 0.
-void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
-                 const HierarchicalOptimum& found) {
+/// Of the slopes in two conditions.
+void fill_correlation(HierarchicalFit& fit, const HierarchicalStructure& structure,
+                      const HierarchicalOptimum& found) {
   const bool correlated = structure.num_conditions == 2 && structure.loadings.size() >= 3 &&
                           structure.loadings[2].number == 1;
   if (correlated && fit.conditions[0].slope_sd > kNoSpread &&
@@ -328,38 +162,91 @@ void fill_spread(HierarchicalFit& fit, const HierarchicalStructure& structure,
     const double shared = found.parameters(structure.loadings[1].parameter);
     fit.correlation = std::copysign(1.0, own) * shared / fit.conditions[1].slope_sd;
   }
-  constexpr double kOne = 0.999;
-  if (fit.correlation && std::fabs(*fit.correlation) > kOne) {
-    fit.note =
-        "the correlation of the slopes is at its bound (a singular fit): the answers tell no "
-        "difference of people's own in the one condition from that in the other";
-  }
-  const bool none =
-      std::any_of(fit.conditions.begin(), fit.conditions.end(),
-                  [](const HierarchicalCondition& one) { return one.slope_sd <= kNoSpread; });
-  if (none) {
-    fit.note =
-        "the spread of the slopes between people is at its bound 0: the answers show none "
-        "beyond chance, which with few answers a person does not mean that there is none";
-  }
 }
 
 void fill_lapse_rate(HierarchicalFit& fit, const HierarchicalStructure& structure,
-                     const HierarchicalOptimum& found) {
+                     const HierarchicalOptimum& found, HierarchicalLapses lapses) {
+  if (lapses == HierarchicalLapses::kKnown) fit.lapse_rate = structure.known_lapse_rate;
   if (!structure.has_lapses) return;
   constexpr double kManyLapses = 0.1, kNoLapses = 1e-8;
   fit.lapse_rate = structure.lapse_rate(found.parameters);
   if (*fit.lapse_rate < kNoLapses) fit.lapse_rate = 0.0;
   if (*fit.lapse_rate < kManyLapses) return;
-  fit.note += fit.note.empty() ? "" : "; ";
-  fit.note +=
-      "more than one answer in five looks random: somebody may have had another task, or "
-      "turned "
-      "the answers round";
+  add_note(fit,
+           "more than one answer in five looks random: somebody may have had another task, or "
+           "turned the answers round");
+}
+
+/// The union of the intervals at both ends of what is left of the lapse rate with that at the
+/// most likely one: the more lapses, the steeper the curve.
+void widen_intervals(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
+  const Interval& left = fit.lapse_rate_with_prior_ci95;
+  for (std::size_t condition = 0; condition < fit.conditions.size(); ++condition) {
+    HierarchicalCondition& one = fit.conditions[condition];
+    if (one.num_participants < 2) continue;
+    const auto at = static_cast<Eigen::Index>(condition);
+    const auto widen = [&](const std::optional<double>& lapse_rate) {
+      const std::optional<double> variance =
+          lapse_rate ? profile.variance_at(*lapse_rate, static_cast<int>(condition))
+                     : std::nullopt;
+      if (!variance) {
+        // As many lapses as leave no curve: as steep as can be.
+        one.weber_fraction_ci95.low.reset();
+        return;
+      }
+      const double slope = profile.at(*lapse_rate).parameters(at);
+      const double reach = reach_of(*variance, one.num_participants);
+      const std::optional<double> low = fraction_at(link, slope + reach);
+      const std::optional<double> high = fraction_at(link, slope - reach);
+      if (one.weber_fraction_ci95.low && low) {
+        one.weber_fraction_ci95.low = std::min(*one.weber_fraction_ci95.low, *low);
+      }
+      if (!high) one.weber_fraction_ci95.high.reset();
+      if (one.weber_fraction_ci95.high && high) {
+        one.weber_fraction_ci95.high = std::max(*one.weber_fraction_ci95.high, *high);
+      }
+    };
+    widen(left.low);
+    widen(left.high);
+  }
+}
+
+/// What answers and prior leave open of the lapse rate, and what that does to the rest.
+void fill_lapse_profile(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
+  fit.lapse_rate_ci95 = profile.interval(false);
+  fit.lapse_rate_with_prior_ci95 = profile.interval(true);
+  fit.lapse_rate_without_prior = profile.without_prior();
+  const LapseProfile::Point& without_prior = profile.at(profile.without_prior());
+  for (std::size_t condition = 0; condition < fit.conditions.size(); ++condition) {
+    fit.conditions[condition].weber_fraction_without_prior =
+        fraction_at(link, without_prior.parameters(static_cast<Eigen::Index>(condition)));
+  }
+  widen_intervals(fit, profile, link);
+}
+
+/// Cautions of levels that are too hard. `profile`: none where there are no lapses to fit.
+void fill_ease(HierarchicalFit& fit, const HierarchicalArrangement& all,
+               const HierarchicalStructure& structure, const HierarchicalOptimum& found,
+               LapseProfile* profile) {
+  constexpr double kSomeLapses = 0.03;
+  for (int condition = 0; condition < structure.num_conditions; ++condition) {
+    HierarchicalCondition& one = fit.conditions[static_cast<std::size_t>(condition)];
+    const LevelEase ease = level_ease(all, structure, found.parameters, condition);
+    one.easy_ratio = ease.easy_ratio;
+    if (!one.weber_fraction || !are_hard(ease)) continue;
+    std::optional<double> with_lapses;
+    if (profile != nullptr && profile->with_prior() < kSomeLapses) {
+      const LapseProfile::Point& point = profile->at(kSomeLapses);
+      if (point.exists) {
+        with_lapses = fraction_at(structure.link, point.parameters(condition));
+      }
+    }
+    one.cautions = {hard_levels(ease, *one.weber_fraction, with_lapses)};
+  }
 }
 
 /// Why a condition's answers have no curve, whatever its pse; "" if nothing forbids one.
-std::string why_no_curve(const Arranged& all) {
+std::string why_no_curve(const HierarchicalArrangement& all) {
   for (std::size_t condition = 0; condition < all.conditions.size(); ++condition) {
     const auto& rows = all.pooled[condition];
     const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
@@ -373,27 +260,29 @@ std::string why_no_curve(const Arranged& all) {
   return "";
 }
 
-void tell_alike_people(HierarchicalFit& fit) {
-  const bool any = std::ranges::any_of(
-      fit.differences, [](const HierarchicalDifference& one) { return !one.standard_error; });
-  if (!any) return;
-  fit.note += fit.note.empty() ? "" : "; ";
-  fit.note += "no interval of a difference: people's answers are all alike";
-}
-
-/// One person says nothing of a median person: no value for such a condition, nor for a
-/// difference with it.
-void leave_out_single_people(HierarchicalFit& fit) {
-  for (HierarchicalCondition& one : fit.conditions) {
-    if (one.num_participants >= 2) continue;
-    one.weber_fraction.reset();
-    one.pse.reset();
-    if (one.pse_ci95) one.pse_ci95 = Interval{};
-    fit.note += (fit.note.empty() ? "" : "; ") + one.condition +
-                ": no value, for one participant says nothing of how people differ";
-    std::erase_if(fit.differences, [&](const HierarchicalDifference& difference) {
-      return difference.first == one.condition || difference.second == one.condition;
-    });
+void fill_people(HierarchicalFit& fit, const HierarchicalArrangement& all,
+                 const std::vector<Eigen::VectorXd>& modes, HierarchicalLink link) {
+  for (std::size_t person = 0; person < all.people.size(); ++person) {
+    for (const HierarchicalCell& cell : all.people[person]) {
+      const auto condition = static_cast<std::size_t>(cell.condition);
+      HierarchicalPersonEstimate one{
+          .participant = all.participants[person],
+          .condition = all.conditions[condition],
+          .weber_fraction = fraction_at(link, modes[person](cell.condition))};
+      if (!fit.conditions[condition].weber_fraction) {
+        one.weber_fraction.reset();
+        one.reason = "the condition has no value";
+      } else if (!one.weber_fraction) {
+        one.reason =
+            "the answers do not rise, or so little that the value exceeds the range of "
+            "numbers";
+      } else if (*one.weber_fraction > largest_fraction(all, condition)) {
+        one.cautions = {
+            "beyond the largest stimulus: how large it is hangs on the curve's form and on how "
+            "people differ more than on this person's answers"};
+      }
+      fit.participants.push_back(std::move(one));
+    }
   }
 }
 
@@ -401,8 +290,14 @@ void leave_out_single_people(HierarchicalFit& fit) {
 
 HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
                                  const HierarchicalOptions& options) {
-  const Arranged all = arranged(answers);
+  core::require(options.guess_rate >= 0.0 && options.guess_rate < 1.0, "guess_rate",
+                "a number from 0 to below 1", options.guess_rate);
+  const double lapse_limit = options.guess_rate > 0.0 ? 1.0 - options.guess_rate : 0.5;
+  core::require(options.lapse_rate >= 0.0 && options.lapse_rate < lapse_limit, "lapse_rate",
+                "a number from 0 that leaves the curve a rise", options.lapse_rate);
+  const HierarchicalArrangement all = arranged(answers);
   HierarchicalFit fit;
+  fit.guess_rate = options.guess_rate;
   fit.num_participants = static_cast<int>(all.people.size());
   const auto num_conditions = static_cast<int>(all.conditions.size());
   const bool has_orders = std::ranges::count(all.has_orders_in, true) > 0;
@@ -416,7 +311,7 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
         std::to_string(num_conditions));
   }
   fit.status = FitStatus::kDegenerate;
-  if (all.yes_at_zero) {
+  if (all.yes_at_zero && options.guess_rate == 0.0) {
     fit.reason =
         "impossible: a yes at intensity 0 has probability 0 on every curve; leave the trials "
         "at "
@@ -429,8 +324,7 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   }
   fit.reason = why_no_curve(all);
   if (!fit.reason.empty()) return fit;
-  const HierarchicalStructure structure =
-      structure_of(all.has_orders_in, anybody_in_several(all), options);
+  const HierarchicalStructure structure = structure_of(all, options);
   fit.num_nodes =
       options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
   fit.method = method_words(options, all.has_orders_in, fit.num_nodes);
@@ -445,18 +339,22 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   fit.log_likelihood = found.log_likelihood - structure.log_prior(found.parameters);
   fill_conditions(fit, all, structure, found, options);
   fill_differences(fit, found, options.link);
-  fill_spread(fit, structure, found);
-  fill_lapse_rate(fit, structure, found);
-  leave_out_single_people(fit);
-  tell_alike_people(fit);
-  const std::vector<Eigen::VectorXd> modes = likelihood.modes(found.parameters);
-  for (std::size_t person = 0; person < all.people.size(); ++person) {
-    for (const HierarchicalCell& cell : all.people[person]) {
-      fit.participants.push_back({all.participants[person],
-                                  all.conditions[static_cast<std::size_t>(cell.condition)],
-                                  fraction_at(options.link, modes[person](cell.condition))});
-    }
+  fill_correlation(fit, structure, found);
+  const bool has_own_places = options.pse != HierarchicalPse::kCommon &&
+                              (options.pse != HierarchicalPse::kReference || has_orders);
+  note_spreads_at_bounds(fit, has_own_places);
+  fill_lapse_rate(fit, structure, found, options.lapses);
+  std::optional<LapseProfile> profile;
+  if (structure.has_lapses && options.lapse_profile) {
+    profile.emplace(likelihood, structure, *start, found);
+    fill_lapse_profile(fit, *profile, options.link);
   }
+  leave_out_what_is_not_told(fit);
+  if (fit.status != FitStatus::kOk) return fit;
+  fill_ease(fit, all, structure, found, profile ? &*profile : nullptr);
+  caution_of_misfit(fit, likelihood.misfit_p_value(found.parameters));
+  note_alike_people(fit);
+  fill_people(fit, all, likelihood.modes(found.parameters), options.link);
   return fit;
 }
 

@@ -30,6 +30,7 @@ enum class HierarchicalSlopes {
 
 enum class HierarchicalLapses {
   kNone,    ///< Every answer is one of discrimination.
+  kKnown,   ///< Half of so large a share of the answers is random as is told.
   kCommon,  ///< A lapse rate, the same for everybody in everything; see `log_prior`.
 };
 
@@ -37,7 +38,14 @@ struct HierarchicalOptions {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   HierarchicalPse pse = HierarchicalPse::kPersonal;
   HierarchicalSlopes slopes = HierarchicalSlopes::kCorrelated;
-  HierarchicalLapses lapses = HierarchicalLapses::kNone;
+  HierarchicalLapses lapses = HierarchicalLapses::kCommon;
+  double lapse_rate = 0.0;  ///< Of kKnown: [0, 0.5), with a guess rate below 1 less that.
+  /// Share of right answers where nothing is felt, of a forced choice among m 1 / m: [0, 1);
+  /// 0 for yes and no.
+  double guess_rate = 0.0;
+  /// Also what the answers leave open of a lapse rate that is free, in every interval; without
+  /// it they hold for the most likely one, and a fit takes a third of the time.
+  bool lapse_profile = true;
   /// A dimension of how people differ; 0: 15 in one, 9 in two, 5 in three, 3 in more. 1
   /// is Laplace.
   int num_nodes = 0;
@@ -48,7 +56,14 @@ struct HierarchicalCondition {
   std::string condition;
   int num_participants = 0;
   std::optional<double> weber_fraction;
+  /// With a profile of the lapse rate, over all that `lapse_rate_with_prior_ci95` has.
   Interval weber_fraction_ci95;
+  /// At the lapse rate that the answers alone make most likely; of a profile.
+  std::optional<double> weber_fraction_without_prior;
+  /// Share of the answers to comparisons at least as easy as the Weber fraction itself, which
+  /// the median person gets right in 84.13 % but for lapses.
+  double easy_ratio = 0.0;
+  std::vector<std::string> cautions;  ///< Of levels that are too hard; see `hard_levels`.
   std::optional<double> pse;
   std::optional<Interval> pse_ci95;  ///< Absent unless the pse was free.
   double slope_number = 0.0;         ///< a of HierarchicalLink, of the median person.
@@ -76,6 +91,8 @@ struct HierarchicalDifference {
 struct HierarchicalPersonEstimate {
   std::string participant, condition;
   std::optional<double> weber_fraction;
+  std::string reason;                 ///< Why there is none; "" if there is one.
+  std::vector<std::string> cautions;  ///< Where it lies beyond the stimuli of the condition.
 };
 
 struct HierarchicalFit {
@@ -85,7 +102,12 @@ struct HierarchicalFit {
   int num_participants = 0;
   int num_nodes = 0;
   std::vector<HierarchicalCondition> conditions;
-  std::optional<double> lapse_rate;                 ///< Absent unless it was free.
+  std::optional<double> lapse_rate;  ///< Absent unless it was free or known.
+  // Of a profile:
+  Interval lapse_rate_ci95;             ///< Profile likelihood of the answers alone.
+  Interval lapse_rate_with_prior_ci95;  ///< The same with the prior: see `weber_fraction_ci95`.
+  std::optional<double> lapse_rate_without_prior;   ///< Most likely by the answers alone.
+  double guess_rate = 0.0;                          ///< As it was given.
   std::optional<double> correlation;                ///< Of the deviations in two conditions.
   std::vector<HierarchicalDifference> differences;  ///< Of each condition to the first.
   std::vector<HierarchicalPersonEstimate> participants;
@@ -104,6 +126,11 @@ struct HierarchicalFit {
 ///
 /// A lapse, an answer at random, counts for much where it is in a very easy comparison; without
 /// lapses in the model a few of them make everybody's curve flatter (Wichmann and Hill 2001).
+/// So one lapse rate for everybody is fitted, with a prior, unless it is known. Answers to hard
+/// comparisons hardly tell it, and where none is found, at its bound 0, the observed
+/// information says nothing of how far a few lapses would move the slope. A condition's
+/// interval is therefore the union of Wald's, below, over the lapse rates that answers and
+/// prior leave, which are those of a 95 % profile interval.
 ///
 /// Intervals are Wald's on the slope number with Student's t at participants - 1 and its error
 /// grown by sqrt(n / (n - 1)), because maximum likelihood has the spread of few people too
@@ -117,8 +144,9 @@ struct HierarchicalFit {
 ///
 /// `degenerate` where a condition's pooled answers are, or with fewer than two participants.
 /// Throws `core::Error` for references or counts as `fit_psychometric`, references that differ
-/// within a condition, and for more conditions than the model takes: two with correlated
-/// slopes, else eight, or four with personal pses.
+/// within a condition, two entries of a participant in one, rates out of range, and for more
+/// conditions than the model takes: two with correlated slopes, else eight, or four with
+/// personal pses.
 [[nodiscard]] HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
                                                const HierarchicalOptions& options);
 

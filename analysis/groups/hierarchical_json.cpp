@@ -7,20 +7,32 @@ namespace jnd::analysis {
 using namespace json_values;
 
 Json to_json(const HierarchicalFit& fit) {
-  Json json = {
-      {"status", to_string(fit.status)},      {"reason", sentence(fit.reason)},
-      {"method", sentence(fit.method)},       {"estimand", "median person"},
-      {"note", sentence(fit.note)},           {"num_participants", fit.num_participants},
-      {"num_nodes", fit.num_nodes},           {"log_likelihood", number(fit.log_likelihood)},
-      {"lapse_rate", number(fit.lapse_rate)}, {"correlation", number(fit.correlation)},
-      {"conditions", Json::array()},          {"differences", Json::array()},
-      {"participants", Json::array()}};
+  Json json = {{"status", to_string(fit.status)},
+               {"reason", sentence(fit.reason)},
+               {"method", sentence(fit.method)},
+               {"estimand", "median person"},
+               {"note", sentence(fit.note)},
+               {"num_participants", fit.num_participants},
+               {"num_nodes", fit.num_nodes},
+               {"log_likelihood", number(fit.log_likelihood)},
+               {"lapse_rate", number(fit.lapse_rate)},
+               {"lapse_rate_ci95", interval(fit.lapse_rate_ci95)},
+               {"lapse_rate_with_prior_ci95", interval(fit.lapse_rate_with_prior_ci95)},
+               {"lapse_rate_without_prior", number(fit.lapse_rate_without_prior)},
+               {"guess_rate", fit.guess_rate},
+               {"correlation", number(fit.correlation)},
+               {"conditions", Json::array()},
+               {"differences", Json::array()},
+               {"participants", Json::array()}};
   for (const HierarchicalCondition& one : fit.conditions) {
     json["conditions"].push_back(
         {{"condition", one.condition},
          {"num_participants", one.num_participants},
          {"weber_fraction", number(one.weber_fraction)},
          {"weber_fraction_ci95", interval(one.weber_fraction_ci95)},
+         {"weber_fraction_without_prior", number(one.weber_fraction_without_prior)},
+         {"easy_ratio", one.easy_ratio},
+         {"cautions", one.cautions},
          {"pse", number(one.pse)},
          {"pse_ci95", one.pse_ci95 ? interval(*one.pse_ci95) : Json(nullptr)},
          {"slope", number(one.slope_number)},
@@ -43,7 +55,9 @@ Json to_json(const HierarchicalFit& fit) {
   for (const HierarchicalPersonEstimate& one : fit.participants) {
     json["participants"].push_back({{"participant", one.participant},
                                     {"condition", one.condition},
-                                    {"weber_fraction", number(one.weber_fraction)}});
+                                    {"weber_fraction", number(one.weber_fraction)},
+                                    {"reason", sentence(one.reason)},
+                                    {"cautions", one.cautions}});
   }
   return json;
 }

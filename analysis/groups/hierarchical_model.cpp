@@ -1,6 +1,7 @@
 #include "analysis/groups/hierarchical_model.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,16 +33,29 @@ struct AnswerProbabilities {
   double by_lapse_yes = 0, by_lapse_no = 0;  ///< d ln f / d lapse, d ln g / d lapse
 };
 
-AnswerProbabilities answer_probabilities(double z, double lapse_rate) noexcept {
-  if (lapse_rate == 0.0) {
+AnswerProbabilities answer_probabilities(double z, double lapse_rate,
+                                         double guess_rate) noexcept {
+  if (lapse_rate == 0.0 && guess_rate == 0.0) {
     const LogNormalTails tails = log_normal_tails(z);
     return {tails.log_lower, tails.log_upper, tails.mills_lower, tails.mills_upper};
   }
   const NormalTails tails = normal_tails(z);
-  const double share = 1.0 - 2.0 * lapse_rate;
-  const double yes = lapse_rate + share * tails.lower, no = lapse_rate + share * tails.upper;
-  const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
-  return {std::log(yes), std::log(no), by_z / yes, by_z / no, by_lapse / yes, -by_lapse / no};
+  if (guess_rate == 0.0) {
+    const double share = 1.0 - 2.0 * lapse_rate;
+    const double yes = lapse_rate + share * tails.lower, no = lapse_rate + share * tails.upper;
+    const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
+    return {std::log(yes), std::log(no), by_z / yes, by_z / no, by_lapse / yes, -by_lapse / no};
+  }
+  const double share = 1.0 - guess_rate - lapse_rate;
+  const double right = guess_rate + share * tails.lower;
+  const double by_z = share * tails.density, by_lapse = -tails.lower;
+  if (lapse_rate == 0.0) {  // A wrong answer may be as improbable as can be.
+    const LogNormalTails logs = log_normal_tails(z);
+    return {std::log(right), std::log(share) + logs.log_upper, by_z / right, logs.mills_upper};
+  }
+  const double wrong = lapse_rate + share * tails.upper;
+  return {std::log(right), std::log(wrong),  by_z / right,
+          by_z / wrong,    by_lapse / right, -by_lapse / wrong};
 }
 
 /// Of a share of attentive answers: its density is that to this.
@@ -50,13 +64,17 @@ constexpr double kPriorPower = 19.0;
 }  // namespace
 
 double HierarchicalStructure::lapse_rate(const Eigen::VectorXd& parameters) const noexcept {
-  if (!has_lapses) return 0.0;
+  if (!has_lapses) return known_lapse_rate;
   const double sine = std::sin(parameters(angle_at()));
-  return 0.5 * sine * sine;
+  return lapse_limit() * sine * sine;
 }
 
 double HierarchicalStructure::log_prior(const Eigen::VectorXd& parameters) const noexcept {
-  return has_lapses ? kPriorPower * std::log1p(-2.0 * lapse_rate(parameters)) : 0.0;
+  return has_lapses ? kPriorPower * std::log1p(-lapse_rate(parameters) / lapse_limit()) : 0.0;
+}
+
+double HierarchicalStructure::log_prior_rise(double lapse_rate) const noexcept {
+  return has_lapses ? -kPriorPower / (lapse_limit() - lapse_rate) : 0.0;
 }
 
 HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& structure,
@@ -95,7 +113,8 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
       const double order = has_orders_ ? cell.order[level] : 0.0;
       const Predictor at =
           predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
-      const AnswerProbabilities answer = answer_probabilities(at.z, lapse_rate);
+      const AnswerProbabilities answer =
+          answer_probabilities(at.z, lapse_rate, structure_.guess_rate);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
       // A zero count contributes nothing, even where its logarithm is infinite.
       if (yes > 0.0) value += yes * answer.log_yes;
@@ -139,7 +158,8 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
         place_row += cell.order[level] * loadings.row(order_at).transpose();
       }
       const Predictor here = predictor(structure_.link, slope, place, cell.log_ratio[level]);
-      const AnswerProbabilities answer = answer_probabilities(here.z, population.lapse_rate);
+      const AnswerProbabilities answer =
+          answer_probabilities(here.z, population.lapse_rate, structure_.guess_rate);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
       const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
       const RandomEffects by_effect = here.by_slope * slope_row + here.by_place * place_row;
@@ -195,6 +215,7 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
                                                   Eigen::MatrixXd* scores) const {
   const Population population = population_of(parameters);
   const auto num_people = static_cast<Eigen::Index>(people_.size());
+  const Eigen::Index num_numbers = population.median.size();
   if (scores != nullptr) scores->setZero(structure_.num_parameters, num_people);
   std::vector<double> log_term(grid_.node.size());
   std::vector<RandomEffects> effects(grid_.node.size());
@@ -208,7 +229,7 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
     double largest = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < grid_.node.size(); ++k) {
       effects[k] = mode.at + RandomEffects(root.matrixU().solve(grid_.node[k]));
-      score[k] = {.numbers = Numbers::Zero(structure_.num_numbers())};
+      score[k] = {.numbers = Numbers::Zero(num_numbers)};
       log_term[k] =
           log_likelihood(people_[person], population.at(effects[k]), population.lapse_rate,
                          scores != nullptr ? &score[k] : nullptr) +
@@ -224,7 +245,7 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
     double by_lapse_rate = 0.0;
     for (std::size_t k = 0; k < grid_.node.size(); ++k) {
       const double share = std::exp(log_term[k] - largest) / sum;
-      for (int number = 0; number < structure_.num_numbers(); ++number) {
+      for (Eigen::Index number = 0; number < num_numbers; ++number) {
         (*scores)(number, column) += share * score[k].numbers(number);
       }
       for (const HierarchicalStructure::Loading& one : structure_.loadings) {
@@ -233,9 +254,10 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
       }
       by_lapse_rate += share * score[k].lapse_rate;
     }
-    if (population.lapse_rate > 0.0) {
+    if (structure_.has_lapses && population.lapse_rate > 0.0) {
       (*scores)(structure_.angle_at(), column) =
-          0.5 * std::sin(2.0 * parameters(structure_.angle_at())) * by_lapse_rate;
+          structure_.lapse_limit() * std::sin(2.0 * parameters(structure_.angle_at())) *
+          by_lapse_rate;
     }
   }
   return values;
@@ -247,7 +269,7 @@ double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
   const double total = of_people(parameters, gradient != nullptr ? &scores : nullptr).sum();
   if (gradient != nullptr) {
     *gradient = scores.rowwise().sum();
-    if (structure_.lapse_rate(parameters) > 0.0) {
+    if (structure_.has_lapses && structure_.lapse_rate(parameters) > 0.0) {
       const int angle_at = structure_.angle_at();
       (*gradient)(angle_at) -= 2.0 * kPriorPower * std::tan(parameters(angle_at));
     }
@@ -264,6 +286,43 @@ std::vector<Eigen::VectorXd> HierarchicalLikelihood::modes(
     numbers.emplace_back(population.at(mode.at));
   }
   return numbers;
+}
+
+void HierarchicalLikelihood::add_fitted(const HierarchicalPerson& person,
+                                        const Numbers& numbers, double lapse_rate,
+                                        std::vector<FittedAnswers>& answers) const {
+  for (const HierarchicalCell& cell : person) {
+    const double slope = slope_of(structure_.link, numbers(cell.condition));
+    const double place =
+        structure_.has_places ? numbers(structure_.place_at(cell.condition)) : 0.0;
+    const double by_interval = has_orders_ ? numbers(structure_.order_at(cell.condition)) : 0.0;
+    for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
+      const double order = has_orders_ ? cell.order[level] : 0.0;
+      const double z =
+          predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level])
+              .z;
+      const AnswerProbabilities answer =
+          answer_probabilities(z, lapse_rate, structure_.guess_rate);
+      answers.push_back({.num_yes = cell.num_yes[level],
+                         .num_trials = cell.num_yes[level] + cell.num_no[level],
+                         .probability = std::exp(answer.log_yes)});
+    }
+  }
+}
+
+std::optional<double> HierarchicalLikelihood::misfit_p_value(
+    const Eigen::VectorXd& parameters) const {
+  const Population population = population_of(parameters);
+  std::vector<FittedAnswers> answers;
+  double num_followed = 0.0;
+  for (std::size_t person = 0; person < people_.size(); ++person) {
+    const Mode mode = mode_of(people_[person], population, last_[person]);
+    const Curvature left =
+        mode.information.inverse();  // Of the prior's 1, what the answers left.
+    num_followed += static_cast<double>(left.rows()) - left.trace();
+    add_fitted(people_[person], population.at(mode.at), population.lapse_rate, answers);
+  }
+  return analysis::misfit_p_value(answers, num_followed);
 }
 
 }  // namespace jnd::analysis

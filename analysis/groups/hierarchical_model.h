@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 #include <vector>
 
+#include "analysis/fits/answer_scatter.h"
 #include "analysis/groups/hierarchical_quadrature.h"
 
 namespace jnd::analysis {
@@ -28,16 +30,26 @@ using HierarchicalPerson = std::vector<HierarchicalCell>;
 
 /// Which numbers there are and how they vary. The parameters, in this order: a of each
 /// condition, p of each if `has_places`, q of each if any has orders, then the loadings' and,
-/// if `has_lapses`, an angle v: a share sin^2 v of everybody's answers is random, half of it a
-/// yes, so that P(yes) = lapse + (1 - 2 lapse) Phi(z), lapse = sin^2 v / 2. A person's numbers
-/// are those of the median person plus loadings times standard normal numbers.
+/// if `has_lapses`, an angle v: a share sin^2 v of everybody's answers is random. Half of it is
+/// a yes, so that
+///
+///     P(yes) = lapse + (1 - 2 lapse) Phi(z),   lapse = sin^2 v / 2,
+///
+/// or, where answers are right ones of a forced choice, as many as chance makes right:
+///
+///     P(right) = guess + (1 - guess - lapse) Phi(z),   lapse = (1 - guess) sin^2 v.
+///
+/// A person's numbers are those of the median person plus loadings times standard normal
+/// numbers.
 struct HierarchicalStructure {
   HierarchicalLink link = HierarchicalLink::kLogSlope;
   int num_conditions = 1;
   bool has_places = false;  ///< Otherwise every p is 0.
   /// Of each condition whether either interval may hold the test; else its q is 0.
   std::vector<bool> has_orders_in = {false};
-  bool has_lapses = false;  ///< Otherwise the lapse rate is 0.
+  bool has_lapses = false;
+  double known_lapse_rate = 0.0;  ///< Where it is no parameter: [0, `lapse_limit`).
+  double guess_rate = 0.0;        ///< Of a forced choice among m: 1 / m, [0, 1); else 0.
   struct Loading {
     int number;         ///< Row: the person's number it moves.
     int random_effect;  ///< Column.
@@ -65,13 +77,18 @@ struct HierarchicalStructure {
                                                               : place_at(condition);
   }
   [[nodiscard]] int angle_at() const noexcept { return num_parameters - 1; }
-  /// Half the share of random answers; 0 without lapses.
+  /// That of random answers alone.
+  [[nodiscard]] double lapse_limit() const noexcept {
+    return guess_rate > 0.0 ? 1.0 - guess_rate : 0.5;
+  }
   [[nodiscard]] double lapse_rate(const Eigen::VectorXd& parameters) const noexcept;
   /// ln density of the share of random answers, Beta(1, 20) but for a constant: its mean is
   /// a twentieth, and none is likeliest. Answers to comparisons that are all hard say next to
   /// nothing of lapses, and would else now and then have a flat curve taken for a steep one
   /// with many (a Beta prior for the same reason: Schuett, Harmeling, Macke and Wichmann 2016).
   [[nodiscard]] double log_prior(const Eigen::VectorXd& parameters) const noexcept;
+  /// Its derivative by the lapse rate.
+  [[nodiscard]] double log_prior_rise(double lapse_rate) const noexcept;
 };
 
 /// The likelihood of everybody's answers, integrated over how people differ, by Gauss and
@@ -101,6 +118,11 @@ class HierarchicalLikelihood {
 
   /// Each person's most likely numbers, given the parameters and the person's answers.
   [[nodiscard]] std::vector<Eigen::VectorXd> modes(const Eigen::VectorXd& parameters) const;
+
+  /// Probability that answers of these curves, each person's own at the mode, lie as far from
+  /// them as everybody's do; see `misfit_p_value`. What a mode follows a person's answers by is
+  /// the trace of its hat matrix, less than one for each number of the person's own.
+  [[nodiscard]] std::optional<double> misfit_p_value(const Eigen::VectorXd& parameters) const;
 
  private:
   static constexpr int kMostNumbers = 16;
@@ -143,6 +165,9 @@ class HierarchicalLikelihood {
   [[nodiscard]] JointDerivatives joint_derivatives(const HierarchicalPerson& person,
                                                    const Population& population,
                                                    const RandomEffects& at) const;
+  /// The answers of a person with these numbers, each level beside its probability of a yes.
+  void add_fitted(const HierarchicalPerson& person, const Numbers& numbers, double lapse_rate,
+                  std::vector<FittedAnswers>& answers) const;
   [[nodiscard]] Mode mode_of(const HierarchicalPerson& person, const Population& population,
                              const RandomEffects& start) const;
 

@@ -136,6 +136,30 @@ Inverse inverse_of(const Eigen::MatrixXd& information) {
   return inverse;
 }
 
+/// Without a parameter's row, and column.
+Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index held) {
+  Eigen::VectorXd others(all.size() - 1);
+  others << all.head(held), all.tail(all.size() - 1 - held);
+  return others;
+}
+
+Eigen::MatrixXd without(const Eigen::MatrixXd& all, Eigen::Index held) {
+  Eigen::MatrixXd others(all.rows() - 1, all.cols() - 1);
+  for (Eigen::Index column = 0; column < others.cols(); ++column) {
+    others.col(column) =
+        without(Eigen::VectorXd(all.col(column < held ? column : column + 1)), held);
+  }
+  return others;
+}
+
+/// Back again, with 0 for the held one.
+Eigen::VectorXd with_zero(const Eigen::VectorXd& others, Eigen::Index held) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(others.size() + 1);
+  all.head(held) = others.head(held);
+  all.tail(others.size() - held) = others.tail(others.size() - held);
+  return all;
+}
+
 }  // namespace
 
 Eigen::VectorXd most_likely_with(const HierarchicalLikelihood& likelihood,
@@ -182,6 +206,50 @@ HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
     if (size > kLargeStep) inverse.matrix.resize(0, 0);
   }
   return found;
+}
+
+Eigen::VectorXd rise_of(const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at) {
+  return gradient_of(likelihood, at);
+}
+
+std::optional<Eigen::MatrixXd> covariance_without(const HierarchicalLikelihood& likelihood,
+                                                  const Eigen::VectorXd& at,
+                                                  Eigen::Index held) {
+  Inverse inverse = inverse_of(without(information_at(likelihood, at, likelihood(at)), held));
+  if (inverse.rising) return std::nullopt;
+  return std::move(inverse.matrix);
+}
+
+std::optional<Eigen::VectorXd> most_likely_near(const HierarchicalLikelihood& likelihood,
+                                                const Eigen::VectorXd& start, Eigen::Index held,
+                                                Eigen::MatrixXd& inverse) {
+  constexpr int kMaxSteps = 40;
+  constexpr double kSmallStep = 1e-8, kLargestStep = 0.5, kSlowly = 0.3;
+  Eigen::VectorXd at = start;
+  double last_size = kLargestStep;
+  for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
+    if (!(at.cwiseAbs().maxCoeff() < kRunAway)) return std::nullopt;
+    const Eigen::VectorXd rise = without(gradient_of(likelihood, at), held);
+    if (!rise.allFinite()) return std::nullopt;
+    const auto renew = [&] {
+      inverse =
+          inverse_of(without(information_at(likelihood, at, likelihood(at)), held)).matrix;
+    };
+    if (inverse.size() == 0) renew();
+    Eigen::VectorXd step = inverse * rise;
+    double size = step.cwiseAbs().maxCoeff();
+    if (size > kSmallStep && size > kSlowly * last_size) {
+      renew();
+      step = inverse * rise;
+      size = step.cwiseAbs().maxCoeff();
+    }
+    if (!std::isfinite(size)) return std::nullopt;
+    if (size <= kSmallStep) return at;
+    if (size > kLargestStep) step *= kLargestStep / size;
+    at += with_zero(step, held);
+    last_size = size;
+  }
+  return std::nullopt;
 }
 
 }  // namespace jnd::analysis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "analysis/fits/fit_status.h"
@@ -27,5 +28,22 @@ struct HierarchicalOptimum {
 /// Roughly the largest with one parameter held where it is: a start for the search above.
 [[nodiscard]] Eigen::VectorXd most_likely_with(const HierarchicalLikelihood& likelihood,
                                                const Eigen::VectorXd& start, Eigen::Index held);
+
+/// Derivatives of log-likelihood and log prior: the exact integral's where there are several
+/// nodes, else by differences.
+[[nodiscard]] Eigen::VectorXd rise_of(const HierarchicalLikelihood& likelihood,
+                                      const Eigen::VectorXd& at);
+
+/// Inverse of the observed information in all parameters but one: a row and a column less.
+/// Absent where the likelihood curves upwards along some direction.
+[[nodiscard]] std::optional<Eigen::MatrixXd> covariance_without(
+    const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at, Eigen::Index held);
+
+/// The largest with one parameter held where it is, by Newton's method from a `start` near it.
+/// `inverse`: of the information thereabouts as of `covariance_without`, or empty; it is
+/// renewed where steps by it do not get smaller. Absent where they never do.
+[[nodiscard]] std::optional<Eigen::VectorXd> most_likely_near(
+    const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& start, Eigen::Index held,
+    Eigen::MatrixXd& inverse);
 
 }  // namespace jnd::analysis

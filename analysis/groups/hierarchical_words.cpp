@@ -1,6 +1,7 @@
 #include "analysis/groups/hierarchical_words.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace jnd::analysis {
 namespace {
@@ -12,6 +13,21 @@ std::string own_place(const std::vector<bool>& has_orders_in, const std::string&
   const auto num_conditions = static_cast<std::ptrdiff_t>(has_orders_in.size());
   return num_with_orders == num_conditions || pse.empty() ? "bias for an interval"
                                                           : pse + " or bias for an interval";
+}
+
+std::string guess_words(const HierarchicalOptions& options) {
+  if (options.guess_rate == 0.0) return "";
+  char text[48];
+  std::snprintf(text, sizeof text, ", guess rate %.3g", options.guess_rate);
+  return text;
+}
+
+std::string lapse_words(const HierarchicalOptions& options) {
+  if (options.lapses == HierarchicalLapses::kCommon) return ", one lapse rate for everybody";
+  if (options.lapses == HierarchicalLapses::kNone || options.lapse_rate == 0.0) return "";
+  char text[48];
+  std::snprintf(text, sizeof text, ", lapse rate %.3g", options.lapse_rate);
+  return text;
 }
 
 std::string pse_words(HierarchicalPse pse, const std::vector<bool>& has_orders_in) {
@@ -40,9 +56,7 @@ std::string method_words(const HierarchicalOptions& options,
   return std::string(options.link == HierarchicalLink::kLogSlope
                          ? "probit, ln slope normal between people, "
                          : "probit, slope normal between people, ") +
-         pse_words(options.pse, has_orders_in) +
-         (options.lapses == HierarchicalLapses::kCommon ? ", one lapse rate for everybody"
-                                                        : "") +
+         pse_words(options.pse, has_orders_in) + guess_words(options) + lapse_words(options) +
          (num_nodes == 1 ? ", Laplace"
                          : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
                                " nodes a dimension");

@@ -1,89 +1,79 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <numeric>
 
 #include "analysis/groups/comparison_parts.h"
 #include "analysis/groups/effect_size.h"
+#include "analysis/groups/pairwise_order.h"
+#include "analysis/groups/rank_distributions.h"
+#include "analysis/groups/ranks.h"
+#include "analysis/groups/signed_rank.h"
 #include "analysis/groups/summary.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr std::size_t kLargestExact = 50;
-constexpr double kNormalQuantile = 1.959963984540054;  ///< 97.5 %
+constexpr std::size_t kLargestExactPairs = 14;
 
-struct Ranks {
-  std::vector<double> rank;     ///< Of each value, ties sharing the mean of theirs.
-  double tie_correction = 0.0;  ///< Sum of t^3 - t over the ties.
-};
-
-Ranks ranks_of(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t x, std::size_t y) { return values[x] < values[y]; });
-  Ranks ranks{.rank = std::vector<double>(values.size())};
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t end = first;
-    while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
-    const double tied = static_cast<double>(end - first);
-    ranks.tie_correction += tied * (tied * tied - 1.0);
-    for (std::size_t place = first; place < end; ++place) {
-      ranks.rank[order[place]] = 0.5 * static_cast<double>(first + 1 + end);
-    }
-    first = end;
-  }
-  return ranks;
+/// Of everybody's ranks in the smallest whole numbers: doubled only where there are ties.
+std::vector<std::int64_t> whole(const Ranks& ranks, bool doubled) {
+  std::vector<std::int64_t> numbers = ranks.doubled;
+  for (std::int64_t& rank : numbers) rank /= doubled ? 1 : 2;
+  return numbers;
 }
 
-/// Probabilities of U = 0, 1, ... without ties: the coefficients of the Gaussian binomial.
-std::vector<double> u_probabilities(std::size_t num_a, std::size_t num_b) {
-  const std::size_t num = num_a * num_b + 1;
-  std::vector<double> ways(num, 0.0);
-  ways[0] = 1.0;
-  for (std::size_t i = 1; i <= num_a; ++i) {
-    for (std::size_t u = num; u-- > num_b + i;) ways[u] -= ways[u - num_b - i];
-    for (std::size_t u = i; u < num; ++u) ways[u] += ways[u - i];
+std::vector<double> numbers_of(const Ranks& ranks) {
+  std::vector<double> numbers;
+  for (const std::int64_t rank : ranks.doubled) {
+    numbers.push_back(0.5 * static_cast<double>(rank));
   }
-  const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
-  for (double& way : ways) way /= all;
-  return ways;
-}
-
-double probability_up_to(const std::vector<double>& probabilities, double u) {
-  double sum = 0.0;
-  for (std::size_t at = 0; at < probabilities.size() && static_cast<double>(at) <= u; ++at) {
-    sum += probabilities[at];
-  }
-  return sum;
-}
-
-std::vector<double> all_differences(const std::vector<double>& a,
-                                    const std::vector<double>& b) {
-  std::vector<double> differences;
-  for (const double x : a) {
-    for (const double y : b) differences.push_back(x - y);
-  }
-  std::sort(differences.begin(), differences.end());
-  return differences;
-}
-
-/// How many differences lie outside the interval at each end: the largest count whose tail
-/// probability is at most 2.5 %.
-std::size_t num_outside(const std::vector<double>& probabilities, double mean,
-                        double deviation) {
-  if (probabilities.empty()) {
-    return static_cast<std::size_t>(
-        std::max(0.0, std::floor(mean - kNormalQuantile * deviation)));
-  }
-  std::size_t outside = 0;
-  while (probability_up_to(probabilities, static_cast<double>(outside)) <= 0.025) ++outside;
-  return outside;
+  return numbers;
 }
 
 std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// Median of the differences a - b, and those of them that the test without ties keeps: none
+/// of two constants, whose differences are all alike.
+void fill_shift(Comparison& result, std::vector<double> a, std::vector<double> b, bool exact) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  const std::size_t num = a.size() * b.size();
+  result.hodges_lehmann =
+      finite(0.5 * difference_at(a, b, (num - 1) / 2) + 0.5 * difference_at(a, b, num / 2));
+  const double pairs = static_cast<double>(num);
+  const std::vector<double> probabilities =
+      exact ? rank_sum_distribution(untied_ranks(a.size() + b.size()), a.size()).probabilities
+            : std::vector<double>();
+  const std::size_t outside = num_pairs_outside(
+      probabilities, 0.5 * pairs,
+      std::sqrt(pairs * (static_cast<double>(a.size() + b.size()) + 1.0) / 12.0));
+  const bool are_constants = a.front() == a.back() && b.front() == b.back();
+  if (outside > 0 && !are_constants) {
+    result.hodges_lehmann_ci95 = {finite(difference_at(a, b, outside - 1)),
+                                  finite(difference_at(a, b, num - outside))};
+  }
+}
+
+/// Spearman's p where the distribution is counted, or the ranks agree wholly, of which there is
+/// but one pairing besides those that exchange ties.
+std::optional<double> exact_spearman_p(const Ranks& a, const Ranks& b, double r) {
+  const std::size_t num = a.doubled.size();
+  if (num <= kLargestExactPairs) {
+    const bool has_ties = a.has_ties() || b.has_ties();
+    const std::vector<std::int64_t> of_a = whole(a, has_ties), of_b = whole(b, has_ties);
+    const auto sum =
+        std::inner_product(of_a.begin(), of_a.end(), of_b.begin(), std::int64_t{0});
+    return rank_product_distribution(of_a, of_b).two_sided(static_cast<double>(sum));
+  }
+  if (std::fabs(r) < 1.0) return std::nullopt;
+  std::map<std::int64_t, int> ties;
+  for (const std::int64_t rank : a.doubled) ++ties[rank];
+  double ln_p = std::log(2.0) - std::lgamma(static_cast<double>(num) + 1.0);
+  for (const auto& [rank, tied] : ties) ln_p += std::lgamma(tied + 1.0);
+  return std::min(1.0, std::exp(ln_p));
 }
 
 }  // namespace
@@ -109,26 +99,19 @@ Comparison rank_sum_test(const std::vector<double>& a, const std::vector<double>
     result.reason = "all values are alike: there is nothing to rank";
     return result;
   }
-  const double u = std::accumulate(ranks.rank.begin(), ranks.rank.begin() + result.num_a, 0.0) -
-                   0.5 * num_a * (num_a + 1.0);
+  const auto doubled_sum = std::accumulate(
+      ranks.doubled.begin(), ranks.doubled.begin() + result.num_a, std::int64_t{0});
+  const double u = 0.5 * static_cast<double>(doubled_sum) - 0.5 * num_a * (num_a + 1.0);
   const double mean = 0.5 * num_a * num_b;
-  const bool exact = ranks.tie_correction == 0.0 && both.size() <= kLargestExact;
-  const std::vector<double> probabilities =
-      exact ? u_probabilities(a.size(), b.size()) : std::vector<double>();
-  const double smaller = std::min(u, num_a * num_b - u);
-  result.method += exact ? ", exact" : ", normal approximation corrected for ties";
+  const bool exact = both.size() <= static_cast<std::size_t>(kLargestExactRanks);
+  result.method += rank_method(exact, ranks.has_ties());
   result.statistic = u;
-  result.p_value =
-      std::min(1.0, exact ? 2.0 * probability_up_to(probabilities, smaller)
-                          : std::erfc((mean - smaller) / deviation / std::numbers::sqrt2));
+  result.statistic_name = "U";
+  result.p_value = exact ? rank_sum_distribution(ranks.doubled, a.size())
+                               .two_sided(static_cast<double>(doubled_sum))
+                         : two_sided_normal(u, mean, deviation);
   result.rank_biserial = u / mean - 1.0;
-  const std::vector<double> differences = all_differences(a, b);
-  result.hodges_lehmann = finite(percentile(differences, 0.5));
-  const std::size_t outside = num_outside(probabilities, mean, deviation);
-  if (outside > 0) {
-    result.hodges_lehmann_ci95 = {finite(differences[outside - 1]),
-                                  finite(differences[differences.size() - outside])};
-  }
+  fill_shift(result, a, b, exact);
   result.status = FitStatus::kOk;
   return result;
 }
@@ -136,20 +119,40 @@ Comparison rank_sum_test(const std::vector<double>& a, const std::vector<double>
 Comparison spearman_correlation(const std::vector<double>& a, const std::vector<double>& b) {
   require_finite(a, "a");
   require_finite(b, "b");
-  Comparison result = pearson_correlation(ranks_of(a).rank, ranks_of(b).rank);
+  const Ranks ranks_a = ranks_of(a), ranks_b = ranks_of(b);
+  Comparison result = pearson_correlation(numbers_of(ranks_a), numbers_of(ranks_b));
   result.kind = Comparison::Kind::kSpearman;
-  result.method = "Spearman's rank correlation, p by t, interval by Fisher's z";
-  if (result.status != FitStatus::kOk) {
-    if (result.estimate) result.reason = "the ranks agree wholly: t is infinite";
-    return result;
-  }
-  const double rho = *result.estimate;
+  result.method = "Spearman's rank correlation";
   result.ci95 = {};
-  if (a.size() > 3) {
-    result.ci95 = fisher_interval(
-        rho, std::sqrt((1.0 + 0.5 * rho * rho) / (static_cast<double>(a.size()) - 3.0)));
+  if (!result.estimate) return result;
+  const double rho = *result.estimate;
+  const auto n = static_cast<double>(a.size());
+  if (result.statistic) result.other_statistics = {{"t", *result.statistic}};
+  result.statistic = (n * n * n - n) / 6.0 * (1.0 - rho);
+  result.statistic_name = "S";
+  if (const auto p_value = exact_spearman_p(ranks_a, ranks_b, rho)) {
+    result.p_value = p_value;
+    result.degrees_of_freedom = std::nullopt;
+    result.other_statistics.clear();
+    result.method += rank_method(true, ranks_a.has_ties() || ranks_b.has_ties());
+  } else {
+    result.method += ", p by t";
   }
+  result.reason = "";
+  if (a.size() > 3 && std::fabs(rho) < 1.0) {
+    result.method += ", interval by Fisher's z";
+    result.ci95 = fisher_interval(rho, std::sqrt((1.0 + 0.5 * rho * rho) / (n - 3.0)));
+  }
+  result.status = FitStatus::kOk;
   return result;
+}
+
+std::string rank_method(bool exact, bool has_ties) {
+  if (!exact) {
+    return has_ties ? ", normal approximation, corrected for ties and continuity"
+                    : ", normal approximation, corrected for continuity";
+  }
+  return has_ties ? ", exact with ties" : ", exact";
 }
 
 }  // namespace jnd::analysis

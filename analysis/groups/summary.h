@@ -39,6 +39,18 @@ struct ResampledInterval {
     std::size_t num_participants, int num_resamples, std::uint64_t seed,
     const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic);
 
+/// The same of a value > 0 that a curve through everybody's answers has, such as its Weber
+/// fraction: estimate exp(-+ t s), s being the standard deviation of the logarithms of the
+/// resamples times sqrt(n / (n - 1)), t the 97.5 % quantile of Student's distribution with n -
+/// 1 degrees of freedom (Efron and Tibshirani 1993, ch. 12). Of the geometric mean it is the t
+/// interval of the logarithms. The slope of a curve through few people's answers comes out too
+/// steep in most resamples, so that percentiles of it hold the truth in 79 to 94 % at 5 and 13
+/// people, this in 93 to 96 % (data/reference/coverage). Where more than 2.5 % of the resamples
+/// are undefined, 0 or infinite it is the percentiles', whose ends are then open.
+[[nodiscard]] ResampledInterval resample_factor(
+    std::size_t num_participants, int num_resamples, std::uint64_t seed, double estimate,
+    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic);
+
 /// The quantile of ascending values, interpolated between its two neighbours ((n-1) p, type 7
 /// of Hyndman and Fan 1996). `ascending` is not empty; 0 <= probability <= 1. Not finite if a
 /// neighbour is not.

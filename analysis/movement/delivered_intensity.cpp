@@ -144,6 +144,7 @@ DeliveredIntensities delivered_intensities(const MovementAnalysis& movement) {
 
 DeliveredStudy with_delivered(StudyData data, const DeliveredIntensities& delivered) {
   DeliveredStudy study{.data = std::move(data)};
+  study.data.delivered = true;
   for (ParticipantData& participant : study.data.participants) {
     std::map<std::string, BlockReplacement> blocks;
     for (const core::TrialRow& trial : participant.trials) {

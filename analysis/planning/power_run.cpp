@@ -119,12 +119,13 @@ class SizeAnalysis {
  private:
   void add_block(PlannedSize& result, std::size_t block) const {
     std::vector<double> numbers;
-    int num_with_answers = 0, num_degenerate = 0;
+    int num_with_answers = 0, num_degenerate = 0, num_at_grid_end = 0;
     for (std::size_t person = 0; person < size_; ++person) {
       const OwnNumber& own = numbers_[person][block];
       if (!own.answered) continue;
       ++num_with_answers;
       num_degenerate += own.plain ? 0 : 1;
+      num_at_grid_end += people_[person][block].at_grid_end ? 1 : 0;
       if (own.plain) numbers.push_back(*own.plain);
     }
     const PlannedQuantity quantity = analysis_.blocks[block].quantity;
@@ -140,6 +141,7 @@ class SizeAnalysis {
     }
     result.num_with_answers.push_back(num_with_answers);
     result.num_degenerate.push_back(num_degenerate);
+    result.num_at_grid_end.push_back(num_at_grid_end);
   }
 
   [[nodiscard]] PlannedTest test(std::optional<double> OwnNumber::*number) const {
@@ -173,7 +175,8 @@ class SizeAnalysis {
     });
     return fit_hierarchical(
         answers, {.pse = free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference,
-                  .lapses = HierarchicalLapses::kCommon});
+                  // The interval of one block's fraction is told; of a difference, no profile.
+                  .lapse_profile = blocks.size() == 1});
   }
 
   [[nodiscard]] PlannedTest hierarchical_test() const {

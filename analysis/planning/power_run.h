@@ -60,6 +60,8 @@ struct PlannedAnswers {
   std::vector<AnswerCount> counts;  ///< Discrimination.
   /// Ratios at intensities, or intensities at targets or standards.
   MagnitudeAnswers magnitudes;
+  /// The posterior of QUEST+ reaches an end of one of its grids.
+  bool at_grid_end = false;
 };
 /// In the order of the blocks.
 using PlannedPerson = std::vector<PlannedAnswers>;
@@ -79,6 +81,7 @@ struct PlannedSize {
   std::vector<PlannedTest> tests;
   std::vector<int> num_with_answers;  ///< By block: participants who got it.
   std::vector<int> num_degenerate;    ///< By block: of these, without a fit of their own.
+  std::vector<int> num_at_grid_end;   ///< By block: of these, `PlannedAnswers::at_grid_end`.
 };
 /// One simulated study, at each of its sizes.
 using PlannedRun = std::vector<PlannedSize>;

@@ -102,8 +102,35 @@ std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
       summary.estimates.push_back(
           precision_of(runs, size, estimate, analysis.blocks[place], place));
     }
+    for (std::size_t block = 0; block < analysis.blocks.size(); ++block) {
+      std::int64_t num_people = 0, num_at_end = 0;
+      for (const PlannedRun& run : runs) {
+        num_people += run[size].num_with_answers[block];
+        num_at_end += run[size].num_at_grid_end[block];
+      }
+      summary.at_grid_end.push_back(num_people == 0 ? 0.0
+                                                    : static_cast<double>(num_at_end) /
+                                                          static_cast<double>(num_people));
+    }
   }
   return summaries;
+}
+
+std::optional<double> true_difference(const PlannedAnalysis& analysis) {
+  if (!analysis.compared) return std::nullopt;
+  const auto log_log = [&](std::size_t place) {
+    const std::optional<double>& w = analysis.blocks[place].true_value;
+    return w ? std::log(std::log1p(*w)) : std::numeric_limits<double>::quiet_NaN();
+  };
+  const double difference =
+      log_log(analysis.compared->first) - log_log(analysis.compared->second);
+  return std::isfinite(difference) ? std::optional(difference) : std::nullopt;
+}
+
+bool nothing_differs(const PlannedAnalysis& analysis) {
+  constexpr double kNothing = 0.005;
+  const std::optional<double> difference = true_difference(analysis);
+  return difference && std::fabs(*difference) < kNothing;
 }
 
 std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
@@ -133,14 +160,31 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
                "this power, and try other stimuli" +
                    std::string(of_comparison ? ", nearer the reference." : ".")));
   }
+  const bool alike = nothing_differs(analysis);
+  if (alike && !null_hypothesis) {
+    doubts.push_back("In this laboratory the Weber fractions of " +
+                     analysis.blocks[analysis.compared->first].name + " and " +
+                     analysis.blocks[analysis.compared->second].name +
+                     " do not differ: the share of studies with p < 0.05 is the rate of false "
+                     "positives, not a power.");
+  }
   const std::vector<PlannedName> tests = test_names(analysis);
-  for (std::size_t place = 0; null_hypothesis && place < tests.size(); ++place) {
+  for (std::size_t place = 0; (null_hypothesis || alike) && place < tests.size(); ++place) {
     const PlannedPower& one = largest.tests[place];
     if (one.power_low <= kTooOften) continue;
     doubts.push_back(tests[place].name + at + "it finds a difference where there is none in " +
                      percent_words(one.power) +
                      " of the studies, not in 5 %: the blocks are not measured alike, and this "
                      "test must not compare them.");
+  }
+  for (std::size_t block = 0; block < analysis.blocks.size(); ++block) {
+    constexpr double kTooMany = 0.05;
+    if (largest.at_grid_end[block] <= kTooMany) continue;
+    doubts.push_back(
+        analysis.blocks[block].name + ": of " + percent_words(largest.at_grid_end[block]) +
+        " of the participants the posterior of QUEST+ reaches an end of a grid, so "
+        "that the study file decides about their values and they have no interval: "
+        "widen the grids, or plan more trials.");
   }
   return doubts;
 }

@@ -38,6 +38,8 @@ struct PlannedSummary {
   int num_participants = 0;
   std::vector<PlannedPower> tests;          ///< As `test_names`.
   std::vector<PlannedPrecision> estimates;  ///< As `estimate_names`.
+  /// By block: share of participants whose posterior of QUEST+ reaches an end of a grid.
+  std::vector<double> at_grid_end;
 };
 
 /// One summary a size; sums go in the order of the runs, so that the same runs give the same
@@ -45,10 +47,19 @@ struct PlannedSummary {
 [[nodiscard]] std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
                                                           const std::vector<PlannedRun>& runs);
 
+/// How far the compared blocks lie apart in the laboratory, in ln ln(1 + w), first minus
+/// second; none where nothing is compared or a true value is not known.
+[[nodiscard]] std::optional<double> true_difference(const PlannedAnalysis& analysis);
+
+/// Whether that is as good as nothing, below half a percent of ln(1 + w): then the share of
+/// studies with p < 0.05 is the rate of false positives, not a power.
+[[nodiscard]] bool nothing_differs(const PlannedAnalysis& analysis);
+
 /// What not to plan on, a sentence each: intervals that hold the true value too rarely, and
-/// under the null hypothesis tests that find a difference too often, where the runs are enough
-/// to tell. Of every estimate and test the largest size speaks; of a quick estimate only where
-/// the hierarchical one is not beside it.
+/// where nothing differs tests that find a difference too often, where the runs are enough to
+/// tell; and grids of QUEST+ that end too early for more than one in twenty. Also that nothing
+/// differs, unless the null hypothesis was asked for. Of every estimate and test the largest
+/// size speaks; of a quick estimate only where the hierarchical one is not beside it.
 [[nodiscard]] std::vector<std::string> planning_doubts(
     const PlannedAnalysis& analysis, const std::vector<PlannedSummary>& summaries,
     bool null_hypothesis);

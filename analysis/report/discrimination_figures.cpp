@@ -31,6 +31,11 @@ struct OwnAnswers {
   const ParticipantEstimate* free_fraction = nullptr;
   const ParticipantEstimate* pse = nullptr;  ///< Of the latter.
   double order_effect_ln = 0.0, free_order_effect_ln = 0.0;
+
+  /// Of the two the one that stands for the primary value, which has the pse free or not.
+  [[nodiscard]] const ParticipantEstimate* primary(bool frees) const {
+    return frees ? free_fraction : fraction;
+  }
 };
 
 struct BlockAnswers {
@@ -39,13 +44,16 @@ struct BlockAnswers {
   std::vector<OwnAnswers> participants;  ///< Those who answered.
   std::vector<double> levels;            ///< Ascending.
   bool has_fixed_levels = true;          ///< See `has_fixed_levels`.
+  bool frees = false;                    ///< The primary value has the pse free.
 };
 
 BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
   BlockAnswers all{.block = block.block,
                    .title = source.words.title_of(block.block),
                    .quantity = block.quantity,
-                   .has_fixed_levels = has_fixed_levels(block)};
+                   .has_fixed_levels = has_fixed_levels(block),
+                   .frees = source.section(block.block) != nullptr &&
+                            source.section(block.block)->own_fractions_free_pse};
   std::map<double, int> levels;
   for (const ParticipantData& participant : source.data.participants) {
     OwnAnswers own{.participant = participant.participant};
@@ -270,8 +278,7 @@ std::string curves_words(const FigureSource& source, const BlockAnswers& answers
 /// Fig. 5 and D.23: the group's answers, its curve, everybody's curve behind.
 Figure group_figure(const FigureSource& source, const BlockDesign& block,
                     const BlockAnswers& answers) {
-  const ResultsSection* const section = source.section(answers.block);
-  const bool free_pse = section != nullptr && section->own_fractions_free_pse;
+  const bool free_pse = answers.frees;
   Figure figure{
       .name = file_word(answers.block) + "_psychometric",
       .section = answers.block,
@@ -381,25 +388,25 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
     std::vector<Panel> panels;
     for (std::size_t i = first; i < end; ++i) {
       const OwnAnswers& own = answers.participants[i];
-      const bool fitted = own.fraction != nullptr && own.fraction->value;
+      const ParticipantEstimate* const primary = own.primary(answers.frees);
+      const bool has_fraction = primary != nullptr && primary->value;
+      const bool has_fixed_curve = own.fraction != nullptr && own.fraction->value;
       const int series = static_cast<int>(i) + 1;
-      Panel panel{
-          .title = own.participant +
-                   (fitted ? "   w = " + number_words(own.fraction->value, 2) : "   no fit")};
+      Panel panel{.title = own.participant + (has_fraction
+                                                  ? "   w = " + number_words(primary->value, 2)
+                                                  : "   no fit")};
       if (i == first) {
         panel.before = "  set xrange " + range_words(intensity_range(answers)) +
                        "\n  set yrange [-0.06:1.06]\n  set ytics 0.5 font small\n" +
                        small_tics("x", intensity_range(answers)) + reference_line(answers);
       }
       panel.plot = "plot ";
-      if (fitted) {
-        panel.plot += from_table(curves) + "'intensity':" + if_series(series, "ratio") +
-                      " with lines ls 11 lw 1.3, ";
-      }
-      if (has_free_curve(own)) {
-        panel.plot += from_table(free_curves) + "'intensity':" + if_series(series, "ratio") +
-                      " with lines lt 2 lw 1.3, ";
-      }
+      const auto add_curve = [&](const FigureTable& table, bool is_primary) {
+        panel.plot += from_table(table) + "'intensity':" + if_series(series, "ratio") +
+                      (is_primary ? " with lines ls 11 lw 1.3, " : " with lines lt 2 lw 1.3, ");
+      };
+      if (has_fixed_curve) add_curve(curves, !answers.frees);
+      if (has_free_curve(own)) add_curve(free_curves, answers.frees);
       panel.plot += from_table(points) + "'intensity':" + if_series(series, "ratio") +
                     (answers.has_fixed_levels
                          ? ":'ratio_low':'ratio_high' with yerrorbars ls 11 lc rgb '#0072B2' "
@@ -413,8 +420,10 @@ std::vector<Figure> participant_figures(const BlockAnswers& answers) {
         std::string("Proportion of answers “more than the reference”") +
         (answers.has_fixed_levels ? " with Wilson’s 95 % interval" : "") +
         ", and the curves of maximum likelihood, where they exist: black, with its Weber "
-        "fraction w, the "
-        "point of subjective equality at the reference; dashed, it is free. " +
+        "fraction w, the point of subjective equality " +
+        (answers.frees
+             ? "free, as the primary value has it; dashed, it is at the reference. "
+             : "at the reference, as the primary value has it; dashed, it is free. ") +
         std::string(have_orders(answers) ? "Drawn is the mean of both orders of the intervals. "
                                          : "") +
         "Vertical: the reference. The values of every participant say which curves the answers "

@@ -52,7 +52,8 @@ struct FigureSource {
 /// The power laws of both and between them (fig. 4c, D.4, D.15).
 [[nodiscard]] std::vector<Figure> combined_figures(const FigureSource& source);
 
-/// Ours over published, estimate by estimate.
+/// Published values among simulated studies where those are known, else ours over published,
+/// estimate by estimate.
 [[nodiscard]] std::vector<Figure> published_figures(const FigureSource& source);
 
 /// Stroke width and speed of every participant, from summaries of strokes (D.17, D.25).

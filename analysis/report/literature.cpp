@@ -16,6 +16,9 @@ constexpr Work kWorks[] = {
     {"Abbott 1925",
      "Abbott, W. S. (1925). A method of computing the effectiveness of an insecticide. Journal "
      "of Economic Entomology 18, 265-267."},
+    {"Armitage 1955",
+     "Armitage, P. (1955). Tests for linear trends in proportions and frequencies. Biometrics "
+     "11, 375-386."},
     {"Bergmann Tiest et al. 2013",
      "Bergmann Tiest, W. M., Vrijling, A. C. L., Kappers, A. M. L. (2013). Haptic "
      "discrimination "
@@ -23,6 +26,12 @@ constexpr Work kWorks[] = {
     {"Bonett and Wright 2000",
      "Bonett, D. G., Wright, T. A. (2000). Sample size requirements for estimating Pearson, "
      "Kendall and Spearman correlations. Psychometrika 65, 23-28."},
+    {"Delacre et al. 2021",
+     "Delacre, M., Lakens, D., Ley, C., Liu, L., Leys, C. (2021). Why Hedges’ g*s based on the "
+     "non-pooled standard deviation should be reported with Welch’s t-test. PsyArXiv, "
+     "doi:10.31234/osf.io/tu6mp."},
+    {"Efron and Tibshirani 1993",
+     "Efron, B., Tibshirani, R. J. (1993). An introduction to the bootstrap. Chapman & Hall."},
     {"Fisher 1921",
      "Fisher, R. A. (1921). On the “probable error” of a coefficient of correlation deduced "
      "from "
@@ -77,6 +86,9 @@ constexpr Work kWorks[] = {
     {"Mann and Whitney 1947",
      "Mann, H. B., Whitney, D. R. (1947). On a test of whether one of two random variables is "
      "stochastically larger than the other. Annals of Mathematical Statistics 18, 50-60."},
+    {"Noether 1967",
+     "Noether, G. E. (1967). Wilcoxon confidence intervals for location parameters in the "
+     "discrete case. Journal of the American Statistical Association 62, 184-188."},
     {"Pinheiro and Bates 1995",
      "Pinheiro, J. C., Bates, D. M. (1995). Approximations to the log-likelihood function in "
      "the "
@@ -95,6 +107,11 @@ constexpr Work kWorks[] = {
      "What if there were no significance tests? Erlbaum, 221-257."},
     {"Stevens 1957",
      "Stevens, S. S. (1957). On the psychophysical law. Psychological Review 64, 153-181."},
+    {"Streitberg and Röhmel 1986",
+     "Streitberg, B., Röhmel, J. (1986). Exact distributions for permutation and rank tests: "
+     "an "
+     "introduction to some recently published algorithms. Statistical Software Newsletter 12, "
+     "10-17."},
     {"Ulrich and Vorberg 2009",
      "Ulrich, R., Vorberg, D. (2009). Estimating the difference limen in 2AFC tasks: pitfalls "
      "and improved estimators. Attention, Perception, & Psychophysics 71, 1219-1227."},

@@ -5,12 +5,11 @@
 
 #include "analysis/presentation_use.h"
 #include "analysis/report/literature.h"
+#include "analysis/report/test_methods.h"
 #include "analysis/report/threshold_methods.h"
 
 namespace jnd::analysis {
 namespace {
-
-using Kind = Comparison::Kind;
 
 /// Paragraphs as they are written, with what they cite.
 class Writer {
@@ -27,13 +26,13 @@ class Writer {
 
   void write_analysis();
   void write_psychometric();
+  void write_wrong_way_round();
   void write_thresholds();
   void write_hierarchical();
   void write_power_laws();
   void write_matching();
   void write_groups();
   void write_tests();
-  void write_effects();
   void write_movement();
 
  private:
@@ -58,21 +57,18 @@ class Writer {
   [[nodiscard]] bool discriminates() const {
     return std::ranges::any_of(source_.data.blocks, &BlockDesign::compares);
   }
+  /// Somebody answers the wrong way round, and is in the numbers or left out for it.
+  [[nodiscard]] bool any_inverted() const {
+    return std::ranges::any_of(source_.data.participants,
+                               [](const auto& one) { return !one.left_out.empty(); }) ||
+           std::ranges::any_of(source_.results.sections, [](const ResultsSection& section) {
+             return std::ranges::any_of(section.cautions, [](const Caution& one) {
+               return one.caution.find("wrong way round") != std::string::npos;
+             });
+           });
+  }
   [[nodiscard]] bool has_magnitudes() const {
     return has_procedure("magnitude_estimation") || has_procedure("magnitude_production");
-  }
-  template <typename Predicate>
-  [[nodiscard]] bool any_comparison(Predicate predicate) const {
-    return std::ranges::any_of(comparisons_, [&](const NamedComparison* named) {
-      return predicate(named->comparison);
-    });
-  }
-  [[nodiscard]] bool has_kind(Kind kind) const {
-    return any_comparison([kind](const Comparison& one) { return one.kind == kind; });
-  }
-  /// Tests of these people, not the hierarchical ones, which have words of their own.
-  [[nodiscard]] bool has_method(const std::string& start) const {
-    return any_comparison([&](const Comparison& one) { return one.method.starts_with(start); });
   }
 
   const ReportSource& source_;
@@ -105,9 +101,10 @@ void Writer::write_psychometric() {
       "The probability of the answer “more than the reference” at intensity x is P(x) = "
       "Φ(ln(x / PSE) / ln(1 + w)), Φ being the standard normal distribution function (" +
           cite("Bergmann Tiest et al. 2013") +
-          "): 50 % at the point of subjective equality PSE, 84.13 % at PSE (1 + w), w being "
-          "the "
-          "Weber fraction. There are no lapses in it (lapse rate 0). “PSE at the reference” "
+          "): 50 % at the point of subjective equality PSE, 84.13 % at PSE (1 + w) and 15.87 % "
+          "at PSE / (1 + w), w being the Weber fraction: half the distance between the two on "
+          "the logarithmic scale. There are no lapses in it (lapse rate 0). “PSE at the "
+          "reference” "
           "fixes PSE = reference; otherwise it is free. Group curves “as Schmidt (2018)” are "
           "unweighted least squares on the proportions pooled over "
           "participants, one term a level; all others are of maximum likelihood, answers being "
@@ -123,6 +120,28 @@ void Writer::write_psychometric() {
           "(" +
           cite("Wichmann and Hill 2001") +
           "). Error bars of single proportions are Wilson’s (" + cite("Wilson 1927") + ").");
+}
+
+void Writer::write_wrong_way_round() {
+  if (!any_inverted()) return;
+  std::string text;
+  if (discriminates()) {
+    text =
+        "Who gives the answer “more” significantly less often the more there is, by the exact "
+        "one-sided trend test on the ranks of the intensities (" +
+        cite("Armitage 1955") +
+        ") with p < 0.01, is named: as if the question or the answers had been taken for each "
+        "other.";
+  }
+  if (has_magnitudes()) {
+    text +=
+        std::string(text.empty() ? "" : " ") +
+        "Whose magnitudes fall significantly as the intensity grows, or the intensities set "
+        "as the target grows, is named as well: Spearman’s rank correlation over all "
+        "trials, one-sided, p < 0.01, exact up to 14 trials and beyond by the normal "
+        "distribution.";
+  }
+  add("Wrong way round", text);
 }
 
 void Writer::write_thresholds() {
@@ -167,12 +186,14 @@ void Writer::write_hierarchical() {
 void Writer::write_power_laws() {
   if (!has_magnitudes()) return;
   std::string text = "S = k I^a (" + cite("Stevens 1957") +
-                     "), S being the magnitude as a ratio to the modulus and I the intensity, "
-                     "0^a = 0. Unless a name says otherwise, k and a are of nonlinear least "
+                     "), S being the magnitude as a ratio to the modulus and I the intensity. "
+                     "Unless a name says otherwise, k and a are of nonlinear least "
                      "squares of S, through the arithmetic means over participants, every mean "
                      "of equal weight";
   if (has_procedure("magnitude_estimation"))
-    text += ", intensity 0 included where it was presented";
+    text +=
+        "; means at intensity 0 are left out, where k I^a is 0 for every k and every a > 0, so "
+        "that they tell nothing of either";
   text += ".";
   if (has_modulus("standard")) {
     text +=
@@ -239,6 +260,14 @@ void Writer::write_groups() {
         cite("Hesterberg 2015") +
         "), so it respects that people differ; there is none below 5 participants. ";
   }
+  if (discriminates()) {
+    text +=
+        "Of w and PSE of a curve through everybody’s answers the interval is the value times "
+        "exp(±t √(n / (n − 1)) s), s being the standard deviation of the logarithms of those "
+        "values (" +
+        cite("Efron and Tibshirani 1993") +
+        "), for their percentiles are too narrow with few people. ";
+  }
   if (!source_.data.blocks.empty() || !source_.data.items.empty()) {
     text += "Means over participants have Student’s t intervals.";
   }
@@ -246,85 +275,9 @@ void Writer::write_groups() {
 }
 
 void Writer::write_tests() {
-  if (comparisons_.empty()) return;
-  std::string text = "All p values are two-sided.";
-  std::string t_tests;
-  const auto also = [&t_tests](const std::string& test) {
-    t_tests += (t_tests.empty() ? "" : ", ") + test;
-  };
-  if (has_method("paired t")) also("paired");
-  if (has_kind(Kind::kOneSample)) also("of one sample against 0");
-  if (has_kind(Kind::kWelch)) {
-    also("Welch’s for unequal variances (" + cite("Welch 1947") + ")");
-  }
-  if (has_kind(Kind::kPooled)) also("with pooled variance, as Schmidt (2018) has them");
-  if (!t_tests.empty()) text += " t tests: " + t_tests + "; the statistic is t.";
-  if (has_kind(Kind::kWilcoxon)) {
-    text += " Wilcoxon’s signed ranks (" + cite("Wilcoxon 1945") +
-            "): the statistic is the smaller sum of ranks.";
-  }
-  if (has_kind(Kind::kRankSum)) {
-    text += " Rank sums (" + cite("Mann and Whitney 1947") +
-            "): the statistic is U of the group named first.";
-  }
-  if (has_kind(Kind::kWilcoxon) || has_kind(Kind::kRankSum)) {
-    text +=
-        " Rank tests are exact without ties up to 50 values, otherwise normal with the "
-        "variance corrected for ties; as difference they give the estimate of Hodges and "
-        "Lehmann (" +
-        cite("Hodges and Lehmann 1963") + ") with its distribution-free interval.";
-  }
-  if (has_kind(Kind::kPearson)) {
-    text += " Pearson’s correlation has Fisher’s z interval (" + cite("Fisher 1921") +
-            ") and a t test.";
-  }
-  if (has_kind(Kind::kSpearman)) {
-    text += " Spearman’s correlation has that of " + cite("Bonett and Wright 2000") +
-            " and a t test.";
-  }
-  const bool adjusted = std::ranges::any_of(comparisons_, [](const NamedComparison* named) {
-    return named->p_value_holm.has_value();
-  });
-  text += adjusted ? " p values adjusted by Holm (" + cite("Holm 1979") +
-                         ") have a column of their own, each for the family named in brackets; "
-                         "all others are not adjusted."
-                   : " No p value is adjusted for their number.";
-  if (discriminates()) {
-    text +=
-        " “Becomes more frequent over the trials”: of each participant the covariance of "
-        "answer and running number, summed over levels, over its standard deviation were "
-        "every order within a level equally likely; exploratory.";
-  }
-  add("Tests", text);
-}
-
-void Writer::write_effects() {
-  std::string text;
-  const bool d_z =
-      any_comparison([](const Comparison& one) { return one.cohen_dz.has_value(); });
-  const bool g = any_comparison([](const Comparison& one) {
-    return one.hedges_g && (one.kind == Kind::kWelch || one.kind == Kind::kPooled);
-  });
-  if (d_z) text += "d_z is the mean difference over the standard deviation of the differences.";
-  if (g) {
-    text += std::string(text.empty() ? "" : " ") +
-            "g is the difference of two means over the pooled standard deviation without its "
-            "bias (" +
-            cite("Hedges 1981") +
-            "), with n1 + n2 − 2 degrees of freedom, also beside Welch’s test.";
-  }
-  if (d_z || g) {
-    text +=
-        " Their intervals are by the noncentral t (" + cite("Steiger and Fouladi 1997") + ").";
-  }
-  const bool r_rb =
-      any_comparison([](const Comparison& one) { return one.rank_biserial.has_value(); });
-  if (r_rb) {
-    text += std::string(text.empty() ? "" : " ") + "r_rb is the rank-biserial correlation (" +
-            cite("Kerby 2014") +
-            "): the share of ranks or pairs for a > b minus that for a < b.";
-  }
-  add("Effect sizes", text);
+  add_test_methods(
+      comparisons_, discriminates(), [this](const std::string& work) { return cite(work); },
+      [this](const std::string& topic, const std::string& text) { add(topic, text); });
 }
 
 void Writer::write_movement() {
@@ -368,13 +321,13 @@ MethodWords method_words(const ReportSource& source) {
   Writer writer(source);
   writer.write_analysis();
   writer.write_psychometric();
+  writer.write_wrong_way_round();
   writer.write_thresholds();
   writer.write_hierarchical();
   writer.write_power_laws();
   writer.write_matching();
   writer.write_groups();
   writer.write_tests();
-  writer.write_effects();
   writer.write_movement();
   return std::move(writer).finish();
 }

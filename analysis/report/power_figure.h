@@ -13,7 +13,7 @@ namespace jnd::analysis {
 struct PowerFigureWords {
   std::string study, laboratory;
   std::int64_t num_runs = 0;
-  bool null_hypothesis = false;
+  bool null_hypothesis = false;  ///< Nothing differs: shares are rates of false positives.
 };
 
 /// Power over the number of participants, where something is compared; and the half width of

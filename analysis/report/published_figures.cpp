@@ -3,8 +3,7 @@
 
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_results.h"
-#include "analysis/report/report_words.h"
+#include "analysis/report/predictive_figure.h"
 
 namespace jnd::analysis {
 namespace {
@@ -33,12 +32,14 @@ std::string cut_ends(const FigureTable& table, const AxisRange& axis) {
 }  // namespace
 
 std::vector<Figure> published_figures(const FigureSource& source) {
+  if (std::optional<Figure> simulated = predictive_figure(source.results)) {
+    return {std::move(*simulated)};
+  }
   FigureTable table{.name = "published_ratios",
                     .columns = {"position", "estimate", "value", "published", "ratio",
                                 "ratio_low", "ratio_high", "held_out"}};
   std::vector<std::string> names;
   std::vector<double> ratios;
-  bool any_differs = false;
   constexpr double kLowest = 0.05;  // Of an interval that is open below.
   constexpr double kHighest = 20.0;
   for (const ResultsSection& section : source.results.sections) {
@@ -53,9 +54,7 @@ std::vector<Figure> published_figures(const FigureSource& source) {
       const bool has_interval = estimate.ci95.low || estimate.ci95.high;
       const double low = has_interval ? end(estimate.ci95.low, kLowest) : ratio;
       const double high = has_interval ? end(estimate.ci95.high, kHighest) : ratio;
-      const bool differs = !published_statistic(estimate).empty();
-      any_differs = any_differs || differs;
-      names.push_back(estimate.name + (differs ? " ‡" : ""));
+      names.push_back(estimate.name);
       ratios.insert(ratios.end(),
                     {ratio, std::max(low, ratio / 4.0), std::min(high, ratio * 4.0)});
       table.rows.push_back({static_cast<int>(names.size()), estimate.name, estimate.value,
@@ -102,10 +101,7 @@ std::vector<Figure> published_figures(const FigureSource& source) {
     figure.caption = "With 95 % intervals. ";
   }
   figure.caption += "At 1 ours and the published value agree.";
-  if (any_differs) {
-    figure.caption +=
-        " ‡: different statistics are compared (see the table), which need not agree.";
-  }
+  figure.caption += " The published value's own error is not drawn.";
   if (!arrows.empty()) figure.caption += " An arrow: the interval goes on beyond the axis.";
   figure.tables = {std::move(table)};
   return {std::move(figure)};

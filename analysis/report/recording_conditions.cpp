@@ -15,7 +15,9 @@ std::string quantity_of(const FigureSource& source, const ConditionMovement& con
   for (const BlockDesign& block : source.data.blocks) {
     if (block.block == condition.block) return block.quantity;
   }
-  return condition.medium == "viscous" ? "viscosity_pa_s" : "";
+  // As of the media of a study file; of what is left the intensity is a factor.
+  if (condition.medium.starts_with("viscous")) return "viscosity_pa_s";
+  return condition.medium == "solid" ? "stiffness_n_per_m" : "";
 }
 
 }  // namespace

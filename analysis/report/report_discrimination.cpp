@@ -31,8 +31,12 @@ struct OwnRow {
                                   std::vector<std::string>& notes) const {
     const ParticipantEstimate* const own = find(name);
     if (own == nullptr) return "–";
+    for (const std::string& caution : own->cautions) {
+      notes.push_back("§ " + participant + ", " + title + ": " + caution);
+    }
     if (own->value || own->reason.empty())
-      return with_interval(own->value, bounded(own->ci95, own->value));
+      return with_interval(own->value, bounded(own->ci95, own->value)) +
+             (own->cautions.empty() ? "" : " §");
     notes.push_back("* " + participant + ", " + title + ": " + own->reason);
     return "– *";
   }
@@ -66,27 +70,38 @@ bool write_own_fractions(HtmlText& html, const ResultsSection& section) {
       people.push_back(own.participant);
   }
   if (people.empty()) return false;
+  const bool frees = section.own_fractions_free_pse;
   HtmlTable table{
-      .caption =
-          "Values of every participant, with 95 % intervals: Weber fraction w with the "
-          "PSE at the reference and with a free PSE",
-      .columns = {{"Participant"},
-                  {"w, PSE at the reference", true},
-                  {"Goodness p", true},
-                  {"w, PSE free", true},
-                  {"PSE", true},
-                  {"Goodness p", true}}};
+      .caption = std::string("Values of every participant, with 95 % intervals: Weber fraction "
+                             "w with the PSE ") +
+                 (frees ? "free, as the primary value has it, and at the reference"
+                        : "at the reference, as the primary value has it, and free"),
+      .columns = {{"Participant"}}};
+  const HtmlTable::Column at_reference = {"w, PSE at the reference", true};
+  const HtmlTable::Column free = {"w, PSE free", true};
+  const HtmlTable::Column goodness = {"Goodness p", true};
+  if (frees) {
+    table.columns.insert(table.columns.end(),
+                         {free, {"PSE", true}, goodness, at_reference, goodness});
+  } else {
+    table.columns.insert(table.columns.end(),
+                         {at_reference, goodness, free, {"PSE", true}, goodness});
+  }
   std::vector<std::string> reasons;
   for (const std::string& person : people) {
     const OwnRow row{section, person};
-    std::vector<std::string> cells = {person};
-    cells.push_back(row.value("weber_fraction", "PSE at the reference", reasons));
-    cells.push_back(row.goodness("goodness_p"));
-    cells.push_back(row.value("weber_fraction_free_pse", "PSE free", reasons));
+    const std::vector<std::string> fixed = {
+        row.value("weber_fraction", "PSE at the reference", reasons),
+        row.goodness("goodness_p")};
     const ParticipantEstimate* const pse = row.find("pse");
-    cells.push_back(pse == nullptr ? "–"
-                                   : with_interval(pse->value, bounded(pse->ci95, pse->value)));
-    cells.push_back(row.goodness("goodness_p_free_pse"));
+    const std::vector<std::string> freed = {
+        row.value("weber_fraction_free_pse", "PSE free", reasons),
+        pse == nullptr ? "–" : with_interval(pse->value, bounded(pse->ci95, pse->value)),
+        row.goodness("goodness_p_free_pse")};
+    std::vector<std::string> cells = {person};
+    for (const auto* own : {frees ? &freed : &fixed, frees ? &fixed : &freed}) {
+      cells.insert(cells.end(), own->begin(), own->end());
+    }
     table.rows.push_back(std::move(cells));
   }
   table.notes.push_back(rejected_words(fits_borne(section, section.name)));

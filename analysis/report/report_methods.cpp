@@ -66,9 +66,9 @@ std::string practice_words(const PracticeWords& practice) {
     return std::set<double>(numbers.begin(), numbers.end());
   };
   const std::string unit = quantity_unit(practice.quantity);
-  std::string words = "practice, no data; " +
-                      procedure_words(practice.procedure, practice.task) + "; " +
-                      quantity_words(practice.quantity);
+  std::string words = "practice, no data; " + procedure_words(practice.procedure, practice.task,
+                                                              practice.interval_order);
+  if (!practice.quantity.empty()) words += "; " + quantity_words(practice.quantity);
   if (!practice.levels.empty()) words += "; levels " + joined(list(practice.levels), unit);
   if (!practice.references.empty()) {
     words += "; reference " + joined(list(practice.references), unit);
@@ -102,15 +102,16 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
     }
   }
   const std::string unit = quantity_unit(block.quantity);
-  std::string words = procedure_words(block.procedure, block.protocol.task) + "; " +
-                      quantity_words(block.quantity);
+  std::string words =
+      procedure_words(block.procedure, block.protocol.task, block.protocol.interval_order);
+  if (!block.quantity.empty()) words += "; " + quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
   constexpr std::size_t kMostListed = 20;
   const bool are_listed = has_fixed_levels(block) && intensities.size() <= kMostListed;
   if (!intensities.empty() && !are_listed) {
     words += "; " + counted_words(std::ssize(intensities), "level") + " from " +
              number_words(*intensities.begin()) + " to " + number_words(*intensities.rbegin()) +
-             ' ' + unit;
+             (unit.empty() ? "" : " " + unit);
   } else if (!intensities.empty()) {
     words += "; levels " + joined(intensities, unit);
   }

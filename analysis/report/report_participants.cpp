@@ -186,6 +186,40 @@ HtmlTable movement_table(const ChapterSource& source) {
   return table;
 }
 
+/// Whether loss depends on what was presented.
+HtmlTable losses_table(const ChapterSource& source) {
+  HtmlTable table{.caption = "Trials that were lost or did not go as meant, by stimulus level",
+                  .columns = {{"Block"},
+                              {"Level", true},
+                              {"Drawn", true},
+                              {"Answered", true},
+                              {"Set aside", true},
+                              {"Repeated", true},
+                              {"Discarded", true},
+                              {"Faulted", true},
+                              {"Force limited", true},
+                              {"No whole stroke", true}}};
+  for (const LevelLoss& one : source.report.results.losses) {
+    if (!one.is_any()) continue;
+    table.rows.push_back({one.block,
+                          one.is_catch ? "catch trials"
+                          : one.level  ? shortest_words(*one.level)
+                                       : "all",
+                          std::to_string(one.num_drawn), std::to_string(one.num_answered),
+                          dash_if_none(one.num_set_aside), dash_if_none(one.num_repeated),
+                          dash_if_none(one.num_discarded), dash_if_none(one.num_faulted),
+                          dash_if_none(one.num_limited), dash_if_none(one.num_strokeless)});
+  }
+  table.notes = {
+      "Levels at which nothing of it happened are left out. Repeated: run again, for an answer "
+      "was taken back or an attempt given up (discarded). Force limited: in any presentation "
+      "of "
+      "a stimulus. No whole stroke: test or reference was never felt over one. Where more than "
+      "2 % of a block’s answers are affected, its primary values stand without them, too, as "
+      "NAME.without_affected_trials."};
+  return table;
+}
+
 HtmlTable timing_table(const ChapterSource& source) {
   HtmlTable table{.caption = "Punctuality of the haptic loop",
                   .columns = {{"Participant"},
@@ -290,6 +324,7 @@ void write_data_quality(HtmlText& html, const ChapterSource& source) {
   html.paragraph(text);
   html.table(quality_table(source));
   html.table(movement_table(source));
+  html.table(losses_table(source));
   const HtmlTable timing = timing_table(source);
   if (timing.rows.empty()) {
     html.paragraph(

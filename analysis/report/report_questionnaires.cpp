@@ -43,6 +43,14 @@ std::vector<HtmlTable::Column> columns_with(const std::vector<const char*>& titl
   return columns;
 }
 
+/// "1: fluid, 10: solid"
+std::string ends_words(const QuestionnaireItem& item) {
+  std::string words = item.low_label.empty() ? "" : "1: " + item.low_label;
+  if (item.high_label.empty()) return words;
+  return words + (words.empty() ? "" : ", ") + std::to_string(item.num_steps) + ": " +
+         item.high_label;
+}
+
 void write_counts(HtmlText& html, const StudyData& data, const ResultsSection& section) {
   HtmlTable table{.caption = "Choices: how many gave each answer",
                   .columns = {{"Item", false, true}, {"Question"}, {"n", true}, {"Answers"}}};
@@ -73,15 +81,24 @@ void write_questionnaires(HtmlText& html, const StudyData& data,
                         "Ratings from 1, the worst, to the last step, the best; scales "
                         "asked the other way are turned round",
                     .columns = columns_with({"sd", "Median"})};
+  HtmlTable steps{.caption = "Steps of scales without a better end, as they were asked, from 1",
+                  .columns = columns_with({"sd", "Median", "Ends"})};
   HtmlTable numbers{.caption = "Numbers",
                     .columns = columns_with({"sd", "Smallest", "Largest"})};
   for (const QuestionnaireItem& item : data.items) {
-    if (item.kind == "scale") add_row(ratings, section, item, {".sd", ".median"});
+    if (item.kind == "scale") {
+      HtmlTable& table = item.high_is_good ? ratings : steps;
+      const std::size_t num_rows = table.rows.size();
+      add_row(table, section, item, {".sd", ".median"});
+      const bool is_neutral = !item.high_is_good && table.rows.size() > num_rows;
+      if (is_neutral) table.rows.back().push_back(ends_words(item));
+    }
     if (item.kind == "number") {
       add_row(numbers, section, item, {".sd", ".minimum", ".maximum"});
     }
   }
   html.table(ratings);
+  html.table(steps);
   html.table(numbers);
   write_counts(html, data, section);
 }

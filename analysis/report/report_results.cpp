@@ -7,65 +7,36 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/report/report_published.h"
 #include "analysis/report/report_words.h"
+#include "analysis/test_families.h"
 
 namespace jnd::analysis {
 namespace {
-
-std::string published_words(const Estimate& estimate) {
-  if (estimate.published_positive && !estimate.published) return "> 0";
-  if (!estimate.published) return "–";
-  std::string words = shortest_words(*estimate.published);
-  if (estimate.published_sd) words += " ± " + shortest_words(*estimate.published_sd);
-  if (!published_statistic(estimate).empty()) words += " ‡";
-  return words;
-}
-
-/// What has to be known to compare both columns.
-std::vector<std::string> published_notes(const std::vector<const Estimate*>& estimates) {
-  std::vector<std::string> notes;
-  std::string others;
-  bool any_sd = false;
-  for (const Estimate* const estimate : estimates) {
-    any_sd = any_sd || estimate->published_sd;
-    const std::string statistic = published_statistic(*estimate);
-    if (statistic.empty()) continue;
-    others += (others.empty() ? "" : "; ") + estimate->name + ": published is the " + statistic;
-  }
-  if (any_sd) {
-    notes.emplace_back(
-        "Published a ± b: b is the standard deviation between participants; our 95 % interval "
-        "is that of the estimate itself, and narrower.");
-  }
-  if (!others.empty()) {
-    notes.push_back(
-        "‡ Ours and the published value are different statistics of the participants’ own "
-        "values, which need not agree even in the same data. " +
-        others + ".");
-  }
-  return notes;
-}
-
-std::string basis_words(const Estimate& estimate) {
-  if (!estimate.is_published()) return "–";
-  if (estimate.calibrated) return "calibrated";
-  return estimate.implied ? "implied" : "held out";
-}
-
-/// Not torn apart at the end of a line.
-std::string unit_words(const std::string& unit) {
-  std::string words;
-  for (const char letter : unit == "1" ? "" : unit) {
-    words += letter == ' ' ? "\u00a0" : std::string(1, letter);
-  }
-  return words;
-}
 
 std::string effect_words(const Comparison& c) {
   if (c.cohen_dz) return "d_z " + with_interval(c.cohen_dz, c.cohen_dz_ci95);
   if (c.hedges_g) return "g " + with_interval(c.hedges_g, c.hedges_g_ci95);
   if (c.rank_biserial) return "r_rb " + number_words(c.rank_biserial);
   return "–";
+}
+
+/// Why numbers may be wrong for these data, after what is said of them.
+std::string caution_words(const std::vector<std::string>& cautions) {
+  std::string words;
+  for (const std::string& caution : cautions) words += ". Caution: " + caution;
+  return words;
+}
+
+/// "t = 2.31"; of ranks every name that the statistic has: "V = 45, T = 0".
+std::string statistic_words(const Comparison& c) {
+  std::string words;
+  for (const auto& [name, value] : c.all_statistics()) {
+    const bool is_of_ranks = name != "t" && c.kind != Comparison::Kind::kDispersion;
+    words += (words.empty() ? "" : ", ") + name + " = " +
+             (is_of_ranks ? shortest_words(value) : number_words(value, 2));
+  }
+  return words.empty() ? "–" : words;
 }
 
 /// Where adjusted p-values stand, if there are any.
@@ -75,6 +46,7 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
   const Comparison& c = named.comparison;
   std::string name = named.name;
   if (!named.family.empty()) name += " [" + named.family + "]";
+  name += caution_words(named.cautions);
   if (c.status != FitStatus::kOk) {
     return {name, std::string(to_string(c.status)) + ": " + c.reason, "–", "–", "–", "–", "–",
             "–"};
@@ -91,7 +63,7 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
           c.hodges_lehmann
               ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
               : with_interval(c.estimate, c.ci95),
-          number_words(c.statistic, 2),
+          statistic_words(c),
           c.degrees_of_freedom ? number_words(c.degrees_of_freedom, 1) : "–",
           p_words(c.p_value),
           p_words(named.p_value_holm),
@@ -109,21 +81,12 @@ HtmlTable estimates_table(const std::string& caption) {
 }
 
 std::vector<std::string> estimate_row(const Estimate& estimate) {
-  return {estimate.name + "\n" + estimate.meaning, number_words(estimate.value),
-          interval_words(estimate.ci95, estimate.value), unit_words(estimate.unit),
-          std::to_string(estimate.n)};
-}
-
-/// Of all sections.
-template <typename Condition>
-std::vector<const Estimate*> estimates_where(const StudyResults& results, Condition condition) {
-  std::vector<const Estimate*> found;
-  for (const ResultsSection& section : results.sections) {
-    for (const Estimate& estimate : section.estimates) {
-      if (std::invoke(condition, estimate)) found.push_back(&estimate);
-    }
-  }
-  return found;
+  const std::string words = estimate.meaning +
+                            (estimate.reason.empty() ? "" : ". No value: " + estimate.reason) +
+                            caution_words(estimate.cautions);
+  return {estimate.name + "\n" + words, number_words(estimate.value),
+          interval_words(estimate.name, estimate.ci95, estimate.value),
+          unit_words(estimate.unit), std::to_string(estimate.n)};
 }
 
 void write_estimates(HtmlText& html, const StudyResults& results,
@@ -158,6 +121,10 @@ void write_comparisons(HtmlText& html, const ResultsSection& section) {
   bool any_adjusted = false;
   for (const NamedComparison& named : section.comparisons) {
     table.rows.push_back(comparison_row(named));
+    const std::string about = family_note(named);
+    if (!about.empty() && std::ranges::find(table.notes, about) == table.notes.end()) {
+      table.notes.push_back(about);
+    }
     any_adjusted = any_adjusted || named.p_value_holm;
     const std::string& method = named.comparison.method;
     if (!method.empty() && std::find(methods.begin(), methods.end(), method) == methods.end()) {
@@ -230,9 +197,13 @@ class OwnValues {
         }
         const ParticipantEstimate& own = *found->second;
         const bool is_told = !own.value && !own.reason.empty();
-        row.push_back(is_told ? "– *" : with_interval(own.value, own.ci95));
+        row.push_back(is_told ? "– *" : with_interval(own.name, own.value, own.ci95));
         if (is_told)
           table.notes.push_back("* " + person + ", " + names_[i] + ": " + own.reason);
+        for (const std::string& caution : own.cautions) {
+          row.back() += " §";
+          table.notes.push_back("§ " + person + ", " + names_[i] + ": " + caution);
+        }
       }
       table.rows.push_back(std::move(row));
     }
@@ -248,6 +219,15 @@ void write_excluded(HtmlText& html, const ResultsSection& section) {
   HtmlTable table{.caption = "Left out, and why", .columns = {{"Who"}, {"Reason"}}};
   for (const ExcludedParticipant& one : section.excluded) {
     table.rows.push_back({one.participant, one.reason});
+  }
+  html.table(table);
+}
+
+void write_cautions(HtmlText& html, const ResultsSection& section) {
+  HtmlTable table{.caption = "Cautions: in the numbers all the same, and why they may be wrong",
+                  .columns = {{"Who"}, {"What"}}};
+  for (const Caution& one : section.cautions) {
+    table.rows.push_back({one.participant, one.caution});
   }
   html.table(table);
 }
@@ -283,54 +263,23 @@ HtmlTable primary_table(const StudyResults& results) {
 }
 
 ResultsSection primary_comparisons(const StudyResults& results) {
-  ResultsSection planned;
+  ResultsSection primary;
   for (const ResultsSection& section : results.sections) {
-    std::ranges::copy_if(section.comparisons, std::back_inserter(planned.comparisons),
+    std::ranges::copy_if(section.comparisons, std::back_inserter(primary.comparisons),
                          &NamedComparison::primary);
   }
-  return planned;
-}
-
-HtmlTable published_table(const StudyResults& results) {
-  HtmlTable table{.caption = "Ours beside the published values",
-                  .columns = {{"Estimate", false, true},
-                              {"Value", true},
-                              {"95 % interval", true},
-                              {"Unit"},
-                              {"Published", true}}};
-  if (results.simulated) table.columns.push_back({"Basis"});
-  const std::vector<const Estimate*> published =
-      estimates_where(results, &Estimate::is_published);
-  for (const Estimate* estimate : published) {
-    std::vector<std::string> row = {estimate->name, number_words(estimate->value),
-                                    interval_words(estimate->ci95, estimate->value),
-                                    unit_words(estimate->unit), published_words(*estimate)};
-    if (results.simulated) row.push_back(basis_words(*estimate));
-    table.rows.push_back(std::move(row));
-  }
-  table.notes = published_notes(published);
-  if (results.simulated) {
-    table.notes.emplace_back(
-        "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "
-        "follows from values that were. Held out: the laboratory knows nothing of it.");
-  }
-  return table;
+  return primary;
 }
 
 }  // namespace
-
-std::string published_statistic(const Estimate& estimate) {
-  const std::string mark = "printed as a ";
-  const std::size_t at = estimate.published_place.find(mark);
-  return at == std::string::npos ? "" : estimate.published_place.substr(at + mark.size());
-}
 
 std::string section_title(const StudyWords& words, const std::string& name) {
   constexpr std::pair<std::string_view, const char*> kEndings[] = {
       {"_staircase", ": staircases"},
       {"_limits", ": method of limits"},
       {"_quest_plus", ": QUEST+"},
-      {"_intervals", ": order of the intervals"}};
+      {"_intervals", ": order of the intervals"},
+      {"_catch_trials", ": catch trials"}};
   for (const auto& [ending, title] : kEndings) {
     if (words.titles.contains(name) || !name.ends_with(ending)) continue;
     return section_title(words, name.substr(0, name.size() - ending.size())) + title;
@@ -351,11 +300,11 @@ std::string section_title(const StudyWords& words, const std::string& name) {
 void write_at_a_glance(HtmlText& html, const StudyResults& results) {
   const HtmlTable primary = primary_table(results);
   const HtmlTable published = published_table(results);
-  const ResultsSection planned = primary_comparisons(results);
+  const ResultsSection comparisons = primary_comparisons(results);
   if (primary.rows.empty() && published.rows.empty()) return;
   html.heading(2, "At a glance");
   if (!primary.rows.empty()) html.table(primary);
-  if (!planned.comparisons.empty()) write_comparisons(html, planned);
+  if (!comparisons.comparisons.empty()) write_comparisons(html, comparisons);
   if (!published.rows.empty()) html.table(published);
 }
 
@@ -368,6 +317,7 @@ void write_section(HtmlText& html, const StudyData& data, const StudyResults& re
   }
   write_comparisons(html, section);
   write_excluded(html, section);
+  write_cautions(html, section);
   if (!write_own_fractions(html, section)) OwnValues(section).write(html);
   write_free_answers(html, section);
 }

@@ -6,11 +6,7 @@
 
 namespace jnd::analysis {
 
-/// Of an estimate whose published value is another statistic, as the place says: "mean" of
-/// "app. D; printed as a mean"; "" if both are the same.
-[[nodiscard]] std::string published_statistic(const Estimate& estimate);
-
-/// Before all else what each block was asked for, the tests planned between blocks, and
+/// Before all else what each block was asked for, the primary tests between blocks, and
 /// everything that has a published value.
 void write_at_a_glance(HtmlText& html, const StudyResults& results);
 

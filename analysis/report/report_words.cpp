@@ -59,8 +59,9 @@ std::string shortest_words(double value) {
   return std::isfinite(value) ? typeset(digits_of(value)) : kNothing;
 }
 
-std::string interval_words(const Interval& whole, const std::optional<double>& value) {
-  const Interval ci95 = bounded_by_data(whole, value);
+namespace {
+
+std::string words_of(const Interval& ci95, const std::optional<double>& value) {
   if (!ci95.low && !ci95.high) return kNothing;
   // As many decimals as the value, but none that a large end has no use for.
   const auto end = [&value](const std::optional<double>& number) {
@@ -74,10 +75,31 @@ std::string interval_words(const Interval& whole, const std::optional<double>& v
   return end(ci95.low) + gap + "to" + gap + end(ci95.high);
 }
 
-std::string with_interval(const std::optional<double>& value, const Interval& ci95) {
+std::string value_with(const std::optional<double>& value, const Interval& ci95,
+                       const std::string& interval) {
   const std::string words = number_words(value);
   if (!value || (!ci95.low && !ci95.high)) return words;
-  return words + " (" + interval_words(ci95, value) + ")";
+  return words + " (" + interval + ")";
+}
+
+}  // namespace
+
+std::string interval_words(const Interval& whole, const std::optional<double>& value) {
+  return words_of(bounded_by_data(whole, value), value);
+}
+
+std::string interval_words(const std::string& name, const Interval& whole,
+                           const std::optional<double>& value) {
+  return words_of(told_interval(name, whole, value), value);
+}
+
+std::string with_interval(const std::optional<double>& value, const Interval& ci95) {
+  return value_with(value, ci95, interval_words(ci95, value));
+}
+
+std::string with_interval(const std::string& name, const std::optional<double>& value,
+                          const Interval& ci95) {
+  return value_with(value, ci95, interval_words(name, ci95, value));
 }
 
 std::string p_words(const std::optional<double>& p_value) {

@@ -24,9 +24,15 @@ namespace jnd::analysis {
 /// `bounded_by_data`, is said in words.
 [[nodiscard]] std::string interval_words(const Interval& whole,
                                          const std::optional<double>& value);
+/// The same of the number of this name, an open end being by `told_interval`.
+[[nodiscard]] std::string interval_words(const std::string& name, const Interval& whole,
+                                         const std::optional<double>& value);
 
 /// "0.71 (0.38 to 1.04)"; the value alone without an interval.
 [[nodiscard]] std::string with_interval(const std::optional<double>& value,
+                                        const Interval& ci95);
+[[nodiscard]] std::string with_interval(const std::string& name,
+                                        const std::optional<double>& value,
                                         const Interval& ci95);
 
 /// "0.021", "< 0.001".

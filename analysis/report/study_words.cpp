@@ -35,17 +35,23 @@ void collect_practice(const json& block, StudyWords& words) {
       .block = text_at(block, "name"),
       .procedure = text_at(block, "procedure"),
       .task = text_at(block, "task"),
+      .interval_order = text_at(block, "interval_order"),
       .min_correct_ratio = number_in(*practice, "min_correct_ratio"),
       .num_trials_judged = static_cast<int>(number_in(*practice, "num_trials_judged")),
       .max_trials = static_cast<int>(number_in(*practice, "max_trials")),
       .feedback = feedback != block.end() && feedback->is_boolean() && feedback->get<bool>()};
   if (found.task.empty()) found.task = "reminder";
-  // A quantity is the key of the levels, and of the reference with a word before it.
+  // A quantity is the key of the levels, and of anything else about them with a word before it.
   for (const char* quantity : {"scale", "viscosity_pa_s", "stiffness_n_per_m"}) {
-    if (!block.contains(quantity)) continue;
+    const std::string reference = std::string("reference_") + quantity;
+    const std::string start = std::string("start_") + quantity;
+    const std::string lowest = std::string("lowest_") + quantity;
+    const bool is_its = std::ranges::any_of(
+        std::initializer_list<std::string>{quantity, reference, start, lowest},
+        [&](const std::string& key) { return block.contains(key); });
+    if (!is_its) continue;
     found.quantity = quantity;
-    found.levels = numbers_of(block[quantity]);
-    const std::string reference = "reference_" + found.quantity;
+    if (block.contains(quantity)) found.levels = numbers_of(block[quantity]);
     if (block.contains(reference)) found.references = numbers_of(block[reference]);
   }
   words.practice.push_back(std::move(found));
@@ -121,15 +127,18 @@ std::string quantity_axis(const std::string& quantity) {
   return unit.empty() ? words : words + " [" + unit + "]";
 }
 
-std::string procedure_words(const std::string& procedure, const std::string& task) {
+std::string procedure_words(const std::string& procedure, const std::string& task,
+                            const std::string& interval_order) {
   std::string words = in_words(procedure);
   if (procedure == "constant_stimuli") words = "method of constant stimuli";
   if (procedure == "limits") words = "method of limits";
   if (procedure == "matching") return "matching by the method of adjustment";
   if (procedure == "quest_plus") words = "QUEST+ (Watson 2017)";
   if (task == "yes_no") return words + " as a yes-no task";
-  if (task == "two_interval") return words + " as a two-interval task (order drawn)";
-  if (task == "same_different") return words + " as a same-different task (order drawn)";
+  const std::string order =
+      interval_order == "balanced" ? " (order balanced)" : " (order drawn)";
+  if (task == "two_interval") return words + " as a two-interval task" + order;
+  if (task == "same_different") return words + " as a same-different task" + order;
   if (procedure != "constant_stimuli") return words;
   return words + " as a reminder task (reference first, yes or no)";
 }

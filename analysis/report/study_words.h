@@ -8,7 +8,7 @@ namespace jnd::analysis {
 
 /// A block that people practise in, as the study file has it.
 struct PracticeWords {
-  std::string block, procedure, task;
+  std::string block, procedure, task, interval_order;
   std::string quantity;        ///< Of its levels: "viscosity_pa_s".
   std::vector<double> levels;  ///< In the order of the file.
   std::vector<double> references;
@@ -42,8 +42,10 @@ struct StudyWords {
 [[nodiscard]] std::string quantity_words(const std::string& quantity);
 /// "Viscosity [Pa s]", for an axis.
 [[nodiscard]] std::string quantity_axis(const std::string& quantity);
-/// "constant stimuli": a procedure in words.
+/// "constant stimuli": a procedure in words; of two intervals how their order comes about,
+/// "random" or "balanced".
 [[nodiscard]] std::string procedure_words(const std::string& procedure,
-                                          const std::string& task = "reminder");
+                                          const std::string& task = "reminder",
+                                          const std::string& interval_order = "random");
 
 }  // namespace jnd::analysis

@@ -106,12 +106,26 @@ void add_threshold_methods(
         "Each stimulus was the one whose answer was expected to tell the most (" +
             cite("Watson 2017") +
             "). Values are means of the posterior after the last answer, of ratios in ln, with "
-            "its central 95 %; the prior is even over a grid in ln, given in the study file.");
+            "its central 95 %; the prior is even over a grid in ln, given in the study file. "
+            "Where "
+            "the posterior reaches an end of a grid (it is at least as high there, seen from "
+            "its "
+            "highest, as a normal density is at the end of its central 95 %), the grid decides "
+            "about the values: they have no interval, and a caution.");
   }
   if (any(data, is_adaptive) && any(data, &BlockDesign::compares)) {
     add("Raw answers of adaptive blocks",
         "Psychometric functions are fitted to them as to constant stimuli; levels that follow "
         "from answers make such fits slightly steep.");
+  }
+  if (any(data, [&](const BlockDesign& block) {
+        return block.compares() && has_catch_trials(data, block.block);
+      })) {
+    add("Catch trials of comparisons",
+        "In them the test equals the reference. They are in no curve; how often the test was "
+        "called more, or of two intervals the one drawn for it was chosen, is told with "
+        "Wilson’s intervals (" +
+            cite("Wilson 1927") + ").");
   }
   if (any(data, [&](const BlockDesign& block) { return has_intervals(data, block); })) {
     add("Order of the intervals",

@@ -18,6 +18,46 @@ struct Options {
   bool json = false;
 };
 
+int print_copy(const core::BackupReport& report, const std::string& target, bool json) {
+  std::vector<std::string> problems;
+  for (const core::Finding& finding : report.integrity.problems) {
+    problems.push_back((finding.session == 0
+                            ? std::string()
+                            : "session " + std::to_string(finding.session) + ": ") +
+                       finding.message);
+  }
+  if (json) {
+    const nlohmann::json document = {{"complete", report.integrity.complete},
+                                     {"problems", problems},
+                                     {"remarks", report.remarks},
+                                     {"on_one_disk", report.on_one_disk},
+                                     {"num_sessions", report.integrity.num_sessions},
+                                     {"num_events", report.integrity.num_events},
+                                     {"num_samples", report.integrity.num_samples},
+                                     {"num_chunks", report.num_chunks},
+                                     {"num_chunks_copied", report.num_chunks_copied}};
+    std::puts(json_text(document).c_str());
+  } else {
+    std::printf(
+        "%s: %lld sessions, %lld events, %lld of %lld recorded chunks new, read back: %s\n",
+        target.c_str(), static_cast<long long>(report.integrity.num_sessions),
+        static_cast<long long>(report.integrity.num_events),
+        static_cast<long long>(report.num_chunks_copied),
+        static_cast<long long>(report.num_chunks),
+        report.integrity.complete ? "complete" : "NOT complete");
+    for (const std::string& problem : problems) std::printf("  problem: %s\n", problem.c_str());
+    for (const std::string& remark : report.remarks) {
+      std::printf("  remark: %s\n", remark.c_str());
+    }
+    if (report.on_one_disk) {
+      std::puts(
+          "  remark: study and backup are on one disk; a disk that fails takes both, so keep "
+          "another backup on another disk");
+    }
+  }
+  return report.integrity.complete ? kDone : kHasProblems;
+}
+
 core::BackupReport backed_up(const Options& options) {
   ProgressBar bar("backup");
   return core::back_up(options.folder, options.target, core::SystemClock().now_ns(),
@@ -35,38 +75,15 @@ int run(const Options& options) {
                 options.folder.c_str(), options.forget.c_str());
     return kDone;
   }
-  const core::BackupReport report = backed_up(options);
-  std::vector<std::string> problems;
-  for (const core::Finding& finding : report.integrity.problems) {
-    problems.push_back((finding.session == 0
-                            ? std::string()
-                            : "session " + std::to_string(finding.session) + ": ") +
-                       finding.message);
-  }
-  if (options.json) {
-    const nlohmann::json document = {{"complete", report.integrity.complete},
-                                     {"problems", problems},
-                                     {"remarks", report.remarks},
-                                     {"num_sessions", report.integrity.num_sessions},
-                                     {"num_events", report.integrity.num_events},
-                                     {"num_samples", report.integrity.num_samples},
-                                     {"num_chunks", report.num_chunks},
-                                     {"num_chunks_copied", report.num_chunks_copied}};
-    std::puts(json_text(document).c_str());
-  } else {
-    std::printf(
-        "%s: %lld sessions, %lld events, %lld of %lld recorded chunks new, read back: %s\n",
-        options.target.c_str(), static_cast<long long>(report.integrity.num_sessions),
-        static_cast<long long>(report.integrity.num_events),
-        static_cast<long long>(report.num_chunks_copied),
-        static_cast<long long>(report.num_chunks),
-        report.integrity.complete ? "complete" : "NOT complete");
-    for (const std::string& problem : problems) std::printf("  problem: %s\n", problem.c_str());
-    for (const std::string& remark : report.remarks) {
-      std::printf("  remark: %s\n", remark.c_str());
-    }
-  }
-  return report.integrity.complete ? kDone : kHasProblems;
+  return print_copy(backed_up(options), options.target, options.json);
+}
+
+int run_restore(const Options& options) {
+  ProgressBar bar("restore");
+  const core::BackupReport report =
+      core::restore(options.folder, options.target, core::SystemClock().now_ns(),
+                    [&](double done) { bar.show(done); });
+  return print_copy(report, options.target, options.json);
 }
 
 }  // namespace
@@ -85,6 +102,19 @@ void add_backup(CLI::App& program, Invocation& invocation) {
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+}
+
+void add_restore(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "restore", "Makes a study of a backup, where the study itself is lost");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Folder of the backup")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--to", options->target, "Folder of the study: new or empty")->required();
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { return run_restore(*options); }; });
 }
 
 }  // namespace jnd::app

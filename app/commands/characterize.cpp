@@ -67,7 +67,8 @@ class MeasuringLoop {
  public:
   MeasuringLoop(device::HapticDevice& device, bool allow_no_realtime)
       : device_(device),
-        loop_({.rate_hz = kRate_hz}, device, {commands_, telemetry_, stop_, &samples_}),
+        loop_({.starts_armed = device.capabilities().simulated, .rate_hz = kRate_hz}, device,
+              {commands_, telemetry_, stop_, &samples_}),
         thread_({}) {
     try {
       device::start_haptics(device, loop_, thread_, allow_no_realtime);
@@ -89,7 +90,7 @@ class MeasuringLoop {
       stop_if_requested();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       telemetry_.fetch();
-      if (const core::Fault fault = telemetry_.value().fault; fault != core::Fault::kNone) {
+      if (const core::Fault fault = telemetry_.value().fault; core::is_failure(fault)) {
         throw core::Error("device: " + std::string(core::words(fault)));
       }
       samples_.drain([&](const core::Sample& sample) {

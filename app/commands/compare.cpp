@@ -14,6 +14,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/fit_words.h"
 #include "app/json_text.h"
+#include "app/statistic_words.h"
 
 namespace jnd::app {
 namespace {
@@ -44,6 +45,11 @@ std::string defined(const std::optional<double>& value) {
   return value ? number(value) : "undefined";
 }
 
+/// A p value may be less than any number there is.
+std::string p_words(const std::optional<double>& p_value) {
+  return p_value == 0.0 ? "< 1e-300" : defined(p_value);
+}
+
 void print_interval(const char* name, const analysis::Interval& interval) {
   if (!interval.low || !interval.high) return;
   fmt::print("  {:<24} {:.4g} to {:.4g}\n", name, *interval.low, *interval.high);
@@ -54,11 +60,6 @@ void print_effect(const char* name, const std::optional<double>& value,
   if (!value) return;
   fmt::print("  {:<24} {}\n", name, defined(value));
   print_interval("  95 %", interval);
-}
-
-const char* statistic_name(Comparison::Kind kind) {
-  if (kind == Comparison::Kind::kRankSum) return "U";
-  return kind == Comparison::Kind::kWilcoxon ? "smaller sum of ranks" : "t";
 }
 
 void print_for_people(const Comparison& result) {
@@ -72,12 +73,17 @@ void print_for_people(const Comparison& result) {
   fmt::print("  {:<24} {}\n", correlation ? "r" : difference, defined(result.estimate));
   print_interval("  95 %", result.ci95);
   print_effect("Hodges-Lehmann", result.hodges_lehmann, result.hodges_lehmann_ci95);
+  if (result.hodges_lehmann && result.num_zeros > 0) {
+    fmt::print("    of the differences other than 0 alone, as the test\n");
+  }
   if (result.status != analysis::FitStatus::kOk) return;
-  fmt::print("  {:<24} {}\n", statistic_name(result.kind), defined(result.statistic));
+  for (const auto& [name, value] : result.all_statistics()) {
+    fmt::print("  {:<24} {}\n", statistic_title(name), defined(value));
+  }
   if (result.degrees_of_freedom) {
     fmt::print("  {:<24} {}\n", "degrees of freedom", defined(result.degrees_of_freedom));
   }
-  fmt::print("  {:<24} {}\n", "p, two-sided", defined(result.p_value));
+  fmt::print("  {:<24} {}\n", "p, two-sided", p_words(result.p_value));
   print_effect("Cohen's dz", result.cohen_dz, result.cohen_dz_ci95);
   print_effect("Hedges' g", result.hedges_g, result.hedges_g_ci95);
   print_effect("rank-biserial r", result.rank_biserial, {});
@@ -125,7 +131,7 @@ void print_for_people(const Tests& tests) {
     fmt::print("{}\n", heading);
     print_for_people(tests.results[i]);
     if (tests.p_values_holm[i]) {
-      fmt::print("  {:<24} {}\n", "p adjusted by Holm", defined(tests.p_values_holm[i]));
+      fmt::print("  {:<24} {}\n", "p adjusted by Holm", p_words(tests.p_values_holm[i]));
     }
   }
 }
@@ -168,9 +174,12 @@ void add_compare(CLI::App& program, Invocation& invocation) {
   CLI::App& compare = *program.add_subcommand("compare", "Compare two columns of a table");
   compare.add_option("--csv", options->csv, "table with the columns a,b")->required();
   compare
-      .add_option("--test", options->test,
-                  "paired, welch, pearson or wilcoxon; also ranksum (two groups, by ranks) and "
-                  "spearman")
+      .add_option(
+          "--test", options->test,
+          "paired, welch, pearson or wilcoxon; also ranksum (two groups, by ranks) and "
+          "spearman. p values of ranks are exact, with ties, too: up to 50 differences "
+          "other than 0 or 50 values in both groups, 14 pairs of spearman; two-sided is "
+          "twice the smaller tail, at most 1")
       ->required()
       ->check(CLI::IsMember({"paired", "welch", "pearson", "wilcoxon", "ranksum", "spearman"}));
   compare

@@ -8,10 +8,12 @@
 #include "app/json_text.h"
 #include "app/open_window.h"
 #include "app/option_checks.h"
+#include "app/predictive_option.h"
 #include "app/progress_bar.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/share.h"
+#include "app/study_data.h"
 #include "core/error.h"
 #include "experiments/study/study_reader.h"
 
@@ -30,8 +32,19 @@ struct Options {
   std::string laboratory;  ///< "": the default of the device.
   int jobs = 2;
   std::string device = "lumped";
+  PredictiveOption predictive;
   bool json = false;
 };
+
+/// Results of a folder beside the simulated people that were asked for, or those shipped.
+analysis::StudyResults compared_results(const fs::path& folder,
+                                        const PredictiveOption& predictive) {
+  const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+  const analysis::StudyData data = load_study_data(store);
+  const std::optional<analysis::PredictivePeople> people =
+      people_asked_for(predictive, store, data);
+  return results_of_data(data, {}, people ? &*people : nullptr);
+}
 
 fs::path fresh_folder() {
   for (int number = 1;; ++number) {
@@ -41,6 +54,7 @@ fs::path fresh_folder() {
 }
 
 int run(const Options& options) {
+  require_number_of_people(options.predictive);
   require_device(options.device);
   require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_keeps_pace(options.device, "--device " + options.device);
@@ -61,6 +75,7 @@ int run(const Options& options) {
   nlohmann::json document = {{"out", out.string()}, {"studies", nlohmann::json::array()}};
   const auto start = std::chrono::steady_clock::now();
   double simulated_s = 0.0;
+  bool has_simulated_studies = false;
   for (const char* name : kStudies) {
     const fs::path file = user_or_shipped(name, "protocols");
     const experiments::Study study = experiments::read_study(file);
@@ -87,7 +102,8 @@ int run(const Options& options) {
                                     .on_progress = [&bar](double done) { bar.show(done); }})) /
                      study.device.rate_hz;
     }
-    const analysis::StudyResults results = results_of_folder(folder);
+    const analysis::StudyResults results = compared_results(folder, options.predictive);
+    has_simulated_studies = results.predictive.num_studies > 0;
     if (options.json) {
       document["studies"].push_back(to_json(results));
     } else {
@@ -103,9 +119,22 @@ int run(const Options& options) {
     return kDone;
   }
   std::printf(
-      "All values are SIMULATED, beside those of Schmidt (2018). Intervals: 95 %%, over\n"
-      "resampled participants; of means of the participants by Student's t. inside: the\n"
-      "interval holds the published value.\n"
+      "All values are SIMULATED, beside those of Schmidt (2018), each by the statistic that "
+      "was\n"
+      "published. ");
+  std::fputs(
+      has_simulated_studies
+          ? "Simulated studies: of as many people as were published, by the same\n"
+            "laboratory; median (middle 95 %). tail: the share of them that is as far on the\n"
+            "published value's side, as one more of which the published study is taken; se: "
+            "its\n"
+            "standard error, for the simulated people are finitely many.\n"
+          : "Intervals: 95 %, over resampled participants; of means of the\n"
+            "participants by Student's t. z: of means, ours less the published one in units "
+            "of\n"
+            "both standard errors.\n",
+      stdout);
+  std::printf(
       "%d sessions, %.0f s at the device in %.1f s; every answer%s is in %s\n"
       "Next: jnd results %s/%s.study\n",
       2 * kParticipants, simulated_s, elapsed_s, options.fast ? "" : " and sample",
@@ -136,9 +165,12 @@ void add_demo(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--device", options->device, "Simulated device")->capture_default_str();
+  add_predictive_option(*command, options->predictive);
   command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    options->predictive.jobs = options->jobs;
+    invocation.run = [options] { return run(*options); };
+  });
 }
 
 }  // namespace jnd::app

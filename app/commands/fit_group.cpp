@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +14,7 @@
 #include "analysis/fits/psychometric_json.h"
 #include "analysis/groups/hierarchical_data.h"
 #include "analysis/groups/hierarchical_json.h"
+#include "analysis/groups/hierarchical_warnings.h"
 #include "app/commands/fit_words.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
@@ -25,6 +26,7 @@ using analysis::FitStatus;
 
 struct Options {
   std::string csv, link = "log-slope", pse = "personal", slopes = "correlated";
+  std::string guess = "0", lapse = "free";
   std::vector<std::string> free;
   std::optional<double> reference;
   int num_nodes = 0;
@@ -41,6 +43,33 @@ void require_reference(const Options& options) {
   }
 }
 
+/// Of which lapse rates an interval of the Weber fraction holds; "" where that is one.
+std::string interval_basis(const analysis::HierarchicalFit& fit) {
+  if (!fit.lapse_rate_without_prior) return "";
+  return ", over lapse rates of " + range(fit.lapse_rate_with_prior_ci95, fit.lapse_rate);
+}
+
+/// With how far its prior moves the fractions.
+void print_lapses(const analysis::HierarchicalFit& fit) {
+  if (!fit.lapse_rate) return;
+  if (!fit.lapse_rate_without_prior) {
+    fmt::print("  lapse rate      {:<8}  of everybody, given\n", number(fit.lapse_rate));
+    return;
+  }
+  fmt::print("  lapse rate      {:<8}  95 % {} by the answers alone, of everybody\n",
+             number(fit.lapse_rate), range(fit.lapse_rate_ci95, fit.lapse_rate));
+  std::string fractions;
+  for (const analysis::HierarchicalCondition& one : fit.conditions) {
+    if (!one.weber_fraction || !one.weber_fraction_without_prior) continue;
+    fractions +=
+        fmt::format("{}{}{} ({:+.1f} %)", fractions.empty() ? "Weber fraction " : ", ",
+                    one.condition.empty() ? "" : one.condition + " ",
+                    number(one.weber_fraction_without_prior),
+                    100.0 * (*one.weber_fraction_without_prior / *one.weber_fraction - 1.0));
+  }
+  fmt::print("    without its prior {}: {}\n", number(fit.lapse_rate_without_prior), fractions);
+}
+
 void print_for_people(const analysis::HierarchicalFit& fit) {
   if (fit.status != FitStatus::kOk) {
     fmt::print("  no hierarchical fit: {}\n", fit.reason);
@@ -50,8 +79,10 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   for (const analysis::HierarchicalCondition& one : fit.conditions) {
     if (!one.condition.empty()) fmt::print("{}\n", one.condition);
     if (!one.weber_fraction) continue;  // The note says why.
-    fmt::print("  Weber fraction  {:<8}  95 % {}, of the median person\n",
-               number(one.weber_fraction), range(one.weber_fraction_ci95, one.weber_fraction));
+    fmt::print("  Weber fraction  {:<8}  95 % {}, of the median person{}\n",
+               number(one.weber_fraction), range(one.weber_fraction_ci95, one.weber_fraction),
+               interval_basis(fit));
+    for (const std::string& caution : one.cautions) fmt::print("    CAUTION: {}\n", caution);
     fmt::print(
         "  PSE             {:<8}  {}\n", number(one.pse),
         one.pse_ci95 ? "95 % " + range(*one.pse_ci95, one.pse) : "fixed at the reference");
@@ -62,9 +93,7 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
                  number(one.place_sd));
     }
   }
-  if (fit.lapse_rate) {
-    fmt::print("  lapse rate      {:<8}  of everybody\n", number(fit.lapse_rate));
-  }
+  print_lapses(fit);
   if (fit.correlation) fmt::print("  correlation of the slopes  {}\n", number(fit.correlation));
   for (const analysis::HierarchicalDifference& one : fit.differences) {
     fmt::print("  {} - {}: {}  95 % {}, t({:.0f}) = {}, p = {}\n", one.second, one.first,
@@ -74,11 +103,47 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   if (!fit.note.empty()) fmt::print("  {}\n", fit.note);
 }
 
+double guess_of(const Options& options) { return std::stod(options.guess); }
+
+/// None where it is free.
+std::optional<double> lapse_of(const Options& options) {
+  if (options.lapse == "free") return std::nullopt;
+  if (options.lapse == "none") return 0.0;
+  return std::stod(options.lapse);
+}
+
+void require_lapses(const Options& options) {
+  const std::optional<double> lapse = lapse_of(options);
+  if (!lapse) return;
+  if (!options.free.empty()) {
+    throw UsageError(fmt::format(
+        "--free lapse, --lapse: expected one of them, or --lapse free, found --lapse {}",
+        options.lapse));
+  }
+  const double guess = guess_of(options);
+  if (*lapse < (guess > 0.0 ? 1.0 - guess : 0.5)) return;
+  throw UsageError(fmt::format(
+      "--lapse: expected a rate that leaves the curve a rise above --guess {}, found {}",
+      options.guess, options.lapse));
+}
+
 int fit_hierarchical(const Options& options) {
   require_reference(options);
+  require_lapses(options);
+  const std::optional<double> lapse = lapse_of(options);
+  const std::vector<analysis::ParticipantAnswers> answers = analysis::read_participant_answers(
+      analysis::CsvTable::read(options.csv), options.reference);
+  std::vector<std::string> warnings =
+      analysis::hierarchical_warnings(answers, guess_of(options));
+  const bool uses_others = std::ranges::any_of(answers, [&](const auto& one) {
+    return options.reference && one.reference != *options.reference;
+  });
+  if (uses_others) {
+    warnings.push_back(fmt::format(
+        "the table's column reference is used, and --reference {} is not", *options.reference));
+  }
   const analysis::HierarchicalFit fit = analysis::fit_hierarchical(
-      analysis::read_participant_answers(analysis::CsvTable::read(options.csv),
-                                         options.reference),
+      answers,
       {.link = options.link == "linear" ? analysis::HierarchicalLink::kLinear
                                         : analysis::HierarchicalLink::kLogSlope,
        .pse = options.pse == "reference" ? analysis::HierarchicalPse::kReference
@@ -87,13 +152,18 @@ int fit_hierarchical(const Options& options) {
                                          : analysis::HierarchicalPse::kPersonal,
        .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
                                             : analysis::HierarchicalSlopes::kCorrelated,
-       .lapses = options.free.empty() ? analysis::HierarchicalLapses::kNone
-                                      : analysis::HierarchicalLapses::kCommon,
+       .lapses =
+           lapse ? analysis::HierarchicalLapses::kKnown : analysis::HierarchicalLapses::kCommon,
+       .lapse_rate = lapse.value_or(0.0),
+       .guess_rate = guess_of(options),
        .num_nodes = options.num_nodes});
   if (options.json) {
-    fmt::print("{}\n", json_text(analysis::to_json(fit)));
+    auto json = analysis::to_json(fit);
+    json["warnings"] = warnings;
+    fmt::print("{}\n", json_text(json));
   } else {
     print_for_people(fit);
+    for (const std::string& warning : warnings) fmt::print("  note: {}\n", warning);
   }
   if (fit.status == FitStatus::kOk) return kDone;
   fmt::print(stderr, "jnd: {}: expected answers that have a hierarchical fit, found none: {}\n",
@@ -132,25 +202,40 @@ std::vector<analysis::OrderedAnswers> read_ordered_answers(const analysis::CsvTa
   return rows;
 }
 
-int fit_effects(const Options& options) {
-  require_reference(options);
-  const std::vector<analysis::PsychometricEffect> effects = analysis::psychometric_effects(
-      read_ordered_answers(analysis::CsvTable::read(options.csv)), *options.reference);
-  std::string reason;
-  for (const analysis::PsychometricEffect& one : effects) {
-    if (one.status != FitStatus::kOk && reason.empty()) reason = one.reason;
-    if (options.json) continue;
+void print_for_people(const analysis::PsychometricEffects& found) {
+  if (found.slope) {
+    fmt::print("  {:<15} {:<9} 95 % {}: of z over ln(intensity / reference), 1 / ln(1 + w)\n",
+               "slope", number(found.slope), range(found.slope_ci95, found.slope));
+  }
+  for (const analysis::PsychometricEffect& one : found.effects) {
+    if (one.status == FitStatus::kOk && !one.estimate) {
+      fmt::print("  {:<15} {:<9} p = {} of any change: {}\n", one.name, number(one.estimate),
+                 number(one.p_value), one.reason);
+      continue;
+    }
     fmt::print("  {:<15} {:<9} 95 % {}, p = {}: {}\n", one.name, number(one.estimate),
                range(one.ci95, one.estimate), number(one.p_value),
                one.status == FitStatus::kOk ? one.meaning : one.reason);
   }
+  for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);
+  fmt::print(
+      "  intervals: {}; p: {}\n"
+      "  exploratory: not planned, not adjusted for there being several\n",
+      analysis::kEffectInterval, analysis::kEffectTest);
+}
+
+int fit_effects(const Options& options) {
+  require_reference(options);
+  const analysis::PsychometricEffects found = analysis::psychometric_effects(
+      read_ordered_answers(analysis::CsvTable::read(options.csv)), *options.reference);
   if (options.json) {
-    fmt::print("{}\n", json_text(analysis::to_json(effects)));
+    fmt::print("{}\n", json_text(analysis::to_json(found)));
   } else {
-    fmt::print(
-        "  intervals: {}; p: {}\n"
-        "  exploratory: not planned, not adjusted for there being several\n",
-        analysis::kEffectInterval, analysis::kEffectTest);
+    print_for_people(found);
+  }
+  std::string reason;
+  for (const analysis::PsychometricEffect& one : found.effects) {
+    if (one.status != FitStatus::kOk && reason.empty()) reason = one.reason;
   }
   if (reason.empty()) return kDone;
   fmt::print(stderr, "jnd: {}: expected answers that have a regression, found none: {}\n",
@@ -184,11 +269,21 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
       ->check(CLI::IsMember({"shared", "correlated"}))
       ->capture_default_str();
   group
-      .add_option(
-          "--free", options->free,
-          "lapse: one rate for everybody, half the share of random answers, with a prior "
-          "that expects few; without it none")
+      .add_option("--free", options->free,
+                  "lapse: as --lapse free, which is what is done anyway")
       ->check(CLI::IsMember({"lapse"}));
+  group
+      .add_option("--lapse", options->lapse,
+                  "lapse rate of everybody, at both ends of the curve, or with --guess at its "
+                  "upper one: free, with a prior that expects few; none; or a rate")
+      ->transform(rate({"free", "none"}))
+      ->option_text("free|none|RATE [free]");
+  group
+      .add_option("--guess", options->guess,
+                  "share of right answers where nothing is felt, of a forced choice: 1/2 of "
+                  "two alternatives, 1/3 of three; 0 of yes and no")
+      ->transform(rate())
+      ->option_text("RATE [0]");
   group
       .add_option("--nodes", options->num_nodes,
                   "of the quadrature, a dimension; 1 is Laplace (default: by dimension)")

@@ -15,10 +15,8 @@ namespace jnd::app {
   return value ? fmt::format("{:.4g}", *value) : "-";
 }
 
-/// "0.32 to 1.6" about the estimate, an end that the data leave open in words.
-[[nodiscard]] inline std::string range(const analysis::Interval& whole,
-                                       const std::optional<double>& estimate) {
-  const analysis::Interval interval = analysis::bounded_by_data(whole, estimate);
+/// "0.32 to 1.6", an end that the data leave open in words.
+[[nodiscard]] inline std::string whole_range(const analysis::Interval& interval) {
   if (!interval.low && !interval.high) return analysis::kNotBounded;
   const auto end = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : std::string("open");
@@ -26,6 +24,12 @@ namespace jnd::app {
   const bool open = !interval.low || !interval.high;
   return end(interval.low) + " to " + end(interval.high) +
          (open ? std::string(" (") + analysis::kNotBounded + ")" : "");
+}
+
+/// The same about the estimate, an end that is far beyond it being open.
+[[nodiscard]] inline std::string range(const analysis::Interval& whole,
+                                       const std::optional<double>& estimate) {
+  return whole_range(analysis::bounded_by_data(whole, estimate));
 }
 
 /// Whether a standard error is only what rounding leaves of none.

@@ -120,8 +120,8 @@ void print_json(const Outcome& outcome) {
 struct Setup {
   explicit Setup(const Options& options) try
       : device(device::make_device(options.device, options.rate_hz)),
-        loop({.rate_hz = options.rate_hz}, *device,
-             {commands, telemetry, emergency_stop, &samples}),
+        loop({.starts_armed = device->capabilities().simulated, .rate_hz = options.rate_hz},
+             *device, {commands, telemetry, emergency_stop, &samples}),
         thread({.cpu = options.cpu}) {
   } catch (const device::DeviceUnreachable&) {
     throw;
@@ -181,7 +181,7 @@ int run(const Options& options) {
   }
   setup.telemetry.fetch();
   const core::Fault fault = setup.telemetry.value().fault;
-  if (fault == core::Fault::kNone) return kDone;
+  if (!core::is_failure(fault)) return kDone;
   fmt::print(stderr, "jnd: {}\n", core::words(fault));
   return kHasProblems;
 }

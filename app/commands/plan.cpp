@@ -18,6 +18,7 @@
 #include "app/json_text.h"
 #include "app/operator/study_words.h"
 #include "app/option_checks.h"
+#include "app/plan_lapses.h"
 #include "app/plan_statistics.h"
 #include "app/session_setup.h"
 #include "app/share.h"
@@ -53,6 +54,7 @@ struct Outcome {
   experiments::RangeLimits limits{};
   std::optional<StabilityCheck> stability;  ///< None: the device has no map.
   PlanStatistics statistics;
+  std::vector<PlannedLapses> lapses;
   double duration_s = 0.0;          ///< Of the longest session, as expected.
   double longest_duration_s = 0.0;  ///< Of the same with all trials that blocks can have.
   std::string folder_problem;  ///< Why its sessions cannot go to the folder; "" if they can.
@@ -81,12 +83,11 @@ Outcome outcome_of(const Options& options) {
   request.fields = fields_or_none(outcome.study, options.fields);
   outcome.plans = experiments::plan_participants(outcome.study, request);
   outcome.completed = request.completed;
-  outcome.statistics = plan_statistics(
-      outcome.study, outcome.plans,
-      experiments::read_laboratory(user_or_shipped(
-          options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
-          "data/laboratories")),
-      options.seed);
+  const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
+      options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
+      "data/laboratories"));
+  outcome.statistics = plan_statistics(outcome.study, outcome.plans, laboratory, options.seed);
+  outcome.lapses = planned_lapses(outcome.study, outcome.plans, laboratory);
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
     outcome.duration_s = std::max(outcome.duration_s, plan.duration_s);
     outcome.longest_duration_s = std::max(outcome.longest_duration_s, plan.longest_duration_s);
@@ -212,6 +213,7 @@ ordered_json to_json(const Outcome& outcome, const Options& options) {
                        {"participants", std::move(participants)},
                        {"balance", std::move(balance)}};
   add_to_json(outcome.statistics, json);
+  add_to_json(outcome.lapses, json);
   json.update(ordered_json{{"duration_s", to_decimals(outcome.duration_s, 6)},
                            {"longest_duration_s", to_decimals(outcome.longest_duration_s, 6)},
                            {"device", options.device},
@@ -311,6 +313,7 @@ void print(const Outcome& outcome, const Options& options) {
                counts.second);
   }
   print(outcome.statistics);
+  print(outcome.lapses);
   print_range(outcome, options);
 }
 

@@ -8,7 +8,7 @@ const std::vector<Registration>& registrations() {
       add_validate,  add_schema,       add_new,
       add_plan,      add_power,        add_power_merge,  // Writing a study.
       add_run,       add_simulate,     add_resume,       // Running it.
-      add_verify,    add_backup,                         // Keeping it.
+      add_verify,    add_backup,       add_restore,      // Keeping it.
       add_exclude,   add_unblind,      add_withdraw,     // Acts on what is kept.
       add_results,   add_report,       add_export,       // What came of it.
       add_fit,       add_compare,                        // Other people's data.

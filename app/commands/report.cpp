@@ -8,6 +8,7 @@
 
 #include "app/commands/commands.h"
 #include "app/compare_option.h"
+#include "app/inverted_option.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/progress_bar.h"
@@ -23,6 +24,7 @@ struct Options {
   bool json = false;
   int jobs = 2;
   std::vector<std::string> compare;  ///< "group_d,group_e"
+  std::string inverted;              ///< "in", "out"
   analysis::ResultsOptions results;
 };
 
@@ -57,6 +59,7 @@ StudyReport written(const Options& options) {
                              .pilot = options.pilot,
                              .jobs = options.jobs,
                              .results = std::move(results),
+                             .inverted = options.inverted,
                              .on_progress = [&bar](double done) { bar.show(done); }});
 }
 
@@ -95,6 +98,7 @@ void add_report(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(100, 1000000))
       ->capture_default_str();
   add_compare_option(*command, options->compare);
+  add_inverted_option(*command, options->inverted);
   command->add_option("--seed", options->results.seed, "Of the resampling")
       ->check(seed_number())
       ->capture_default_str();

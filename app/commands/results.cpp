@@ -10,8 +10,10 @@
 #include "analysis/movement/recorded_results.h"
 #include "app/commands/commands.h"
 #include "app/compare_option.h"
+#include "app/inverted_option.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
+#include "app/predictive_option.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/study_data.h"
@@ -25,6 +27,8 @@ struct Options {
   bool delivered = false;
   bool movement = false;
   std::vector<std::string> compare;  ///< "group_d,group_e"
+  std::string inverted;              ///< "in", "out"
+  PredictiveOption predictive;
   analysis::ResultsOptions results;
 };
 
@@ -41,7 +45,11 @@ int run(Options options) {
   require_unblinded(store);
   analysis::DeliveredStudy study{.data = load_study_data(store)};
   if (options.delivered) study = analysis::with_delivered(std::move(study.data), store);
-  analysis::StudyResults results = results_of_data(study.data, options.results);
+  apply_inverted_option(options.inverted, study.data);
+  const std::optional<analysis::PredictivePeople> people =
+      people_asked_for(options.predictive, store, study.data);
+  analysis::StudyResults results =
+      results_of_data(study.data, options.results, people ? &*people : nullptr);
   if (options.movement) {
     results.sections.push_back(
         analysis::recorded_results(analysis::analyse_movement(store, {.explored = false})));
@@ -76,6 +84,7 @@ void add_results(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(100, 1000000))
       ->capture_default_str();
   add_compare_option(*command, options->compare);
+  add_inverted_option(*command, options->inverted);
   command->add_option("--seed", options->results.seed, "Of the resampling")
       ->check(seed_number())
       ->capture_default_str();
@@ -83,6 +92,7 @@ void add_results(CLI::App& program, Invocation& invocation) {
                     "Fit on what the device delivered instead of what was commanded");
   command->add_flag("--movement", options->movement,
                     "What the recordings say of movement as well; reads every sample");
+  add_predictive_option(*command, options->predictive);
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run(*options); }; });

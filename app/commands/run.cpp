@@ -18,6 +18,7 @@
 #include "app/stop_signals.h"
 #include "app/usage_message.h"
 #include "core/error.h"
+#include "device/device_registry.h"
 #include "experiments/session/event.h"
 #include "experiments/study/study_reader.h"
 
@@ -33,6 +34,7 @@ struct Options {
   bool pilot = false;
   bool allow_no_realtime = false;
   bool headless = false;
+  bool arm = false;
   std::string laboratory;  ///< "": of `run` the default of the device, of `resume` as it was.
   bool realtime = false;
   bool acknowledge = false;
@@ -90,6 +92,7 @@ int run_session(const Options& options, core::StudyStore& store,
          .session = session,
          .realtime = options.realtime,
          .allow_no_realtime = options.allow_no_realtime,
+         .arm = options.arm,
          .choice = options.choose,
          .language = options.language,
          .on_event = [&](const core::EventRow& event) { acknowledgements.tell(event); },
@@ -100,6 +103,9 @@ int run_session(const Options& options, core::StudyStore& store,
   }
   const std::string unheard =
       "stdout: expected a reader of --acknowledge, found that it takes no more lines; ";
+  for (const std::string& caution : result.cautions) {
+    std::fprintf(stderr, "jnd: CAUTION, %s\n", caution.c_str());
+  }
   if (!result.ended) {
     std::fprintf(stderr, "jnd: %s%s\n",
                  acknowledgements.unheard() ? unheard.c_str()
@@ -146,6 +152,15 @@ void warn_of_lookalike(const core::StudyStore& store, const std::string& partici
                participant.c_str(), like.c_str());
 }
 
+/// Nothing arms a real device but somebody who says so.
+void require_arming(const Options& options, const std::string& device, double rate_hz) {
+  if (options.arm || device::make_device(device, rate_hz)->capabilities().simulated) return;
+  throw UsageError(
+      "--device " + device +
+      ": expected --arm for a device that can hurt somebody, found none; it starts "
+      "disarmed");
+}
+
 int run(Options options) {
   require_device(options.device);
   require_pseudonym(options.participant);
@@ -165,6 +180,7 @@ int run(Options options) {
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
+  require_arming(options, options.device, study.device.rate_hz);
   require_device_starts(options.device, study.device.rate_hz);
   options.realtime |= has_own_clock(options.device);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
@@ -181,6 +197,7 @@ int run(Options options) {
                     .seed = options.seed.value_or(std::random_device{}()),
                     .pilot = options.pilot,
                     .realtime = options.realtime,
+                    .allow_no_realtime = options.allow_no_realtime,
                     .fields = std::move(fields)},
                    {options.participant});
   return run_session(options, store, study, laboratory, sessions.front());
@@ -223,6 +240,7 @@ experiments::Laboratory laboratory_of(const Options& options, const core::Sessio
 
 int resume_headless(Options options, core::StudyStore& store, const core::SessionRow& row) {
   const experiments::Study study = stored_study(store, row.session);
+  require_arming(options, row.device, row.rate_hz);
   require_device_starts(row.device, row.rate_hz);
   require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
   options.realtime |= has_own_clock(row.device);
@@ -248,6 +266,13 @@ int resume(const Options& options) {
   return open_window({.study_folder = options.folder, .resume_session = row->session});
 }
 
+/// In a window the experimenter arms a real device by a key.
+void add_headless_options(CLI::App& command, Options& options) {
+  command.add_flag("--headless", options.headless, "Without a window, participant simulated");
+  command.add_flag("--arm", options.arm,
+                   "With --headless: a real device may give force, and somebody is beside it");
+}
+
 }  // namespace
 
 void add_run(CLI::App& program, Invocation& invocation) {
@@ -269,7 +294,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");
-  command->add_flag("--headless", options->headless, "Without a window, participant simulated");
+  add_headless_options(*command, *options);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: thesis, or thesis_exoskeleton "
                       "with that device");
@@ -296,7 +321,7 @@ void add_resume(CLI::App& program, Invocation& invocation) {
                    "repeat the interrupted trial, restart its block, or end the session")
       ->check(CLI::IsMember({"repeat", "restart", "end"}))
       ->capture_default_str();
-  command->add_flag("--headless", options->headless, "Without a window, participant simulated");
+  add_headless_options(*command, *options);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: the session's own");
   command->add_flag("--realtime", options->realtime, "Paced by the clock");

@@ -34,24 +34,34 @@ std::vector<experiments::StudyProblem> problems_of(const std::filesystem::path& 
 
 int run(const Options& options) {
   if (!options.device.empty()) require_device(options.device);
-  std::vector<experiments::StudyProblem> problems;
+  std::vector<experiments::StudyProblem> problems, doubts;
+  const auto add = [](auto& all, std::vector<experiments::StudyProblem> found) {
+    all.insert(all.end(), std::make_move_iterator(found.begin()),
+               std::make_move_iterator(found.end()));
+  };
   for (const std::string& name : options.files) {
-    std::vector<experiments::StudyProblem> found =
-        problems_of(user_or_shipped(name, "protocols"), options);
+    const std::filesystem::path file = user_or_shipped(name, "protocols");
+    std::vector<experiments::StudyProblem> found = problems_of(file, options);
     if (!options.json && found.empty()) {
       fmt::print("{}: no problem{}\n", name,
                  options.device.empty()
                      ? "; --device NAME tells whether that device can render it"
                      : " on " + options.device);
     }
-    problems.insert(problems.end(), std::make_move_iterator(found.begin()),
-                    std::make_move_iterator(found.end()));
+    add(problems, std::move(found));
+    add(doubts, experiments::study_doubts(file));
   }
   if (options.json) {
-    fmt::print("{}\n", json_text(problems_json(problems)));
+    nlohmann::ordered_json document = problems_json(problems);
+    document["warnings"] = problems_json(doubts)["problems"];
+    fmt::print("{}\n", json_text(document));
   } else {
     for (const experiments::StudyProblem& problem : problems) {
       fmt::print("{}\n", to_string(problem));
+    }
+    for (experiments::StudyProblem doubt : doubts) {
+      doubt.message = "warning: " + doubt.message;
+      fmt::print("{}\n", to_string(doubt));
     }
   }
   if (problems.empty()) return kDone;

@@ -542,8 +542,11 @@ void Application::draw_corner(Ui& ui) {
 }
 
 void Application::take_global_keys(Ui& ui) {
-  if (ui.pressed({letter('D'), true})) ui.theme().set_dark(!ui.theme().dark());
-  if (ui.pressed({Key::kPlus, true})) zoom_ *= kZoomStep;
+  // Of other screens the buttons in the corner have these two.
+  if (screen_ == Screen::kSession) {
+    if (ui.pressed({letter('D'), true})) ui.theme().set_dark(!ui.theme().dark());
+    if (ui.pressed({Key::kPlus, true})) zoom_ *= kZoomStep;
+  }
   if (ui.pressed({Key::kMinus, true})) zoom_ /= kZoomStep;
   zoom_ = std::clamp(zoom_, 0.5f, 2.0f);
   if (ui.pressed({Key::kF9})) shows_participant_ = !shows_participant_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/gui/application.h"
+#include "app/operator/remembered_stop.h"
 #include "app/session_setup.h"
 #include "app/share.h"
 #include "core/clock.h"
@@ -51,6 +52,7 @@ void Application::start_session(const std::string& participant, const std::strin
                                              .seed = seed_,
                                              .pilot = prepare_state_.pilot,
                                              .realtime = true,
+                                             .allow_no_realtime = request_.allow_no_realtime,
                                              .fields = prepare_state_.fields},
                                             {participant})
                                    .front();
@@ -82,8 +84,6 @@ void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t sess
   finished_ = false;
   closing_ = leaving_ = false;
   session_folder_ = store->folder();
-  // A stop pressed in an earlier session must not meet this one.
-  (void)doors_.emergency_stop.release(doors_.emergency_stop.num_presses());
   worker_ = std::make_unique<SessionWorker>(
       SessionWorker::Parameters{.store = std::move(store),
                                 .session = session,
@@ -91,6 +91,7 @@ void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t sess
                                 .laboratory = std::move(laboratory),
                                 .language = prepare_state_.language,
                                 .allow_no_realtime = request_.allow_no_realtime,
+                                .stops = stops_folder(),
                                 .wake = wake_},
       doors_);
   screen_ = Screen::kSession;
@@ -182,7 +183,6 @@ void Application::close_session() {
   const std::string failure = worker_->failure();
   worker_.reset();
   run_state_.pad = {};
-  (void)doors_.emergency_stop.release(doors_.emergency_stop.num_presses());
   finished_ = view_ && view_->step == Step::kFinished;
   if (closing_) closed_ = true;
   if (finished_) return;
@@ -231,6 +231,8 @@ void Application::after_session() {
   collect(*check_, after_.checking, after_.check, after_.check_failed);
   if (backup_) {
     collect(*backup_, after_.backing_up, after_.backup, after_.backup_failed);
+    const ActionOutcome* outcome = after_.backing_up ? nullptr : backup_->result();
+    after_.backup_has_caution = outcome != nullptr && outcome->caution;
     if (!after_.backing_up && after_.backup_failed) backup_.reset();
   }
 }

@@ -1,12 +1,17 @@
 #include "app/gui/start_contents.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "analysis/report/report_words.h"
 #include "app/operator/study_outline.h"
 #include "app/share.h"
+#include "core/error.h"
+#include "core/storage/backup_mark.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -24,6 +29,14 @@ std::vector<std::string> shipped_studies() {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// The home folder is "~", as a shell writes it.
+std::string path_words(const fs::path& path) {
+  const char* home = std::getenv("HOME");
+  const std::string text = path.string();
+  const std::string begin = home == nullptr ? "" : std::string(home) + "/";
+  return begin.size() > 1 && text.starts_with(begin) ? "~/" + text.substr(begin.size()) : text;
 }
 
 StartModel::Study start_study(const fs::path& path) {
@@ -49,6 +62,31 @@ StartModel::Study start_study(const fs::path& path) {
   return study;
 }
 
+/// Studies of one title are told apart by the folder that holds each.
+void tell_namesakes_apart(std::vector<StartModel::Study>& studies) {
+  std::map<std::string, int> num_of_title;
+  for (const StartModel::Study& study : studies) ++num_of_title[study.title];
+  for (StartModel::Study& study : studies) {
+    if (num_of_title[study.title] > 1)
+      study.summary = path_words(study.path) + " · " + study.summary;
+  }
+}
+
+/// Studies first, then their copies, then where else to look.
+int rank_of(FolderEntry::Kind kind) {
+  if (kind == FolderEntry::Kind::kStudyFolder) return 0;
+  return kind == FolderEntry::Kind::kBackup ? 1 : 2;
+}
+
+FolderEntry::Kind kind_of_study(const fs::path& folder) {
+  try {
+    return core::is_backup(folder) ? FolderEntry::Kind::kBackup
+                                   : FolderEntry::Kind::kStudyFolder;
+  } catch (const core::Error&) {
+    return FolderEntry::Kind::kStudyFolder;  // Opening it says what is wrong.
+  }
+}
+
 }  // namespace
 
 StartModel look_around(const RecentStudies& recent, WorkControl& control) {
@@ -57,6 +95,7 @@ StartModel look_around(const RecentStudies& recent, WorkControl& control) {
     control.stop_if_cancelled();
     if (study.exists) model.studies.push_back(start_study(study.path));
   }
+  tell_namesakes_apart(model.studies);
   model.machine = look_at_machine();
   return model;
 }
@@ -69,15 +108,14 @@ std::vector<FolderEntry> entries_of(const fs::path& folder) {
     if (name.starts_with(".")) continue;
     if (entry.is_directory(error)) {
       const bool is_study = fs::exists(entry.path() / "study.sqlite", error);
-      entries.push_back({entry.path(), is_study ? FolderEntry::Kind::kStudyFolder
-                                                : FolderEntry::Kind::kFolder});
+      entries.push_back(
+          {entry.path(), is_study ? kind_of_study(entry.path()) : FolderEntry::Kind::kFolder});
     } else if (entry.path().extension() == ".json") {
       entries.push_back({entry.path(), FolderEntry::Kind::kStudyFile});
     }
   }
   std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
-    return std::pair(a.kind != FolderEntry::Kind::kStudyFolder, a.path) <
-           std::pair(b.kind != FolderEntry::Kind::kStudyFolder, b.path);
+    return std::pair(rank_of(a.kind), a.path) < std::pair(rank_of(b.kind), b.path);
   });
   return entries;
 }

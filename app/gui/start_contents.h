@@ -13,8 +13,8 @@ namespace jnd::app::gui {
 /// every study, so not on the thread of the window.
 [[nodiscard]] StartModel look_around(const RecentStudies& recent, WorkControl& control);
 
-/// Folders and study files in a folder, folders of studies first; nothing of one that cannot be
-/// read.
+/// Folders and study files in a folder, folders of studies first and their backups next;
+/// nothing of one that cannot be read.
 [[nodiscard]] std::vector<FolderEntry> entries_of(const std::filesystem::path& folder);
 
 }  // namespace jnd::app::gui

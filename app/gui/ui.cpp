@@ -89,6 +89,7 @@ void Ui::begin_frame(InputQueue& queue) {
   my.dialog_is_new = false;
   my.dialog.clear();
   my.fields.clear();
+  my.asked_for.clear();
   my.active_field.clear();
   my.area_is_active = false;
   my.drawn = {.view = std::move(my.drawn.view), .frame = my.drawn.frame + 1};

@@ -80,6 +80,9 @@ struct Drawn {
   std::uint64_t frame = 0;  ///< Counts up.
   std::vector<Widget> widgets;
   std::vector<std::string> texts;  ///< Every text, labels included, in order.
+  /// Keys that more than one control of the screen, or of its dialog, asked for: only the first
+  /// of them gets the key, so that what the other one says is not what the key does.
+  std::vector<std::string> shared_keys;
 
   [[nodiscard]] const Widget* find(std::string_view name) const;
   [[nodiscard]] bool shows(std::string_view part) const;  ///< Some text contains it.
@@ -89,7 +92,8 @@ struct Drawn {
 /// drawn. Everything on screen goes through here. Immediate mode: what a call draws exists in
 /// this frame alone; a control returns true in the frame in which it was used.
 ///
-/// A key belongs to the first control that asks for it in a frame; while a dialog is open
+/// A key belongs to the first control that asks for it in a frame, and no two should
+/// (`Drawn::shared_keys`); while a dialog is open
 /// (`begin_dialog`), controls drawn before it get neither keys nor clicks, those drawn after it
 /// do: the emergency stop. While a text field is edited, keys that write a letter or edit go to
 /// it alone. What is typed while a control's work, a dialog or a field is still opening waits

@@ -57,6 +57,7 @@ Ui::Press Ui::press_on(const Rect& place, const ButtonStyle& style) {
     press.answered = style.at_once ? my.went_down : my.went_up;
     my.was_used |= press.answered;
   }
+  my.note_asked_for(style.key);
   if (!press.answered && my.take_key(style.key, style.repeats)) press.answered = true;
   return press;
 }

@@ -82,6 +82,18 @@ void Ui::Implementation::feed(ImGuiIO& io) const {
   io.MouseWheel = input.wheel;
 }
 
+void Ui::Implementation::note_asked_for(const Chord& chord) {
+  if (is_blocked() || chord.key == Key::kNone) return;
+  // What opens a dialog and what is in it may have one key.
+  std::string key = words(chord);
+  std::string asked = dialog + "\n" + key;
+  if (std::ranges::find(asked_for, asked) == asked_for.end()) {
+    asked_for.push_back(std::move(asked));
+  } else if (std::ranges::find(drawn.shared_keys, key) == drawn.shared_keys.end()) {
+    drawn.shared_keys.push_back(std::move(key));
+  }
+}
+
 bool Ui::Implementation::take_key(const Chord& chord, bool with_repeats) {
   if (is_blocked()) return false;
   const auto found = std::ranges::find_if(keys, [&](const KeyEvent& event) {
@@ -118,6 +130,7 @@ void Ui::Implementation::give_keys_to_field() {
 }
 
 bool Ui::pressed(const Chord& key, bool with_repeats) {
+  my_->note_asked_for(key);
   return my_->take_key(key, with_repeats);
 }
 

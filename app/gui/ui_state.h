@@ -20,11 +20,12 @@ struct Ui::Implementation {
   FrameInput input;
   std::vector<KeyEvent> keys;  ///< Pressed or repeating.
   std::vector<std::uint32_t> characters;
-  std::optional<FrameInput> again;  ///< Input that went to no one, for the next frame.
-  bool was_held = false;            ///< The last control that answered goes on.
-  bool was_used = false;            ///< A control answered in this frame.
-  bool is_held = false;             ///< What was used has not come to anything yet.
-  bool has_more = false;            ///< The queue is not empty.
+  std::vector<std::string> asked_for;  ///< Keys that a control of this frame asked for.
+  std::optional<FrameInput> again;     ///< Input that went to no one, for the next frame.
+  bool was_held = false;               ///< The last control that answered goes on.
+  bool was_used = false;               ///< A control answered in this frame.
+  bool is_held = false;                ///< What was used has not come to anything yet.
+  bool has_more = false;               ///< The queue is not empty.
 
   // The mouse, logical pixels.
   MouseState mouse;
@@ -81,6 +82,7 @@ struct Ui::Implementation {
   }
   /// The first press of this chord becomes the caller's.
   bool take_key(const Chord& chord, bool with_repeats);
+  void note_asked_for(const Chord& chord);
   void give_keys_to_field();
   /// Which of our keys is which of ImGui's.
   static void map_keys(ImGuiIO& io);

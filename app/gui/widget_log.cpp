@@ -76,7 +76,11 @@ void WidgetLog::keep_texts(const Drawn& drawn) {
   std::filesystem::path kept = file_;
   kept += ".texts";
   std::ofstream out;
-  for (std::string text : drawn.texts) {
+  std::vector<std::string> texts = drawn.texts;
+  for (const std::string& key : drawn.shared_keys) {
+    texts.push_back("more than one control of " + drawn.view + " has the key " + key);
+  }
+  for (std::string text : texts) {
     std::ranges::replace(text, '\n', ' ');
     if (!texts_.insert(text).second) continue;
     if (!out.is_open()) out.open(kept, std::ios::app);

@@ -17,7 +17,7 @@ namespace jnd::app::gui {
 
 /// Writes a frame that shows something new, whole or not at all: the file is replaced.
 /// FILE.texts beside it grows by each text that no frame before has shown, one a line: whatever
-/// stood on the screen however shortly.
+/// stood on the screen however shortly; and by a sentence for each key that two controls share.
 class WidgetLog {
  public:
   /// An empty path switches it off.

@@ -92,6 +92,12 @@ ActionOutcome back_up_study(const fs::path& folder, const fs::path& target,
   control.progress(1.0);
   ActionOutcome outcome = outcome_of(report.integrity, "backup in " + target.string());
   for (const std::string& remark : report.remarks) outcome.problems.push_back(remark);
+  if (outcome.ok && report.on_one_disk) {
+    outcome.caution = true;
+    outcome.sentence +=
+        "; it is on the study's own disk, and a disk that fails takes both: keep another one "
+        "elsewhere";
+  }
   return outcome;
 }
 

@@ -11,7 +11,8 @@ namespace jnd::app {
 /// What came of something a button began.
 struct ActionOutcome {
   bool ok = true;
-  std::string sentence;               ///< "13 sessions and 1040 answers are in ..."
+  bool caution = false;  ///< It is done, but the sentence says what is not as it should be.
+  std::string sentence;  ///< "13 sessions and 1040 answers are in ..."
   std::vector<std::string> problems;  ///< Of a verification, a sentence each.
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/operator/live_trace.h"
+#include "app/operator/remembered_stop.h"
 #include "app/operator/scope_trace.h"
 #include "app/session_setup.h"
 #include "core/error.h"
@@ -22,6 +23,7 @@ bool is_urgent(const OperatorRequest& request) {
          std::holds_alternative<operate::Undo>(request) ||
          std::holds_alternative<operate::EndEarly>(request) ||
          std::holds_alternative<operate::Leave>(request) ||
+         std::holds_alternative<operate::ReleaseStop>(request) ||
          std::holds_alternative<operate::Rearm>(request);
 }
 
@@ -63,6 +65,9 @@ OperatedSession::OperatedSession(const Parameters& parameters)
       session_(visit_.session()),
       presenter_(visit_.apparatus(), session_, parameters.study.device) {
   visit_.apparatus().render(core::free_space());
+  if (is_stop_remembered(parameters_.stops, row_.device)) {
+    parameters_.doors.emergency_stop.press();
+  }
   // A session goes on in the language that it was begun in.
   language_ = !state().language.empty()      ? state().language
               : !parameters.language.empty() ? parameters.language
@@ -225,12 +230,20 @@ void OperatedSession::rest_before_trial() {
 void OperatedSession::give_up(const std::string& why) {
   if (!failure_.empty()) return;
   failure_ = why;
-  parameters_.doors.emergency_stop.press();
+  visit_.apparatus().disarm();
   try {
     abandon_presentation();
   } catch (const core::Error&) {
     // No second failure hides the first.
   }
+}
+
+void OperatedSession::remember_stop() const {
+  jnd::app::remember_stop(parameters_.stops, row_.device);
+}
+
+void OperatedSession::forget_stop() const {
+  jnd::app::forget_stop(parameters_.stops, row_.device);
 }
 
 /// Of a device that moves by itself; others take no notice.

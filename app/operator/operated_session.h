@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -40,6 +41,8 @@ class OperatedSession {
     std::string language;          ///< Of the study's texts; "": its first.
     bool realtime = true;          ///< Else time passes only in `advance`: for tests.
     bool allow_no_realtime = false;
+    /// Where stops are remembered that nobody released; "": nowhere. See `remember_stop`.
+    std::filesystem::path stops;
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
     /// Gets every sample as `trace` does, from the thread that stores it; may be empty.
     std::function<void(const core::Sample&)> on_sample;
@@ -81,6 +84,8 @@ class OperatedSession {
   void abandon_presentation();
   void end_feeling(bool counts);
   void give_up(const std::string& why);
+  void remember_stop() const;
+  void forget_stop() const;
   void move_simulated_hand(double height_m);
 
   [[nodiscard]] bool is_alone() const { return row_.device == "mouse"; }

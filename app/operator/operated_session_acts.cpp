@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <variant>
@@ -120,6 +122,7 @@ struct OperatedSession::Act {
     my.session_.require_answer(answer.value);
     const double response_time_s = my.presenter_.felt_s();
     const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
+    require_ticks(felt, fmt::format("; the answer was {:g}", answer.value));
     my.session_.answer(answer.value, response_time_s, felt.last_tick);
   }
 
@@ -185,10 +188,21 @@ struct OperatedSession::Act {
     if (my.state().paused) go_on();
   }
 
-  void operator()(const operate::Rearm& rearm) const {
-    if (my.known_fault_ == core::Fault::kNone) refuse("there is nothing to arm");
-    if (!my.parameters_.doors.emergency_stop.release(rearm.num_stop_presses)) {
+  void operator()(const operate::ReleaseStop& release) const {
+    if (!my.parameters_.doors.emergency_stop.release(release.num_stop_presses)) {
       refuse("the emergency stop was pressed again");
+    }
+    my.forget_stop();
+    if (my.begun_ && !my.state().ended) {
+      my.session_.arming_changed(std::string(core::name(core::Arming::kFaulted)),
+                                 "the emergency stop was released by the experimenter");
+    }
+  }
+
+  void operator()(const operate::Rearm&) const {
+    if (my.known_fault_ == core::Fault::kNone) refuse("there is nothing to arm");
+    if (my.parameters_.doors.emergency_stop.is_pressed()) {
+      refuse("the emergency stop is pressed: release it first");
     }
     my.known_num_faults_ = my.visit_.apparatus().telemetry().num_faults;
     my.visit_.apparatus().rearm();
@@ -265,7 +279,20 @@ struct OperatedSession::Act {
     const bool was_first =
         form.has_reference && shown_interval(form, trial) == first_interval(form);
     const Presenter::Felt felt = my.presenter_.end();
+    require_ticks(felt);
     if (was_first) my.first_felt_s_ = felt.duration_s;
+  }
+
+  /// What was felt while the loop was held up for too long counts for nothing: the trial begins
+  /// anew. An answer that was given to it is kept in the reason.
+  void require_ticks(const Presenter::Felt& felt, const std::string& answer = "") const {
+    const std::string reason = my.presenter_.missed_reason(felt);
+    if (reason.empty()) return;
+    my.visit_.apparatus().render(core::free_space());
+    my.session_.discard_attempt(reason + answer);
+    my.resting_for_trial_ = 0;
+    refuse("that did not count, and the trial begins anew (" + reason +
+           "): close what burdens this machine");
   }
 };
 

@@ -431,6 +431,10 @@ SessionView OperatedSession::view() const {
       view.practice = practice_words(
           *block(), practice_state(*block(), state().answered_in(state().stage)));
     }
+    if (!hides_levels_ && !view.trial) {
+      view.caution = procedure_named(block()->procedure)
+                         .caution(*block(), state().answered_in(state().stage));
+    }
   }
   view.answers = answer_lines();
   view.trials_on_disk = static_cast<std::int64_t>(
@@ -445,6 +449,7 @@ SessionView OperatedSession::view() const {
   } else if (known_fault_ != core::Fault::kNone) {
     view.fault = std::string(core::words(known_fault_));
     view.fault_name = std::string(core::name(known_fault_));
+    view.is_disarmed = known_fault_ == core::Fault::kNotArmed;
   }
   view.loose_bits = loose_bits();
   view.loose_points = words_of_points(view.loose_bits);

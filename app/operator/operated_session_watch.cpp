@@ -5,6 +5,9 @@ namespace jnd::app {
 
 void OperatedSession::watch_apparatus() {
   watch_for_faults();
+  if (begun_ && !state().ended && failure_.empty()) {
+    visit_.keep_arming("armed by the experimenter");
+  }
   watch_for_loose_points();
 }
 
@@ -19,7 +22,8 @@ void OperatedSession::watch_for_faults() {
   known_fault_ = now.fault;
   rearming_ = false;
   abandon_presentation();
-  if (!begun_ || state().ended) return;
+  if (now.fault == core::Fault::kEmergencyStop) remember_stop();
+  if (!begun_ || state().ended || !core::is_failure(now.fault)) return;
   visit_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
     session_.discard_attempt(std::string("fault: ") + std::string(name(now.fault)));

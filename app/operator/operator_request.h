@@ -80,11 +80,13 @@ struct GoOnWithout {
   std::uint8_t point_bits = 0;  ///< All that the operator saw to be loose.
   std::string reason;
 };
-/// After the emergency stop or a fault: the stop released, force back, the trial run again.
+/// The emergency stop is released, and there is no force yet: `Rearm` is an act of its own.
 /// Nothing of it if the stop was pressed again since `num_stop_presses` was seen.
-struct Rearm {
+struct ReleaseStop {
   std::uint64_t num_stop_presses = 0;
 };
+/// At first, and after a fault or a stop that was released: force, and the trial is run again.
+struct Rearm {};
 /// For good: not resumable.
 struct EndEarly {
   std::string reason;
@@ -100,7 +102,7 @@ using OperatorRequest =
     std::variant<operate::Begin, operate::AnswerItem, operate::FeelMedium,
                  operate::FinishMedium, operate::FinishStage, operate::Present, operate::Answer,
                  operate::Adjust, operate::Undo, operate::Correct, operate::AddNote,
-                 operate::Pause, operate::GoOn, operate::GoOnWithout, operate::Rearm,
-                 operate::EndEarly, operate::Leave>;
+                 operate::Pause, operate::GoOn, operate::GoOnWithout, operate::ReleaseStop,
+                 operate::Rearm, operate::EndEarly, operate::Leave>;
 
 }  // namespace jnd::app

@@ -12,6 +12,7 @@
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
 #include "core/error.h"
+#include "core/storage/backup_mark.h"
 #include "core/storage/study_store.h"
 #include "core/storage/writer_lock.h"
 #include "device/device_registry.h"
@@ -56,7 +57,8 @@ std::string text_of(const std::filesystem::path& file) {
 struct RunningLoop {
   RunningLoop(const PreflightRequest& request, double rate_hz)
       : device(device::make_device(request.device, rate_hz)),
-        loop({.rate_hz = rate_hz}, *device, {commands, telemetry, emergency_stop, &samples}),
+        loop({.starts_armed = device->capabilities().simulated, .rate_hz = rate_hz}, *device,
+             {commands, telemetry, emergency_stop, &samples}),
         thread({}) {
     device::start_haptics(*device, loop, thread, request.allow_no_realtime);
   }
@@ -113,6 +115,7 @@ PreflightLine study_file_line(const std::filesystem::path& folder) {
 PreflightLine folder_line(const std::filesystem::path& folder) {
   const std::string name = "Study folder";
   return line_from(name, "cannot be written", [&]() -> PreflightLine {
+    core::require_no_backup(folder);
     const core::WriterLock alone(folder);
     const std::filesystem::path file = folder / "study.sqlite";
     if (::access(file.c_str(), W_OK) != 0) {
@@ -228,7 +231,7 @@ LoopTest test_loop(const PreflightRequest& request, double rate_hz,
   running.thread.stop();
   running.telemetry.fetch();
   const core::Fault fault = running.telemetry.value().fault;
-  if (fault != core::Fault::kNone) test.fault = std::string(core::words(fault));
+  if (core::is_failure(fault)) test.fault = std::string(core::words(fault));
   const device::LoopTiming& timing = running.thread.timing();
   test.missed_ticks = timing.missed_ticks();
   test.lateness_p99_us = 1e-3 * static_cast<double>(timing.lateness().percentile_ns(0.99));

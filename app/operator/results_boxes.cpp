@@ -119,23 +119,29 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
   return block.procedure == "magnitude_estimation" ? "a estimation" : "a production";
 }
 
-/// The estimate that a column of the block holds, within its section; "" for no column.
-std::string column_estimate(const BlockDesign& block) {
+/// The participants' own estimate that stands for the primary value of the block, within its
+/// section; "" for no column.
+std::string column_estimate(const ResultsSource& source, const BlockDesign& block) {
+  if (block.compares() && has_free_pse(source, block)) return ".weber_fraction_free_pse";
   if (block.compares() || block.tells_apart()) return ".weber_fraction";
   if (block.detects()) return ".threshold";
   if (block.procedure == "matching") return has_ratio(block) ? ".ratio_to_standard" : ".a";
   return is_magnitude(block) ? ".a" : "";
 }
 
-/// What was left out of this person's data, each thing once.
+/// What was left out of this person's data and what is doubtful in it, each thing once. Not who
+/// has no fraction with the other pse than the primary value, which the tests say.
 std::string note_of(const ResultsSource& source, const std::string& participant) {
   std::set<std::string> known;
   std::string note;
+  const auto add = [&](const std::string& whose, const std::string& words) {
+    if (whose != participant || !known.insert(words).second) return;
+    note += (note.empty() ? "" : "; ") + source.in_titles(words);
+  };
   for (const analysis::ResultsSection& section : source.results.sections) {
-    for (const analysis::ExcludedParticipant& one : section.excluded) {
-      if (one.participant != participant || !known.insert(one.reason).second) continue;
-      note += (note.empty() ? "" : "; ") + source.in_titles(one.reason);
-    }
+    if (section.name.find("_against_") != std::string::npos) continue;
+    for (const auto& one : section.excluded) add(one.participant, one.reason);
+    for (const auto& one : section.cautions) add(one.participant, one.caution);
   }
   return note;
 }
@@ -175,9 +181,7 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
     if (block.compares() || block.tells_apart()) {
       const bool free_pse = has_free_pse(source, block);
       add_box(weber, label + (free_pse ? ", pse free" : ""),
-              own_values(
-                  source, block.block,
-                  block.block + (free_pse ? ".weber_fraction_free_pse" : ".weber_fraction")));
+              own_values(source, block.block, block.block + column_estimate(source, block)));
     }
     if (is_magnitude(block)) {
       add_box(exponent, label, own_values(source, block.block, block.block + ".a"));
@@ -197,7 +201,7 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
 
 void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const BlockDesign& block : source.data.blocks) {
-    if (column_estimate(block).empty()) continue;
+    if (column_estimate(source, block).empty()) continue;
     model.columns.push_back({column_title(source, block),
                              block.detects() ? analysis::quantity_unit(block.quantity) : ""});
   }
@@ -206,7 +210,7 @@ void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const ParticipantData& participant : source.data.participants) {
     TableRow row{.participant = participant.participant};
     for (const BlockDesign& block : source.data.blocks) {
-      const std::string estimate = column_estimate(block);
+      const std::string estimate = column_estimate(source, block);
       if (estimate.empty()) continue;
       const analysis::ParticipantEstimate* own =
           source.own(block.block, participant.participant, block.block + estimate);

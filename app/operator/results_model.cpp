@@ -1,6 +1,7 @@
 #include "app/operator/results_model.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,8 +15,10 @@
 #include "app/block_words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
+#include "app/results_basis.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
+#include "app/statistic_words.h"
 #include "app/study_data.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
@@ -62,18 +65,19 @@ std::string comparison_words(const analysis::NamedComparison& named) {
   const auto add = [&words](const std::string& part) {
     words += (words.empty() ? "" : ", ") + part;
   };
-  if (c.statistic && c.degrees_of_freedom) {
-    add(fmt::format("t({:.4g}) = {:.2f}", *c.degrees_of_freedom, *c.statistic));
-  }
+  if (c.statistic) add(statistic_words(c));
   if (c.p_value) add(p_words(*c.p_value));
   if (named.p_value_holm) add("Holm " + p_words(*named.p_value_holm));
+  if (!named.family.empty()) add(named.family);
+  for (const std::string& caution : named.cautions) add("caution: " + caution);
   return words;
 }
 
-std::string basis_of(const analysis::StudyResults& results, const Estimate& estimate) {
+/// "held out, tail 0.004 below": the last where simulated studies are known.
+std::string basis_words(const analysis::StudyResults& results, const Estimate& estimate) {
   if (!results.simulated || !estimate.published) return "";
-  if (estimate.calibrated) return "calibrated";
-  return estimate.implied ? "implied" : "held out";
+  const std::string tail = tail_words(estimate, results.predictive);
+  return basis_of(estimate) + (tail.empty() ? "" : ", tail " + tail);
 }
 
 /// "group_d - group_e: stroke_width_m, paired" by titles: "Group D - Group E: stroke width [m],
@@ -111,6 +115,16 @@ std::string label_of(const ResultsSource& source, const std::string& name) {
   return name_words(is_own ? name.substr(dot + 1) : name, /*as_title=*/true);
 }
 
+/// "primary value: median person's w ..."; with why there is none, and how the published value
+/// beside it came about.
+std::string meaning_words(const Estimate& estimate) {
+  const std::string& published = estimate.published_statistic;
+  const bool says_more = !published.empty() && published != estimate.meaning;
+  return (estimate.primary ? "primary value: " : "") + estimate.meaning +
+         (estimate.reason.empty() ? "" : "; no value: " + estimate.reason) +
+         (says_more ? "; published: " + published : "");
+}
+
 void add_numbers(const ResultsSource& source, ResultsModel& model) {
   for (const analysis::ResultsSection& section : source.results.sections) {
     for (const Estimate& estimate : section.estimates) {
@@ -121,10 +135,12 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
            .value = estimate.value && std::isfinite(*estimate.value)
                         ? number(*estimate.value, estimate.unit)
                         : "",
-           .interval = interval_words(analysis::bounded_by_data(estimate.ci95, estimate.value)),
+           .interval = interval_words(
+               analysis::told_interval(estimate.name, estimate.ci95, estimate.value)),
            .published = published_words(estimate),
-           .meaning = estimate.meaning,
-           .basis = basis_of(source.results, estimate)});
+           .meaning = meaning_words(estimate),
+           .basis = basis_words(source.results, estimate),
+           .caution = fmt::format("{}", fmt::join(estimate.cautions, "; "))});
     }
     for (const analysis::NamedComparison& named : section.comparisons) {
       model.comparisons.push_back({.name = with_titles(source, named.name),
@@ -202,6 +218,10 @@ class Quality {
     }
     std::set<std::string> known;
     for (const analysis::ResultsSection& section : results.sections) {
+      for (const analysis::Caution& one : section.cautions) {
+        const std::string text = source.in_titles(one.participant + ": " + one.caution);
+        if (known.insert(text).second) chips.push_back({text, Tone::kWarning});
+      }
       for (const analysis::ExcludedParticipant& one : section.excluded) {
         // Of one person alone it is said under their own name.
         if (one.participant == "everyone" && results.num_participants == 1) continue;

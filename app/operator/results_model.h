@@ -41,20 +41,28 @@ struct Proportion {
   std::int64_t num_yes = 0, num_trials = 0;
 };
 
-/// Answers of one participant, or of all, and the curve through them.
+/// Answers of one participant, or of all, and the curve of the primary value: of all that of
+/// the median person, of one their own with the pse of the primary value.
 struct PsychometricFigure {
   std::string who;  ///< "P01"; "all participants".
   std::vector<Proportion> points;
-  std::optional<double> weber_fraction;
+  std::optional<double> weber_fraction;  ///< The primary value.
   analysis::Interval ci95;
+  double pse = 0.0;              ///< Where the curve is at 50 %; unit of the quantity.
+  double lapse_rate = 0.0;       ///< Of everybody.
   double order_effect_ln = 0.0;  ///< Where either interval may hold the test; else 0.
   std::string reason;            ///< Why there is no curve; "" if there is one.
   std::vector<Point> curve;
-  /// Between the curves with the ends of `ci95` for the Weber fraction, the point of subjective
-  /// equality held at the reference, where both meet. An open end is a step, or a flat line.
+  /// Between the curves with the ends of `ci95` for the Weber fraction, the pse held, where
+  /// both meet. An open end is a step, or a flat line.
   std::vector<BandPoint> band;
-  /// reference (1 + w): answered "more" in 84 %. None with an order effect.
+  /// pse (1 + w): answered "more" in 84 %. None with an order effect.
   std::optional<double> weber_line;
+  /// Of all: one curve through everybody's answers, which differences between people flatten.
+  std::vector<Point> pooled_curve;
+  /// Other values, each named as what it is: "pooled curve 0.70", "published 0.697".
+  std::vector<std::string> others;
+  std::vector<std::string> cautions;  ///< Why the value may be wrong, a sentence each.
 };
 
 /// A block with a reference.
@@ -64,16 +72,10 @@ struct Discrimination {
   std::string answer;            ///< "“yes”", "test chosen".
   bool has_fixed_levels = true;  ///< Else so many that each has few answers.
   double reference = 0.0;
-  /// By least squares on the proportions, as published values are, or, with two orders of the
-  /// intervals, by maximum likelihood; its interval over resampled participants.
-  PsychometricFigure pooled;
-  bool pooled_by_maximum_likelihood = false;
-  /// The median person's Weber fraction, the study's primary value.
-  std::optional<double> median_person;
-  analysis::Interval median_person_ci95;
+  bool has_free_pse = false;  ///< Of the primary value; else it is at the reference.
+  PsychometricFigure pooled;  ///< Everybody's.
   /// By maximum likelihood, with likelihood-ratio intervals; by pseudonym.
   std::vector<PsychometricFigure> participants;
-  std::optional<double> published, published_sd;
 };
 
 /// Levels over the trials of one staircase or series; unit of the quantity.
@@ -90,6 +92,7 @@ struct ThresholdFigure {
   std::optional<double> line;  ///< The threshold, unit of the quantity.
   std::string value, detail;   ///< "0.21 Pa s", "95 % 0.18 to 0.26"; "" without.
   std::string reason;          ///< Why there is no value; "" if there is one.
+  std::string caution;  ///< Why it may be wrong for these data; "" where nothing says so.
 };
 
 /// A block that asks for a threshold otherwise than by comparisons, or its tracks.
@@ -176,7 +179,8 @@ struct ComparisonLine {
   std::string name;  ///< "Group D - Group E: ln ln(1 + w), paired"
   std::optional<double> estimate;
   std::string detail;  ///< "95 % 0.38 to 1.04, t(11) = 4.70, p = 0.0006"; or why there is none.
-  bool is_primary = false;  ///< Planned between blocks.
+  bool is_primary =
+      false;  ///< Between blocks, by their primary values; `detail` has its family.
 };
 
 /// One number with what was published.
@@ -185,7 +189,9 @@ struct NumberLine {
   std::string name;                        ///< "group_d.weber_fraction"
   std::string value, interval, published;  ///< In words; "" for what there is not.
   std::string meaning;
-  std::string basis;  ///< Simulated and published: "calibrated", "implied", "held out".
+  /// Simulated and published: "calibrated", "implied", "held out"; and the tail, where known.
+  std::string basis;
+  std::string caution{};  ///< Why it may be wrong for these data; "" where nothing says so.
 };
 
 /// A chip: how good the data are.

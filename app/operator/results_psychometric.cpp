@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,54 +48,115 @@ std::vector<Proportion> proportions(const Counts& counts) {
 }
 
 /// With the limits that an open interval stands for: a step at 0, a flat line at infinity.
-double probability(double reference, double weber_fraction, double order_effect_ln,
-                   double intensity) {
+double probability(const PsychometricFigure& figure, double weber_fraction, double intensity) {
   if (!std::isfinite(weber_fraction)) return 0.5;
-  return analysis::mean_over_orders(reference, weber_fraction, order_effect_ln, intensity);
+  const double ratio =
+      analysis::mean_over_orders(figure.pse, weber_fraction, figure.order_effect_ln, intensity);
+  return figure.lapse_rate + (1.0 - 2.0 * figure.lapse_rate) * ratio;
 }
 
-void draw_curve(PsychometricFigure& figure, double reference, double low, double high) {
+void draw_curve(PsychometricFigure& figure, double low, double high) {
   if (!figure.weber_fraction) return;
-  const double q = figure.order_effect_ln;
   // Of two orders drawn as their mean, no place shows the Weber fraction.
-  if (q == 0.0) figure.weber_line = reference * (1.0 + *figure.weber_fraction);
+  if (figure.order_effect_ln == 0.0) {
+    figure.weber_line = figure.pse * (1.0 + *figure.weber_fraction);
+  }
   const bool has_band = figure.ci95.low || figure.ci95.high;
   const double least = figure.ci95.low.value_or(0.0);
   const double most = figure.ci95.high.value_or(std::numeric_limits<double>::infinity());
   for (const double x : logarithmic_grid(low, high)) {
-    figure.curve.push_back({x, probability(reference, *figure.weber_fraction, q, x)});
+    figure.curve.push_back({x, probability(figure, *figure.weber_fraction, x)});
     if (!has_band) continue;
-    const double steep = probability(reference, least, q, x);
-    const double flat = probability(reference, most, q, x);
+    const double steep = probability(figure, least, x);
+    const double flat = probability(figure, most, x);
     figure.band.push_back({x, std::min(steep, flat), std::max(steep, flat)});
   }
 }
 
-/// What was said of the pooled answers that have no curve: after "...: no value, ".
-std::string pooled_reason(const analysis::ResultsSection& section, const std::string& name) {
-  for (const analysis::ExcludedParticipant& one : section.excluded) {
-    const std::string start = name + ": ";
-    if (one.participant == "everyone" && one.reason.starts_with(start)) {
-      return one.reason.substr(start.size());
-    }
-  }
-  return "no value";
+/// For whoever answered, not for whoever fits.
+std::string in_plain_words(const std::string& reason, bool free_pse) {
+  if (reason.find("separated") == std::string::npos) return reason;
+  const std::string place = free_pse ? "one level" : "the reference";
+  return "every answer fell on its side of " + place +
+         ", so the Weber fraction is smaller than these stimuli can show; stimuli nearer to " +
+         (free_pse ? "it" : place) + " would find it";
 }
 
-/// For whoever answered, not for whoever fits.
-std::string in_plain_words(const std::string& reason) {
-  if (reason.find("separated") == std::string::npos) return reason;
-  return "every answer fell on its side of the reference, so the Weber fraction is smaller "
-         "than "
-         "these stimuli can show; stimuli nearer to the reference would find it";
+/// "0.70", or that there is none.
+std::string fraction_words(const std::optional<double>& value) {
+  if (!value) return "none";
+  return fmt::format(fmt::runtime(*value < 0.1 ? "{:.3f}" : "{:.2f}"), *value);
+}
+
+/// The curve of the median person, the primary value; and through everybody's answers that
+/// which published values are of.
+void add_group_curves(const ResultsSource& source, Discrimination& block, double low,
+                      double high) {
+  PsychometricFigure& all = block.pooled;
+  const auto find = [&](const std::string& name) {
+    return source.results.find(block.block + "." + name);
+  };
+  if (const Estimate* person = find("weber_fraction_median_person")) {
+    all.weber_fraction = person->value;
+    all.ci95 = person->ci95;
+    all.cautions = person->cautions;
+    all.reason = person->value ? "" : in_plain_words(person->reason, block.has_free_pse);
+  }
+  const Estimate* const pse = find("pse_median_person");
+  const bool has_pse = block.has_free_pse && pse != nullptr && pse->value;
+  all.pse = has_pse ? *pse->value : block.reference;
+  all.lapse_rate = value_or_0(find("lapse_rate"));
+  draw_curve(all, low, high);
+  const Estimate* const pooled = find("weber_fraction");
+  if (pooled == nullptr) return;
+  all.others.push_back("curve through all answers " + fraction_words(pooled->value));
+  if (pooled->published) {
+    all.others.back() += " (published " + fraction_words(pooled->published) + ")";
+  }
+  if (!pooled->value) return;
+  const double order_effect_ln = value_or_0(find("weber_fraction_order_effect_ln"));
+  for (const double x : logarithmic_grid(low, high)) {
+    all.pooled_curve.push_back(
+        {x, analysis::mean_over_orders(block.reference, *pooled->value, order_effect_ln, x)});
+  }
+}
+
+/// The participant's own curve, with the pse as the primary value has it; and what their
+/// fraction is with the other one.
+PsychometricFigure own_figure(const ResultsSource& source, const Discrimination& block,
+                              const std::string& participant, const Counts& counts, double low,
+                              double high) {
+  const auto own = [&](const std::string& name) {
+    return source.own(block.block, participant, block.block + "." + name);
+  };
+  const bool free_pse = block.has_free_pse;
+  const analysis::ParticipantEstimate* const fixed = own("weber_fraction");
+  const analysis::ParticipantEstimate* const freed = own("weber_fraction_free_pse");
+  const analysis::ParticipantEstimate* const primary = free_pse ? freed : fixed;
+  const analysis::ParticipantEstimate* const other = free_pse ? fixed : freed;
+  PsychometricFigure one{.who = participant,
+                         .points = proportions(counts),
+                         .weber_fraction = primary->value,
+                         .ci95 = primary->ci95,
+                         .pse = block.reference,
+                         .reason = in_plain_words(primary->reason, free_pse),
+                         .cautions = primary->cautions};
+  const analysis::ParticipantEstimate* const pse = own("pse");
+  if (free_pse && pse != nullptr && pse->value) one.pse = *pse->value;
+  if (!free_pse) one.order_effect_ln = value_or_0(own("order_effect_ln_at_reference"));
+  if (other != nullptr) {
+    one.others.push_back(std::string("with the PSE ") +
+                         (free_pse ? "at the reference " : "free ") +
+                         fraction_words(other->value));
+  }
+  draw_curve(one, low, high);
+  return one;
 }
 
 std::optional<Discrimination> discrimination_of(const ResultsSource& source,
                                                 const BlockDesign& block) {
   const analysis::ResultsSection* section = source.section(block.block);
-  const std::string name = block.block + ".weber_fraction";
-  const Estimate* pooled = source.results.find(name);
-  if (section == nullptr || pooled == nullptr) return std::nullopt;
+  if (section == nullptr) return std::nullopt;
   Discrimination figure{
       .block = block.block,
       .title = source.title(block.block),
@@ -101,16 +164,14 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
       .unit = analysis::quantity_unit(block.quantity),
       .answer = block.protocol.task == "two_interval" ? "test chosen" : "“yes”",
       .has_fixed_levels = analysis::has_fixed_levels(block),
-      .published = pooled->published,
-      .published_sd = pooled->published_sd};
+      .has_free_pse = section->own_fractions_free_pse};
   Counts all;
-  std::map<std::string, std::pair<Counts, double>> own;
+  std::map<std::string, Counts> own;
   for (const ParticipantData& participant : source.data.participants) {
-    auto& [counts, reference] = own[participant.participant];
-    count(participant, block.block, counts, reference);
+    double reference = 0.0;
+    count(participant, block.block, own[participant.participant], reference);
+    count(participant, block.block, all, reference);
     if (figure.reference == 0.0) figure.reference = reference;
-    double ignored = 0.0;
-    count(participant, block.block, all, ignored);
   }
   if (all.empty()) return std::nullopt;
   const auto first =
@@ -118,33 +179,13 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
   const double low =
       0.9 * (first == all.end() ? figure.reference : std::min(first->first, figure.reference));
   const double high = 1.1 * std::max(all.rbegin()->first, figure.reference);
-  figure.pooled = {
-      .who = kEveryone,
-      .points = proportions(all),
-      .weber_fraction = pooled->value,
-      .ci95 = pooled->ci95,
-      .order_effect_ln = value_or_0(source.results.find(name + "_order_effect_ln")),
-      .reason = pooled->value ? "" : in_plain_words(pooled_reason(*section, name))};
-  figure.pooled_by_maximum_likelihood =
-      source.results.find(name + "_order_effect_ln") != nullptr;
-  if (const Estimate* person = source.results.find(name + "_median_person")) {
-    figure.median_person = person->value;
-    figure.median_person_ci95 = person->ci95;
-  }
-  draw_curve(figure.pooled, figure.reference, low, high);
-  for (const auto& [participant, counted] : own) {
-    const analysis::ParticipantEstimate* estimate = source.own(block.block, participant, name);
-    if (estimate == nullptr) continue;
-    PsychometricFigure one{
-        .who = participant,
-        .points = proportions(counted.first),
-        .weber_fraction = estimate->value,
-        .ci95 = estimate->ci95,
-        .order_effect_ln = value_or_0(source.own(
-            block.block, participant, block.block + ".order_effect_ln_at_reference")),
-        .reason = in_plain_words(estimate->reason)};
-    draw_curve(one, counted.second, low, high);
-    figure.participants.push_back(std::move(one));
+  figure.pooled = {.who = kEveryone, .points = proportions(all), .reason = "no value"};
+  add_group_curves(source, figure, low, high);
+  for (const auto& [participant, counts] : own) {
+    if (source.own(block.block, participant, block.block + ".weber_fraction") == nullptr) {
+      continue;
+    }
+    figure.participants.push_back(own_figure(source, figure, participant, counts, low, high));
   }
   return figure;
 }

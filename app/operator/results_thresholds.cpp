@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,10 @@ Shown shown_of(const BlockDesign& block, const std::string& section) {
 }
 
 std::string value_words(const Shown& shown, double value, const std::string& unit) {
-  if (shown.is_fraction) return fmt::format("w = {:.2f}", value);
+  // The primary value of such a block is that of the curves through its answers.
+  const bool is_of_rule = shown.estimate.ends_with(".quest_plus_weber_fraction");
+  if (shown.is_fraction)
+    return fmt::format("w{} = {:.2f}", is_of_rule ? " by QUEST+" : "", value);
   return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
@@ -76,6 +80,7 @@ ThresholdFigure figure_of_everyone(const ResultsSource& source, const Shown& sho
     figure.reason = "nobody has a value";
   } else {
     add_value(figure, shown, unit, found->value, found->ci95, "");
+    figure.caution = fmt::format("{}", fmt::join(found->cautions, "; "));
   }
   return figure;
 }
@@ -88,6 +93,7 @@ ThresholdFigure figure_of(const ResultsSource& source, const std::string& partic
     figure.reason = "no answers";
   } else {
     add_value(figure, shown, unit, own->value, own->ci95, own->reason);
+    figure.caution = fmt::format("{}", fmt::join(own->cautions, "; "));
   }
   return figure;
 }

@@ -39,7 +39,7 @@ std::string in_small_letters(std::string_view text) {
 
 std::vector<ScopeChannel> scope_channels(bool with_joints) {
   std::vector<ScopeChannel> channels;
-  for (const std::string& name : core::sample_column_names(with_joints)) {
+  for (const std::string& name : core::sample_column_names({.joints = with_joints})) {
     if (name != "tick") channels.push_back(channel_named(name));
   }
   return channels;

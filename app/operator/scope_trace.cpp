@@ -16,7 +16,7 @@ constexpr std::size_t kFirstColumn = 1;  // After the tick.
 }  // namespace
 
 ScopeTrace::ScopeTrace(const Parameters& parameters)
-    : parameters_(parameters), names_(core::sample_column_names(true)) {
+    : parameters_(parameters), names_(core::sample_column_names({.joints = true})) {
   core::require_positive(parameters.rate_hz, "rate_hz");
   core::require_positive(parameters.duration_s, "duration_s");
   core::require_positive(parameters.intervals_per_s, "intervals_per_s");
@@ -35,7 +35,7 @@ double ScopeTrace::time_s_of(std::int64_t interval) const noexcept {
 }
 
 void ScopeTrace::take(const core::Sample& sample) {
-  const std::vector<double> values = core::sample_values(sample, true);
+  const std::vector<double> values = core::sample_values(sample, {.joints = true});
   const std::int64_t interval = sample.tick / ticks_per_interval_;
   const std::lock_guard guard(mutex_);
   has_joints_ = has_joints_ || core::has_joints(sample);

@@ -24,7 +24,7 @@ enum class Step {
   kPresenting,  ///< A trial's stimulus, or free space in it, is being felt.
   kStageDone,   ///< Everything in the stage is done; waits for `FinishStage`.
   kPaused,
-  kFault,     ///< The loop latched a fault: no force. Waits for `Rearm`.
+  kFault,     ///< A fault, or nobody has armed the device: no force. Waits for `Rearm`.
   kFailed,    ///< The disk or the device gave up: nothing more can be stored. Only leaving.
   kFinished,  ///< Every stage was run, or it was ended early.
 };
@@ -162,7 +162,10 @@ struct SessionView {
   double break_left_s = 0.0, break_s = 0.0;
   std::optional<bool> feedback_right;  ///< To be told of the last answer.
   std::string practice;                ///< What a practice has come to, once it is over.
-  std::vector<AnswerLine> answers;     ///< The newest first; at most fifty.
+  /// What the answers of a block say against it, once it is over; "" where nothing does, and
+  /// where levels are hidden.
+  std::string caution;
+  std::vector<AnswerLine> answers;  ///< The newest first; at most fifty.
   std::vector<std::string> notes;
 
   double elapsed_s = 0.0;   ///< Since this visit began.
@@ -182,7 +185,8 @@ struct SessionView {
   std::string came_off_points;      ///< Why the session is paused; "" for another reason.
   std::string absent_points;        ///< That do not hold the hand and never did; "" for none.
   bool stop_pressed = false;
-  std::uint64_t num_stop_presses = 0;  ///< As in `Rearm`.
+  std::uint64_t num_stop_presses = 0;  ///< As in `ReleaseStop`.
+  bool is_disarmed = false;            ///< Nobody has armed the device yet: no fault.
   std::string refusal;             ///< Why the last request was not carried out; "" otherwise.
   std::uint64_t num_refusals = 0;  ///< So that the same sentence twice is seen twice.
   std::string advice;  ///< "62 trials without a break, of at most 60"; "" otherwise.

@@ -77,7 +77,7 @@ void SessionWorker::run() noexcept {
   try {
     work();
   } catch (const std::exception& error) {
-    doors_.emergency_stop.press();
+    // The session is gone, and its device with it.
     const std::lock_guard guard(mutex_);
     failure_ = error.what();
   }
@@ -95,7 +95,8 @@ void SessionWorker::work() {
                            .trace = &trace_,
                            .scopes = &scopes_,
                            .language = parameters_.language,
-                           .allow_no_realtime = parameters_.allow_no_realtime});
+                           .allow_no_realtime = parameters_.allow_no_realtime,
+                           .stops = parameters_.stops});
   auto next_picture = std::chrono::steady_clock::now();
   while (!session.over()) {
     const std::vector<OperatorRequest> requests = wait_for_requests();

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -34,6 +35,7 @@ class SessionWorker {
     std::unique_ptr<experiments::Laboratory> laboratory;  ///< Of a simulated hand; else empty.
     std::string language;
     bool allow_no_realtime = false;
+    std::filesystem::path stops;  ///< As `OperatedSession::Parameters`.
     /// Called from the thread whenever there is a newer picture; may be empty.
     std::function<void()> wake;
   };

@@ -15,6 +15,7 @@
 #include "app/session_setup.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
+#include "core/storage/backup_mark.h"
 #include "core/storage/recording.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/procedures/practice.h"
@@ -50,8 +51,8 @@ std::int64_t day_number(std::tm parts) {
 }
 
 experiments::Study study_of(const core::StudyStore& store, const core::ProtocolRow& protocol) {
-  return experiments::read_study_text(protocol.text,
-                                      store.folder().string() + ": stored protocol");
+  return experiments::read_stored_study(protocol.text,
+                                        store.folder().string() + ": stored protocol");
 }
 
 /// What the log of an open session comes to.
@@ -159,8 +160,9 @@ std::string InterruptedSession::safe() const {
 }
 
 std::string StudyFolder::summary() const {
-  if (num_sessions == 0) return "no session yet";
-  std::string words = counted_words(num_participants_done, "participant") + " done";
+  const std::string begin = is_backup ? "backup, to be read only · " : "";
+  if (num_sessions == 0) return begin + "no session yet";
+  std::string words = begin + counted_words(num_participants_done, "participant") + " done";
   if (num_open > 0) words += fmt::format(", {} open", num_open);
   if (num_pilots > 0) words += ", " + counted_words(num_pilots, "pilot");
   if (simulated) words += " · simulated";
@@ -177,7 +179,12 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
                      .title = title_of(study),
                      .blinding = study.blinding,
                      .study_file = study_file_of(store, protocol),
+                     .is_backup = core::is_backup(folder),
                      .backups = core::known_backups(folder)};
+  opened.is_safe_elsewhere = std::ranges::any_of(opened.backups, [&](const fs::path& backup) {
+    std::error_code ignored;
+    return fs::exists(backup / "study.sqlite", ignored) && !core::on_one_disk(folder, backup);
+  });
   opened.hides_levels = study.blinding == experiments::Blinding::kDouble && !store.unblinded();
   std::map<std::int64_t, core::SessionOverview> overviews;
   for (core::SessionOverview& one : store.overview()) overviews[one.session] = one;
@@ -190,7 +197,8 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
     if (!opened.hides_levels) line.cells = cells_in_words(study, row.cells);
     count(line, done, opened);
     last_ns = std::max(last_ns, overview.last_time_ns.value_or(row.started_time_ns));
-    if (line.status == Status::kOpen) {
+    // What was interrupted goes on in the study itself.
+    if (line.status == Status::kOpen && !opened.is_backup) {
       InterruptedSession open{.session = row.session,
                               .participant = row.participant,
                               .num_answers = overview.num_answers,

@@ -60,11 +60,14 @@ struct StudyFolder {
   int num_pilots = 0;
   bool simulated = false;    ///< At least one session is.
   std::string last_session;  ///< "today", "yesterday", "12 November"; "" if nobody knows.
-  std::vector<std::filesystem::path> backups;   ///< Known ones.
+  bool is_backup = false;    ///< A copy: it can be read, and nothing is added to it.
+  std::vector<std::filesystem::path> backups;  ///< Known ones.
+  /// One of them at least is there, and lies on another disk than the study.
+  bool is_safe_elsewhere = false;
   std::vector<SessionLine> sessions;            ///< By number.
   std::vector<InterruptedSession> interrupted;  ///< The latest first.
 
-  /// "6 participants done, 1 open, last session today".
+  /// "6 participants done, 1 open, last session today"; of a copy it says so first.
   [[nodiscard]] std::string summary() const;
 };
 

@@ -32,6 +32,12 @@ std::string_view name(Fault fault) noexcept {
       return "link_lost";
     case Fault::kSimulationInvalid:
       return "simulation_invalid";
+    case Fault::kNotArmed:
+      return "not_armed";
+    case Fault::kSuspended:
+      return "suspended";
+    case Fault::kHostTooSlow:
+      return "host_too_slow";
   }
   return "unknown";
 }
@@ -82,8 +88,31 @@ std::string_view words(Fault fault) noexcept {
              "leave the session and resume it, which starts the simulation anew; "
              "this "
              "trial does not count.";
+    case Fault::kNotArmed:
+      return "There is no force before somebody arms the device: make sure that the hand lies "
+             "well in it and that the stop is within reach, then arm it.";
+    case Fault::kSuspended:
+      return "This machine slept, or was paused, in the middle of the session: make sure that "
+             "it does not do so again, then arm the device.";
+    case Fault::kHostTooSlow:
+      return "This machine is too slow for the loop: no new measurement came while ticks were "
+             "missed; close what burdens it, look at `jnd doctor`, then arm the device again.";
   }
   return "Unknown fault: stop the session.";
+}
+
+std::string_view name(Arming arming) noexcept {
+  switch (arming) {
+    case Arming::kDisarmed:
+      return "disarmed";
+    case Arming::kArming:
+      return "arming";
+    case Arming::kArmed:
+      return "armed";
+    case Arming::kFaulted:
+      return "faulted";
+  }
+  return "unknown";
 }
 
 }  // namespace jnd::core

@@ -5,8 +5,8 @@
 
 namespace jnd::core {
 
-/// Why the haptic loop renders no force. Latched: the first one stays until the loop is armed
-/// again. The numbers are stored in recordings: append, never renumber.
+/// Why the haptic loop renders no force. Latched: the first one stays until the loop is armed.
+/// The numbers are stored in recordings: append, never renumber.
 enum class Fault : std::uint8_t {
   kNone = 0,
   kEmergencyStop = 1,
@@ -22,8 +22,28 @@ enum class Fault : std::uint8_t {
   kWatchdog = 11,
   kLinkLost = 12,
   kSimulationInvalid = 13,
+  kNotArmed = 14,  ///< Nobody has asked for force yet: nothing is wrong.
+  kSuspended = 15,
+  kHostTooSlow = 16,
 };
-inline constexpr Fault kLastFault = Fault::kSimulationInvalid;
+inline constexpr Fault kLastFault = Fault::kHostTooSlow;
+
+/// Something went wrong, or somebody stopped it.
+[[nodiscard]] constexpr bool is_failure(Fault fault) noexcept {
+  return fault != Fault::kNone && fault != Fault::kNotArmed;
+}
+
+/// Whether there may be force. It comes only where a person asked for it, or, of a simulated
+/// device, the program.
+enum class Arming : std::uint8_t {
+  kDisarmed = 0,  ///< Nobody has asked for force.
+  kArming = 1,    ///< It fades in.
+  kArmed = 2,
+  kFaulted = 3,  ///< A fault is latched: none before it is armed again.
+};
+
+/// "disarmed", as events and JSON spell it. Real time.
+[[nodiscard]] std::string_view name(Arming arming) noexcept;
 
 /// "emergency_stop", as events and JSON spell it. Real time.
 [[nodiscard]] std::string_view name(Fault fault) noexcept;

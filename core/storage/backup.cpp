@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
 #include "core/storage/files.h"
 #include "core/storage/flight_record.h"
@@ -26,7 +27,10 @@ void bring_study_up_to_date(const fs::path& folder) {
     Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
     outdated = study_format_of(database) < current_study_format();
   }
-  if (outdated) const StudyStore brought(folder, StudyStore::Mode::kReadWrite);
+  if (!outdated) return;
+  const WriterLock lock(folder);
+  Database database(folder / "study.sqlite", Database::Mode::kReadWrite, kDurable);
+  bring_up_to_date(database);
 }
 
 /// Nothing that is there already, but an earlier copy of the same study, is written to.
@@ -50,7 +54,7 @@ void require_own_target(const fs::path& folder, const fs::path& target,
   for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
     // What a backup that was interrupted before its first page leaves.
     const fs::path name = entry.path().filename();
-    if (name != "recordings" && name != "writer.lock") {
+    if (name != "recordings" && name != "writer.lock" && name != kBackupMark) {
       throw Error(place + "of the study, found other files in it; choose another folder");
     }
   }
@@ -187,6 +191,31 @@ void write_study(const Database& snapshot, const fs::path& target) {
   to.checkpoint();
 }
 
+/// Recordings first, then what speaks of them; and reads the copy back.
+void copy_study(const StudyStore& study, Database& snapshot, const fs::path& target,
+                const std::function<void(double)>& on_progress, BackupReport& report) {
+  const std::vector<std::int64_t> sessions = sessions_in(snapshot);
+  double done = 0.0;
+  for (const std::int64_t session : sessions) {
+    const fs::path source = study.recording_file(session);
+    if (fs::exists(source)) {
+      copy_recording(source, target / "recordings" / source.filename(), report);
+    }
+    for (const fs::path& record : flight_records(source)) {
+      copy_file_durably(record, target / "recordings" / record.filename());
+    }
+    done += 1.0;
+    if (on_progress) on_progress(done / static_cast<double>(sessions.size()));
+  }
+  sync_folder(target / "recordings");
+  write_study(snapshot, target);
+  const StudyStore copy(target, StudyStore::Mode::kReadOnly);
+  for (const WithdrawalRow& withdrawn : copy.withdrawals()) {
+    remove_recording(copy.recording_file(withdrawn.session));
+  }
+  report.integrity = verify(copy);
+}
+
 }  // namespace
 
 BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
@@ -208,32 +237,48 @@ BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_
     note_in_study(folder, target, time_ns, report);
     from.copy_to(snapshot);
   }
-  const std::vector<std::int64_t> sessions = sessions_in(snapshot);
-  double done = 0.0;
-  for (const std::int64_t session : sessions) {
-    const fs::path source = study.recording_file(session);
-    if (fs::exists(source)) {
-      copy_recording(source, target / "recordings" / source.filename(), report);
-    }
-    for (const fs::path& record : flight_records(source)) {
-      copy_file_durably(record, target / "recordings" / record.filename());
-    }
-    done += 1.0;
-    if (on_progress) on_progress(done / static_cast<double>(sessions.size()));
+  mark_as_backup(target, time_ns);
+  copy_study(study, snapshot, target, on_progress, report);
+  report.on_one_disk = on_one_disk(folder, target);
+  return report;
+}
+
+BackupReport restore(const fs::path& backup, const fs::path& target, std::int64_t time_ns,
+                     const std::function<void(double)>& on_progress) {
+  require_study(backup);
+  const StudyStore study(backup, StudyStore::Mode::kReadOnly);
+  if (!is_backup(backup)) {
+    throw Error(backup.string() +
+                ": expected a backup, found a study, in which sessions can be run; there is "
+                "nothing to restore");
   }
-  sync_folder(target / "recordings");
-  write_study(snapshot, target);
-  const StudyStore copy(target, StudyStore::Mode::kReadOnly);
-  for (const WithdrawalRow& withdrawn : copy.withdrawals()) {
-    remove_recording(copy.recording_file(withdrawn.session));
+  if (fs::exists(target / "study.sqlite") || fs::exists(target / kBackupMark)) {
+    throw Error(target.string() +
+                ": expected a new or empty folder for the restored study, found a study in it; "
+                "nothing was changed, choose another folder");
   }
-  report.integrity = verify(copy);
+  require_own_target(backup, target, study.study_id());
+  make_private_folders(target / "recordings");
+  const WriterLock lock(target);
+  Database snapshot;
+  {
+    Database from(backup / "study.sqlite", Database::Mode::kReadOnly, kDurable);
+    from.copy_to(snapshot);
+  }
+  bring_up_to_date(snapshot);
+  note(snapshot, as_noted(backup), time_ns, /*forgotten=*/false);
+  // Where the lost study had a backup once, there is the study now.
+  note(snapshot, as_noted(target), time_ns, /*forgotten=*/true);
+  BackupReport report;
+  copy_study(study, snapshot, target, on_progress, report);
+  report.on_one_disk = on_one_disk(backup, target);
   return report;
 }
 
 std::vector<fs::path> known_backups(const fs::path& folder) {
   Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
-  if (is_empty(database)) return {};
+  constexpr std::int64_t kFirstThatKnowsBackups = 2;
+  if (study_format_of(database) < kFirstThatKnowsBackups) return {};
   Statement rows(database,
                  "SELECT folder FROM backup AS b WHERE NOT forgotten AND"
                  " backup = (SELECT MAX(backup) FROM backup WHERE folder = b.folder)"

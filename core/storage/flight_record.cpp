@@ -48,10 +48,11 @@ void put_line(std::string& table, const Cells& cells) {
 
 fs::path write_flight_record(const fs::path& recording_file,
                              const std::vector<Sample>& samples) {
-  const bool with_joints = std::ranges::any_of(samples, has_joints);
+  const SampleColumns columns{.times = std::ranges::any_of(samples, has_times),
+                              .joints = std::ranges::any_of(samples, has_joints)};
   std::string table;
-  put_line(table, sample_column_names(with_joints));
-  for (const Sample& sample : samples) put_line(table, sample_values(sample, with_joints));
+  put_line(table, sample_column_names(columns));
+  for (const Sample& sample : samples) put_line(table, sample_values(sample, columns));
 
   const fs::path file = file_for(recording_file, samples.back().tick);
   if (fs::exists(file)) return file;

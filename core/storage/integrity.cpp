@@ -92,9 +92,10 @@ class SessionCheck {
 
   void check_recording(const std::vector<EventRow>& events) {
     const std::filesystem::path file = store_.recording_file(session_.session);
-    std::vector<TickRange> recorded;
+    std::vector<TickRange> recorded, missed;
     try {
       const RecordingReader reader(file);
+      missed = reader.missed();
       if (reader.rate_hz() != 0.0 && reader.rate_hz() != session_.rate_hz) {
         problem(file.filename().string() + ": expected a rate of " +
                 std::to_string(session_.rate_hz) + " Hz, found " +
@@ -116,9 +117,9 @@ class SessionCheck {
       if (speaks_of_ticks(events)) problem(error.what());
       return;
     }
-    recorded = merged(std::move(recorded));
+    recorded.insert(recorded.end(), missed.begin(), missed.end());
     check_interruptions(events);
-    check_claims(recorded, events);
+    check_claims(merged(std::move(recorded)), missed, events);
   }
 
   static bool speaks_of_ticks(const std::vector<EventRow>& events) {
@@ -137,14 +138,24 @@ class SessionCheck {
     }
   }
 
-  void check_claims(const std::vector<TickRange>& recorded,
-                    const std::vector<EventRow>& events) {
+  /// `accounted`: the ticks of intact chunks and `missed`, those that never ran.
+  void check_claims(const std::vector<TickRange>& accounted,
+                    const std::vector<TickRange>& missed, const std::vector<EventRow>& events) {
     for (const TickClaim& claim : tick_claims(events)) {
-      const std::int64_t missing = num_ticks(missing_in(recorded, claim.ticks));
-      if (missing == 0) continue;
-      problem("expected ticks " + span(claim.ticks.first_tick, claim.ticks.last_tick) + " of " +
-              claim.kind + (claim.trial ? " in trial " + std::to_string(*claim.trial) : "") +
-              ", found " + std::to_string(missing) + " of them missing");
+      const std::string whose =
+          claim.kind + (claim.trial ? " in trial " + std::to_string(*claim.trial) : "");
+      const std::string ticks = span(claim.ticks.first_tick, claim.ticks.last_tick);
+      const std::int64_t missing = num_ticks(missing_in(accounted, claim.ticks));
+      if (missing > 0) {
+        problem("expected ticks " + ticks + " of " + whose + ", found " +
+                std::to_string(missing) + " of them missing");
+      }
+      const std::int64_t never_ran =
+          num_ticks({claim.ticks}) - num_ticks(missing_in(missed, claim.ticks));
+      if (never_ran > 0) {
+        remark(std::to_string(never_ran) + " of the ticks " + ticks + " of " + whose +
+               " never ran: the loop was held up");
+      }
     }
   }
 

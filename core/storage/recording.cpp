@@ -13,8 +13,10 @@ namespace {
 
 // About four seconds at 1 kHz: large enough to compress well, small enough to lose little.
 constexpr std::size_t kSamplesPerChunk = 4096;
-// 2: chunks may hold joints.
-constexpr std::int64_t kFormat = 2;
+// 2: chunks may hold joints. 3: they may hold times, and a table the ticks that never ran. A
+// recording becomes one of format 3 with the first of either, so that those of simulated time
+// are as they were.
+constexpr std::int64_t kFormat = 3, kFormatWithoutTimes = 2;
 
 constexpr char kSchema[] = R"sql(
 CREATE TABLE recording_format (
@@ -36,6 +38,21 @@ CREATE TABLE chunk (
 );
 )sql";
 
+constexpr char kTimesSchema[] = R"sql(
+CREATE TABLE IF NOT EXISTS missed (
+  segment INTEGER NOT NULL,
+  first_tick INTEGER NOT NULL,
+  num_ticks INTEGER NOT NULL,
+  PRIMARY KEY (segment, first_tick)
+);
+)sql";
+
+bool has_missed_ticks(Database& database) {
+  return Statement(database,
+                   "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'missed'")
+      .step();
+}
+
 }  // namespace
 
 struct RecordingWriter::Implementation {
@@ -49,7 +66,7 @@ struct RecordingWriter::Implementation {
       Transaction transaction(database);
       database.execute(kSchema);
       Statement(database, "INSERT INTO recording_format VALUES (?, ?, ?, ?, ?, ?, ?)")
-          .bind(kFormat)
+          .bind(kFormatWithoutTimes)
           .bind(rate_hz)
           .bind(kPositionUnitM)
           .bind(kVelocityUnitMPerS)
@@ -68,6 +85,14 @@ struct RecordingWriter::Implementation {
   void write_chunk() {
     if (pending.empty()) return;
     database.require_in_place();
+    const Sample& first = pending.front();
+    if (first.monotonic_ns != 0 || first.num_missed_before > 0) keep_times();
+    if (first.num_missed_before > 0) {
+      insert_missed->bind(segment)
+          .bind(first.tick - first.num_missed_before)
+          .bind(first.num_missed_before)
+          .run();
+    }
     const std::string bytes = encode_samples(pending);
     insert->bind(segment)
         .bind(pending.front().tick)
@@ -78,9 +103,19 @@ struct RecordingWriter::Implementation {
     pending.clear();
   }
 
+  void keep_times() {
+    if (insert_missed) return;
+    Transaction transaction(database);
+    database.execute(kTimesSchema);
+    Statement(database, "UPDATE recording_format SET version = ?").bind(kFormat).run();
+    transaction.commit();
+    insert_missed.emplace(database, "INSERT OR REPLACE INTO missed VALUES (?, ?, ?)");
+  }
+
   Database database;
   std::int64_t segment = 1;
   std::optional<Statement> insert;
+  std::optional<Statement> insert_missed;  ///< Of a recording with times.
   std::vector<Sample> pending;
 };
 
@@ -154,6 +189,12 @@ static bool decodes(const RecordingChunk& chunk, std::string_view bytes) {
   }
 }
 
+bool RecordingReader::has_times() const {
+  if (is_empty(implementation_->database)) return false;
+  Statement format(implementation_->database, "SELECT version FROM recording_format");
+  return format.step() && format.integer(0) > kFormatWithoutTimes;
+}
+
 std::vector<RecordingChunk> RecordingReader::chunks() const {
   if (is_empty(implementation_->database)) return {};
   Statement rows(implementation_->database,
@@ -179,9 +220,8 @@ std::int64_t RecordingReader::last_tick() const {
   return rows.step() ? rows.optional_integer(0).value_or(-1) : -1;
 }
 
-std::vector<TickRange> RecordingReader::ticks() const {
-  if (is_empty(implementation_->database)) return {};
-  Statement rows(implementation_->database, "SELECT first_tick, num_samples FROM chunk");
+/// Of rows of a first tick and a number of ticks.
+static std::vector<TickRange> ranges_of(Statement& rows) {
   std::vector<TickRange> ranges;
   while (rows.step()) {
     // Damaged numbers have no samples; `read` finds that.
@@ -193,8 +233,29 @@ std::vector<TickRange> RecordingReader::ticks() const {
   return merged(std::move(ranges));
 }
 
+std::vector<TickRange> RecordingReader::ticks() const {
+  if (is_empty(implementation_->database)) return {};
+  Statement rows(implementation_->database, "SELECT first_tick, num_samples FROM chunk");
+  return ranges_of(rows);
+}
+
+std::vector<TickRange> RecordingReader::missed() const {
+  if (is_empty(implementation_->database) || !has_missed_ticks(implementation_->database)) {
+    return {};
+  }
+  Statement rows(implementation_->database, "SELECT first_tick, num_ticks FROM missed");
+  return ranges_of(rows);
+}
+
+std::vector<TickRange> RecordingReader::accounted() const {
+  std::vector<TickRange> ranges = ticks();
+  const std::vector<TickRange> never_ran = missed();
+  ranges.insert(ranges.end(), never_ran.begin(), never_ran.end());
+  return merged(std::move(ranges));
+}
+
 std::int64_t RecordingReader::missing_ticks() const {
-  const std::vector<TickRange> ranges = ticks();
+  const std::vector<TickRange> ranges = accounted();
   if (ranges.empty()) return 0;
   return num_ticks(missing_in(ranges, {ranges.front().first_tick, ranges.back().last_tick}));
 }

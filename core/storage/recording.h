@@ -24,7 +24,8 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// Samples come in order of their tick; a gap starts a new chunk.
+  /// Samples come in order of their tick; a gap starts a new chunk, and what its first sample
+  /// says never ran is kept as such.
   void append(const Sample& sample);
   /// Everything appended so far is on disk when this returns.
   void flush();
@@ -56,12 +57,19 @@ class RecordingReader {
   /// Whether the device told of joints, as the first chunk says. Throws `Error` if that is
   /// damaged.
   [[nodiscard]] bool has_joints() const;
+  /// Whether samples tell the monotonic time and the device's. Quick.
+  [[nodiscard]] bool has_times() const;
   /// Reads and decodes everything.
   [[nodiscard]] std::vector<RecordingChunk> chunks() const;
   /// -1 if there is no sample. Quick.
   [[nodiscard]] std::int64_t last_tick() const;
-  /// Ticks between the first and the last sample that no chunk holds. Quick: no sample is read.
+  /// Ticks between the first and the last sample that ran and that no chunk holds: lost. Quick:
+  /// no sample is read.
   [[nodiscard]] std::int64_t missing_ticks() const;
+  /// Ticks that were due and never ran, ascending and merged. Quick.
+  [[nodiscard]] std::vector<TickRange> missed() const;
+  /// The ticks of the chunks and those that never ran: whatever is not among them is lost.
+  [[nodiscard]] std::vector<TickRange> accounted() const;
   /// The ticks that its chunks tell, ascending and merged. Quick: no sample is read.
   [[nodiscard]] std::vector<TickRange> ticks() const;
   /// Calls `visit` for every sample with first_tick <= tick <= last_tick, in order. Throws

@@ -21,11 +21,17 @@ constexpr int kEndEffector = kVectorChannels;
 constexpr int kFlags = kEndEffector + 3;  // command, attached, immersed, limited, fault
 constexpr int kNumChannels = kFlags + 5;
 constexpr int kNumJointChannels = 2 * kNumJoints;  // position, torque
+constexpr int kNumTimeChannels = 2;                // monotonic, the device's
+constexpr std::int64_t kNsPerUs = 1000;
 
 // Arithmetic modulo 2^32: differences wrap and come back exactly.
 using Word = std::uint32_t;
 using Row = std::array<Word, kNumChannels>;
 using JointRow = std::array<Word, kNumJointChannels>;
+
+// Likewise modulo 2^64, in microseconds.
+using LongWord = std::uint64_t;
+using TimeRow = std::array<LongWord, kNumTimeChannels>;
 
 constexpr Word kNotANumber = 0x80000000U;
 
@@ -121,29 +127,58 @@ void take_joints(const JointRow& row, Sample& sample) noexcept {
   }
 }
 
-/// Small magnitudes of either sign become small numbers.
-Word zigzag(Word difference) noexcept { return (difference << 1) ^ (0U - (difference >> 31)); }
-Word unzigzag(Word coded) noexcept { return (coded >> 1) ^ (0U - (coded & 1U)); }
+/// Rounded down, also before the clock's zero.
+LongWord microseconds(std::int64_t time_ns) noexcept {
+  const std::int64_t below = time_ns % kNsPerUs < 0 ? 1 : 0;
+  return static_cast<LongWord>(time_ns / kNsPerUs - below);
+}
 
-void put_word(std::string& bytes, Word word) {
-  for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>((word >> (8 * byte)) & 0xffU);
+std::int64_t nanoseconds(LongWord time_us) noexcept {
+  return static_cast<std::int64_t>(time_us * LongWord{kNsPerUs});
+}
+
+TimeRow time_row_of(const Sample& sample) noexcept {
+  return {microseconds(sample.monotonic_ns), microseconds(sample.device_time_ns)};
+}
+
+template <typename SomeWord>
+constexpr int kBitsOf = 8 * static_cast<int>(sizeof(SomeWord));
+
+/// Small magnitudes of either sign become small numbers.
+template <typename SomeWord>
+SomeWord zigzag(SomeWord difference) noexcept {
+  return (difference << 1) ^ (SomeWord{0} - (difference >> (kBitsOf<SomeWord> - 1)));
+}
+template <typename SomeWord>
+SomeWord unzigzag(SomeWord coded) noexcept {
+  return (coded >> 1) ^ (SomeWord{0} - (coded & SomeWord{1}));
+}
+
+template <typename SomeWord>
+void put_word(std::string& bytes, SomeWord word) {
+  for (std::size_t byte = 0; byte < sizeof word; ++byte) {
+    bytes += static_cast<char>((word >> (8 * byte)) & 0xffU);
+  }
 }
 
 /// Each channel: its first two values, the width of its differences in bytes, and their planes,
 /// lowest byte first.
 template <typename SomeRow>
 void put_planes(const std::vector<SomeRow>& rows, std::string& bytes) {
-  std::vector<Word> coded(rows.size());
+  using SomeWord = typename SomeRow::value_type;
+  std::vector<SomeWord> coded(rows.size());
   for (std::size_t channel = 0; channel < SomeRow().size(); ++channel) {
     put_word(bytes, rows[0][channel]);
-    put_word(bytes, rows.size() > 1 ? rows[1][channel] : 0);
-    Word used_bits = 0;
+    put_word(bytes, rows.size() > 1 ? rows[1][channel] : SomeWord{0});
+    SomeWord used_bits = 0;
     for (std::size_t i = 2; i < rows.size(); ++i) {
       coded[i] = zigzag(rows[i][channel] - 2 * rows[i - 1][channel] + rows[i - 2][channel]);
       used_bits |= coded[i];
     }
     int width = 0;
-    while (width < 4 && (used_bits >> (8 * width)) != 0) ++width;
+    while (width < static_cast<int>(sizeof(SomeWord)) && (used_bits >> (8 * width)) != 0) {
+      ++width;
+    }
     bytes += static_cast<char>(width);
     for (int byte = 0; byte < width; ++byte) {
       for (std::size_t i = 2; i < rows.size(); ++i) {
@@ -165,17 +200,18 @@ class PlaneReader {
     bytes_.remove_prefix(num_bytes);
     return taken;
   }
-  Word word() {
-    const std::string_view four = take(4);
-    Word value = 0;
-    for (int byte = 0; byte < 4; ++byte) {
-      value |= static_cast<Word>(static_cast<unsigned char>(four[byte])) << (8 * byte);
+  template <typename SomeWord>
+  SomeWord word() {
+    const std::string_view bytes = take(sizeof(SomeWord));
+    SomeWord value = 0;
+    for (std::size_t byte = 0; byte < sizeof(SomeWord); ++byte) {
+      value |= static_cast<SomeWord>(static_cast<unsigned char>(bytes[byte])) << (8 * byte);
     }
     return value;
   }
-  int width() {
+  int width(std::size_t widest) {
     const int value = static_cast<unsigned char>(take(1)[0]);
-    if (value > 4) fail();
+    if (value > static_cast<int>(widest)) fail();
     return value;
   }
   [[nodiscard]] bool is_at_end() const noexcept { return bytes_.empty(); }
@@ -193,16 +229,16 @@ class PlaneReader {
 
 /// Channel after channel, the words of all samples: decoding goes along a channel, which is
 /// much faster where its words lie side by side.
+template <typename SomeRow>
 class Columns {
  public:
-  Columns(PlaneReader& reader, std::size_t num_channels, std::size_t count)
-      : count_(count), words_(num_channels * count) {
-    for (std::size_t channel = 0; channel < num_channels; ++channel) {
+  Columns(PlaneReader& reader, std::size_t count)
+      : count_(count), words_(SomeRow().size() * count) {
+    for (std::size_t channel = 0; channel < SomeRow().size(); ++channel) {
       take(reader, &words_[channel * count]);
     }
   }
 
-  template <typename SomeRow>
   [[nodiscard]] SomeRow row(std::size_t sample) const noexcept {
     SomeRow row;
     for (std::size_t channel = 0; channel < row.size(); ++channel) {
@@ -212,17 +248,20 @@ class Columns {
   }
 
  private:
-  void take(PlaneReader& reader, Word* column) const {
-    column[0] = reader.word();
-    const Word second = reader.word();
-    const int width = reader.width();
+  using SomeWord = typename SomeRow::value_type;
+
+  void take(PlaneReader& reader, SomeWord* column) const {
+    column[0] = reader.word<SomeWord>();
+    const SomeWord second = reader.word<SomeWord>();
+    const int width = reader.width(sizeof(SomeWord));
     if (count_ == 1) return;
     column[1] = second;
     const std::size_t num_coded = count_ - 2;
     for (int byte = 0; byte < width && num_coded > 0; ++byte) {
       const std::string_view plane = reader.take(num_coded);
       for (std::size_t i = 0; i < num_coded; ++i) {
-        column[i + 2] |= static_cast<Word>(static_cast<unsigned char>(plane[i])) << (8 * byte);
+        column[i + 2] |= static_cast<SomeWord>(static_cast<unsigned char>(plane[i]))
+                         << (8 * byte);
       }
     }
     for (std::size_t i = 2; i < count_; ++i) {
@@ -231,8 +270,32 @@ class Columns {
   }
 
   std::size_t count_;
-  std::vector<Word> words_;
+  std::vector<SomeWord> words_;
 };
+
+std::string compressed(const std::string& raw) {
+  std::string bytes(ZSTD_compressBound(raw.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(bytes.data(), bytes.size(), raw.data(), raw.size(), /*compressionLevel=*/1);
+  if (ZSTD_isError(size) != 0) {
+    throw Error(std::string("recording: expected zstd to compress, found: ") +
+                ZSTD_getErrorName(size));
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+/// The content of a frame of zstd, which holds no more than that.
+std::string decompressed(std::string_view frame, unsigned long long largest,
+                         const PlaneReader& damaged) {
+  const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
+  if (size > largest) damaged.fail();  // The two error codes of zstd are larger still.
+  std::string raw(size, '\0');
+  if (ZSTD_decompress(raw.data(), raw.size(), frame.data(), frame.size()) != size) {
+    damaged.fail();
+  }
+  return raw;
+}
 
 }  // namespace
 
@@ -250,14 +313,15 @@ std::string encode_samples(const std::vector<Sample>& samples) {
     for (const Sample& sample : samples) joints.push_back(joint_row_of(sample));
     put_planes(joints, raw);
   }
-  std::string bytes(ZSTD_compressBound(raw.size()), '\0');
-  const std::size_t size =
-      ZSTD_compress(bytes.data(), bytes.size(), raw.data(), raw.size(), /*compressionLevel=*/1);
-  if (ZSTD_isError(size) != 0) {
-    throw Error(std::string("recording: expected zstd to compress, found: ") +
-                ZSTD_getErrorName(size));
+  std::string bytes = compressed(raw);
+  if (std::ranges::any_of(samples, has_times)) {
+    std::vector<TimeRow> times;
+    times.reserve(samples.size());
+    for (const Sample& sample : samples) times.push_back(time_row_of(sample));
+    raw.clear();
+    put_planes(times, raw);
+    bytes += compressed(raw);
   }
-  bytes.resize(size);
   return bytes;
 }
 
@@ -272,24 +336,36 @@ std::vector<Sample> decode_samples(std::string_view bytes, std::int64_t first_ti
     damaged.fail();
   }
   const auto count = static_cast<std::size_t>(num_samples);
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  const unsigned long long largest = (kNumChannels + kNumJointChannels) * (9ULL + 4ULL * count);
-  if (size > largest) damaged.fail();  // The two error codes of zstd are larger still.
-  std::string raw(size, '\0');
-  if (ZSTD_decompress(raw.data(), raw.size(), bytes.data(), bytes.size()) != size)
-    damaged.fail();
-
+  const std::size_t frame_size = ZSTD_findFrameCompressedSize(bytes.data(), bytes.size());
+  if (ZSTD_isError(frame_size) != 0) damaged.fail();
+  const std::string raw =
+      decompressed(bytes.substr(0, frame_size),
+                   (kNumChannels + kNumJointChannels) * (9ULL + 4ULL * count), damaged);
   PlaneReader reader(raw, place);
-  const Columns columns(reader, kNumChannels, count);
-  std::optional<Columns> joints;
-  if (!reader.is_at_end()) joints.emplace(reader, kNumJointChannels, count);
+  const Columns<Row> columns(reader, count);
+  std::optional<Columns<JointRow>> joints;
+  if (!reader.is_at_end()) joints.emplace(reader, count);
   reader.finish();
+
+  std::string raw_times;
+  std::optional<Columns<TimeRow>> times;
+  if (frame_size < bytes.size()) {
+    raw_times = decompressed(bytes.substr(frame_size),
+                             kNumTimeChannels * (17ULL + 8ULL * count), damaged);
+    PlaneReader time_reader(raw_times, place);
+    times.emplace(time_reader, count);
+    time_reader.finish();
+  }
   std::vector<Sample> samples;
   samples.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    samples.push_back(
-        sample_of(columns.row<Row>(i), first_tick + static_cast<std::int64_t>(i)));
-    if (joints) take_joints(joints->row<JointRow>(i), samples.back());
+    samples.push_back(sample_of(columns.row(i), first_tick + static_cast<std::int64_t>(i)));
+    Sample& sample = samples.back();
+    if (joints) take_joints(joints->row(i), sample);
+    if (!times) continue;
+    const TimeRow row = times->row(i);
+    sample.monotonic_ns = nanoseconds(row[0]);
+    sample.device_time_ns = nanoseconds(row[1]);
   }
   return samples;
 }

@@ -69,6 +69,7 @@ void bind(const PresentationRow& row, Statement& statement) {
       .bind(row.commanded_damping_n_s_per_m)
       .bind(row.limited_ticks)
       .bind(row.finger_lag_s)
+      .bind(row.missed_ticks)
       .run();
 }
 
@@ -179,7 +180,8 @@ PresentationRow presentation_row(const Statement& rows) {
           .delivered_damping_n_s_per_m = rows.optional_number(13),
           .commanded_damping_n_s_per_m = rows.optional_number(14),
           .limited_ticks = rows.integer(15),
-          .finger_lag_s = rows.optional_number(16)};
+          .finger_lag_s = rows.optional_number(16),
+          .missed_ticks = rows.integer(17)};
 }
 
 TrialRow trial_row(const Statement& rows) {

@@ -23,7 +23,7 @@ inline constexpr char kPresentationColumns[] =
     "last_tick, "
     "stroke_width_m, max_speed_m_per_s, mean_height_m, num_strokes, "
     "delivered_damping_n_s_per_m, "
-    "commanded_damping_n_s_per_m, limited_ticks, finger_lag_s";
+    "commanded_damping_n_s_per_m, limited_ticks, finger_lag_s, missed_ticks";
 inline constexpr char kTrialColumns[] =
     "session, trial, attempt, sequence, block, procedure, medium, quantity, repetition, "
     "position, "

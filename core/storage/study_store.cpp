@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
 #include "core/storage/files.h"
 #include "core/storage/sha256.h"
@@ -21,6 +22,7 @@ fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
   fs::path file = folder / "study.sqlite";
   std::error_code error;
   if (mode != StudyStore::Mode::kCreate || fs::exists(file, error)) require_study(folder);
+  if (mode != StudyStore::Mode::kReadOnly) require_no_backup(folder);
   if (mode == StudyStore::Mode::kCreate) make_private_folders(folder / "recordings");
   return file;
 }

@@ -62,6 +62,7 @@ struct PresentationRow {
   std::optional<double> commanded_damping_n_s_per_m;
   std::int64_t limited_ticks = 0;      ///< Ticks in which the limiter changed the force.
   std::optional<double> finger_lag_s;  ///< By which the fingers trail behind the palm.
+  std::int64_t missed_ticks = 0;       ///< Ticks that were due and never ran.
 };
 
 /// One answered trial.

@@ -120,7 +120,8 @@ FreeSpaceRegression stroke_in_free_space(double rate_hz, std::uint64_t seed,
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
   ExoskeletonDevice exoskeleton({.rate_hz = rate_hz});
-  HapticLoop loop({.rate_hz = rate_hz}, exoskeleton, {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true, .rate_hz = rate_hz}, exoskeleton,
+                  {commands, telemetry, stop});
   exoskeleton.open();
   FreeSpaceRegression regression;
   SimulatedHand& hand = *exoskeleton.simulated_hand();

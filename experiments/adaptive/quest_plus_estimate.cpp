@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/psychometric_function.h"
+
 namespace jnd::experiments {
 namespace {
 
@@ -37,11 +39,20 @@ QuestPlusEstimate estimate_of(const QuestPlusParameter& parameter,
   const double tail = 0.5 * (1.0 - confidence);
   const double estimate =
       std::clamp(parameter.is_ratio ? std::exp(mean) : mean, values.front(), values.back());
+  const double z = core::standard_normal_quantile(tail);
+  const double enough = std::min(
+      tail, std::exp(-0.5 * z * z) * *std::max_element(weights.begin(), weights.end()));
+  const auto reached = [&](std::size_t end) {
+    return values.size() > 1 && weights[end] >= enough ? std::optional(values[end])
+                                                       : std::nullopt;
+  };
   return {.name = parameter.name,
           .mean = estimate,
           .sd = std::sqrt(variance),
           .low = std::min(estimate, quantile(values, weights, tail)),
-          .high = std::max(estimate, quantile(values, weights, 1.0 - tail))};
+          .high = std::max(estimate, quantile(values, weights, 1.0 - tail)),
+          .reached_low = reached(0),
+          .reached_high = reached(values.size() - 1)};
 }
 
 }  // namespace jnd::experiments

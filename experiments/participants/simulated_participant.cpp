@@ -97,7 +97,8 @@ std::string SimulatedParticipant::answer(const QuestionnaireItem& item) const {
     const double step = stream.normal(habit.scale_step_ratio, habit.scale_step_sd_ratio);
     const auto good = static_cast<int>(std::lround(1.0 + step * (item.num_steps - 1)));
     const int clamped = std::clamp(good, 1, item.num_steps);
-    return std::to_string(item.high_is_good ? clamped : item.num_steps + 1 - clamped);
+    const bool goes_up = item.high_is_good.value_or(true);
+    return std::to_string(goes_up ? clamped : item.num_steps + 1 - clamped);
   }
   return "a simulated answer";
 }

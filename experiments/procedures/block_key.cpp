@@ -123,7 +123,8 @@ BlockKey catch_trials_key() {
                         .meaning =
                             "Catch trials in each repetition, at random places: in `yes_no` "
                             "nothing is there, otherwise the test equals the reference. They "
-                            "tell how often \"yes\" is said without cause. Absent: none; in "
+                            "tell how often \"yes\" is said without cause, and are in no curve "
+                            "of `reminder` and `two_interval`. Absent: none; in "
                             "`same_different` as many as there are test stimuli, so that half "
                             "of the trials are the same.",
                         .required = false,
@@ -143,18 +144,23 @@ BlockKey catch_probability_key() {
 }
 
 std::vector<BlockKey> right_answer_keys() {
-  return {{.parameter = {.key = "feedback",
-                         .kind = ValueKind::kBoolean,
-                         .meaning = "Whether participant and experimenter are told after each "
-                                    "answer if it was right. Not in a double-blind study.",
-                         .required = false,
-                         .default_json = "false"}},
-          {.parameter = {.key = "practice",
-                         .kind = ValueKind::kObject,
-                         .meaning = "The block is practice, until enough answers are right; "
-                                    "its trials are no data.",
-                         .required = false,
-                         .nested = &practice_table()}}};
+  return {
+      {.parameter = {.key = "feedback",
+                     .kind = ValueKind::kBoolean,
+                     .meaning =
+                         "Whether participant and experimenter are told after each answer "
+                         "if it was right. Where test and reference are equal, so that a "
+                         "trial without feedback would be found out, \"not more\" is called "
+                         "right in `reminder`, and in `two_interval` the interval that was "
+                         "drawn for the test. Not in a double-blind study.",
+                     .required = false,
+                     .default_json = "false"}},
+      {.parameter = {.key = "practice",
+                     .kind = ValueKind::kObject,
+                     .meaning = "The block is practice, until enough answers are right; "
+                                "its trials are no data.",
+                     .required = false,
+                     .nested = &practice_table()}}};
 }
 
 std::vector<BlockKey> standard_keys() {

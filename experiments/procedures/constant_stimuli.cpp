@@ -118,6 +118,11 @@ std::optional<double> ConstantStimuli::right_response(const Block& block,
   return experiments::right_response(task_of(block), trial);
 }
 
+std::optional<double> ConstantStimuli::feedback_response(const Block& block,
+                                                         const PlannedTrial& trial) const {
+  return experiments::feedback_response(task_of(block), trial);
+}
+
 std::vector<PlannedTrial> ConstantStimuli::draw_next(const Block& block,
                                                      const std::vector<AnsweredTrial>& answered,
                                                      core::RandomStream& stream) const {

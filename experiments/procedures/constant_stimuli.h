@@ -19,6 +19,8 @@ class ConstantStimuli final : public Procedure {
                                                     core::RandomStream& stream) const override;
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
+  [[nodiscard]] std::optional<double> feedback_response(
+      const Block& block, const PlannedTrial& trial) const override;
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

@@ -92,6 +92,11 @@ std::optional<double> LimitsProcedure::right_response(const Block& block,
   return experiments::right_response(task_of(block), trial);
 }
 
+std::optional<double> LimitsProcedure::feedback_response(const Block& block,
+                                                         const PlannedTrial& trial) const {
+  return experiments::feedback_response(task_of(block), trial);
+}
+
 LimitsRule limits_rule_of(const Block& block) {
   const Settings& given = block.settings;
   std::vector<double> levels = block.intensities;

@@ -18,6 +18,8 @@ class LimitsProcedure final : public Procedure {
                                                     core::RandomStream& stream) const override;
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
+  [[nodiscard]] std::optional<double> feedback_response(
+      const Block& block, const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
   [[nodiscard]] bool adapts() const noexcept override { return true; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;

@@ -74,9 +74,20 @@ class Procedure {
                                                              const PlannedTrial&) const {
     return std::nullopt;
   }
+  /// The response that feedback calls right; see `experiments::feedback_response`.
+  [[nodiscard]] virtual std::optional<double> feedback_response(
+      const Block& block, const PlannedTrial& trial) const {
+    return right_response(block, trial);
+  }
   /// Throws `Error`, "staircase.highest: expected ...", where a block whose trials can be drawn
   /// cannot come to what it is for; the name behind the dot is that of a key.
   virtual void check(const Block&) const {}
+  /// What the answers of a block at its end say against what it comes to, for whoever runs the
+  /// session, in half a sentence; "" where nothing does.
+  [[nodiscard]] virtual std::string caution(const Block&,
+                                            const std::vector<AnsweredTrial>&) const {
+    return "";
+  }
   /// Whether the answers decide how many trials there are.
   [[nodiscard]] virtual bool adapts() const noexcept { return false; }
   /// How many trials to expect, for progress and planning; no more than `most_trials`.

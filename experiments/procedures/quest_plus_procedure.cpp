@@ -1,6 +1,7 @@
 #include "experiments/procedures/quest_plus_procedure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <utility>
@@ -58,6 +59,45 @@ ParameterGrid grid_of(const Block& block, const char* key) {
                         : equally_spaced(LevelScale::kLogarithmic, ends[0], ends[1], count)};
 }
 
+std::string range_words(const ParameterGrid& grid) {
+  const double least = grid.values.front(), largest = grid.values.back();
+  return least == largest ? plain_number(least)
+                          : plain_number(least) + " to " + plain_number(largest);
+}
+
+/// A grid that leaves out what the block asks for ends at its edge, whatever is answered.
+void check_grids(const Block& block, double lowest, double highest) {
+  const std::string tests = plain_number(lowest) + " to " + plain_number(highest);
+  if (!block.reference_intensity) {
+    const ParameterGrid threshold = grid_of(block, "threshold");
+    if (threshold.values.back() >= lowest && threshold.values.front() <= highest) return;
+    throw core::Error(
+        "quest_plus.threshold: expected a range that holds some of the test stimuli (" + tests +
+        "), which are all felt or all not felt otherwise, found " + range_words(threshold));
+  }
+  const double reference = *block.reference_intensity;
+  const ParameterGrid pse = grid_of(block, "pse");
+  const bool is_known = pse.values.size() == 1;
+  const double least = pse.values.front(), largest = pse.values.back();
+  if (is_known ? least != reference : least >= reference || largest <= reference) {
+    throw core::Error(
+        "quest_plus.pse: expected a range that goes from below the reference to above it (" +
+        plain_number(reference) + "), for the point of subjective equality lies about there, " +
+        "found " + range_words(pse));
+  }
+  const ParameterGrid fraction = grid_of(block, "weber_fraction");
+  const double shown = std::max(highest / reference, reference / lowest) - 1.0;
+  constexpr double kShortest = 1000.0;
+  if (fraction.values.front() > shown) {
+    throw core::Error(
+        "quest_plus.weber_fraction: expected a range that begins at no more than " +
+        plain_number(std::round(kShortest * shown) / kShortest) +
+        ", the largest fraction that the test stimuli (" + tests +
+        ") show around the reference (" + plain_number(reference) + "), found " +
+        range_words(fraction));
+  }
+}
+
 }  // namespace
 
 std::string QuestPlusProcedure::meaning() const {
@@ -68,7 +108,10 @@ std::string QuestPlusProcedure::meaning() const {
 std::vector<BlockKey> QuestPlusProcedure::keys() const {
   std::vector<BlockKey> keys = {
       stimuli_key(),
-      grid("pse", "Least and largest point of subjective equality that is thought possible.",
+      grid("pse",
+           "Least and largest point of subjective equality that is thought possible; the "
+           "reference lies between them. Where answers take the posterior to an end, no "
+           "interval is told, so better too wide than too narrow.",
            comparisons(), true, ""),
       grid("weber_fraction", "Least and largest Weber fraction that is thought possible.",
            comparisons(), false, "[0.05, 2.0]"),
@@ -104,6 +147,11 @@ TrialForm QuestPlusProcedure::form(const Block& block) const { return form_of(ta
 std::optional<double> QuestPlusProcedure::right_response(const Block& block,
                                                          const PlannedTrial& trial) const {
   return experiments::right_response(task_of(block), trial);
+}
+
+std::optional<double> QuestPlusProcedure::feedback_response(const Block& block,
+                                                            const PlannedTrial& trial) const {
+  return experiments::feedback_response(task_of(block), trial);
 }
 
 QuestPlusRule quest_plus_rule_of(const Block& block) {
@@ -162,6 +210,39 @@ std::vector<PlannedTrial> QuestPlusProcedure::draw_next(
   return {adaptive_trial(block, answered, level, 0, stream)};
 }
 
+std::vector<std::string> reached_ends(const Block& block,
+                                      const std::vector<QuestPlusEstimate>& estimates) {
+  std::vector<std::string> ends;
+  for (const QuestPlusEstimate& one : estimates) {
+    if (!one.reaches_an_end()) continue;
+    const bool of_quantity = one.name == "pse" || one.name == "threshold";
+    const std::string key = "`" + one.name + (of_quantity ? "_" + block.quantity : "") + "`";
+    const std::vector<double> given = block.settings.numbers(one.name);
+    if (one.reached_low) {
+      ends.push_back("the lower end of " + key + " (" + plain_number(given.front()) + ")");
+    }
+    if (one.reached_high) {
+      ends.push_back("the upper end of " + key + " (" + plain_number(given.back()) + ")");
+    }
+  }
+  return ends;
+}
+
+std::string QuestPlusProcedure::caution(const Block& block,
+                                        const std::vector<AnsweredTrial>& answered) const {
+  const std::shared_ptr<const QuestPlus> quest = quest_of(block);
+  std::string words;
+  for (const std::string& end :
+       reached_ends(block, quest->estimates(quest->posterior(level_answers(answered))))) {
+    words += (words.empty() ? "" : " and ") + end;
+  }
+  if (words.empty()) return "";
+  return "the posterior of QUEST+ reaches " + words +
+         ", so that what it says rests on where the grid ends; a wider one would let the "
+         "answers "
+         "speak";
+}
+
 void QuestPlusProcedure::check(const Block& block) const {
   const auto [lowest, highest] = std::ranges::minmax(block.intensities);
   const double reference = block.reference_intensity.value_or(lowest);
@@ -178,6 +259,7 @@ void QuestPlusProcedure::check(const Block& block) const {
     throw core::Error("quest_plus.min_trials: expected no more than `max_trials` (" +
                       std::to_string(max_trials) + "), found " + std::to_string(min_trials));
   }
+  check_grids(block, lowest, highest);
 }
 
 int QuestPlusProcedure::expected_trials(const Block& block) const noexcept {

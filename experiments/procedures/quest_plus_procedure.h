@@ -7,7 +7,8 @@ namespace jnd::experiments {
 
 /// QUEST+ (Watson 2017): each trial shows the stimulus whose answer is expected to tell most of
 /// point of subjective equality and Weber fraction, or, in a yes-no task, of threshold and
-/// slope.
+/// slope. Grids that leave out what is asked for are refused: a pse away from the reference,
+/// fractions or thresholds that no stimulus shows.
 class QuestPlusProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "quest_plus"; }
@@ -19,12 +20,21 @@ class QuestPlusProcedure final : public Procedure {
                                                     core::RandomStream& stream) const override;
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
+  [[nodiscard]] std::optional<double> feedback_response(
+      const Block& block, const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
+  [[nodiscard]] std::string caution(const Block& block,
+                                    const std::vector<AnsweredTrial>& answered) const override;
   [[nodiscard]] bool adapts() const noexcept override { return true; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 
 /// Throws `Error` naming what does not fit together.
 [[nodiscard]] QuestPlusRule quest_plus_rule_of(const Block& block);
+
+/// The ends of grids that the posterior reaches, each with its key: "the lower end of
+/// `pse_viscosity_pa_s` (12)". Estimates of one block.
+[[nodiscard]] std::vector<std::string> reached_ends(
+    const Block& block, const std::vector<QuestPlusEstimate>& estimates);
 
 }  // namespace jnd::experiments

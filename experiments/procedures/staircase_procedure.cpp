@@ -130,6 +130,11 @@ std::optional<double> StaircaseProcedure::right_response(const Block& block,
   return experiments::right_response(task_of(block), trial);
 }
 
+std::optional<double> StaircaseProcedure::feedback_response(const Block& block,
+                                                            const PlannedTrial& trial) const {
+  return experiments::feedback_response(task_of(block), trial);
+}
+
 StaircaseRule staircase_rule_of(const Block& block, int series) {
   const Settings& given = block.settings;
   const bool is_logarithmic = given.word("level_scale") == "logarithmic";

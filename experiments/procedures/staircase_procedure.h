@@ -19,6 +19,8 @@ class StaircaseProcedure final : public Procedure {
   [[nodiscard]] std::vector<double> possible_intensities(const Block& block) const override;
   [[nodiscard]] std::optional<double> right_response(const Block& block,
                                                      const PlannedTrial& trial) const override;
+  [[nodiscard]] std::optional<double> feedback_response(
+      const Block& block, const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
   [[nodiscard]] bool adapts() const noexcept override { return true; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;

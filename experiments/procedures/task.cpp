@@ -36,6 +36,12 @@ std::optional<double> right_response(Task task, const PlannedTrial& trial) {
   return excess > 0.0 ? 1.0 : 0.0;
 }
 
+std::optional<double> feedback_response(Task task, const PlannedTrial& trial) {
+  const std::optional<double> right = right_response(task, trial);
+  if (right || !trial.intensity || !trial.reference_intensity) return right;
+  return task == Task::kTwoInterval ? 1.0 : 0.0;
+}
+
 double response_of(AnswerKind kind, const PlannedTrial& trial, double answer) {
   if (kind != AnswerKind::kInterval) return answer;
   return answer == trial.test_interval.value_or(2) ? 1.0 : 0.0;

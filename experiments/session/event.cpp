@@ -23,7 +23,7 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "trial_included",     "note_added",           "paused",
     "continued",          "fault_raised",         "session_resumed",
     "loop_started",       "loop_measured",        "unblinded",
-    "session_completed",  "session_ended_early"};
+    "arming_changed",     "session_completed",    "session_ended_early"};
 
 /// Of the layout of `data`, for every kind.
 constexpr int kVersion = 1;
@@ -166,6 +166,7 @@ struct Writer {
             {"commanded_damping_n_s_per_m", optional_number(s.commanded_damping_n_s_per_m)},
             {"limited_ticks", s.limited_ticks},
             {"finger_lag_s", optional_number(s.finger_lag_s)}};
+    if (s.missed_ticks > 0) data["missed_ticks"] = s.missed_ticks;
   }
   void operator()(const IntensityAdjusted& e) const {
     place(e.trial, e.attempt);
@@ -223,6 +224,9 @@ struct Writer {
             {"tick_cost_ns", buckets_to_json(e.tick_cost)}};
   }
   void operator()(const Unblinded& e) const { data = {{"reason", e.reason}}; }
+  void operator()(const ArmingChanged& e) const {
+    data = {{"state", e.state}, {"cause", e.cause}};
+  }
   void operator()(const SessionCompleted&) const {}
   void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
@@ -288,6 +292,9 @@ struct Reader {
     s.limited_ticks = whole_number(data.at("limited_ticks"), "limited_ticks");
     // Sessions before layout 3 have none.
     if (data.contains("finger_lag_s")) s.finger_lag_s = optional_number(data, "finger_lag_s");
+    if (data.contains("missed_ticks")) {
+      s.missed_ticks = whole_number(data.at("missed_ticks"), "missed_ticks");
+    }
   }
   void operator()(IntensityAdjusted& e) const {
     place(e);
@@ -353,6 +360,10 @@ struct Reader {
     e.tick_cost = buckets_from_json(list_at(data, "tick_cost_ns"));
   }
   void operator()(Unblinded& e) const { data.at("reason").get_to(e.reason); }
+  void operator()(ArmingChanged& e) const {
+    data.at("state").get_to(e.state);
+    data.at("cause").get_to(e.cause);
+  }
   void operator()(SessionCompleted&) const {}
   void operator()(SessionEndedEarly& e) const { data.at("reason").get_to(e.reason); }
 

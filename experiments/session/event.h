@@ -73,6 +73,7 @@ struct PresentationSummary {
   std::int64_t num_strokes = 0;
   std::optional<double> delivered_damping_n_s_per_m, commanded_damping_n_s_per_m;
   std::int64_t limited_ticks = 0;
+  std::int64_t missed_ticks = 0;       ///< That were due and never ran.
   std::optional<double> finger_lag_s;  ///< By which the fingers trail behind the palm.
 };
 
@@ -140,6 +141,12 @@ struct FaultRaised {
   std::string fault;
 };
 
+/// Whether there may be force, in real time.
+struct ArmingChanged {
+  std::string state;  ///< As `core::name` of an `Arming`.
+  std::string cause;  ///< Who or what: "armed by the experimenter", a fault's name.
+};
+
 /// The session goes on after its program ended without ending the session.
 struct SessionResumed {
   std::string choice;                                     ///< "repeat", "restart" or "end".
@@ -185,7 +192,7 @@ using EventData =
                  IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
                  FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
-                 SessionCompleted, SessionEndedEarly>;
+                 ArmingChanged, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -231,7 +231,8 @@ void Session::end_presentation(std::int64_t last_tick, const PresentationSummary
                             .delivered_damping_n_s_per_m = summary.delivered_damping_n_s_per_m,
                             .commanded_damping_n_s_per_m = summary.commanded_damping_n_s_per_m,
                             .limited_ticks = summary.limited_ticks,
-                            .finger_lag_s = summary.finger_lag_s};
+                            .finger_lag_s = summary.finger_lag_s,
+                            .missed_ticks = summary.missed_ticks};
   commit(PresentationEnded{number, trial.attempt, presentation, last_tick, summary},
          std::move(rows));
 }
@@ -304,7 +305,7 @@ std::optional<bool> Session::feedback(const PlannedTrial& trial, double response
   const Block& block = current_block();
   if (!block.feedback) return std::nullopt;
   const std::optional<double> right =
-      procedure_named(block.procedure).right_response(block, trial);
+      procedure_named(block.procedure).feedback_response(block, trial);
   return right ? std::optional(response == *right) : std::nullopt;
 }
 
@@ -434,6 +435,10 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
 }
 
 void Session::loop_started(const LoopStarted& given) { commit(given); }
+
+void Session::arming_changed(const std::string& arming, const std::string& cause) {
+  commit(ArmingChanged{arming, cause});
+}
 
 void Session::loop_measured(const LoopMeasured& timing) { commit(timing); }
 

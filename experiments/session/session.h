@@ -107,6 +107,7 @@ class Session {
   void resume(const std::string& choice, std::int64_t lost_first_tick,
               std::int64_t lost_last_tick);
   void loop_started(const LoopStarted& given);
+  void arming_changed(const std::string& arming, const std::string& cause);
   void loop_measured(const LoopMeasured& timing);
   void unblind(const std::string& reason);
   /// After the last stage.

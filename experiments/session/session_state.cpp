@@ -112,6 +112,7 @@ struct Fold {
   void operator()(const LoopStarted&) const {}
   void operator()(const LoopMeasured&) const {}
   void operator()(const Unblinded&) const {}
+  void operator()(const ArmingChanged&) const {}
   void operator()(const SessionCompleted&) const {
     state.ended = true;
     state.completed = true;

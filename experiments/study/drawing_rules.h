@@ -9,9 +9,10 @@
 namespace jnd::experiments {
 
 /// Has every block draw its first trial, and tells at its key what the procedure then misses,
-/// so that no session finds it out with a participant in the device. For a study that is sound
+/// so that no session finds it out with a participant in the device; `with_check`: and what a
+/// block that can be drawn cannot come to (`Procedure::check`). For a study that is sound
 /// otherwise. Not real time.
 void check_drawing(const LocatedJson& file, const Study& study,
-                   std::vector<StudyProblem>& problems);
+                   std::vector<StudyProblem>& problems, bool with_check = true);
 
 }  // namespace jnd::experiments

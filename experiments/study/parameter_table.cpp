@@ -122,6 +122,16 @@ const ParameterTable& device_table() {
            .default_json = "0.05",
            .unit = "s",
            .range = {0.0, 10.0}},
+          {.key = "max_missed_ratio",
+           .kind = ValueKind::kNumber,
+           .meaning =
+               "Share of a presentation's ticks that may not run, because the machine or "
+               "the device held the loop up; a trial with more is repeated. A hundredth "
+               "is a tenth of the smallest Weber fractions of viscosity, and 50 ms of a "
+               "presentation of 5 s.",
+           .required = false,
+           .default_json = "0.01",
+           .range = {0.0, 1.0}},
           {.key = "immersion",
            .kind = ValueKind::kObject,
            .meaning = "Where the fluid is. Absent: everywhere below the height 0.",

@@ -68,7 +68,9 @@ const ParameterTable& questionnaire_item_table() {
           {.key = "high_is_good",
            .kind = ValueKind::kBoolean,
            .meaning = "Whether the last step is the favourable end, so that scales printed in "
-                      "different directions can be averaged.",
+                      "different directions can be averaged. Absent: neither end is, and "
+                      "results are told in the steps as they were printed.",
+           .required = false,
            .only_where = kOnlyScale},
       }};
   return kTable;

@@ -145,7 +145,8 @@ struct QuestionnaireItem {
   std::vector<Option> options;             ///< kind choice, at least two.
   int num_steps = 10;                      ///< kind scale.
   Text low_label, high_label;  ///< kind scale: what stands at step 1 and at the last step.
-  bool high_is_good = true;    ///< kind scale: which end is the favourable one.
+  /// kind scale: which end is the favourable one; absent where neither is.
+  std::optional<bool> high_is_good{};
   bool required = true;
 };
 
@@ -189,6 +190,7 @@ struct DeviceNeeds {
   int min_contact_points = 5;
   double rate_hz = 1000.0;
   double ramp_s = 0.050;
+  double max_missed_ratio = 0.01;       ///< Of a presentation's ticks, [0, 1].
   core::Immersion immersion;            ///< Infinite surface unless the study says otherwise.
   double wall_stiffness_n_per_m = 0.0;  ///< Where the immersion ends; 0 is no wall.
   double wall_friction_ratio = 0.0;     ///< >= 0.

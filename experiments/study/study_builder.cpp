@@ -307,6 +307,7 @@ DeviceNeeds device_needs(const ObjectReader& in) {
   needs.min_contact_points = in.integer("min_contact_points");
   needs.rate_hz = in.number("rate_hz");
   needs.ramp_s = in.number("ramp_s");
+  needs.max_missed_ratio = in.number("max_missed_ratio");
   const ObjectReader immersion = in.object("immersion");
   if (const auto radius_m = immersion.optional_number("radius_m")) {
     needs.immersion.radius_m = *radius_m;

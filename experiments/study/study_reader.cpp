@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/study/drawing_rules.h"
+#include "experiments/study/level_doubts.h"
 #include "experiments/study/limit_rules.h"
 #include "experiments/study/located_json.h"
 #include "experiments/study/structure_check.h"
@@ -52,8 +53,11 @@ std::optional<std::string> file_text(const fs::path& file,
   return text;
 }
 
+/// A study that is to be begun, or one that was.
+enum class Begun { kNo, kYes };
+
 LocatedJson checked(const std::string& text, const std::string& file_name,
-                    std::vector<StudyProblem>& problems) {
+                    std::vector<StudyProblem>& problems, Begun begun = Begun::kNo) {
   if (text.size() > kLargestStudy) {
     problems.push_back({file_name, 0, 0, "",
                         "expected at most 4 MiB of text, found more; is this a study file?"});
@@ -66,7 +70,7 @@ LocatedJson checked(const std::string& text, const std::string& file_name,
     check_study_rules(file, problems);
     if (problems.empty()) {
       const Study study = build_study(file, text);
-      check_drawing(file, study, problems);
+      check_drawing(file, study, problems, begun == Begun::kNo);
       check_limit_rules(file, study, problems);
     }
   }
@@ -86,11 +90,19 @@ LocatedJson checked(const std::string& text, const std::string& file_name,
 
 }  // namespace
 
-Study read_study_text(const std::string& text, const std::string& file_name) {
+static Study read_text(const std::string& text, const std::string& file_name, Begun begun) {
   std::vector<StudyProblem> problems;
-  const LocatedJson file = checked(text, file_name, problems);
+  const LocatedJson file = checked(text, file_name, problems, begun);
   if (!problems.empty()) throw ProtocolError(std::move(problems));
   return build_study(file, text);
+}
+
+Study read_study_text(const std::string& text, const std::string& file_name) {
+  return read_text(text, file_name, Begun::kNo);
+}
+
+Study read_stored_study(const std::string& text, const std::string& file_name) {
+  return read_text(text, file_name, Begun::kYes);
 }
 
 Study read_study(const fs::path& file) {
@@ -111,6 +123,19 @@ std::vector<StudyProblem> study_problems(const fs::path& file) {
   std::vector<StudyProblem> problems;
   const std::optional<std::string> text = file_text(file, problems);
   return text ? study_text_problems(*text, file.string()) : problems;
+}
+
+std::vector<StudyProblem> study_text_doubts(const std::string& text,
+                                            const std::string& file_name) {
+  std::vector<StudyProblem> problems;
+  const LocatedJson file = checked(text, file_name, problems);
+  return problems.empty() ? level_doubts(file, text) : std::vector<StudyProblem>{};
+}
+
+std::vector<StudyProblem> study_doubts(const fs::path& file) {
+  std::vector<StudyProblem> problems;
+  const std::optional<std::string> text = file_text(file, problems);
+  return text ? study_text_doubts(*text, file.string()) : std::vector<StudyProblem>{};
 }
 
 }  // namespace jnd::experiments

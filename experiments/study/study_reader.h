@@ -14,12 +14,23 @@ namespace jnd::experiments {
 /// which they stand in it; a file that cannot be read is one problem. Not real time.
 [[nodiscard]] Study read_study(const std::filesystem::path& file);
 
-/// The same for a text, for example one out of a study folder. `file_name` is for messages.
+/// The same for a text. `file_name` is for messages.
 [[nodiscard]] Study read_study_text(const std::string& text, const std::string& file_name);
+
+/// The same for the text in a study folder, which sessions were begun with: that a block cannot
+/// come to what it is for (`Procedure::check`) is no problem any more, for its answers are
+/// there, to be gone on with and told of.
+[[nodiscard]] Study read_stored_study(const std::string& text, const std::string& file_name);
 
 /// Every problem, without throwing; empty for a sound study.
 [[nodiscard]] std::vector<StudyProblem> study_problems(const std::filesystem::path& file);
 [[nodiscard]] std::vector<StudyProblem> study_text_problems(const std::string& text,
                                                             const std::string& file_name);
+
+/// What a sound study may not mean, each to be looked at: see `level_doubts`. It can be run all
+/// the same. Empty where there are problems.
+[[nodiscard]] std::vector<StudyProblem> study_doubts(const std::filesystem::path& file);
+[[nodiscard]] std::vector<StudyProblem> study_text_doubts(const std::string& text,
+                                                          const std::string& file_name);
 
 }  // namespace jnd::experiments

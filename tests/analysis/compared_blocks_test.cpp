@@ -8,6 +8,7 @@
 
 #include "analysis/hand_made_study.h"
 #include "analysis/study_results.h"
+#include "analysis/test_families.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -23,7 +24,7 @@ std::vector<std::string> pairs(const std::vector<BlockDesign>& blocks,
                                const std::vector<BlockNames>& asked = {}) {
   std::vector<std::string> names;
   for (const ComparedBlocks& pair : compared_blocks(blocks, asked)) {
-    names.push_back(pair.first.block + pair.second.block + (pair.is_planned ? "!" : ""));
+    names.push_back(pair.first.block + pair.second.block + (pair.has_primary ? "!" : ""));
   }
   return names;
 }
@@ -43,7 +44,7 @@ TEST(ComparedBlocks, OfManyAreEachWithTheNext) {
             (Names{"ab!", "bc!", "cd!", "de!", "ef!"}));
 }
 
-TEST(ComparedBlocks, OfOtherProceduresStandBesideThePlannedOnesUnlessThereAreNone) {
+TEST(ComparedBlocks, OfOtherProceduresHaveNoPrimaryTestUnlessNoneHas) {
   EXPECT_EQ(pairs({block("a"), block("q", "quest_plus"), block("b")}),
             (Names{"aq", "ab!", "qb"}));
   EXPECT_EQ(pairs({block("a"), block("q", "quest_plus")}), Names{"aq!"});
@@ -90,12 +91,13 @@ StudyResults results(const std::vector<BlockNames>& compared) {
                     {.num_resamples = 100, .compared = compared});
 }
 
-Names primary_tests(const StudyResults& results, bool holm) {
+Names primary_tests(const StudyResults& results, const char* family) {
   Names names;
   for (const ResultsSection& section : results.sections) {
     for (const NamedComparison& named : section.comparisons) {
       if (!named.primary) continue;
-      EXPECT_EQ(named.p_value_holm.has_value(), holm) << named.name;
+      EXPECT_TRUE(named.p_value_holm.has_value()) << named.name;
+      EXPECT_EQ(named.family, family);
       names.push_back(section.name);
     }
   }
@@ -121,10 +123,18 @@ TEST(ComparedBlocks, OfOtherPeopleAreTwoGroups) {
   EXPECT_FALSE(between(results({{"thin", "thick"}})));
 }
 
-TEST(ComparedBlocks, SeveralPlannedTestsAreOneFamilyAndOneStandsAlone) {
-  EXPECT_EQ(primary_tests(results({}), true),
+TEST(ComparedBlocks, NobodyPlannedThemWhetherChosenByNobodyOrAskedFor) {
+  EXPECT_EQ(primary_tests(results({}), kPairsFamily),
             (Names{"middle_against_thick", "middle_against_thin", "thick_against_thin"}));
-  EXPECT_EQ(primary_tests(results({{"thin", "thick"}}), false), Names{"thin_against_thick"});
+  EXPECT_EQ(primary_tests(results({{"thin", "thick"}}), kAskedFamily),
+            Names{"thin_against_thick"});
+}
+
+TEST(ComparedBlocks, SaysOfBothFamiliesWhatTheirPValuesAre) {
+  EXPECT_EQ(family_note({.name = "a", .comparison = {}, .family = kPairsFamily}), kPairsNote);
+  EXPECT_EQ(family_note({.name = "a", .comparison = {}, .family = kAskedFamily}), kAskedNote);
+  EXPECT_EQ(family_note({.name = "a", .comparison = {}, .family = kMovementFamily}), "");
+  EXPECT_EQ(std::string(kPairsFamily).find("exploratory"), 0U);
 }
 
 }  // namespace

@@ -52,6 +52,26 @@ TEST(DiscriminationGroup, EveryGroupValueNamesItsEstimand) {
   EXPECT_EQ(person.n, 5);
 }
 
+TEST(DiscriminationGroup, LevelsTooHardToTellLapsesAreACautionBesideTheMedianPerson) {
+  // Both levels are right in 80 % there, in 92 % here; 84 % is the Weber fraction's own.
+  for (const auto& [num_right, is_hard] :
+       {std::pair{std::vector{7, 8, 8, 9, 8}, true}, {std::vector{9, 9, 10, 9, 9}, false}}) {
+    HandMadeStudy study;
+    add_people(study, num_right);
+    const StudyResults of = results(study);
+    const Estimate& person = estimate(of, "group_d.weber_fraction_median_person");
+    ASSERT_EQ(person.cautions.size(), is_hard ? 1U : 0U);
+    if (is_hard) {
+      EXPECT_NE(person.cautions[0].find("too hard"), std::string::npos) << person.cautions[0];
+    }
+    EXPECT_NE(person.meaning.find("over lapse rates of 0"), std::string::npos)
+        << person.meaning;
+    const Estimate& lapses = estimate(of, "group_d.lapse_rate");
+    EXPECT_EQ(*lapses.ci95.low, 0.0);
+    EXPECT_NE(lapses.meaning.find("without its prior"), std::string::npos) << lapses.meaning;
+  }
+}
+
 TEST(DiscriminationGroup, AnswersSymmetricAboutTheReferencePutThePseThere) {
   HandMadeStudy study;
   add_people(study, {7, 8, 8, 9, 9});

@@ -144,21 +144,68 @@ TEST(ExploratoryResults, ArmsOfACounterbalanceAreComparedByTheParticipantsOwnPar
   EXPECT_LE(primed.p_value_holm.value(), 4.0 * primed.comparison.p_value.value() + 1e-12);
 }
 
+/// Everybody's exponent and k of one block, each person in cells of their own.
+ResultsSection of_cells(const BlockDesign& block, const std::vector<std::string>& cells) {
+  StudyData data{.blocks = {block}};
+  ResultsSection fits{.name = block.block};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string name = "P" + std::to_string(10 + i);
+    data.participants.push_back({.participant = name, .cells = cells[i]});
+    const double value = 0.5 + 0.1 * static_cast<double>(i * i % 7);
+    fits.participants.push_back({name, block.block + ".a", value, {}, ""});
+    fits.participants.push_back({name, block.block + ".k", value, {}, ""});
+  }
+  return adjusted(data, {fits});
+}
+
+TEST(ExploratoryResults, RowsOfASquareAndOrdersOfManyAreNotCompared) {
+  EXPECT_TRUE(of_cells(kEstimation, {"estimation=row_1", "estimation=row_2", "estimation=row_1",
+                                     "estimation=row_2"})
+                  .comparisons.empty());
+  EXPECT_TRUE(
+      of_cells(kEstimation, {"order=a,b,c", "order=b,c,a", "order=a,b,c", "order=b,c,a"})
+          .comparisons.empty());
+  EXPECT_EQ(of_cells(kEstimation, {"order=a,b", "order=b,a", "order=a,b", "order=b,a"})
+                .comparisons.size(),
+            4U)
+      << "of two the order is";
+}
+
+TEST(ExploratoryResults, AnArmOfOneIsNotComparedAndSaysSo) {
+  const ResultsSection section =
+      of_cells(kEstimation, {"sex=f", "sex=f", "sex=m", "sex=m", "sex=x"});
+  EXPECT_EQ(section.comparisons.size(), 4U);
+  for (const NamedComparison& named : section.comparisons) {
+    EXPECT_EQ(named.name.find("sex: f - m: "), 0U) << named.name;
+  }
+  ASSERT_EQ(section.excluded.size(), 1U);
+  EXPECT_EQ(section.excluded.front().participant, "P14");
+  EXPECT_NE(section.excluded.front().reason.find("the only one in sex = x"), std::string::npos);
+}
+
+TEST(ExploratoryResults, TheSizeOfNumbersThatPeopleChoseIsNotCompared) {
+  BlockDesign free = kEstimation;
+  free.protocol.modulus = "free";
+  const ResultsSection section = of_cells(free, {"sex=f", "sex=f", "sex=m", "sex=m"});
+  EXPECT_EQ(section.comparisons.size(), 2U);
+  EXPECT_NE(section.comparisons.front().name.find(": a of estimation"), std::string::npos);
+}
+
 TEST(ExploratoryResults, ATestThatCannotBeMadeSpoilsNoOther) {
-  StudyData data{
-      .participants = {anchored("P01", 0.2), anchored("P02", 0.3), anchored("P03", 0.25)},
-      .blocks = {kProduction}};
-  data.participants[0].cells = "priming=primed";
+  StudyData data{.participants = {anchored("P01", 0.2), anchored("P02", 0.3),
+                                  anchored("P03", 0.25), anchored("P04", 0.25)},
+                 .blocks = {kProduction}};
+  data.participants[0].cells = data.participants[3].cells = "priming=primed";
   data.participants[1].cells = data.participants[2].cells = "priming=unprimed";
   ResultsSection fits{.name = "production"};
-  for (const char* name : {"P01", "P02", "P03"}) {
-    fits.participants.push_back({name, "production.a", 1.0 + (name[2] - '0') * 0.1, {}, ""});
+  for (const char* name : {"P01", "P02", "P03", "P04"}) {
+    fits.participants.push_back({name, "production.a", 1.0, {}, ""});
   }
   const ResultsSection section = adjusted(data, {fits});
-  const NamedComparison& alone =
+  const NamedComparison& alike =
       comparison(section, "priming: primed - unprimed: a of production, t");
-  EXPECT_EQ(alone.comparison.status, FitStatus::kDegenerate);
-  EXPECT_FALSE(alone.p_value_holm.has_value());
+  EXPECT_EQ(alike.comparison.status, FitStatus::kDegenerate);
+  EXPECT_FALSE(alike.p_value_holm.has_value());
   const NamedComparison& start =
       comparison(section, "production.starting_value_slope against 0, t");
   EXPECT_TRUE(start.p_value_holm.has_value());

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/storage/study_store.h"
@@ -47,15 +48,7 @@ class HandMadeStudy {
 
   /// One answered trial of the session added last. Its number.
   std::int64_t answer(core::TrialRow row) {
-    core::Commit drawn = event("trials_drawn");
-    drawn.design.push_back({.session = session_,
-                            .trial = ++trial_,
-                            .block = row.block,
-                            .procedure = row.procedure,
-                            .quantity = row.quantity,
-                            .repetition = row.repetition,
-                            .intensity = row.intensity});
-    store_.append(drawn);
+    (void)draw(row);
     answer_again(std::move(row), 1);
     return trial_;
   }
@@ -77,6 +70,26 @@ class HandMadeStudy {
     undone.event.trial = trial_;
     undone.event.supersedes = answered;
     store_.append(undone);
+  }
+  /// A trial of the session added last that has no answer yet. Its number.
+  std::int64_t draw(const core::TrialRow& row) {
+    core::Commit drawn = event("trials_drawn");
+    drawn.design.push_back({.session = session_,
+                            .trial = ++trial_,
+                            .block = row.block,
+                            .procedure = row.procedure,
+                            .quantity = row.quantity,
+                            .repetition = row.repetition,
+                            .intensity = row.intensity,
+                            .is_catch = row.is_catch});
+    store_.append(drawn);
+    return trial_;
+  }
+  /// An event that is of no row, of a trial or of none.
+  void happen(const char* kind, std::optional<std::int64_t> trial = {}) {
+    core::Commit happened = event(kind);
+    happened.event.trial = trial;
+    store_.append(happened);
   }
   void exclude(std::int64_t trial) {
     core::Commit excluded = event("trial_excluded");

@@ -141,6 +141,70 @@ TEST(MagnitudeResults, SomebodyWhoFeltNothingSpoilsOnlyTheirOwnLine) {
   EXPECT_EQ(find(section, "estimation.individual_a_mean")->n, 2);
 }
 
+TEST(MagnitudeResults, OnlyThoseCountWhoAreInAGeometricPowerLaw) {
+  StudyData data = two_units();
+  ParticipantData numb{.participant = "P03"};
+  for (const double intensity : {1.0, 4.0, 9.0}) numb.trials.push_back(estimated(intensity, 0));
+  data.participants.push_back(numb);
+  const ResultsSection section = estimation_results(data, kEstimation, kQuick);
+  for (const char* law : {"estimation.geometric", "estimation.geometric_without_zeros"}) {
+    EXPECT_EQ(find(section, std::string(law) + ".k")->n, 2) << law;
+    EXPECT_EQ(find(section, std::string(law) + ".a")->n, 2) << law;
+  }
+  EXPECT_EQ(find(section, "estimation.k")->n, 3) << "a mean of 0 pulls the group's down";
+  EXPECT_TRUE(says(section, "P03", "every answer is 0, which has no logarithm"));
+  EXPECT_NE(find(section, "estimation.num_zeros")->meaning.find("nothing of who has none"),
+            std::string::npos);
+  const ResultsSection sound = estimation_results(two_units(), kEstimation, kQuick);
+  EXPECT_EQ(find(sound, "estimation.num_zeros")->meaning.find("nothing of who has none"),
+            std::string::npos);
+}
+
+TEST(MagnitudeResults, WhoAnsweredAtIntensityZeroAloneIsInNoPowerLaw) {
+  StudyData data = two_units();
+  data.participants.push_back({.participant = "P03", .trials = {estimated(0.0, 0.0)}});
+  const ResultsSection section = estimation_results(data, kEstimation, kQuick);
+  EXPECT_EQ(find(section, "estimation.k")->n, 2);
+  EXPECT_EQ(find(section, "estimation.geometric.k")->n, 2);
+  EXPECT_EQ(find(section, "estimation.mean_at_0")->n, 3);
+  EXPECT_TRUE(says(section, "P03", "no answer at an intensity above 0"));
+}
+
+TEST(MagnitudeResults, AnOwnLawThroughEveryMeanHasNoIntervalAndSaysWhy) {
+  StudyData data = two_units();
+  ParticipantData constant{.participant = "P03"};
+  for (const double intensity : {0.0, 1.0, 2.0, 4.0, 9.0}) {
+    constant.trials.push_back(estimated(intensity, 100.0));
+  }
+  data.participants.push_back(constant);
+  const ResultsSection section = estimation_results(data, kEstimation, kQuick);
+  for (const char* name :
+       {"estimation.geometric.k", "estimation.geometric.a", "estimation.k"}) {
+    const ParticipantEstimate& one = own(section, "P03", name);
+    EXPECT_TRUE(one.value.has_value()) << name;
+    EXPECT_FALSE(one.ci95.low || one.ci95.high) << name;
+    ASSERT_EQ(one.cautions.size(), 1U) << name;
+    EXPECT_EQ(one.cautions[0], "no interval: the power law passes through every row");
+  }
+}
+
+TEST(MagnitudeResults, PeopleWhoAllAnswerAlikeHaveNoIntervalOfTheGroup) {
+  StudyData data;
+  for (const char* name : {"P01", "P02", "P03", "P04", "P05", "P06"}) {
+    ParticipantData person{.participant = name};
+    for (const double intensity : {1.0, 2.0, 4.0, 9.0}) {
+      person.trials.push_back(estimated(intensity, 100.0));
+    }
+    data.participants.push_back(person);
+  }
+  const ResultsSection section = estimation_results(data, kEstimation, kQuick);
+  const Estimate& k = *find(section, "estimation.k");
+  EXPECT_NEAR(k.value.value(), 1.0, 1e-9);
+  EXPECT_FALSE(k.ci95.low || k.ci95.high);
+  ASSERT_EQ(k.cautions.size(), 1U);
+  EXPECT_NE(k.cautions[0].find("no interval"), std::string::npos);
+}
+
 TEST(MagnitudeResults, AGroupWithoutAPowerLawSaysWhyOnce) {
   StudyData data;
   data.participants.push_back(
@@ -331,8 +395,13 @@ TEST(MagnitudeResults, WhatIsTheSameByConstructionAndWhatAPointAtZeroAddsIsSaid)
   EXPECT_NEAR(value(section, "estimation.data_points.a"), value(section, "estimation.a"), 1e-6);
   EXPECT_NE(find(section, "estimation.data_points.a")->meaning.find("by construction"),
             std::string::npos);
-  EXPECT_NE(find(section, "estimation.r_squared")->meaning.find("at intensity 0 included"),
+  EXPECT_NE(find(section, "estimation.r_squared")->meaning.find("1 at intensity 0 left out"),
             std::string::npos);
+  EXPECT_NE(find(section, "estimation.k")->meaning.find("1 at intensity 0 left out"),
+            std::string::npos);
+  EXPECT_NE(
+      find(section, "estimation.data_points.k")->meaning.find("2 at intensity 0 left out"),
+      std::string::npos);
 }
 
 }  // namespace

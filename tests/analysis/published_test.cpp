@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "core/error.h"
@@ -46,13 +47,59 @@ TEST_F(PublishedTest, AFileThatCannotBeReadAsPublishedValuesIsNamed) {
   for (const char* text : {"{", "[]", "{}", R"({"studies":{"water":{"k":{"value":1}}}})",
                            R"({"citation":"A","studies":{"water":{"k":{}}}})",
                            R"({"citation":"A","studies":{"water":{"k":{"positive":1}}}})",
-                           R"({"citation":"A","studies":{"water":{"k":{"value":"one"}}}})"}) {
+                           R"({"citation":"A","studies":{"water":{"k":{"value":"one"}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{"value":1,
+                               "compute":{"kind":"guess"}}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{"value":1,
+                               "compute":{"kind":"numbers","names":["a"],"summary":"mode"}}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{"value":1,
+                               "compute":{"kind":"own_weber_fractions"}}}}})",
+                           R"({"citation":"A","studies":{"water":{"k":{"value":1,
+                               "compute":{"kind":"difference_of_means","names":["a"]}}}}})"}) {
     write("a.json", text);
     try {
       (void)found("water");
       ADD_FAILURE() << "expected an error for " << text;
     } catch (const core::Error& error) {
       EXPECT_NE(std::string(error.what()).find("a.json"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(PublishedTest, TellsHowAValueWasComputed) {
+  write("a.json", R"json({"citation":"A","participants":13,"studies":{"honey":{"ratio":{
+      "value":1.97,"decimals":2,"sd":0.34,"n":12,"unit":"m","statistic":"mean of ratios",
+      "compute":{"kind":"production_ratio","block":"p","high":100,"low":50,"summary":"sd"},
+      "follows_from_others":true}}}})json");
+  const Published published = found("honey");
+  EXPECT_EQ(published.num_participants, 13);
+  const PublishedValue& ratio = published.values.at("ratio");
+  EXPECT_EQ(ratio.num_decimals, 2);
+  EXPECT_EQ(ratio.n, 12);
+  EXPECT_EQ(ratio.unit, "m");
+  EXPECT_EQ(ratio.statistic, "mean of ratios");
+  EXPECT_TRUE(ratio.follows_from_others);
+  ASSERT_TRUE(ratio.compute);
+  EXPECT_EQ(ratio.compute->kind, PublishedStatistic::Kind::kProductionRatio);
+  EXPECT_EQ(ratio.compute->summary, PublishedStatistic::Summary::kStandardDeviation);
+  EXPECT_EQ(ratio.compute->high_target, 100.0);
+  EXPECT_EQ(ratio.compute->low_target, 50.0);
+}
+
+TEST_F(PublishedTest, EveryShippedNumberSaysHowItWasComputedAndHowManyItRestsOn) {
+  const std::string folder = test_support::source_folder().string() + "/data/published";
+  for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {
+    const Published published = published_for(study, folder);
+    EXPECT_EQ(published.num_participants, 13);
+    for (const auto& [name, value] : published.values) {
+      if (value.positive) continue;
+      EXPECT_TRUE(value.compute) << name;
+      EXPECT_FALSE(value.statistic.empty()) << name;
+      EXPECT_TRUE(value.num_decimals) << name;
+      ASSERT_TRUE(value.n) << name;
+      EXPECT_LE(*value.n, 13) << name;
+      const double scaled = *value.value * std::pow(10.0, *value.num_decimals);
+      EXPECT_NEAR(scaled, std::round(scaled), 1e-9) << name << ": more decimals than it says";
     }
   }
 }

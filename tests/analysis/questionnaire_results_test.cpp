@@ -71,7 +71,7 @@ TEST(QuestionnaireItems, AreFoundInEveryStageAndArmInTheOrderOfTheStudy) {
   EXPECT_EQ(items[1].kind, "yes_no");
   EXPECT_EQ(items[3].name, "safety");
   EXPECT_EQ(items[3].num_steps, 10) << "as the format says";
-  EXPECT_TRUE(items[4].high_is_good);
+  EXPECT_EQ(items[4].high_is_good, true);
   EXPECT_EQ(items[5].options, (std::vector<std::string>{"female", "male", "other"}));
 }
 
@@ -114,6 +114,26 @@ TEST(QuestionnaireResults, ScalesAreTurnedSoThatOneIsTheWorst) {
   EXPECT_EQ(own.participant, "P01");
   EXPECT_EQ(own.name, "questionnaire.safety");
   EXPECT_EQ(own.value, 10.0);
+}
+
+TEST(QuestionnaireResults, AScaleWithoutABetterEndIsToldAsItWasAsked) {
+  const auto items = questionnaire_items(nlohmann::json::parse(R"json({"stages": [
+    {"kind": "questionnaire", "name": "form", "items": [
+      {"name": "side", "kind": "scale", "num_steps": 7, "question": {"en": "Which side?"},
+       "low_label": {"en": "left"}, "high_label": {"en": "right"}}]}]})json"));
+  ASSERT_EQ(items.size(), 1U);
+  EXPECT_FALSE(items[0].high_is_good.has_value());
+  StudyData data;
+  data.items = items;
+  data.participants.push_back({.participant = "P01"});
+  data.participants.back().answers.push_back({.stage = "form", .item = "side", .answer = "2"});
+  const ResultsSection section = questionnaire_results(data);
+  const Estimate& mean = *find(section, "questionnaire.side");
+  EXPECT_EQ(mean.value, 2.0) << "not turned round";
+  EXPECT_EQ(mean.meaning, "mean step from 1, “left”, to 7, “right”: Which side?");
+  for (const Estimate& estimate : section.estimates) {
+    EXPECT_EQ(estimate.meaning.find("worst"), std::string::npos) << estimate.meaning;
+  }
 }
 
 TEST(QuestionnaireResults, TheTableOfTheThesisComesOutAsPrinted) {

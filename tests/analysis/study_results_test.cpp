@@ -343,42 +343,6 @@ TEST(StudyResults, ArmsThatNobodySharesHaveNoPairs) {
   EXPECT_EQ(comparison(against, ": w, unpaired, Welch").num_a, 2);
 }
 
-/// Answers that a pse above the reference explains: 3 in 10 at the reference of 8.
-void compare_above(HandMadeStudy& study, const std::string& block, int num_more) {
-  for (int answered = 0; answered < 10; ++answered) {
-    study.compare(block, 8.0, 8.0 + 1e-6, answered < 3);
-    study.compare(block, 10.0, 8.0, answered < num_more);
-    study.compare(block, 12.0, 8.0, answered < num_more + 2);
-    study.compare(block, 24.0, 8.0, true);
-  }
-}
-
-TEST(StudyResults, OwnFractionsAreToldWithThePseOfThePrimaryValueUnlessPublishedOtherwise) {
-  HandMadeStudy study;
-  for (const auto& [name, num_more] : {std::pair{"P01", 5}, {"P02", 6}, {"P03", 7}}) {
-    study.add(name);
-    compare_above(study, "group_d", num_more);
-  }
-  const std::string name = "group_d.individual_weber_fraction_median";
-  const auto median_of = [](const StudyResults& of, const std::string& own_name) {
-    std::vector<double> values;
-    for (const ParticipantEstimate& own : section(of, "group_d").participants) {
-      if (own.name == own_name) values.push_back(own.value.value());
-    }
-    std::ranges::sort(values);
-    return values.at(1);
-  };
-  const StudyResults free = results(study);
-  EXPECT_NEAR(value(free, name), median_of(free, "group_d.weber_fraction_free_pse"), 1e-9);
-  EXPECT_NE(free.find(name)->meaning.find("pse free"), std::string::npos);
-  Published published;
-  published.values[name] = {.value = 0.72};
-  const StudyResults fixed = results(study, published);
-  EXPECT_NEAR(value(fixed, name), median_of(fixed, "group_d.weber_fraction"), 1e-9);
-  EXPECT_NE(fixed.find(name)->meaning.find("pse at the reference"), std::string::npos);
-  EXPECT_GT(std::fabs(value(free, name) - value(fixed, name)), 0.05);
-}
-
 TEST(StudyResults, AnOwnFractionIsBeyondTheStimuliOfTheBlockNotOfOnesOwnAnswers) {
   HandMadeStudy study;
   study.add("P01");

@@ -251,6 +251,50 @@ TEST(AdaptiveResults, ARunWithoutAnEstimateIsNamed) {
   EXPECT_EQ(of.excluded.front().reason, "stairs: no answers");
 }
 
+TEST(AdaptiveResults, APosteriorAtTheEndOfItsGridSaysSoBesideEveryNumberOfIt) {
+  StudyData data = adaptive_study("quest_plus");
+  const auto run = [](const char* name, const std::vector<std::string>& reached) {
+    AdaptiveRun one{.participant = name, .block = "stairs", .procedure = "quest_plus"};
+    one.posterior = {{"pse", 12.0, 0.1, 11.0, 14.0}, {"weber_fraction", 0.1, 0.2, 0.08, 0.2}};
+    one.reached_ends = reached;
+    if (reached.empty()) return one;
+    for (PosteriorEstimate& parameter : one.posterior) parameter.low = parameter.high = {};
+    return one;
+  };
+  data.runs = {run("P01", {}), run("P02", {}), run("P03", {})};
+  const ResultsSection sound = adaptive_results(data, data.blocks.front());
+  for (const Estimate& estimate : sound.estimates) EXPECT_TRUE(estimate.cautions.empty());
+  EXPECT_TRUE(std::ranges::find(sound.estimates, "stairs.quest_plus_pse", &Estimate::name)
+                  ->ci95.low.has_value());
+
+  for (int i = 4; i <= 10; ++i) data.runs.push_back(run(("P" + std::to_string(i)).c_str(), {}));
+  data.runs.push_back(run("P11", {"the lower end of `pse_viscosity_pa_s` (12)"}));
+  const ResultsSection one_of_eleven = adaptive_results(data, data.blocks.front());
+  for (const Estimate& estimate : one_of_eleven.estimates) {
+    EXPECT_TRUE(estimate.cautions.empty()) << "P11 says so";
+  }
+  data.runs.resize(3);
+  data.runs.back() = run("P03", {"the lower end of `pse_viscosity_pa_s` (12)"});
+  const ResultsSection of = adaptive_results(data, data.blocks.front());
+  EXPECT_TRUE(own(of, "P01", "stairs.quest_plus_weber_fraction").cautions.empty());
+  EXPECT_TRUE(own(of, "P01", "stairs.quest_plus_weber_fraction").ci95.low.has_value());
+  for (const char* name : {"stairs.quest_plus_pse", "stairs.quest_plus_weber_fraction"}) {
+    const ParticipantEstimate& one = own(of, "P03", name);
+    EXPECT_TRUE(one.value.has_value()) << name;
+    EXPECT_FALSE(one.ci95.low || one.ci95.high) << name;
+    EXPECT_NE(one.cautions.at(0).find("reaches the lower end of `pse_viscosity_pa_s` (12)"),
+              std::string::npos)
+        << one.cautions.at(0);
+    const Estimate& group = *std::ranges::find(of.estimates, name, &Estimate::name);
+    EXPECT_TRUE(group.value.has_value()) << name;
+    EXPECT_FALSE(group.ci95.low || group.ci95.high) << name;
+    EXPECT_NE(group.cautions.at(0).find("of 1 of 3 participants"), std::string::npos)
+        << group.cautions.at(0);
+    EXPECT_NE(group.cautions.at(0).find("stairs.weber_fraction_median_person"),
+              std::string::npos);
+  }
+}
+
 TEST(IntervalResults, AnOrderEffectMovesThePseAndNotTheSlope) {
   HandMadeStudy study;
   study.add("P01");

@@ -106,6 +106,36 @@ TEST(AdaptiveRuns, LimitsAreMeansOfTransitionsByDirection) {
   EXPECT_NEAR(*run.limits.constant_error, std::log(2.0), 1e-9) << "habituation";
 }
 
+/// Whoever has the pse 10 and the Weber fraction 0.2, ten answers a level.
+std::vector<Answer> around_10() {
+  std::vector<Answer> answers;
+  for (const auto& [level, num_yes] : std::vector<std::pair<double, int>>{
+           {7, 0}, {8, 1}, {9, 3}, {10, 5}, {11, 7}, {12, 8}, {14, 10}}) {
+    for (int i = 0; i < 10; ++i) answers.push_back({level, i < num_yes, 0});
+  }
+  return answers;
+}
+
+TEST(AdaptiveRuns, APosteriorAtTheEndOfAGridHasNoIntervalOnAnyAxis) {
+  const std::string keys = R"json("procedure": "quest_plus",
+    "viscosity_pa_s": [7, 8, 9, 10, 11, 12, 14], "reference_viscosity_pa_s": 10,
+    "weber_fraction": [0.02, 2], "max_trials": 70, "pse_viscosity_pa_s": )json";
+  const AdaptiveRun wide = run_of(block_with(keys + "[5, 20]"), around_10());
+  ASSERT_EQ(wide.posterior.size(), 2U);
+  EXPECT_TRUE(wide.reached_ends.empty());
+  EXPECT_NEAR(wide.posterior[0].mean, 10.0, 0.2);
+  EXPECT_LT(wide.posterior[0].low.value(), 10.0);
+  EXPECT_GT(wide.posterior[0].high.value(), 10.0);
+  EXPECT_NEAR(wide.posterior[1].mean, 0.2, 0.03);
+
+  const AdaptiveRun cut = run_of(block_with(keys + "[9.9, 16]"), around_10());
+  EXPECT_EQ(cut.reached_ends,
+            std::vector<std::string>{"the lower end of `pse_viscosity_pa_s` (9.9)"});
+  for (const analysis::PosteriorEstimate& one : cut.posterior) {
+    EXPECT_FALSE(one.low || one.high) << one.parameter;
+  }
+}
+
 TEST(AdaptiveRuns, QuestPlusIsItsPosteriorWithoutTrialsSetAside) {
   const Block block = block_with(R"json("procedure": "quest_plus",
     "viscosity_pa_s": [4, 6, 8, 11, 16], "reference_viscosity_pa_s": 8,
@@ -118,6 +148,8 @@ TEST(AdaptiveRuns, QuestPlusIsItsPosteriorWithoutTrialsSetAside) {
   EXPECT_LT(two.posterior.front().mean, all.posterior.front().mean);
   EXPECT_EQ(two.num_set_aside, 1);
   EXPECT_EQ(two.tracks.front().points.size(), 3U);
+  EXPECT_EQ(all.reached_ends, std::vector<std::string>{"the upper end of `weber_fraction` (2)"})
+      << "who does not feel 11 beside 8 has no small Weber fraction";
 }
 
 TEST(AdaptiveRuns, CatchTrialsMoveNoLevel) {

@@ -396,5 +396,59 @@ TEST_F(LaboratoryRunTest, RefusesASessionThatIsNotInTheStore) {
   EXPECT_THROW((void)run_laboratory(plan), core::Error);
 }
 
+/// A device that holds the loop up now and then, each time for a tenth of a second: more than a
+/// hundredth of any presentation.
+std::vector<device::ScheduledFault> stalls(std::int64_t every_ticks, std::int64_t num_ticks) {
+  std::vector<device::ScheduledFault> faults;
+  for (std::int64_t tick = every_ticks; tick < num_ticks; tick += every_ticks) {
+    faults.push_back(
+        {.first_tick = tick, .injection = device::Injection::kStall, .magnitude = 0.1});
+  }
+  return faults;
+}
+
+TEST_F(LaboratoryRunTest, ATrialWithTooManyMissedTicksIsRepeated) {
+  const auto store = store_with_session("missed");
+  LaboratoryRun held_up = run_of(*store);
+  held_up.realtime = true;
+  bool answered = false;
+  held_up.injected_faults = stalls(500, 3000);
+  held_up.is_cancelled = [&] { return answered; };
+  held_up.on_event = [&](const core::EventRow& event) {
+    answered |= event.kind == "trial_answered";
+  };
+  EXPECT_FALSE(run(*store, held_up).ended);
+  int num_discarded = 0;
+  for (const core::EventRow& event : store->events(1)) {
+    if (event.kind != "attempt_discarded") continue;
+    ++num_discarded;
+    EXPECT_NE(event.data.find("missed ticks: "), std::string::npos) << event.data;
+  }
+  EXPECT_GE(num_discarded, 1);
+  ASSERT_EQ(store->trials(1).size(), 1U);
+  for (const core::PresentationRow& row : store->presentations(1)) {
+    EXPECT_LE(row.missed_ticks, (row.last_tick - row.first_tick + 1) / 100);
+  }
+  const core::Integrity integrity = core::verify(*store);
+  EXPECT_TRUE(integrity.complete);
+  EXPECT_FALSE(integrity.remarks.empty()) << "ticks of a presentation never ran";
+}
+
+TEST_F(LaboratoryRunTest, AMachineThatNeverKeepsItsTimeEndsTheRun) {
+  const auto store = store_with_session("held_up");
+  LaboratoryRun held_up = run_of(*store);
+  held_up.realtime = true;
+  held_up.injected_faults = stalls(300, 100'000);
+  try {
+    (void)run(*store, held_up);
+    ADD_FAILURE() << "it went on and on";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("three attempts in a row"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(store->trials(1).empty());
+  EXPECT_FALSE(store->finished(1));
+}
+
 }  // namespace
 }  // namespace jnd::app

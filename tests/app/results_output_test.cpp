@@ -38,6 +38,36 @@ analysis::StudyResults some_results() {
   return results;
 }
 
+TEST(ResultsOutput, CautionsAndReasonsStandBesideTheirNumbersInTextAndJson) {
+  analysis::StudyResults results = some_results();
+  analysis::ResultsSection& section = results.sections[0];
+  section.estimates[0].cautions = {"P09 is in it"};
+  section.estimates[0].primary = true;
+  section.estimates[2].value.reset();
+  section.estimates[2].reason = "nobody has a value";
+  section.comparisons[0].cautions = {"a test of P09"};
+  section.participants.push_back({"P09", "group_d.held", 0.7, {}, ""});
+  section.participants[0].cautions = {"falls"};
+  section.cautions = {{"P09", "answers fall"}};
+  const nlohmann::json json = to_json(results)["sections"][0];
+  EXPECT_EQ(json["estimates"][0]["cautions"], nlohmann::json::array({"P09 is in it"}));
+  EXPECT_EQ(json["estimates"][1]["cautions"], nlohmann::json::array());
+  EXPECT_EQ(json["estimates"][2]["reason"], "nobody has a value");
+  EXPECT_EQ(json["comparisons"][0]["cautions"][0], "a test of P09");
+  EXPECT_EQ(json["participants"][0]["cautions"][0], "falls");
+  EXPECT_EQ(json["cautions"],
+            nlohmann::json::parse(R"([{"participant":"P09","caution":"answers fall"}])"));
+  const std::string table = to_table(results);
+  const std::string caution = "      caution: P09 is in it\n";
+  const std::size_t in_short = table.find(caution);
+  ASSERT_NE(in_short, std::string::npos) << table;
+  EXPECT_NE(table.find(caution, in_short + 1), std::string::npos) << table;
+  EXPECT_NE(table.find("; no value: nobody has a value"), std::string::npos) << table;
+  EXPECT_NE(table.find("  caution: P09: answers fall\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("      caution: falls\n"), std::string::npos) << table;
+  EXPECT_NE(to_comparison_table(results).find(caution), std::string::npos);
+}
+
 TEST(ResultsOutput, JsonHasTheKeysOfTheContractAndNullForWhatIsNot) {
   const nlohmann::json json = to_json(some_results());
   EXPECT_EQ(json["study"], "honey");
@@ -90,7 +120,65 @@ TEST(ResultsOutput, TheComparisonTellsWhatWasCalibratedFromWhatWasHeldOut) {
   EXPECT_NE(table.find("held out"), std::string::npos) << table;
   EXPECT_LT(table.find("group_d.fitted"), table.find("group_d.held")) << table;
   EXPECT_EQ(table.find("group_d.unpublished"), std::string::npos) << table;
-  EXPECT_NE(table.find("1.3000 (sd 0.1000)"), std::string::npos) << table;
+  EXPECT_NE(table.find("1.3 (sd 0.1)"), std::string::npos) << table;
+}
+
+/// What simulated studies come to, of one of the estimates.
+analysis::StudyResults compared_results() {
+  analysis::StudyResults results = some_results();
+  analysis::PredictiveTail tail{
+      .values = {0.4, 0.5, 0.7}, .median = 0.5, .low = 0.4, .high = 0.7};
+  tail.tail = 1.0 / 3.0;
+  tail.standard_error = 0.1;
+  tail.p_value = 2.0 / 3.0;
+  results.sections[0].estimates[0].predictive = tail;
+  results.sections[0].estimates[0].published_statistic = "mean of something";
+  results.sections[0].estimates[1].predictive = tail;
+  results.sections[0].estimates[1].predictive->tail = 0.0;
+  results.sections[0].estimates[1].predictive->is_below = true;
+  results.predictive = {.num_people = 52,
+                        .num_studies = 1000,
+                        .num_participants = 13,
+                        .joint = analysis::JointTail{.num_statistics = 2, .p_value = 0.25}};
+  return results;
+}
+
+TEST(ResultsOutput, TheComparisonTellsHowManySimulatedStudiesAreAsFarOut) {
+  const std::string table = to_comparison_table(compared_results());
+  for (const char* words :
+       {"simulated studies", "tail", "0.5000 (0.4000 .. 0.7000)", "0.333 above",
+        "< 0.001 below", "all, 2 together: as far out are 0.250 of the simulated studies"}) {
+    EXPECT_NE(table.find(words), std::string::npos) << words << '\n' << table;
+  }
+  EXPECT_EQ(table.find("inside"), std::string::npos) << table;
+  EXPECT_NE(to_table(compared_results()).find("published 0.6, tail 0.333 above (se 0.100)"),
+            std::string::npos);
+}
+
+TEST(ResultsOutput, WithoutSimulatedStudiesTheComparisonSaysWhyAndKeepsTheIntervals) {
+  analysis::StudyResults results = some_results();
+  results.predictive.reason = "none are stored";
+  results.sections[0].estimates[1].published_z = -1.32;
+  const std::string table = to_comparison_table(results);
+  for (const char* words : {"95 % interval", "1.0000 .. 1.5000", "-1.3",
+                            "without simulated studies: none are stored"}) {
+    EXPECT_NE(table.find(words), std::string::npos) << words << '\n' << table;
+  }
+  EXPECT_EQ(table.find("tail"), std::string::npos) << table;
+}
+
+TEST(ResultsOutput, JsonTellsTheStatisticAndTheTail) {
+  const nlohmann::json json = to_json(compared_results());
+  const nlohmann::json& held = json["sections"][0]["estimates"][0];
+  EXPECT_EQ(held["published_statistic"], "mean of something");
+  EXPECT_EQ(held["predictive_p"], 2.0 / 3.0);
+  EXPECT_EQ(held["predictive"], nlohmann::json::parse(R"({"median": 0.5,
+      "middle95": [0.4, 0.7], "tail": 0.3333333333333333, "side": "above",
+      "tail_standard_error": 0.1, "num_studies": 3})"));
+  EXPECT_TRUE(json["sections"][0]["estimates"][2]["predictive"].is_null());
+  EXPECT_EQ(json["predictive"]["num_studies"], 1000);
+  EXPECT_EQ(json["predictive"]["joint"]["num_statistics"], 2);
+  EXPECT_TRUE(json["predictive"]["joint_held_out"].is_null());
 }
 
 /// A section as the questionnaires and the exploratory tests make it.
@@ -121,6 +209,11 @@ TEST(ResultsOutput, JsonHasTheAdjustedTestsEffectSizesAndFreeAnswers) {
   const nlohmann::json& ranks = section["comparisons"][1];
   EXPECT_TRUE(ranks["p_value_holm"].is_null());
   EXPECT_EQ(ranks["rank_biserial"], 1.0);
+  EXPECT_EQ(ranks["statistic"], 0.0);
+  EXPECT_EQ(ranks["statistic_name"], "T");
+  EXPECT_EQ(ranks["statistics"], (nlohmann::json{{"V", 6.0}, {"T", 0.0}}));
+  EXPECT_EQ(t["statistics"].size(), 1U);
+  EXPECT_EQ(t["statistic_name"], "t");
   EXPECT_EQ(ranks["hodges_lehmann"], 2.25);
   EXPECT_TRUE(ranks.contains("hodges_lehmann_ci95"));
   EXPECT_TRUE(ranks["rank_biserial_ci95"].is_null());
@@ -137,7 +230,7 @@ TEST(ResultsOutput, TheTablePutsPlainNumbersInColumnsAndSaysWhatWasSaid) {
   EXPECT_NE(table.find("P02 remarks: wetness"), std::string::npos) << table;
   EXPECT_NE(table.find("Holm p = 0.5000"), std::string::npos) << table;
   EXPECT_NE(table.find("Hodges-Lehmann 2.2500"), std::string::npos) << table;
-  EXPECT_NE(table.find("smaller sum of ranks = 0.0"), std::string::npos) << table;
+  EXPECT_NE(table.find("V = 6, T = 0, p = 0.2500"), std::string::npos) << table;
   EXPECT_NE(table.find("rank-biserial r 1.0000\n"), std::string::npos) << table;
 }
 
@@ -153,6 +246,33 @@ TEST(ResultsOutput, CountsAreWholeNumbers) {
   EXPECT_NE(table.find(" 14 "), std::string::npos) << table;
   EXPECT_EQ(table.find("3.0000"), table.rfind("3.0000")) << "of the ratio alone\n" << table;
   EXPECT_NE(table.find("3.0000"), std::string::npos);
+}
+
+TEST(ResultsOutput, WhatMayBeWrongSaysSoBelowTheNumberAndInJson) {
+  analysis::ResultsSection section{.name = "group_d"};
+  section.estimates = {{.name = "group_d.w",
+                        .value = 0.1,
+                        .unit = "1",
+                        .published = 0.2,
+                        .primary = true,
+                        .n = 2,
+                        .cautions = {"all of it"}},
+                       {.name = "group_d.sound", .value = 0.2, .unit = "1", .n = 2}};
+  section.participants = {{"P01", "group_d.pse", 12.0, {}, "", {"at the edge"}},
+                          {"P02", "group_d.pse", 10.0, {}, ""}};
+  const analysis::StudyResults results{.study = "honey", .sections = {section}};
+  const std::string table = to_table(results);
+  const std::size_t in_short = table.find("caution: all of it\n");
+  EXPECT_LT(in_short, table.rfind("caution: all of it\n")) << "where it stands again\n"
+                                                           << table;
+  EXPECT_NE(table.find("P01 group_d.pse"), std::string::npos) << "not in a column\n" << table;
+  EXPECT_NE(table.find("caution: at the edge\n"), std::string::npos) << table;
+  EXPECT_NE(to_comparison_table(results).find("caution: all of it\n"), std::string::npos);
+  const nlohmann::json json = to_json(results)["sections"][0];
+  EXPECT_EQ(json["estimates"][0]["cautions"][0], "all of it");
+  EXPECT_TRUE(json["estimates"][1]["cautions"].empty());
+  EXPECT_EQ(json["participants"][0]["cautions"][0], "at the edge");
+  EXPECT_TRUE(json["participants"][1]["cautions"].empty());
 }
 
 TEST(ResultsOutput, AnEndThatIsNoStatementIsPrintedAsOpenAndKeptInJson) {

@@ -47,7 +47,7 @@ void exoskeleton_tick(benchmark::State& state) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  device::HapticLoop loop({}, exoskeleton, {commands, telemetry, stop});
+  device::HapticLoop loop({.starts_armed = true}, exoskeleton, {commands, telemetry, stop});
   commands.publish({.sequence = 1, .medium = core::viscous({.viscosity_pa_s = 4.0})});
   exoskeleton.simulated_hand()->begin_strokes({}, core::RandomStream(1, "bench"));
   for (auto _ : state) loop.tick();

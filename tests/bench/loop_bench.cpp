@@ -21,7 +21,7 @@ void full_tick(benchmark::State& state) {
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
   core::SpscQueue<core::Sample> samples(4096);
-  device::HapticLoop loop({}, hand,
+  device::HapticLoop loop({.starts_armed = true}, hand,
                           {.commands = commands,
                            .telemetry = telemetry,
                            .emergency_stop = stop,

@@ -18,7 +18,8 @@ void tick_in(benchmark::State& state, const core::MediumAmounts& medium) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  device::HapticLoop loop({.force_map = &map}, hand, {commands, telemetry, stop});
+  device::HapticLoop loop({.starts_armed = true, .force_map = &map}, hand,
+                          {commands, telemetry, stop});
   hand.open();
   commands.publish({.sequence = 1,
                     .medium = medium,

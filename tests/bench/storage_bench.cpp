@@ -52,7 +52,7 @@ void encode_chunk(benchmark::State& state) {
   LatestValue<Telemetry> telemetry;
   EmergencyStop stop;
   SpscQueue<Sample> queue(4096);
-  device::HapticLoop loop({}, hand, {commands, telemetry, stop, &queue});
+  device::HapticLoop loop({.starts_armed = true}, hand, {commands, telemetry, stop, &queue});
   hand.open();
   commands.publish({.sequence = 1, .medium = water({})});
   hand.simulated_hand()->begin_strokes({}, RandomStream(1, "bench"));

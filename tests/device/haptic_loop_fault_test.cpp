@@ -221,7 +221,7 @@ TEST_F(HapticLoopTest, AStopOrABiteInTheMiddleOfATickStillCutsItsForce) {
       device = ScriptedDevice();
       core::EmergencyStop pressed;
       core::WatchdogState watchdog;
-      HapticLoop watched({}, device,
+      HapticLoop watched({.starts_armed = true}, device,
                          {commands, telemetry_door, pressed, nullptr, nullptr, &watchdog});
       device.move_all({0.5, 0.0, 0.0});
       command(core::viscous({.viscosity_pa_s = 10.0}));

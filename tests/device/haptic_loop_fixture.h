@@ -20,9 +20,12 @@ class HapticLoopTest : public ::testing::Test {
 
   void make_loop(std::vector<ScheduledFault> faults, const HapticLoop::Parameters& with = {},
                  const core::Heartbeat* heartbeat = nullptr) {
+    HapticLoop::Parameters parameters = with;
+    parameters.starts_armed = starts_armed;
     faulty = std::make_unique<FaultInjectingDevice>(device, std::move(faults));
     loop = std::make_unique<HapticLoop>(
-        with, *faulty, HapticLoop::Doors{commands, telemetry_door, stop, &samples, heartbeat});
+        parameters, *faulty,
+        HapticLoop::Doors{commands, telemetry_door, stop, &samples, heartbeat});
   }
 
   void command(const core::MediumAmounts& medium, double ramp_s = 0.0) {
@@ -58,6 +61,7 @@ class HapticLoopTest : public ::testing::Test {
   std::unique_ptr<FaultInjectingDevice> faulty;
   std::unique_ptr<HapticLoop> loop;
   std::uint64_t sequence = 0;
+  bool starts_armed = true;  ///< Loops made from now on.
 };
 
 }  // namespace jnd::device

@@ -191,7 +191,7 @@ TEST(HapticLoopProperty, AnActiveSurfaceGivesOutNoMoreEnergyThanItGot) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  HapticLoop loop({}, device, {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true}, device, {commands, telemetry, stop});
   commands.publish(
       {.sequence = 1, .medium = core::solid({.stiffness_n_per_m = kWallNPerM}), .ramp_s = 0.0});
   const double at_first_j = device.energy_j();

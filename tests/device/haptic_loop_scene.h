@@ -43,7 +43,7 @@ struct LoopScene {
   explicit LoopScene(const std::array<bool, 5>& attached = core::kAllAttached,
                      const HapticLoop::Parameters& parameters = {})
       : device(lowered_hand(attached)),
-        loop(parameters, device, {commands, telemetry_door, stop, nullptr, &heartbeat}) {
+        loop(armed(parameters), device, {commands, telemetry_door, stop, nullptr, &heartbeat}) {
     command.medium =
         core::viscous({.viscosity_pa_s = 5.0}) +
         core::solid(
@@ -51,6 +51,11 @@ struct LoopScene {
     command.immersion.origin_z_m = -0.1;
     command.ramp_s = 0.3;
     publish();
+  }
+
+  static HapticLoop::Parameters armed(HapticLoop::Parameters parameters) {
+    parameters.starts_armed = true;
+    return parameters;
   }
 
   void publish() {

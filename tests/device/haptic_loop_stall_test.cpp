@@ -37,7 +37,7 @@ class LoopThatLostTime : public ::testing::Test {
   core::LatestValue<core::HapticCommand> commands_;
   core::LatestValue<core::Telemetry> telemetry_;
   core::EmergencyStop stop_;
-  HapticLoop loop_{{.rearm_s = 0.010},
+  HapticLoop loop_{{.starts_armed = true, .rearm_s = 0.010},
                    device_,
                    {.commands = commands_, .telemetry = telemetry_, .emergency_stop = stop_}};
 };
@@ -61,7 +61,7 @@ TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatHeldItUp) {
     inner.move_all({0.3, 0.0, 0.0});
     FaultInjectingDevice device(
         inner, {{.first_tick = 5, .injection = Injection::kStall, .magnitude = held_up_s}});
-    HapticLoop loop({}, device, {commands_, telemetry_, stop_});
+    HapticLoop loop({.starts_armed = true}, device, {commands_, telemetry_, stop_});
     RealtimeThread thread({.priority = 0,
                            .lock_memory = false,
                            .max_spin_s = 0.0,

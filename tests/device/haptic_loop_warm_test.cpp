@@ -15,7 +15,7 @@ std::vector<core::PointVectors> forces(bool warmed) {
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
   commands.publish({.sequence = 1, .medium = core::viscous({.viscosity_pa_s = 5})});
-  HapticLoop loop({.rearm_s = 0.01}, device, {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true, .rearm_s = 0.01}, device, {commands, telemetry, stop});
   for (int i = 0; i < 100; ++i) {
     if (warmed) loop.warm();
     loop.tick();

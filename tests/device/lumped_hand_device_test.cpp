@@ -48,7 +48,7 @@ struct Laboratory {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  HapticLoop loop{{}, hand, {commands, telemetry, stop}};
+  HapticLoop loop{{.starts_armed = true}, hand, {commands, telemetry, stop}};
   std::uint64_t sequence = 0;
   double low_m = 1.0, high_m = -1.0, fastest_m_per_s = 0.0;
 };

@@ -31,7 +31,7 @@ double ordinary_strokes(double time_s) {
 struct Person {
   explicit Person(const core::MediumAmounts& medium = {}, double rate_hz = 1000.0)
       : mouse(MouseDevice::Parameters{.rate_hz = rate_hz}),
-        loop({.rate_hz = rate_hz}, mouse, {commands, telemetry, stop}),
+        loop({.starts_armed = true, .rate_hz = rate_hz}, mouse, {commands, telemetry, stop}),
         period_s(1.0 / rate_hz) {
     mouse.open();
     feel(medium);
@@ -293,7 +293,8 @@ TEST(MouseDevice, FollowsThePointerOfAnotherThreadThroughADoorOfTheirs) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  HapticLoop loop({.rate_hz = 20'000.0}, mouse, {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true, .rate_hz = 20'000.0}, mouse,
+                  {commands, telemetry, stop});
   RealtimeThread thread(
       {.priority = 0, .lock_memory = false, .max_spin_s = 0.0, .keep_cpus_awake = false});
   start_haptics(mouse, loop, thread, false);

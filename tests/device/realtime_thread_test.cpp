@@ -5,9 +5,11 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <thread>
@@ -55,7 +57,8 @@ TEST(RealtimeThread, ACpuThatDoesNotExistIsReported) {
 TEST(RealtimeThread, TicksUntilItIsStoppedAndEveryTickIsTimed) {
   ScriptedDevice device;
   Doors doors;
-  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop});
   RealtimeThread thread(kModest);
   EXPECT_TRUE(device.received.empty()) << "nothing moves before start";
   thread.start(loop);
@@ -67,6 +70,74 @@ TEST(RealtimeThread, TicksUntilItIsStoppedAndEveryTickIsTimed) {
   EXPECT_EQ(static_cast<std::int64_t>(device.received.size()), thread.timing().num_ticks());
   EXPECT_GE(thread.timing().lateness().percentile_ns(0.0), 0);
   EXPECT_GT(thread.timing().tick_cost().max_ns(), 0);
+}
+
+/// A read that blocks 15 of every 50 ms: the ticks that never ran stand between the others.
+TEST(RealtimeThread, TheNumbersOfTheTicksAreTime) {
+  ScriptedDevice device;
+  int num_reads = 0;
+  device.while_read = [&] {
+    if (++num_reads % 35 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(15));
+  };
+  Doors doors;
+  core::SpscQueue<core::Sample> samples(4096);
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop, &samples});
+  RealtimeThread thread(kModest);
+  thread.start(loop);
+  while (thread.timing().num_ticks() < 700) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  thread.stop();
+  doors.telemetry.fetch();
+  const core::Telemetry& last = doors.telemetry.value();
+  EXPECT_GT(last.num_missed_ticks, 200) << "19 times about 14";
+  EXPECT_EQ(last.sample.tick + 1, last.num_ticks + last.num_missed_ticks);
+  std::optional<core::Sample> first, before;
+  samples.drain([&](const core::Sample& sample) {
+    if (before) {
+      EXPECT_EQ(sample.tick, before->tick + 1 + sample.num_missed_before);
+      EXPECT_GT(sample.monotonic_ns, before->monotonic_ns);
+    }
+    if (!first) first = sample;
+    // Never before its time, and later by less than a period.
+    const std::int64_t since_ns = sample.monotonic_ns - first->monotonic_ns;
+    EXPECT_NEAR(static_cast<double>(since_ns), 1e6 * static_cast<double>(sample.tick), 1e6);
+    before = sample;
+  });
+  ASSERT_TRUE(before);
+}
+
+std::atomic<std::int64_t> slept_ns = 0;
+
+std::int64_t clock_that_goes_on_in_sleep() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec + slept_ns;
+}
+
+TEST(RealtimeThread, SleepOfTheMachineIsAFault) {
+  ScriptedDevice device;
+  Doors doors;
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop});
+  RealtimeThread::Parameters parameters = kModest;
+  parameters.boottime_ns = clock_that_goes_on_in_sleep;
+  slept_ns = 7'000'000'000;  // Before it began.
+  RealtimeThread thread(parameters);
+  thread.start(loop);
+  while (thread.timing().num_ticks() < 20) std::this_thread::yield();
+  doors.telemetry.fetch();
+  EXPECT_EQ(doors.telemetry.value().fault, core::Fault::kNone);
+  slept_ns = 10'000'000'000;
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (doors.telemetry.value().fault == core::Fault::kNone &&
+         std::chrono::steady_clock::now() < patience) {
+    std::this_thread::yield();
+    doors.telemetry.fetch();
+  }
+  thread.stop();
+  EXPECT_EQ(doors.telemetry.value().fault, core::Fault::kSuspended);
 }
 
 TEST(RealtimeThread, ReportsTheCpusItMayRunOn) {
@@ -119,7 +190,8 @@ TEST(RealtimeThread, KeepsTheCpusAwakeWhereItMay) {
 TEST(RealtimeThread, KnowsWhatItUsedUp) {
   ScriptedDevice device;
   Doors doors;
-  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop});
   RealtimeThread thread(kModest);
   thread.start(loop);
   while (thread.timing().num_ticks() < 50) std::this_thread::yield();
@@ -142,7 +214,8 @@ TEST(RealtimeThread, MayGoWithoutEverHavingBeenStartedOrStopped) {
 TEST(RealtimeThread, StoppedBeforeItsStartItNeverTicks) {
   ScriptedDevice device;
   Doors doors;
-  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop});
   RealtimeThread thread(kModest);
   thread.stop();
   thread.start(loop);
@@ -155,7 +228,8 @@ TEST(RealtimeThread, ATickThatTakesTooLongIsCountedAsMissedTicks) {
   FaultInjectingDevice stalling(
       device, {{.first_tick = 5, .injection = Injection::kStall, .magnitude = 0.025}});
   Doors doors;
-  HapticLoop loop({}, stalling, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true}, stalling,
+                  {doors.commands, doors.telemetry, doors.stop});
   RealtimeThread thread(kModest);
   thread.start(loop);
   while (thread.timing().num_ticks() < 10) std::this_thread::yield();
@@ -168,7 +242,8 @@ TEST(RealtimeThread, ATickThatTakesTooLongIsCountedAsMissedTicks) {
 TEST(RealtimeThread, TheArmTakesItsOrdersFromAnotherThread) {
   LumpedHandDevice hand(LumpedHandDevice::Parameters{.rate_hz = 20'000.0});
   Doors doors;
-  HapticLoop loop({.rate_hz = 20'000.0}, hand, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true, .rate_hz = 20'000.0}, hand,
+                  {doors.commands, doors.telemetry, doors.stop});
   hand.open();
   RealtimeThread thread(kModest);
   thread.start(loop);
@@ -215,7 +290,8 @@ TEST(StartHaptics, ADeviceThatDoesNotStartIsToldAndNothingTicks) {
   inner.device_capabilities.simulated = true;
   FaultInjectingDevice device(inner, {{.injection = Injection::kOpenFailure}});
   Doors doors;
-  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop});
   {
     RealtimeThread thread(kModest);
     try {
@@ -242,7 +318,8 @@ TEST(StartHaptics, ADeviceThatDoesNotStartIsToldAndNothingTicks) {
 TEST(StartHaptics, WithoutRealTimeTheMotorsOfARealDeviceStayOff) {
   ScriptedDevice device;
   Doors doors;
-  HapticLoop loop({}, device, {doors.commands, doors.telemetry, doors.stop});
+  HapticLoop loop({.starts_armed = true}, device,
+                  {doors.commands, doors.telemetry, doors.stop});
   RealtimeThread thread(kModest);
   EXPECT_THROW(start_haptics(device, loop, thread, false), core::Error);
   EXPECT_EQ(device.num_opened, 0);

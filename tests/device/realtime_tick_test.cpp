@@ -49,8 +49,10 @@ struct Scene {
   Scene(std::vector<ScheduledFault> faults, Which which, std::size_t queue_capacity)
       : samples(queue_capacity),
         faulty(device(which), std::move(faults)),
-        loop({.workspace = {.half_width_x_m = 100.0}, .force_map = &some_map()}, faulty,
-             {commands, telemetry, stop, &samples, &heartbeat}) {
+        loop({.starts_armed = true,
+              .workspace = {.half_width_x_m = 100.0},
+              .force_map = &some_map()},
+             faulty, {commands, telemetry, stop, &samples, &heartbeat}) {
     // What the test's own device remembers is in place before.
     scripted.received.resize(kNumTicks);
     scripted.received.clear();
@@ -324,7 +326,8 @@ TEST(RealtimeThread, BetweenTicksItNeitherAllocatesNorLocksNorMissesAPage) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  HapticLoop loop({.rate_hz = 5000.0}, device, {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true, .rate_hz = 5000.0}, device,
+                  {commands, telemetry, stop});
   RealtimeThread thread({.priority = 0, .keep_cpus_awake = false});
   start_haptics(device, loop, thread, false);
   commands.publish({.sequence = 1, .medium = everything()});

@@ -64,7 +64,8 @@ class WatchedLoopTest : public ::testing::TestWithParam<int> {
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
   core::WatchdogState state;
-  HapticLoop loop{{}, device, {commands, telemetry, stop, nullptr, nullptr, &state}};
+  HapticLoop loop{
+      {.starts_armed = true}, device, {commands, telemetry, stop, nullptr, nullptr, &state}};
   Watchdog watchdog{{}, device, state};
   std::int64_t now_ns = 0;
 };

@@ -98,7 +98,7 @@ class ItemCard {
     stack.add(40, 0, [this](const Rect& strip) {
       draw_button_row(
           ui_, strip,
-          {{"item_skip", "No answer", {.tone = Tone::kQuiet, .key = {Key::kF4}}, [this] {
+          {{"item_skip", "No answer", {.tone = Tone::kQuiet, .key = {Key::kF6}}, [this] {
               give("no_answer");
             }}});
     });

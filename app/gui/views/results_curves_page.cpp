@@ -29,28 +29,24 @@ void draw_discrimination(Ui& ui, const Rect& place, const Discrimination& block,
   if (figure == nullptr) {
     return draw_notice(ui, inside, who + " has no answers in " + block.title + ".");
   }
+  const std::string others = joined(figure->others);
   if (!figure->weber_fraction) {
     return draw_without_value(ui, inside, psychometric_plot(block, *figure),
-                              "No curve: " + figure->reason + ".");
+                              "No Weber fraction: " + figure->reason + "." +
+                                  (others.empty() ? "" : " Otherwise: " + others + "."));
+  }
+  for (const std::string& caution : figure->cautions) {
+    const TextStyle amber{.font = Font::kSmall, .colour = Colour::kAmber, .wrap = true};
+    ui.text(inside.take_bottom(ui.text_height(inside.width, caution, amber), 2), caution,
+            amber);
   }
   const Rect value = inside.take_bottom(30, 4);
   (void)draw_plot(ui, inside, psychometric_plot(block, *figure));
-  // What was published is of the pooled curve; else the primary value goes before it.
-  if (who == kEveryone && !block.published && block.median_person) {
-    const analysis::Interval ci95 =
-        analysis::bounded_by_data(block.median_person_ci95, block.median_person);
-    draw_value(ui, value, "w = " + two_digits(*block.median_person),
-               joined({interval_words(ci95), "median person",
-                       "pooled " + two_digits(*figure->weber_fraction)}));
-    return;
-  }
-  std::string published;
-  if (block.published && who == kEveryone)
-    published = "published " + two_digits(*block.published);
+  const std::string whose = who == kEveryone ? "median person" : "";
   draw_value(
       ui, value, "w = " + two_digits(*figure->weber_fraction),
       joined({interval_words(analysis::bounded_by_data(figure->ci95, figure->weber_fraction)),
-              published}));
+              whose, others}));
 }
 
 /// A large number under its name, for the card below the curves.

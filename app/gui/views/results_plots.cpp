@@ -111,6 +111,12 @@ PlotModel psychometric_plot(const results::Discrimination& block,
     }
     plot.series.push_back(std::move(band));
   }
+  if (!figure.pooled_curve.empty()) {
+    plot.series.push_back(curve_series(figure.pooled_curve, kPercent));
+    plot.series.back().thickness = 1.5f;
+    plot.series.back().colour = Colour::kAmber;
+    plot.series.back().dashed = true;
+  }
   if (!figure.curve.empty()) plot.series.push_back(curve_series(figure.curve, kPercent));
   plot.series.push_back(answer_points(figure.points, block.has_fixed_levels));
   plot.marks.push_back({.at = block.reference});

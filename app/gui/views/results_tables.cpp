@@ -117,11 +117,11 @@ void draw_comparisons_page(Ui& ui, const Rect& place, const ResultsModel& result
 
 void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
                        ResultsViewState& state) {
-  const std::vector<ColumnLook> columns = {{"", 3.0f},
-                                           {"value", 1.0f, Align::kRight},
-                                           {"95 %", 2.1f, Align::kRight},
-                                           {"published", 1.5f, Align::kRight},
-                                           {"basis", 0.9f, Align::kRight}};
+  const std::vector<ColumnLook> columns = {{"", 2.7f},
+                                           {"value", 1.3f, Align::kRight},
+                                           {"95 %", 1.9f, Align::kRight},
+                                           {"published", 1.4f, Align::kRight},
+                                           {"basis, tail", 2.1f, Align::kRight}};
   Rect inside = draw_card(ui, place, "Every number");
   Rect head = inside;
   head.take_right(16);
@@ -137,10 +137,11 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
     }
     const Rect row = inside.take_top(30);
     const std::vector<Rect> cells = cells_of(row, columns);
-    const TextStyle small{.font = Font::kSmall};
     const TextStyle number{.font = Font::kMono, .align = Align::kRight};
     const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight};
-    ui.text(cells[0], line.label, small);
+    const bool is_sure = line.caution.empty();
+    ui.text(cells[0], is_sure ? line.label : line.label + ": caution",
+            {.font = Font::kSmall, .colour = is_sure ? Colour::kInk : Colour::kAmber});
     ui.text(cells[1], line.value.empty() ? "-" : line.value, number);
     const std::string start = "95 % ";
     const bool plain = line.interval.starts_with(start);
@@ -148,7 +149,10 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
     ui.text(cells[3], line.published, number);
     ui.text(cells[4], line.basis, soft);
     ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
-    if (ui.hovered(row)) ui.tooltip(ui.mouse_x(), ui.mouse_y(), line.meaning);
+    if (ui.hovered(row)) {
+      ui.tooltip(ui.mouse_x(), ui.mouse_y(),
+                 is_sure ? line.meaning : "Caution: " + line.caution + ". " + line.meaning);
+    }
   }
   state.page_height = inside.y - top;
   ui.end_scroll();

@@ -24,6 +24,11 @@ void draw_threshold(Ui& ui, const Rect& place, const Threshold& block, const std
     return draw_without_value(ui, inside, threshold_plot(block, *figure),
                               "No value: " + figure->reason + ".");
   }
+  if (!figure->caution.empty()) {
+    const TextStyle amber{.font = Font::kSmall, .colour = Colour::kAmber, .wrap = true};
+    const std::string words = "Caution: " + figure->caution + ".";
+    ui.text(inside.take_bottom(ui.text_height(inside.width, words, amber), 4), words, amber);
+  }
   const Rect line = inside.take_bottom(30, 4);
   (void)draw_plot(ui, inside, threshold_plot(block, *figure));
   draw_value(ui, line, figure->value, figure->detail);

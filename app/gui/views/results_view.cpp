@@ -121,14 +121,11 @@ void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
 }
 
 /// Of the curves that are shown; of other pages every number's meaning tells.
-std::string method_words(const ResultsModel& results, ResultsPage page,
-                         const ResultsViewState& state) {
+std::string method_words(ResultsPage page, const ResultsViewState& state) {
   if (page != ResultsPage::kCurves && page != ResultsPage::kMagnitudes) return "";
   if (page == ResultsPage::kMagnitudes) return "least squares, participants resampled";
   if (state.participant > 0) return "maximum likelihood, likelihood-ratio intervals";
-  return results.discriminations.front().pooled_by_maximum_likelihood
-             ? "maximum likelihood, participants resampled"
-             : "least squares, participants resampled";
+  return "median person: hierarchical fit; dashed: one curve through all answers";
 }
 
 }  // namespace
@@ -160,7 +157,7 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                       results.simulated && !header.shows_marks, state);
     draw_strip(ui, rest.take_top(40, kGap), pages, results, state, result);
     draw_results_page(ui, rest, results, pages[state.page].page, state);
-    method = method_words(results, pages[state.page].page, state);
+    method = method_words(pages[state.page].page, state);
   }
   draw_study_footer(ui, footer, model.work.outcome.sentence, method);
   if (state.asks_to_unblind) draw_unblind_dialog(ui, state, result);

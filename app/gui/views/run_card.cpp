@@ -156,7 +156,34 @@ void draw_simple(Ui& ui, const Rect& place, const SessionView& view, const RowBu
   stack.draw(place);
 }
 
+/// What brings the force back: the stop is released first, by an act of its own.
+RowButton arming_button(const SessionView& view, RunViewResult& result) {
+  const ButtonStyle style{.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true};
+  if (view.stop_pressed) {
+    return {"release_stop", "Release the stop", style,
+            [&] { result.requests.emplace_back(operate::ReleaseStop{view.num_stop_presses}); }};
+  }
+  return {"rearm", view.is_disarmed ? "Arm the device" : "Arm again", style,
+          [&] { result.requests.emplace_back(operate::Rearm{}); }};
+}
+
+/// A device that nobody has armed yet: nothing is wrong.
+void draw_disarmed(Ui& ui, const Rect& place, const SessionView& view, RunViewResult& result) {
+  ui.outline(place, Colour::kAmber, 10, 3);
+  Stack stack(ui);
+  const bool roomy = place.height > 420;
+  const float width = std::min(720.0f, place.width - 48);
+  stack.add_text("Disarmed", roomy ? Font::kHuge : Font::kTitle, Colour::kInk, place.width - 48,
+                 16);
+  stack.add_text(view.sentence, Font::kLarge, Colour::kInk, width, 24);
+  stack.add(kLargeButton, 0, [&](const Rect& strip) {
+    draw_button_row(ui, strip, {arming_button(view, result)}, 360);
+  });
+  stack.draw(place.inset(10));
+}
+
 void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResult& result) {
+  if (view.is_disarmed && !view.stop_pressed) return draw_disarmed(ui, place, view, result);
   Rect inside = place;
   ui.outline(place, Colour::kRed, 10, 3);
   Stack stack(ui);
@@ -171,13 +198,7 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
                      " is on disk. The trial under way will be run again.",
                  Font::kBody, Colour::kSoft, width, 24);
   stack.add(kLargeButton, 0, [&](const Rect& strip) {
-    draw_button_row(
-        ui, strip,
-        {{"rearm",
-          view.stop_pressed ? "Release the stop and arm again" : "Arm again",
-          {.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true},
-          [&] { result.requests.emplace_back(operate::Rearm{view.num_stop_presses}); }}},
-        360);
+    draw_button_row(ui, strip, {arming_button(view, result)}, 360);
   });
   stack.draw(inside.inset(10));
 }
@@ -228,6 +249,13 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
     ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
             "The study's limit is passed: " + view.advice + ".",
             {.colour = Colour::kAmber, .align = Align::kCentre});
+  }
+  if (!view.caution.empty() && view.step == Step::kStageDone) {
+    const TextStyle amber{
+        .font = Font::kSmall, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};
+    const std::string words = "Caution: " + view.caution + ".";
+    const float height = ui.text_height(inside.width - 32, words, amber) + 16;
+    ui.text(inside.take_bottom(height).inset(8), words, amber);
   }
   if (!view.remark.empty() && view.step == Step::kBegin) {
     Rect strip = inside.take_bottom(60);
@@ -298,20 +326,21 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
       std::to_string(view.trials_on_disk) + " answers of " + view.participant + " are on disk.",
       Font::kLarge, Colour::kInk, width, 22);
   const auto outcome = [&](const char* what, bool running, const std::string& sentence,
-                           bool failed) {
+                           bool failed, bool has_caution) {
     const std::string words = sentence.empty() || running ? what : sentence;
     const TextStyle style{.colour = sentence.empty() || running ? Colour::kSoft : Colour::kInk,
                           .wrap = true};
     const float height = ui.text_height(width - 22, words, style);
     stack.add(height, 10,
-              [&ui, &after, width, words, style, running, failed, height,
+              [&ui, &after, width, words, style, running, failed, has_caution, height,
                told = !sentence.empty()](const Rect& strip) {
                 Rect line = strip.middle(width, height);
                 ui.dot(line.x + 6, line.y + 11, 5,
-                       running  ? Colour::kBlue
-                       : !told  ? Colour::kLine
-                       : failed ? Colour::kRed
-                                : Colour::kGreen);
+                       running       ? Colour::kBlue
+                       : !told       ? Colour::kLine
+                       : failed      ? Colour::kRed
+                       : has_caution ? Colour::kAmber
+                                     : Colour::kGreen);
                 line.take_left(22);
                 ui.text(line, words, style);
                 if (running) {
@@ -320,9 +349,9 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
               });
   };
   outcome("Checking that everything is on disk …", after.checking, after.check,
-          after.check_failed);
+          after.check_failed, false);
   outcome(after.backing_up ? "Copying …" : "Not backed up yet.", after.backing_up, after.backup,
-          after.backup_failed);
+          after.backup_failed, after.backup_has_caution);
   stack.add(46, 26, [&](const Rect& strip) {
     Rect line = strip.middle(width, 46);
     const ButtonStyle style{.key = {letter('B'), true},

@@ -55,7 +55,8 @@ struct AfterSession {
   double progress = 0.0;
   std::string check, backup;  ///< Sentences; "" before.
   bool check_failed = false, backup_failed = false;
-  std::string backup_folder;  ///< Known, or proposed.
+  bool backup_has_caution = false;  ///< It is there, but not as safe as it should be.
+  std::string backup_folder;        ///< Known, or proposed.
 };
 
 struct RunViewResult {

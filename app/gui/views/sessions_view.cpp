@@ -130,11 +130,12 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
 }
 
 /// A soft name, and a value that stands out.
-void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value) {
+void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value,
+               Colour colour = Colour::kInk) {
   Rect line = inside.take_top(28);
   const float width = ui.text_width(value, Font::kStrong) + 2;
   const Rect at_right = line.take_right(std::min(width, line.width * 0.62f), 10);
-  ui.text(at_right, value, {.font = Font::kStrong, .align = Align::kRight});
+  ui.text(at_right, value, {.font = Font::kStrong, .colour = colour, .align = Align::kRight});
   ui.text(line, name, {.colour = Colour::kSoft});
 }
 
@@ -147,7 +148,10 @@ void draw_study_card(Ui& ui, Rect& column, const StudyFolder& study) {
   draw_fact(ui, inside, "Open sessions", std::to_string(study.num_open));
   draw_fact(ui, inside, "Pilots", std::to_string(study.num_pilots));
   draw_fact(ui, inside, "Last session", study.last_session.empty() ? "-" : study.last_session);
-  draw_fact(ui, inside, "Backups known", std::to_string(study.backups.size()));
+  const bool is_at_risk = !study.backups.empty() && !study.is_safe_elsewhere;
+  draw_fact(ui, inside, "Backups known",
+            std::to_string(study.backups.size()) + (is_at_risk ? ", none on another disk" : ""),
+            is_at_risk ? Colour::kAmber : Colour::kInk);
   if (blind)
     draw_fact(ui, inside, "Double-blind", study.hides_levels ? "levels hidden" : "unblinded");
 }
@@ -180,10 +184,16 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
       result.resume = open->session;
     }
   }
-  if (ui.button("new_session", column.take_top(60, 12), "New session",
-                {.tone = open == nullptr ? Tone::kPrimary : Tone::kPlain,
-                 .key = {letter('N')},
-                 .large = true})) {
+  if (study.is_backup) {
+    const std::string words =
+        "This folder is a backup. It can be read and checked; sessions are run in the study "
+        "itself. Where that is lost, `jnd restore` makes a study of the backup.";
+    const TextStyle soft{.colour = Colour::kAmber, .wrap = true};
+    ui.text(column.take_top(ui.text_height(column.width, words, soft), kGap), words, soft);
+  } else if (ui.button("new_session", column.take_top(60, 12), "New session",
+                       {.tone = open == nullptr ? Tone::kPrimary : Tone::kPlain,
+                        .key = {letter('N')},
+                        .large = true})) {
     result.new_session = true;
   }
   Rect pair = column.take_top(46, kGap);
@@ -193,7 +203,8 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
                 {.key = {letter('V')}, .enabled = idle && has_sessions})) {
     result.verify = true;
   }
-  if (ui.button("back_up", pair, "Back up", {.key = {letter('B')}, .enabled = idle})) {
+  if (ui.button("back_up", pair, "Back up",
+                {.key = {letter('B')}, .enabled = idle && !study.is_backup})) {
     ask_for_backup(state);
   }
   if (draw_work(ui, column, work)) result.cancel = true;

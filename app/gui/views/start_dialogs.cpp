@@ -80,6 +80,8 @@ std::string kind_of(FolderEntry::Kind kind) {
       return "folder";
     case FolderEntry::Kind::kStudyFolder:
       return "study";
+    case FolderEntry::Kind::kBackup:
+      return "backup, to be read only";
     case FolderEntry::Kind::kStudyFile:
       return "study file";
   }

@@ -29,7 +29,7 @@ struct StartModel {
 /// What the open dialog lists.
 struct FolderEntry {
   std::filesystem::path path;
-  enum class Kind { kFolder, kStudyFolder, kStudyFile } kind = Kind::kFolder;
+  enum class Kind { kFolder, kStudyFolder, kBackup, kStudyFile } kind = Kind::kFolder;
 };
 
 /// What the window remembers of the start view.

@@ -29,6 +29,7 @@ std::vector<Chip> chips_of(const StudyFolder& study) {
   if (study.blinding == experiments::Blinding::kDouble) {
     chips.push_back({study.hides_levels ? "double-blind" : "unblinded", Colour::kBlue});
   }
+  if (study.is_backup) chips.push_back({"backup, read only", Colour::kAmber});
   if (study.simulated) chips.push_back({"simulated data", Colour::kAmber});
   return chips;
 }

@@ -1,13 +1,15 @@
 """Writes group_tests.json: effect sizes with intervals, rank tests and Holm's adjustment.
 
-Independent of the C++: SciPy's noncentral t, Mann-Whitney, Wilcoxon and Spearman; Hodges and
-Lehmann's interval by trying every shift; Holm by its steps. R 4.2.2 agrees to nine digits (pt with
+Independent of the C++: SciPy's noncentral t, Mann-Whitney, Wilcoxon and Spearman; exact p values
+with ties and of Spearman by counting arrangements in whole numbers; Hodges and Lehmann's interval
+by trying every shift; Holm by its steps. Ties and zeros by another program: rank_tests.R. R 4.2.2 agrees to nine digits (pt with
 ncp, within the 37.6 up to which it is exact; wilcox.test; p.adjust). Not run by the tests:
 
     /usr/bin/python3 data/reference/group_tests/group_tests.py > data/reference/group_tests/group_tests.json
 """
 
 import json
+import math
 import sys
 
 import numpy as np
@@ -50,13 +52,18 @@ def of_differences(d):
 
 
 def of_groups(a, b):
+    # Delacre, Lakens, Ley, Liu and Leys (2021): the spreads of the groups as they are.
     n, m = len(a), len(b)
-    pooled = np.sqrt(((n - 1) * np.var(a, ddof=1) + (m - 1) * np.var(b, ddof=1)) / (n + m - 2))
-    d, scale = (np.mean(a) - np.mean(b)) / pooled, np.sqrt(1 / n + 1 / m)
-    factor = hedges(n + m - 2)
+    u, v = np.var(a, ddof=1), np.var(b, ddof=1)
+    root, error = np.sqrt((u + v) / 2), np.sqrt(u / n + v / m)
+    difference = np.mean(a) - np.mean(b)
+    welch = error**4 / ((u / n) ** 2 / (n - 1) + (v / m) ** 2 / (m - 1))
+    factor = hedges(
+        (n - 1) * (m - 1) * (u + v) ** 2 / ((m - 1) * u**2 + (n - 1) * v**2))
     return {
-        "hedges_g": factor * d,
-        "hedges_g_ci95": list(factor * scale * noncentrality(d / scale, n + m - 2)),
+        "hedges_g": factor * difference / root,
+        "hedges_g_ci95": list(
+            factor * error / root * noncentrality(difference / error, welch)),
     }
 
 
@@ -100,28 +107,59 @@ def welch(a, b):
     return {"statistic": t.statistic, "p_value": t.pvalue, **of_groups(a, b)}
 
 
+def smaller_tail_twice(ways, found):
+    """Of a dictionary from a sum to how many arrangements have it."""
+    low = sum(num for total, num in ways.items() if total <= found)
+    high = sum(num for total, num in ways.items() if total >= found)
+    return min(1.0, 2 * min(low, high) / sum(ways.values()))
+
+
 def wilcoxon(a, b):
-    d = a - b
+    d = np.round(a - b, 9)
     d = d[d != 0]
-    n = len(d)
-    ranks = stats.rankdata(np.abs(d))
+    ranks = np.round(2 * stats.rankdata(np.abs(d))).astype(int)
     r = (ranks[d > 0].sum() - ranks[d < 0].sum()) / ranks.sum()
-    exact = not has_ties(np.abs(d)) and n == len(a)
-    test = stats.wilcoxon(d, method="exact" if exact else "approx", correction=False)
-    return {"statistic": test.statistic, "p_value": test.pvalue, "rank_biserial": r}
+    test = stats.wilcoxon(d, method="approx", correction=True)
+    if len(d) > 50:
+        return {"statistic": test.statistic, "p_value": test.pvalue, "rank_biserial": r}
+    ways = {0: 1}
+    for rank in map(int, ranks):
+        more = dict(ways)
+        for total, num in ways.items():
+            more[total + rank] = more.get(total + rank, 0) + num
+        ways = more
+    p_value = smaller_tail_twice(ways, int(ranks[d > 0].sum()))
+    if not has_ties(np.abs(d)) and len(d) == len(a):
+        assert abs(p_value - stats.wilcoxon(d, method="exact").pvalue) < 1e-12
+    return {"statistic": test.statistic, "p_value": p_value, "rank_biserial": r}
 
 
 def ranksum(a, b):
     n, m = len(a), len(b)
     exact = not has_ties(list(a) + list(b)) and n + m <= 50
     test = stats.mannwhitneyu(
-        a, b, use_continuity=False, method="exact" if exact else "asymptotic"
+        a, b, use_continuity=True, method="exact" if exact else "asymptotic"
     )
+    p_value = test.pvalue
+    if n + m <= 50:
+        ranks = np.round(2 * stats.rankdata(np.concatenate([a, b]))).astype(int)
+        ways = {(0, 0): 1}  # By how many were taken, and their sum.
+        for rank in map(int, ranks):
+            more = dict(ways)
+            for (taken, total), num in ways.items():
+                key = (taken + 1, total + rank)
+                more[key] = more.get(key, 0) + num
+            ways = more
+        p_value = smaller_tail_twice(
+            {total: num for (taken, total), num in ways.items() if taken == n},
+            int(ranks[:n].sum()),
+        )
+        assert not exact or abs(p_value - test.pvalue) < 1e-12
     r = 2 * test.statistic / (n * m) - 1
     differences = np.sort((a[:, None] - b[None, :]).ravel())
     expected = {
         "estimate": np.mean(a) - np.mean(b),
-        "statistic": test.statistic, "p_value": test.pvalue,
+        "statistic": test.statistic, "p_value": p_value,
         "hodges_lehmann": np.median(differences),
         "rank_biserial": r,
     }
@@ -132,11 +170,35 @@ def ranksum(a, b):
     return expected
 
 
+def pairings(a, b):
+    """How many ways to pair the doubled midranks of two columns have which sum of products:
+    by how many of each rank of b are left, for the first so many of a."""
+    ways = {(tuple(sorted(b)), 0): 1}
+    for rank in a:
+        more = {}
+        for (left, total), num in ways.items():
+            for place, other in enumerate(left):
+                key = (left[:place] + left[place + 1 :], total + rank * other)
+                more[key] = more.get(key, 0) + num
+        ways = more
+    return {total: num for (left, total), num in ways.items()}
+
+
 def spearman(a, b):
     test = stats.spearmanr(a, b)
     se = np.sqrt((1 + test.statistic**2 / 2) / (len(a) - 3))
+    n = len(a)
+    p_value = test.pvalue
+    if n <= 14:
+        x, y = ([int(r) for r in np.round(2 * stats.rankdata(v))] for v in (a, b))
+        ways = pairings(x, y)
+        assert sum(ways.values()) == math.factorial(n)
+        p_value = smaller_tail_twice(ways, sum(i * j for i, j in zip(x, y)))
     return {
-        "estimate": test.statistic, "p_value": test.pvalue, "ci95": fisher(test.statistic, se)
+        "estimate": test.statistic,
+        "statistic": (n**3 - n) / 6 * (1 - test.statistic),
+        "p_value": p_value,
+        "ci95": fisher(test.statistic, se),
     }
 
 

@@ -108,18 +108,21 @@ def group(means):
 
 
 def nls(intensity, magnitude):
-    """Least squares of the magnitudes, 0^a = 0."""
+    """Least squares of the magnitudes, those at intensity 0 left out."""
     intensity, magnitude = np.array(intensity), np.array(magnitude)
     positive = intensity > 0
+    intensity, magnitude = intensity[positive], magnitude[positive]
 
     def residual(theta):
-        fitted = np.zeros_like(intensity)
-        fitted[positive] = theta[0] * intensity[positive] ** theta[1]
-        return fitted - magnitude
+        return theta[0] * intensity ** theta[1] - magnitude
+
+    def jacobian(theta):
+        felt = intensity ** theta[1]
+        return np.column_stack([felt, theta[0] * felt * np.log(intensity)])
 
     best = None
     for start in itertools.product([0.2, 1.0], [0.4, 1.0, 2.0]):
-        fit = optimize.least_squares(residual, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        fit = optimize.least_squares(residual, start, jacobian, xtol=1e-15, ftol=1e-15, gtol=1e-15)
         if best is None or fit.cost < best.cost:
             best = fit
     sse, sst = 2 * best.cost, np.sum((magnitude - magnitude.mean()) ** 2)
@@ -302,6 +305,14 @@ def production(expected, people):
             expected.own_value(p["participant"], ratio, value)
 
 
+def spearman_p(a, b):
+    """Twice the smaller tail over every pairing of the ranks."""
+    x, y = stats.rankdata(a), stats.rankdata(b)
+    sums = np.array([x @ y[list(order)] for order in itertools.permutations(range(len(y)))])
+    found = x @ y
+    return min(1.0, 2 * min(np.mean(sums <= found + 1e-9), np.mean(sums >= found - 1e-9)))
+
+
 def spearman_interval(rho, n):
     z, reach = np.arctanh(rho), stats.norm.ppf(0.975) * np.sqrt((1 + rho**2 / 2) / (n - 3))
     return [float(np.tanh(z - reach)), float(np.tanh(z + reach))]
@@ -365,7 +376,7 @@ def combined(expected, people):
         }
         expected.tests[f"own exponents, estimation and production, {words}: Spearman's r"] = {
             "estimate": rho.statistic,
-            "p_value": rho.pvalue,
+            "p_value": spearman_p(a, b),
             "ci95": spearman_interval(rho.statistic, len(a)),
         }
 

@@ -141,7 +141,7 @@ TEST_F(BidsExportTest, MotionHasARowATickAndAChannelAColumn) {
             (std::vector<std::string>{"name", "component", "type", "tracked_point", "units",
                                       "sampling_frequency", "reference_frame", "description"}));
   EXPECT_EQ(rows[0].size(), channels.size() - 1);
-  EXPECT_EQ(rows[0].size(), core::sample_column_names(false).size()) << "latency for tick";
+  EXPECT_EQ(rows[0].size(), core::sample_column_names({}).size()) << "latency for tick";
   EXPECT_EQ(channels[1][2], "LATENCY");
   EXPECT_EQ(channels[2][0], "palm_inner_position_x_m");
   EXPECT_EQ(channels[2][1], "x");

@@ -293,7 +293,7 @@ TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
   export_csv(study_.store(), out(), {.recordings = true});
   EXPECT_EQ(table("recordings/0001.csv").num_rows(), 4U);
   EXPECT_EQ(bytes(out() / "recordings/gaps.csv"),
-            "session,participant,simulated,first_tick,last_tick\n1,P01,0,2,4\n");
+            "session,participant,simulated,first_tick,last_tick,missed_ticks\n1,P01,0,2,4,0\n");
 }
 
 TEST_F(CsvExportTest, WhatFailsHalfWayLeavesNothing) {

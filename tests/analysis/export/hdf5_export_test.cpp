@@ -125,7 +125,7 @@ TEST_F(Hdf5ExportTest, HoldsEverySampleAsTheCsvDoes) {
     EXPECT_EQ(x[i], ticks[i] / 1e7) << i;
     EXPECT_EQ(z[i], -ticks[i] / 1e3) << i;
   }
-  for (const std::string& name : core::sample_column_names(false)) {
+  for (const std::string& name : core::sample_column_names({})) {
     EXPECT_EQ(numbers("/session_0001/" + name).size(), ticks.size()) << name;
   }
 }

@@ -113,7 +113,7 @@ TEST_P(LossyRecordingTest, AMissingFileIsAProblemAndTold) {
   EXPECT_NE(outcome.problems[0].find("no such file"), std::string::npos);
   EXPECT_FALSE(outcome.samples);
   const bool csv = GetParam() == std::string("csv");
-  EXPECT_NE(told().find(csv ? "\n1,P01,0,0,8999\n" : "no such file"), std::string::npos);
+  EXPECT_NE(told().find(csv ? "\n1,P01,0,0,8999,0\n" : "no such file"), std::string::npos);
 }
 
 TEST_P(LossyRecordingTest, AnEmptyFileIsAProblem) {
@@ -131,7 +131,7 @@ TEST_P(LossyRecordingTest, TicksThatLackAtStartAndEndAreTold) {
       << outcome.problems[0];
   EXPECT_TRUE(outcome.samples);
   const bool csv = GetParam() == std::string("csv");
-  EXPECT_NE(told().find(csv ? "\n1,P01,0,0,99\n1,P01,0,6000,8999\n" : "3100 of them"),
+  EXPECT_NE(told().find(csv ? "\n1,P01,0,0,99,0\n1,P01,0,6000,8999,0\n" : "3100 of them"),
             std::string::npos);
 }
 

@@ -24,5 +24,11 @@ TEST(BoundedInterval, WhatMayBeNegativeOrNothingKeepsItsEnds) {
   expect_ends(bounded_by_data({0.1, 1e9}, std::nullopt), 0.1, 1e9);
 }
 
+TEST(BoundedInterval, AFactorHasItsUnitAndEveryEndIsTold) {
+  expect_ends(told_interval("estimation.k", {1.18e14, 5.73e20}, 2.6e17), 1.18e14, 5.73e20);
+  expect_ends(told_interval("group_d.weber_fraction", {0.018, 1.1e20}, 0.9), 0.018,
+              std::nullopt);
+}
+
 }  // namespace
 }  // namespace jnd::analysis

@@ -41,6 +41,21 @@ TEST(FitData, GroupsRowsInTheOrderOfTheirFirst) {
   EXPECT_TRUE(all[0].key.empty());
 }
 
+TEST(FitData, CountsTheDifferentCellsOfAColumnAmongItsAnswers) {
+  const CsvTable table = CsvTable::parse(
+      "who,group,intensity,num_yes,num_trials\n"
+      "b,D,1.5,3,5\n"
+      "a,E,1.5,4,5\n"
+      "b,D,0.5,0,5\n"
+      "c,D,0.5,0,0\n"
+      "a,D,0.5,1,5\n",
+      "t.csv");
+  const auto by_group = read_answer_counts(table, {"group"});
+  EXPECT_EQ(different_cells(table, "who", by_group[0]).size(), 2U) << "c has no answers";
+  EXPECT_EQ(different_cells(table, "who", by_group[1]).size(), 1U);
+  EXPECT_EQ(different_cells(table, "participant", by_group[0]).size(), 0U);
+}
+
 TEST(FitData, ReportsEveryCountThatIsNone) {
   EXPECT_EQ(refusal("intensity,num_yes,num_trials\n"
                     "1,6,5\n"

@@ -189,6 +189,45 @@ TEST(PowerFit, OneDegreeOfFreedomGivesStandardErrorsButNoInterval) {
   }
 }
 
+TEST(PowerFit, RowsAtIntensityZeroTellNothingAndAreNoDegreesOfFreedom) {
+  const std::vector<Magnitude> three = {{1, 1}, {2, 3}, {4, 3}};
+  std::vector<Magnitude> with_zeros(9, {0, 0});
+  with_zeros.insert(with_zeros.end(), three.begin(), three.end());
+  const PowerFit alone = fit_power(three), found = fit_power(with_zeros);
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  EXPECT_EQ(found.num_at_zero, 9);
+  EXPECT_EQ(alone.num_at_zero, 0);
+  EXPECT_EQ(found.num_rows, 3);
+  ASSERT_EQ(found.excluded.size(), 9U);
+  EXPECT_THAT(found.excluded[8].reason, HasSubstr("the intensity is 0"));
+  EXPECT_EQ(found.k, alone.k);
+  EXPECT_EQ(found.a, alone.a);
+  EXPECT_EQ(found.a_standard_error, alone.a_standard_error);
+  EXPECT_EQ(found.r_squared, alone.r_squared);
+  EXPECT_FALSE(found.a_ci95.low || found.a_ci95.high) << "three rows have no interval";
+}
+
+TEST(PowerFit, SomethingFeltAtZeroDoesNotHideAFallingLaw) {
+  // 0^a is infinite for a < 0: 20 there is no row of its magnitude less 0.
+  const PowerFit found = fit_power({{0, 20}, {1, 10}, {2, 5}, {4, 2.6}, {8, 1.2}});
+  EXPECT_NEAR(*found.a, -0.993, 5e-4);
+  EXPECT_GT(*found.r_squared, 0.99);
+  EXPECT_LT(*found.a_ci95.high, -0.9);
+  EXPECT_GT(*found.a_ci95.low, -1.1);
+}
+
+TEST(PowerFit, ALawThroughEveryRowHasNoInterval) {
+  for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
+    const PowerFit line = fit_power({{1, 2}, {2, 4}, {3, 6}, {4, 8}}, method);
+    EXPECT_THAT(line.no_interval, HasSubstr("passes through every row"));
+    EXPECT_FALSE(line.k_ci95.low || line.k_ci95.high || line.a_ci95.low || line.a_ci95.high);
+    const PowerFit alike = fit_power({{1, 1}, {2, 1}, {3, 1}, {4, 1}}, method);
+    EXPECT_THAT(alike.no_interval, HasSubstr("passes through every row"));
+    EXPECT_FALSE(alike.k_ci95.low);
+    EXPECT_EQ(fit_power({{1, 2}, {2, 4}, {3, 6}, {4, 8.01}}, method).no_interval, "");
+  }
+}
+
 TEST(PowerFit, AMagnitudeBelowZeroIsNotTakenSilently) {
   EXPECT_EQ(fit_power({{1, -1}, {2, 2}, {4, 4}}).warnings.size(), 1U);
   EXPECT_TRUE(fit_power({{0, 0}, {2, 2}, {4, 4}}).warnings.empty());

@@ -346,9 +346,23 @@ TEST(PsychometricFit, AGaussianWhosePseIsNotAboveZeroHasNoWeberFraction) {
   const PsychometricFit found =
       fit_psychometric({{1, 12, 20}, {2, 14, 20}, {3, 15, 20}},
                        {.reference = 2.0, .family = PsychometricFamily::kGauss});
-  EXPECT_EQ(found.status, FitStatus::kDegenerate);
+  // 60, 70 and 75 %: the mean lies below the levels, and below 0.
+  ASSERT_EQ(found.status, FitStatus::kOk);
   EXPECT_THAT(found.reason, HasSubstr("not above 0"));
-  EXPECT_FALSE(found.weber_fraction.has_value());
+  EXPECT_FALSE(found.weber_fraction || found.standard_error);
+  EXPECT_FALSE(found.weber_fraction_ci95.low || found.weber_fraction_ci95.high);
+  // The curve itself is there, whatever the unit's zero is.
+  const PsychometricFit moved =
+      fit_psychometric({{101, 12, 20}, {102, 14, 20}, {103, 15, 20}},
+                       {.reference = 2.0, .family = PsychometricFamily::kGauss});
+  EXPECT_LT(*found.pse, 0.0);
+  EXPECT_NEAR(*found.pse, *moved.pse - 100.0, 1e-9);
+  EXPECT_NEAR(found.parameters[0].value, *found.pse, 0.0);
+  EXPECT_NEAR(found.parameters[1].value, moved.parameters[1].value, 1e-9);
+  ASSERT_TRUE(found.pse_ci95 && moved.pse_ci95);
+  EXPECT_EQ(found.pse_ci95->low.has_value(), moved.pse_ci95->low.has_value());
+  ASSERT_TRUE(found.pse_ci95->high && moved.pse_ci95->high);
+  EXPECT_NEAR(*found.pse_ci95->high, *moved.pse_ci95->high - 100.0, 1e-7);
 }
 
 TEST(PsychometricFit, AnswersAllAlikeAreNotCalledInverted) {

@@ -1,5 +1,6 @@
 #include "analysis/fits/psychometric_goodness.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,6 +46,16 @@ TEST(PsychometricGoodness, AnswersOfTheCurveAreNotRejectedAndOthersAre) {
   EXPECT_EQ(std::ranges::count_if(bad.warnings, far_off), 1) << "by the simulation, once";
   const PsychometricFit unasked = fit(kBad);
   EXPECT_EQ(std::ranges::count_if(unasked.warnings, far_off), 1) << "by chi-squared";
+}
+
+/// Such a curve passes through every level, and p = 1 would look like praise.
+TEST(PsychometricGoodness, WithoutADegreeOfFreedomNothingIsTested) {
+  const PsychometricFit fit = fit_psychometric(
+      {{0.7, 4, 20}, {1.3, 15, 20}},
+      {.reference = 1.0, .free_pse = true, .diagnostics = true, .num_goodness = 50});
+  EXPECT_EQ(fit.goodness.degrees_of_freedom, 0);
+  EXPECT_FALSE(fit.goodness.p_value);
+  EXPECT_THAT(fit.goodness.reason, testing::HasSubstr("no degree of freedom"));
 }
 
 TEST(PsychometricGoodness, TheSameSeedGivesTheSamePValue) {

@@ -89,7 +89,7 @@ TEST(PsychometricReference, EffectsAgreeWithGlm) {
                        .trial = row[0].get<double>(),
                        .test_first = row[2] == 1});
   }
-  const std::vector<PsychometricEffect> found = psychometric_effects(answers, 1.0);
+  const std::vector<PsychometricEffect> found = psychometric_effects(answers, 1.0).effects;
   const json& expected = reference().at("effects").at("expected");
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t place = 0; place < found.size(); ++place) {

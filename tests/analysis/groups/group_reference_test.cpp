@@ -66,6 +66,32 @@ TEST(GroupReference, EveryTestAndEffectSizeAgreesWithScipy) {
   EXPECT_GE(reference().at("tests").size(), 30U);
 }
 
+TEST(GroupReference, RankTestsWithTiesAndZerosAgreeWithRAndCoin) {
+  std::ifstream in(test_support::source_folder().string() +
+                   "/data/reference/group_tests/rank_tests.json");
+  const json document = json::parse(in);
+  for (const json& c : document.at("tests")) {
+    const json& expected = c.at("expected");
+    const json found = to_json(compared(c));
+    const std::string where =
+        c.at("test").get<std::string>() + ", " + c.at("name").get<std::string>();
+    EXPECT_EQ(found.at("status"), "ok") << where;
+    expect_close(found.at("p_value"), expected.at("p_value"), where);
+    EXPECT_EQ(found.at("method").get<std::string>().find("exact") != std::string::npos,
+              expected.at("exact").get<bool>())
+        << where;
+    for (const char* name : {"v", "u", "s"}) {
+      if (!expected.contains(name)) continue;
+      const std::string key(1, static_cast<char>(name[0] - 'a' + 'A'));
+      expect_close(found.at("statistics").at(key), expected.at(name), where + ": " + name);
+    }
+    if (expected.contains("estimate")) {
+      expect_close(found.at("estimate"), expected.at("estimate"), where);
+    }
+  }
+  EXPECT_GE(document.at("tests").size(), 40U);
+}
+
 TEST(GroupReference, HolmsAdjustmentAgrees) {
   for (const json& family : reference().at("holm")) {
     const std::vector<double> p_values = family.at("p_values");

@@ -1,9 +1,11 @@
 #include "analysis/groups/hierarchical_fit.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 #include "core/psychometric_function.h"
@@ -13,7 +15,9 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr HierarchicalOptions kAtReference = {.pse = HierarchicalPse::kReference};
+constexpr HierarchicalOptions kWithoutLapses = {.lapses = HierarchicalLapses::kNone};
+constexpr HierarchicalOptions kAtReference = {.pse = HierarchicalPse::kReference,
+                                              .lapses = HierarchicalLapses::kNone};
 
 /// Answers as near as whole numbers come to a curve's probabilities.
 ParticipantAnswers exact_answers(const std::string& participant, double w, double pse,
@@ -41,7 +45,8 @@ TEST(HierarchicalFit, PeopleWhoDoNotDifferGiveTheirCommonCurveAndASpreadOfNothin
   for (const char* name : {"P1", "P2", "P3", "P4", "P5"}) {
     all.push_back(exact_answers(name, 0.5, 1.1, 2000));
   }
-  const HierarchicalFit fit = fit_hierarchical(all, {.pse = HierarchicalPse::kCommon});
+  const HierarchicalFit fit = fit_hierarchical(
+      all, {.pse = HierarchicalPse::kCommon, .lapses = HierarchicalLapses::kNone});
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.5, 1e-3);
   EXPECT_NEAR(*fit.conditions[0].pse, 1.1, 1e-3);
@@ -75,7 +80,8 @@ TEST(HierarchicalFit, ThePooledCurveIsFlatterThanTheMedianPerson) {
 
 TEST(HierarchicalFit, AnIntervalHoldsItsEstimate) {
   for (const HierarchicalPse pse : {HierarchicalPse::kReference, HierarchicalPse::kPersonal}) {
-    const HierarchicalFit fit = fit_hierarchical(differing_people(10), {.pse = pse});
+    const HierarchicalFit fit = fit_hierarchical(
+        differing_people(10), {.pse = pse, .lapses = HierarchicalLapses::kNone});
     ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
     const HierarchicalCondition& one = fit.conditions[0];
     EXPECT_LT(*one.weber_fraction_ci95.low, *one.weber_fraction);
@@ -99,20 +105,20 @@ TEST(HierarchicalFit, AParticipantWithoutAFitOfTheirOwnTakesPart) {
 
 TEST(HierarchicalFit, TheOrderOfParticipantsDoesNotMatter) {
   std::vector<ParticipantAnswers> all = differing_people(10);
-  const HierarchicalFit one = fit_hierarchical(all, {});
+  const HierarchicalFit one = fit_hierarchical(all, kWithoutLapses);
   std::reverse(all.begin(), all.end());
-  const HierarchicalFit other = fit_hierarchical(all, {});
+  const HierarchicalFit other = fit_hierarchical(all, kWithoutLapses);
   EXPECT_NEAR(*one.conditions[0].weber_fraction, *other.conditions[0].weber_fraction, 1e-7);
 }
 
 TEST(HierarchicalFit, AUnitOfTheIntensitiesDoesNotMatter) {
   std::vector<ParticipantAnswers> all = differing_people(10);
-  const HierarchicalFit one = fit_hierarchical(all, {});
+  const HierarchicalFit one = fit_hierarchical(all, kWithoutLapses);
   for (ParticipantAnswers& answers : all) {
     answers.reference *= 1000.0;
     for (AnswerCount& row : answers.rows) row.intensity *= 1000.0;
   }
-  const HierarchicalFit other = fit_hierarchical(all, {});
+  const HierarchicalFit other = fit_hierarchical(all, kWithoutLapses);
   EXPECT_NEAR(*one.conditions[0].weber_fraction, *other.conditions[0].weber_fraction, 1e-7);
   EXPECT_NEAR(*other.conditions[0].pse, 1000.0 * *one.conditions[0].pse, 1e-4);
 }
@@ -150,12 +156,13 @@ std::vector<ParticipantAnswers> people_with_a_bias_in_one_condition(std::int64_t
 
 TEST(HierarchicalFit, APersonMayBeBiasedInOneConditionAndNotInTheOther) {
   const auto answers = people_with_a_bias_in_one_condition(2000);
-  const HierarchicalFit own = fit_hierarchical(answers, {});
+  const HierarchicalFit own = fit_hierarchical(answers, kWithoutLapses);
   ASSERT_EQ(own.status, FitStatus::kOk) << own.reason;
   EXPECT_NEAR(own.conditions[0].place_sd, 0.2329, 0.002) << "of the seven, over n";
   EXPECT_NEAR(own.conditions[1].place_sd, 0.0, 1e-3);
   EXPECT_NEAR(*own.conditions[0].weber_fraction, *own.conditions[1].weber_fraction, 0.02);
-  const HierarchicalFit shared = fit_hierarchical(answers, {.pse = HierarchicalPse::kShared});
+  const HierarchicalFit shared = fit_hierarchical(
+      answers, {.pse = HierarchicalPse::kShared, .lapses = HierarchicalLapses::kNone});
   ASSERT_EQ(shared.status, FitStatus::kOk) << shared.reason;
   EXPECT_EQ(shared.conditions[0].place_sd, shared.conditions[1].place_sd);
   EXPECT_GT(*own.log_likelihood, *shared.log_likelihood + 100.0);
@@ -164,8 +171,9 @@ TEST(HierarchicalFit, APersonMayBeBiasedInOneConditionAndNotInTheOther) {
 TEST(HierarchicalFit, TheUsualNumberOfNodesIsEnough) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   std::vector<ParticipantAnswers> answers = people_with_a_bias_in_one_condition(5);
-  const HierarchicalFit usual = fit_hierarchical(answers, {});
-  const HierarchicalFit many = fit_hierarchical(answers, {.num_nodes = 9});
+  const HierarchicalFit usual = fit_hierarchical(answers, kWithoutLapses);
+  const HierarchicalFit many =
+      fit_hierarchical(answers, {.lapses = HierarchicalLapses::kNone, .num_nodes = 9});
   ASSERT_EQ(many.status, FitStatus::kOk) << many.reason;
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(
@@ -177,7 +185,8 @@ TEST(HierarchicalFit, TheUsualNumberOfNodesIsEnough) {
 }
 
 TEST(HierarchicalFit, ADifferenceCanBeReckonedAgainFromWhatIsTold) {
-  const HierarchicalFit fit = fit_hierarchical(people_with_a_bias_in_one_condition(20), {});
+  const HierarchicalFit fit =
+      fit_hierarchical(people_with_a_bias_in_one_condition(20), kWithoutLapses);
   ASSERT_EQ(fit.differences.size(), 1U);
   const HierarchicalDifference& one = fit.differences[0];
   EXPECT_NEAR(*one.statistic, one.estimate / *one.standard_error, 1e-12);
@@ -294,6 +303,101 @@ TEST(HierarchicalFit, ManyLapsesAreSaid) {
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   EXPECT_NEAR(*fit.lapse_rate, 0.2, 1e-3);
   EXPECT_NE(fit.note.find("looks random"), std::string::npos) << fit.note;
+}
+
+/// Few answers to comparisons as hard as those of group D of `viscosity_discrimination`.
+std::vector<ParticipantAnswers> hard_answers(double widest) {
+  std::vector<ParticipantAnswers> all;
+  for (int person = 0; person < 6; ++person) {
+    ParticipantAnswers one{"P" + std::to_string(person), "", 1.0, {}};
+    for (const double share : {-1.0, -0.7, -0.3, 0.3, 0.7, 1.0}) {
+      const double log_ratio = share * widest;
+      const double p = core::standard_normal_cdf(log_ratio / std::log1p(0.7));
+      one.rows.push_back({std::exp(log_ratio), std::llround(20.0 * p), 20});
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+TEST(HierarchicalFit, WithoutLapsesFoundAnIntervalStillKnowsOfThoseThatMayBe) {
+  HierarchicalOptions options = kAtReference;
+  const HierarchicalFit none = fit_hierarchical(hard_answers(0.7), options);
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit free = fit_hierarchical(hard_answers(0.7), options);
+  ASSERT_EQ(free.status, FitStatus::kOk) << free.reason;
+  ASSERT_EQ(*free.lapse_rate, 0.0);
+  EXPECT_EQ(*free.lapse_rate_ci95.low, 0.0);
+  EXPECT_GT(*free.lapse_rate_with_prior_ci95.high, 0.02);
+  EXPECT_GT(*free.lapse_rate_ci95.high, *free.lapse_rate_with_prior_ci95.high);
+  const Interval& fixed = none.conditions[0].weber_fraction_ci95;
+  const Interval& wide = free.conditions[0].weber_fraction_ci95;
+  EXPECT_LT(*wide.low, 0.93 * *fixed.low) << "lapses would make the curve steeper";
+  EXPECT_NEAR(*wide.high, *fixed.high, 1e-4) << "and none flatter";
+  // A known rate at the end of what is left has the lower end of the union for its own.
+  options.lapses = HierarchicalLapses::kKnown;
+  options.lapse_rate = *free.lapse_rate_with_prior_ci95.high;
+  const HierarchicalFit most = fit_hierarchical(hard_answers(0.7), options);
+  EXPECT_NEAR(*most.conditions[0].weber_fraction_ci95.low, *wide.low, 1e-5);
+  EXPECT_EQ(*most.lapse_rate, options.lapse_rate);
+}
+
+TEST(HierarchicalFit, ALapseRatesIntervalEndsWhereTheLikelihoodHasFallen) {
+  std::vector<ParticipantAnswers> answers = differing_people(40);
+  answers[0].rows[0].num_yes += 2;  // Lapses at the easiest levels.
+  answers[3].rows[5].num_yes -= 2;
+  HierarchicalOptions options = kAtReference;
+  options.lapses = HierarchicalLapses::kCommon;
+  const HierarchicalFit free = fit_hierarchical(answers, options);
+  ASSERT_EQ(free.status, FitStatus::kOk) << free.reason;
+  options.lapses = HierarchicalLapses::kKnown;
+  const auto log_likelihood = [&](double lapse_rate) {
+    options.lapse_rate = lapse_rate;
+    return *fit_hierarchical(answers, options).log_likelihood;
+  };
+  const double top = log_likelihood(*free.lapse_rate_without_prior);
+  EXPECT_GT(top, log_likelihood(*free.lapse_rate));
+  for (const double end : {*free.lapse_rate_ci95.low, *free.lapse_rate_ci95.high}) {
+    EXPECT_NEAR(top - log_likelihood(end), end == 0.0 ? top - log_likelihood(0.0) : 1.920729,
+                1e-4);
+  }
+}
+
+TEST(HierarchicalFit, LevelsThatDoNotReachTheWeberFractionAreACaution) {
+  // w = 0.7 is 0.53 in ln: levels within 0.4 of the reference are all harder.
+  for (const auto& [widest, is_hard] : {std::pair{0.4, true}, {0.7, false}}) {
+    const HierarchicalFit fit =
+        fit_hierarchical(hard_answers(widest), {.pse = HierarchicalPse::kReference});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    const HierarchicalCondition& one = fit.conditions[0];
+    ASSERT_EQ(one.cautions.size(), is_hard ? 1U : 0U) << widest;
+    EXPECT_EQ(one.easy_ratio, is_hard ? 0.0 : 1.0 / 3.0);
+    if (!is_hard) continue;
+    const double w = *one.weber_fraction;
+    char low[32], effect[32];
+    std::snprintf(low, sizeof low, "levels up to %.3g", std::pow(1.0 + w, -2.5));
+    std::snprintf(effect, sizeof effect, "instead of %.3g", w);
+    EXPECT_NE(one.cautions[0].find(low), std::string::npos) << one.cautions[0];
+    EXPECT_NE(one.cautions[0].find(effect), std::string::npos) << one.cautions[0];
+  }
+}
+
+TEST(HierarchicalFit, AForcedChoiceHasItsGuesses) {
+  // Right answers of two alternatives are half of the rest of those that are felt.
+  std::vector<ParticipantAnswers> felt = differing_people(4000), right = felt;
+  for (ParticipantAnswers& one : right) {
+    for (AnswerCount& row : one.rows) row.num_yes = 2000 + row.num_yes / 2;
+  }
+  HierarchicalOptions options = kAtReference;
+  const double w = *fit_hierarchical(felt, options).conditions[0].weber_fraction;
+  options.guess_rate = 0.5;
+  const HierarchicalFit fit = fit_hierarchical(right, options);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.conditions[0].weber_fraction, w, 2e-3);
+  EXPECT_EQ(fit.guess_rate, 0.5);
+  EXPECT_NE(fit.method.find("guess"), std::string::npos) << fit.method;
+  options.guess_rate = 1.0;
+  EXPECT_THROW((void)fit_hierarchical(right, options), core::Error);
 }
 
 /// Four people's answers drawn, eight at each level, one of a hundred random.
@@ -438,7 +542,8 @@ TEST(HierarchicalFit, AConditionWithoutOrdersKeepsItsOwnPseBesideOneWithOrders) 
     ++number;
   }
   for (const HierarchicalPse pse : {HierarchicalPse::kPersonal, HierarchicalPse::kShared}) {
-    const HierarchicalFit fit = fit_hierarchical(both, {.pse = pse});
+    const HierarchicalFit fit =
+        fit_hierarchical(both, {.pse = pse, .lapses = HierarchicalLapses::kNone});
     ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
     EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.3, 3e-3);
     EXPECT_NEAR(*fit.conditions[1].weber_fraction, 0.3, 3e-3);
@@ -449,7 +554,8 @@ TEST(HierarchicalFit, AConditionWithoutOrdersKeepsItsOwnPseBesideOneWithOrders) 
 }
 
 TEST(HierarchicalFit, ABiasForAnIntervalIsAPersonsOwnAndLeavesTheWeberFractionAlone) {
-  const HierarchicalFit fit = fit_hierarchical(people_with_interval_biases(false), {});
+  const HierarchicalFit fit =
+      fit_hierarchical(people_with_interval_biases(false), kWithoutLapses);
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.3, 2e-3);
   EXPECT_NEAR(*fit.conditions[0].pse, 1.0, 2e-3);
@@ -459,14 +565,15 @@ TEST(HierarchicalFit, ABiasForAnIntervalIsAPersonsOwnAndLeavesTheWeberFractionAl
   for (ParticipantAnswers& one : pooled) {
     for (AnswerCount& row : one.rows) row.order = 0.0;
   }
-  EXPECT_GT(*fit_hierarchical(pooled, {}).conditions[0].weber_fraction, 0.36);
+  EXPECT_GT(*fit_hierarchical(pooled, kWithoutLapses).conditions[0].weber_fraction, 0.36);
 }
 
 /// A place of q o with o = +-1/2 is one of q / 2 in answers whose first order is mirrored.
 TEST(HierarchicalFit, AnIntervalBiasIsThePseOfMirroredAnswers) {
   const HierarchicalFit found =
       fit_hierarchical(people_with_interval_biases(false), kAtReference);
-  const HierarchicalFit other = fit_hierarchical(people_with_interval_biases(true), {});
+  const HierarchicalFit other =
+      fit_hierarchical(people_with_interval_biases(true), kWithoutLapses);
   ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
   EXPECT_NEAR(*found.log_likelihood, *other.log_likelihood, 1e-6);
   EXPECT_NEAR(*found.conditions[0].weber_fraction, *other.conditions[0].weber_fraction, 1e-7);
@@ -478,18 +585,25 @@ TEST(HierarchicalFit, AnIntervalBiasIsThePseOfMirroredAnswers) {
 TEST(HierarchicalFit, ReferencesThatDifferAndTooManyConditionsAreRefused) {
   std::vector<ParticipantAnswers> all = differing_people(10);
   all[1].reference = 2.0;
-  EXPECT_THROW((void)fit_hierarchical(all, {}), core::Error);
+  EXPECT_THROW((void)fit_hierarchical(all, kWithoutLapses), core::Error);
   std::vector<ParticipantAnswers> three;
   for (const char* condition : {"a", "b", "c"}) {
     three.push_back(exact_answers("P1", 0.5, 1.0, 10, condition));
     three.push_back(exact_answers("P2", 0.4, 1.0, 10, condition));
   }
-  EXPECT_THROW((void)fit_hierarchical(three, {}), core::Error);
-  const HierarchicalFit shared = fit_hierarchical(
-      three, {.pse = HierarchicalPse::kReference, .slopes = HierarchicalSlopes::kShared});
+  EXPECT_THROW((void)fit_hierarchical(three, kWithoutLapses), core::Error);
+  const HierarchicalFit shared = fit_hierarchical(three, {.pse = HierarchicalPse::kReference,
+                                                          .slopes = HierarchicalSlopes::kShared,
+                                                          .lapses = HierarchicalLapses::kNone});
   EXPECT_EQ(shared.status, FitStatus::kOk) << shared.reason;
   EXPECT_EQ(shared.conditions.size(), 3U);
   EXPECT_EQ(shared.differences.size(), 2U);
+}
+
+TEST(HierarchicalFit, APersonWhoComesTwiceInAConditionIsRefused) {
+  std::vector<ParticipantAnswers> all = differing_people(10);
+  all.push_back(all.front());
+  EXPECT_THROW((void)fit_hierarchical(all, kWithoutLapses), core::Error);
 }
 
 TEST(HierarchicalFit, AnswersAllAlikeAreDegenerateAndNotCalledInverted) {
@@ -501,7 +615,8 @@ TEST(HierarchicalFit, AnswersAllAlikeAreDegenerateAndNotCalledInverted) {
         all.push_back({name, "", 2.0, {{1, 0, 5}, {2, 0, 5}, {3, 0, 5}, {4, 0, 5}}});
         for (AnswerCount& row : all.back().rows) row.num_yes = yes ? 5 : 0;
       }
-      const HierarchicalFit fit = fit_hierarchical(all, {.pse = pse});
+      const HierarchicalFit fit =
+          fit_hierarchical(all, {.pse = pse, .lapses = HierarchicalLapses::kNone});
       EXPECT_EQ(fit.status, FitStatus::kDegenerate);
       EXPECT_TRUE(fit.reason.starts_with("all alike")) << fit.reason;
     }
@@ -521,6 +636,58 @@ TEST(HierarchicalFit, AConditionOfOnePersonHasNoValueAndNoDifference) {
   EXPECT_FALSE(fit.conditions[1].pse.has_value());
   EXPECT_TRUE(fit.differences.empty());
   EXPECT_NE(fit.note.find("e: no value"), std::string::npos) << fit.note;
+}
+
+const std::vector<AnswerCount> kStepWithLapses = {{0.5, 1, 20},   {0.7, 0, 20},  {0.85, 0, 20},
+                                                  {1.15, 20, 20}, {1.3, 20, 20}, {1.5, 19, 20}};
+
+/// Five people whose answers are one step but for a lapse at either end: every steep curve
+/// suits them, and where the search stops is nobody's value.
+TEST(HierarchicalFit, AStepWithLapsesHasNoValue) {
+  std::vector<ParticipantAnswers> people;
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    people.push_back({name, "", 1.0, kStepWithLapses});
+  }
+  const HierarchicalFit fit = fit_hierarchical(people, {});
+  EXPECT_EQ(fit.status, FitStatus::kDegenerate);
+  EXPECT_THAT(fit.reason, testing::HasSubstr("one step between two levels"));
+  EXPECT_FALSE(fit.conditions.front().weber_fraction);
+  EXPECT_FALSE(fit.conditions.front().pse);
+}
+
+TEST(HierarchicalFit, AStepInOneConditionLeavesTheOtherItsValue) {
+  std::vector<ParticipantAnswers> people;
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    people.push_back({name, "step", 1.0, kStepWithLapses});
+    people.push_back(exact_answers(name, 0.3, 1.0, 40, "curve"));
+  }
+  const HierarchicalFit fit = fit_hierarchical(people, {});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_FALSE(fit.conditions[0].weber_fraction);
+  EXPECT_FALSE(fit.conditions[0].weber_fraction_ci95.low);
+  ASSERT_TRUE(fit.conditions[1].weber_fraction);
+  EXPECT_NEAR(*fit.conditions[1].weber_fraction, 0.3, 0.03);
+  EXPECT_TRUE(fit.differences.empty());
+  EXPECT_THAT(fit.note, testing::HasSubstr("step: no value"));
+  for (const HierarchicalPersonEstimate& one : fit.participants) {
+    EXPECT_EQ(one.weber_fraction.has_value(), one.condition == "curve") << one.condition;
+  }
+}
+
+/// Answers of another shape than the curve: no lapse rate makes them rise, fall and rise.
+TEST(HierarchicalFit, AnswersOfAnotherShapeHaveACaution) {
+  const std::vector<AnswerCount> wrong = {{0.5, 2, 40},   {0.7, 16, 40}, {0.85, 8, 40},
+                                          {1.15, 32, 40}, {1.3, 24, 40}, {1.5, 38, 40}};
+  std::vector<ParticipantAnswers> odd, right;
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    odd.push_back({name, "", 1.0, wrong});
+    right.push_back(exact_answers(name, 0.3, 1.0, 40));
+  }
+  const HierarchicalFit fit = fit_hierarchical(odd, {});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_THAT(fit.conditions.front().cautions,
+              testing::Contains(testing::HasSubstr("farther from people's curves")));
+  EXPECT_TRUE(fit_hierarchical(right, {}).conditions.front().cautions.empty());
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ HierarchicalOptions options_of(const json& one, int num_nodes) {
                                     : HierarchicalPse::kPersonal,
           .slopes = slopes == "shared" ? HierarchicalSlopes::kShared
                                        : HierarchicalSlopes::kCorrelated,
+          .lapses = HierarchicalLapses::kNone,
           .num_nodes = num_nodes};
 }
 
@@ -125,6 +126,47 @@ TEST(HierarchicalReference, AFitWithLapsesAgreesWithTheIntegralOnAFineGrid) {
   near(fit.conditions[0].slope_sd, "slope_sd");
   near(*fit.lapse_rate, "lapse_rate");
   near(*fit.log_likelihood, "log_likelihood");
+}
+
+TEST(HierarchicalReference, WhatIsLeftOfTheLapseRateAgreesWithProfilesOnAFineGrid) {
+  std::ifstream in(test_support::source_folder().string() +
+                   "/data/reference/hierarchical/hierarchical_lapse_profile.json");
+  const json document = json::parse(in);
+  for (const json& one : document.at("cases")) {
+    SCOPED_TRACE(one.at("name").get<std::string>());
+    std::vector<ParticipantAnswers> answers;
+    for (const json& row : one.at("rows")) {
+      if (answers.empty() || answers.back().participant != row[0]) {
+        answers.push_back({row[0], "", one.at("reference"), {}});
+      }
+      answers.back().rows.push_back({row[1], row[2], row[3]});
+    }
+    const HierarchicalFit fit = fit_hierarchical(
+        answers,
+        {.pse = HierarchicalPse::kCommon, .guess_rate = one.at("guess_rate"), .num_nodes = 41});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    const json& expected = one.at("expected");
+    const auto near = [&](const std::optional<double>& found, const json& wanted,
+                          const char* key) {
+      ASSERT_TRUE(found.has_value()) << key;
+      EXPECT_NEAR(*found, wanted.get<double>(), 1e-5 * std::max(1.0, wanted.get<double>()))
+          << key;
+    };
+    const HierarchicalCondition& condition = fit.conditions[0];
+    near(fit.lapse_rate, expected.at("lapse_rate"), "lapse_rate");
+    near(condition.weber_fraction, expected.at("weber_fraction"), "weber_fraction");
+    near(fit.lapse_rate_without_prior, expected.at("lapse_rate_without_prior"),
+         "lapse_rate_without_prior");
+    near(condition.weber_fraction_without_prior, expected.at("weber_fraction_without_prior"),
+         "weber_fraction_without_prior");
+    const auto near_interval = [&](const Interval& found, const char* key) {
+      near(found.low, expected.at(key)[0], key);
+      near(found.high, expected.at(key)[1], key);
+    };
+    near_interval(fit.lapse_rate_ci95, "lapse_rate_ci95");
+    near_interval(fit.lapse_rate_with_prior_ci95, "lapse_rate_with_prior_ci95");
+    near_interval(condition.weber_fraction_ci95, "weber_fraction_ci95");
+  }
 }
 
 TEST(HierarchicalReference, ADifferencesErrorAgreesWithTheSandwichOnAFineGrid) {

@@ -59,18 +59,95 @@ TEST(Spearman, IsPearsonsCorrelationOfTheRanks) {
   const Comparison ranks = spearman_correlation({10, 20, 20, 70}, {5, 1, 6, 9});
   const Comparison by_hand = pearson_correlation({1, 2.5, 2.5, 4}, {2, 1, 3, 4});
   EXPECT_DOUBLE_EQ(*ranks.estimate, *by_hand.estimate);
-  EXPECT_DOUBLE_EQ(*ranks.p_value, *by_hand.p_value);
   EXPECT_LT(*ranks.ci95.low, *by_hand.ci95.low) << "Bonett and Wright's is wider";
 }
 
-TEST(Spearman, WithoutSpreadOrWithFullAgreementIsDegenerate) {
+TEST(Spearman, WithoutSpreadOrOfTwoIsDegenerate) {
   const Comparison constant = spearman_correlation({1, 1, 1}, {1, 2, 3});
   EXPECT_EQ(constant.status, FitStatus::kDegenerate);
   EXPECT_FALSE(constant.estimate.has_value());
+  EXPECT_THAT(spearman_correlation({1, 2}, {1, 2}).reason, HasSubstr("too few"));
+}
+
+TEST(Spearman, FullAgreementHasAPValueAndNoInterval) {
   const Comparison full = spearman_correlation({1, 2, 3, 4}, {1, 8, 27, 64});
-  EXPECT_EQ(full.status, FitStatus::kDegenerate);
+  EXPECT_EQ(full.status, FitStatus::kOk) << full.reason;
   EXPECT_DOUBLE_EQ(*full.estimate, 1.0);
-  EXPECT_THAT(full.reason, HasSubstr("agree wholly"));
+  EXPECT_DOUBLE_EQ(*full.p_value, 2.0 / 24.0);
+  EXPECT_EQ(*full.statistic, 0.0);
+  EXPECT_EQ(full.reason, "");
+  EXPECT_FALSE(full.ci95.low || full.ci95.high);
+  // Of 15 with a tie of three: 2 * 3! of 15! pairings.
+  std::vector<double> many = {1, 1, 1};
+  for (int i = 2; many.size() < 15; ++i) many.push_back(i);
+  const Comparison of_many = spearman_correlation(many, many);
+  EXPECT_NEAR(*of_many.p_value * std::tgamma(16.0), 12.0, 1e-6);
+  EXPECT_THAT(of_many.method, HasSubstr("exact"));
+}
+
+TEST(Spearman, BeyondFourteenPairsThePValueIsThatOfT) {
+  std::vector<double> a, b;
+  for (int i = 0; i < 15; ++i) {
+    a.push_back(i);
+    b.push_back(i % 4 == 0 ? -i : i);
+  }
+  const Comparison of_15 = spearman_correlation(a, b);
+  EXPECT_THAT(of_15.method, HasSubstr("p by t"));
+  EXPECT_EQ(*of_15.degrees_of_freedom, 13.0);
+  ASSERT_EQ(of_15.all_statistics().size(), 2U);
+  EXPECT_EQ(of_15.all_statistics()[0].first, "t");
+  EXPECT_EQ(of_15.all_statistics()[1].first, "S");
+  a.pop_back();
+  b.pop_back();
+  const Comparison of_14 = spearman_correlation(a, b);
+  EXPECT_THAT(of_14.method, HasSubstr(", exact"));
+  EXPECT_FALSE(of_14.degrees_of_freedom);
+  EXPECT_NEAR(*of_14.p_value, *of_15.p_value, 0.1) << "about the same";
+}
+
+TEST(RankSum, TiesAreExactUpToFiftyValues) {
+  const Comparison tied = rank_sum_test({1, 1, 1}, {2, 2, 2});
+  EXPECT_DOUBLE_EQ(*tied.p_value, 0.1);
+  EXPECT_THAT(tied.method, HasSubstr("exact with ties"));
+  EXPECT_EQ(tied.statistic_name, "U");
+  std::vector<double> a(25, 1.0), b(25, 1.0);
+  b.back() = 2.0;
+  EXPECT_THAT(rank_sum_test(a, b).method, HasSubstr("exact"));
+  // One of all is larger, and it is in b: either group might have it.
+  EXPECT_NEAR(*rank_sum_test(a, b).p_value, 1.0, 1e-12);
+  b.push_back(2.0);
+  EXPECT_THAT(rank_sum_test(a, b).method, HasSubstr("corrected for ties and continuity"));
+}
+
+TEST(Wilcoxon, NamesItsStatisticsAndWhatWasLeftOut) {
+  // R's `sleep`: V = 0 of nine differences, one of which is 0.
+  const Comparison sleep = wilcoxon_test({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0},
+                                         {1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4});
+  EXPECT_DOUBLE_EQ(*sleep.p_value, 2.0 / 512.0);
+  EXPECT_EQ(sleep.statistic_name, "T");
+  EXPECT_EQ(sleep.all_statistics(),
+            (std::vector<std::pair<std::string, double>>{{"V", 0.0}, {"T", 0.0}}));
+  EXPECT_EQ(sleep.num_zeros, 1);
+  EXPECT_THAT(sleep.method, HasSubstr("exact with ties, without 1 difference of 0"));
+}
+
+TEST(Wilcoxon, DifferencesThatOnlyRoundingTellsApartAreTied) {
+  const std::vector<double> a = {1.3, 1.5, 0.6, 2.3, 0.4}, b = {1.2, 1.4, 0.5, 2.2, 0.3};
+  EXPECT_DOUBLE_EQ(*wilcoxon_test(a, b).p_value, 0.0625);
+  EXPECT_THAT(wilcoxon_test(a, b).method, HasSubstr("with ties"));
+  EXPECT_EQ(wilcoxon_test({0.3, 1.0}, {0.1 + 0.2, 0.0}).num_zeros, 1);
+}
+
+/// One pair of large values makes no differences of small ones 0.
+TEST(Wilcoxon, EveryDifferenceIsAsExactAsItsOwnPair) {
+  std::vector<double> a = {1e12}, b = {1e12 - 5.0};
+  for (int i = 1; i <= 8; ++i) {
+    a.push_back(0.001 * i);
+    b.push_back(0.00099 * i);
+  }
+  const Comparison test = wilcoxon_test(a, b);
+  EXPECT_EQ(test.num_zeros, 0);
+  EXPECT_DOUBLE_EQ(*test.p_value, 2.0 / 512.0);
 }
 
 TEST(OneSample, IsThePairedTestAgainstZeros) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/random_stream.h"
@@ -70,6 +72,39 @@ TEST(ResampleParticipants, GivesNoIntervalForFewerThanFive) {
   };
   EXPECT_FALSE(resample_participants(4, 100, 1, first).ci95.low.has_value());
   EXPECT_TRUE(resample_participants(5, 100, 1, first).ci95.low.has_value());
+}
+
+/// Of the geometric mean: the logarithms 0, ..., 7 have mean 3.5 and standard deviation
+/// sqrt(6), and t is 2.3646 with 7 degrees of freedom.
+TEST(ResampleFactor, GivesTheTIntervalOfAGeometricMean) {
+  const auto geometric_mean = [](const std::vector<std::size_t>& drawn) {
+    double sum = 0.0;
+    for (const std::size_t place : drawn) sum += static_cast<double>(place);
+    return std::optional(std::exp(sum / static_cast<double>(drawn.size())));
+  };
+  const Interval ci95 = resample_factor(8, 20000, 1, std::exp(3.5), geometric_mean).ci95;
+  const double reach = 2.3646 * std::sqrt(6.0) / std::sqrt(8.0);
+  EXPECT_NEAR(std::log(*ci95.low), 3.5 - reach, 0.02 * reach);
+  EXPECT_NEAR(std::log(*ci95.high), 3.5 + reach, 0.02 * reach);
+  EXPECT_FALSE(resample_factor(4, 100, 1, 1.0, geometric_mean).ci95.low);
+}
+
+/// As long as hardly any resample is without bound, those are no reason for an open end.
+TEST(ResampleFactor, ManyInfiniteResamplesOpenTheEnd) {
+  const auto beyond = [](std::size_t many) {
+    return [many](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+      const auto num_first = std::ranges::count(drawn, std::size_t{0});
+      if (static_cast<std::size_t>(num_first) >= many) {
+        return std::numeric_limits<double>::infinity();
+      }
+      return 1.0 + 0.1 * static_cast<double>(num_first);
+    };
+  };
+  // Of 10 drawn from 10, one of them appears twice or more in 26 %, five times or more in 0.2
+  // %.
+  EXPECT_FALSE(resample_factor(10, 2000, 1, 1.1, beyond(2)).ci95.high);
+  EXPECT_TRUE(resample_factor(10, 2000, 1, 1.1, beyond(5)).ci95.high);
+  EXPECT_THROW((void)resample_factor(10, 10, 1, 0.0, beyond(5)), core::Error);
 }
 
 TEST(ResampleParticipants, CountsResamplesThatAreUndefinedAndGivesUpAtHalf) {

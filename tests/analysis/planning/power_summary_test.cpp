@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -20,7 +21,8 @@ PlannedRun run_of(std::optional<double> p_value, double value, Interval ci95) {
   return {{.estimates = {{value, ci95}, {}},
            .tests = {{0.5, p_value}, {{}, 0.5}},
            .num_with_answers = {4, 4},
-           .num_degenerate = {1, 0}}};
+           .num_degenerate = {1, 0},
+           .num_at_grid_end = {0, 0}}};
 }
 
 TEST(PowerSummary, CountsByHand) {
@@ -90,6 +92,22 @@ TEST(PowerSummary, AQuickEstimateIsNoDoubtWhereTheHierarchicalOneIsBesideIt) {
   EXPECT_EQ(doubts.front().find("a.weber_fraction_hierarchical: "), 0U) << doubts.front();
 }
 
+TEST(PowerSummary, GridsOfQuestPlusThatEndTooEarlyAreADoubt) {
+  const auto summary_with = [](int num_at_grid_end) {
+    std::vector<PlannedRun> runs = hundred_runs(95, 5);
+    for (int run = 0; run < num_at_grid_end; ++run) {
+      runs[static_cast<std::size_t>(run)].front().num_at_grid_end = {0, 1};
+    }
+    return summary_of_runs(small(), runs);
+  };
+  EXPECT_EQ(summary_with(40).front().at_grid_end, (std::vector<double>{0.0, 0.1}));
+  const auto doubts = planning_doubts(small(), summary_with(40), false);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_EQ(doubts.front().find("b: of 10 % of the participants the posterior of QUEST+"), 0U)
+      << doubts.front();
+  EXPECT_TRUE(planning_doubts(small(), summary_with(20), false).empty()) << "one in twenty";
+}
+
 TEST(PowerSummary, ATestThatFindsWhatIsNotThereIsADoubtUnderTheNullHypothesisAlone) {
   const auto doubts = [](int num_significant, bool null_hypothesis) {
     return planning_doubts(small(), summary_of_runs(small(), hundred_runs(95, num_significant)),
@@ -100,6 +118,32 @@ TEST(PowerSummary, ATestThatFindsWhatIsNotThereIsADoubtUnderTheNullHypothesisAlo
             std::string::npos);
   EXPECT_TRUE(doubts(27, false).empty()) << "that is power";
   EXPECT_TRUE(doubts(8, true).empty());
+}
+
+TEST(PowerSummary, WhereNothingDiffersTheShareIsTheRateOfFalsePositives) {
+  PlannedAnalysis apart = small();
+  EXPECT_FALSE(true_difference(apart)) << "that of b is not known";
+  EXPECT_FALSE(nothing_differs(apart));
+  apart.blocks[1].true_value = 0.6;
+  EXPECT_NEAR(*true_difference(apart), std::log(std::log(1.3) / std::log(1.6)), 1e-15);
+  EXPECT_FALSE(nothing_differs(apart));
+  const auto doubts = [](const PlannedAnalysis& analysis, bool null_hypothesis,
+                         int num_significant) {
+    return planning_doubts(analysis,
+                           summary_of_runs(analysis, hundred_runs(95, num_significant)),
+                           null_hypothesis);
+  };
+  EXPECT_TRUE(doubts(apart, false, 3).empty());
+  PlannedAnalysis alike = apart;
+  alike.blocks[1].true_value = 0.3;
+  EXPECT_TRUE(nothing_differs(alike));
+  ASSERT_EQ(doubts(alike, false, 3).size(), 1U);
+  EXPECT_NE(doubts(alike, false, 3).front().find("rate of false positives, not a power"),
+            std::string::npos);
+  EXPECT_TRUE(doubts(alike, true, 3).empty()) << "as asked for";
+  EXPECT_EQ(doubts(alike, false, 27).size(), 2U) << "too many of them";
+  alike.compared.reset();
+  EXPECT_FALSE(nothing_differs(alike));
 }
 
 }  // namespace

@@ -127,8 +127,25 @@ TEST(DiscriminationFigures, BoxesRestOnThePseOfThePrimaryValueAndSaySo) {
   Published published;
   published.values["thicker.individual_weber_fraction_median"] = {.value = 0.5};
   people.results = results_of(people.data, published, {.num_resamples = 50});
-  EXPECT_NE(boxes_of().caption.find("point of subjective equality at the reference"),
-            std::string::npos);
+  EXPECT_NE(boxes_of().caption.find("point of subjective equality free"), std::string::npos)
+      << "whatever was published";
+}
+
+TEST(DiscriminationFigures, PanelsOfPeopleAreTitledWithTheFractionOfThePrimaryPse) {
+  SomePeople people({9, 8});
+  for (int answered = 0; answered < 10; ++answered) {
+    people.study.compare("thicker", 9.0, 8.0, answered < 2);
+  }
+  people.data = load_study(people.study.store());
+  people.results = results_of(people.data, {}, {.num_resamples = 50});
+  const auto title_of = [&](const char* name) {
+    return "P02   w = " + number_words(people.source().own("thicker", "P02", name)->value, 2);
+  };
+  const std::string free = title_of("thicker.weber_fraction_free_pse");
+  ASSERT_NE(free, title_of("thicker.weber_fraction"));
+  const Figure panels = discrimination_figures(people.source()).at(1);
+  EXPECT_TRUE(draws(panels, free)) << panels.plot;
+  EXPECT_NE(panels.caption.find("free, as the primary value has it"), std::string::npos);
 }
 
 }  // namespace

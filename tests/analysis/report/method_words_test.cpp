@@ -40,7 +40,8 @@ TEST(MethodWords, OfADiscriminationGiveTheCurveTheModelAndTheirSources) {
   for (const char* part :
        {"P(x) = Φ(ln(x / PSE) / ln(1 + w))", "lapse rate 0", "50 times (seed 7)",
         "α = Φ(−√(n / (n − 1)) t)", "a_i = −ln ln(1 + w_i)", "Hesterberg, T. C. (2015)",
-        "Pinheiro, J. C.", "Wichmann, F. A.", "smaller sum of ranks"}) {
+        "Pinheiro, J. C.", "Wichmann, F. A.", "T the smaller sum of ranks",
+        "exact up to 50 ranks, with ties, too", "Streitberg, B.", "each in their own way"}) {
     EXPECT_TRUE(has(words, part)) << part;
   }
   for (const char* part : {"S = k I^a", "Stevens", "Spearman", "hysteresis"}) {

@@ -41,6 +41,16 @@ TEST(ReportDiscrimination, EndsThatBoundNothingAreOpen) {
   EXPECT_TRUE(has(html.text(), "0.6270 (up\u00a0to\u00a01.125)"));
 }
 
+TEST(ReportDiscrimination, WhatMayBeWrongIsMarkedAndSaidBelow) {
+  ResultsSection section = two_people();
+  section.participants[1].cautions = {"answers the wrong way round"};
+  HtmlText html;
+  ASSERT_TRUE(write_own_fractions(html, section));
+  EXPECT_TRUE(has(html.text(), "0.2500 (from\u00a00.1000) §<")) << html.text();
+  EXPECT_TRUE(has(html.text(), "§ P01, PSE free: answers the wrong way round"));
+  EXPECT_FALSE(has(html.text(), "§ P02"));
+}
+
 TEST(ReportDiscrimination, OtherSectionsHaveNoSuchTable) {
   HtmlText html;
   EXPECT_FALSE(write_own_fractions(html, {.name = "movement"}));

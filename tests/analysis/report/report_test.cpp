@@ -70,8 +70,12 @@ class ReportTest : public ::testing::Test {
         .values = {
             {"group_d.weber_fraction", {.value = 0.697, .place = "somewhere"}},
             {"estimation.k", {.value = 60.0, .standard_deviation = 5.0, .place = "somewhere"}},
-            {"group_d.individual_weber_fraction_median",
-             {.value = 0.72, .place = "app. D; printed as a mean"}}}};
+            {"group_d.individual_weber_fraction_lsq_mean",
+             {.value = 0.72,
+              .place = "app. D",
+              .statistic = "mean of individual Weber fractions, least squares",
+              .compute = PublishedStatistic{
+                  .kind = PublishedStatistic::Kind::kOwnWeberFractions, .block = "group_d"}}}}};
     const StudyResults results = results_of(data, published, results_options);
     const MovementAnalysis movement = analyse_movement(study_.store(), {.pilot = pilot});
     return write_report({.store = study_.store(),
@@ -117,10 +121,11 @@ TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
 
 TEST_F(ReportTest, OfPublishedValuesSaysWhatTheyAre) {
   const std::string html = without_breaks(read(report(out()).html));
-  EXPECT_TRUE(has(html, "0.72 ‡"));
-  EXPECT_FALSE(has(html, "0.697 ‡"));
-  EXPECT_TRUE(has(html, "group_d.individual_weber_fraction_median: published is the mean"));
+  EXPECT_TRUE(has(html, "<code>group_d.individual_weber_fraction_lsq_mean</code>"))
+      << "an estimate of its own, for it is published of another statistic than ours";
+  EXPECT_TRUE(has(html, "mean of individual Weber fractions, least squares"));
   EXPECT_TRUE(has(html, "b is the standard deviation between participants"));
+  EXPECT_FALSE(has(html, "Simulated studies")) << "none are known";
 }
 
 TEST_F(ReportTest, OfAStudyWithoutTrialsSpeaksOfNone) {
@@ -156,6 +161,29 @@ TEST(PublishedFigure, AnIntervalThatIsCutEndsInAnArrow) {
   };
   EXPECT_TRUE(has(plot_of(0.01), "to graph 0,"));
   EXPECT_FALSE(has(plot_of(0.3), "to graph 0,"));
+}
+
+TEST(PublishedFigure, OfSimulatedStudiesIsADistributionAndAPoint) {
+  const StudyData data;
+  StudyResults results{.simulated = true};
+  PredictiveTail tail{.values = {0.2, 0.3, 0.3, 0.4}, .median = 0.3, .low = 0.2, .high = 0.4};
+  tail.tail = 0.25;
+  results.predictive = {.num_people = 52, .num_studies = 4, .num_participants = 13};
+  Estimate estimate{.name = "group_d.weber_fraction", .value = 0.35, .published = 0.25};
+  estimate.predictive = tail;
+  results.sections.push_back({.name = "group_d", .estimates = {estimate}});
+  const Figure figure = published_figures({data, results, {}}).at(0);
+  EXPECT_EQ(figure.name, "published");
+  ASSERT_EQ(figure.tables.size(), 2U);
+  int num_studies = 0;
+  for (const auto& row : figure.tables[0].rows) {
+    num_studies += static_cast<int>(row[4].number.value_or(0.0));
+  }
+  EXPECT_EQ(num_studies, 4) << "every study in one bin";
+  ASSERT_EQ(figure.tables[1].rows.size(), 1U);
+  EXPECT_EQ(figure.tables[1].rows[0][2].number, 0.25) << "the published value";
+  EXPECT_EQ(figure.tables[1].rows[0][3].number, 0.35) << "this run";
+  EXPECT_TRUE(has(figure.caption, "4 simulated studies of 13 participants"));
 }
 
 TEST_F(ReportTest, SaysWhatWasRunWithWhichSeedsAndHashes) {
@@ -280,6 +308,80 @@ TEST_F(ReportTest, OfAdaptiveBlocksTellsWhatWasRunAndOfPracticeWhatItWas) {
                   "as a two-interval task (order drawn); viscosity; levels 4, 16 Pa s; "
                   "reference 8 Pa s; participants were told after every answer whether it was "
                   "right; until 80 % of the last 5 answers were right, at most 20 trials."));
+}
+
+TEST_F(ReportTest, MethodsTellHowTheOrderOfTheIntervalsCameAboutAndLeaveNoGap) {
+  HandMadeStudy study(R"json({"name": "by_hand", "stages": [
+    {"kind": "block", "name": "warm_up", "procedure": "staircase", "task": "two_interval",
+     "interval_order": "balanced", "reference_viscosity_pa_s": 8,
+     "start_viscosity_pa_s": [12], "lowest_viscosity_pa_s": 8.1,
+     "practice": {"min_correct_ratio": 0.8, "num_trials_judged": 5, "max_trials": 20}},
+    {"kind": "block", "name": "thicker", "task": "two_interval",
+     "interval_order": "balanced"}]})json");
+  (void)study.add("P01", false, kLaboratory);
+  study.compare_ten("thicker", 8);
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 50});
+  const std::string html = without_breaks(report_html({.store = study.store(),
+                                                       .data = data,
+                                                       .results = results,
+                                                       .results_options = {},
+                                                       .movement = {},
+                                                       .program_version = "1"},
+                                                      {}, {}));
+  EXPECT_TRUE(has(html,
+                  "staircase as a two-interval task (order balanced); viscosity; "
+                  "reference 8 Pa s; without feedback"));
+  EXPECT_TRUE(has(html,
+                  "method of constant stimuli as a two-interval task (order balanced); "
+                  "viscosity; levels"));
+  EXPECT_FALSE(has(html, "order drawn"));
+  EXPECT_FALSE(has(html, "; ;"));
+}
+
+TEST_F(ReportTest, ScalesWithoutABetterEndHaveATableOfTheirOwn) {
+  HandMadeStudy study(R"json({"name": "by_hand", "stages": [
+    {"kind": "questionnaire", "name": "form", "items": [
+      {"name": "side", "kind": "scale", "num_steps": 7, "question": {"en": "Which side?"},
+       "low_label": {"en": "left"}, "high_label": {"en": "right"}}]}]})json");
+  (void)study.add("P01", false, kLaboratory);
+  study.say("form", "side", "2");
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 50});
+  const std::string html = without_breaks(report_html({.store = study.store(),
+                                                       .data = data,
+                                                       .results = results,
+                                                       .results_options = {},
+                                                       .movement = {},
+                                                       .program_version = "1"},
+                                                      {}, {}));
+  EXPECT_TRUE(has(html, "Steps of scales without a better end"));
+  EXPECT_TRUE(has(html, "1: left, 7: right"));
+  EXPECT_FALSE(has(html, "the worst"));
+}
+
+TEST_F(ReportTest, WhoAnswersTheWrongWayRoundIsNamedBesideEveryNumberThatHasThem) {
+  HandMadeStudy study(R"json({"name": "by_hand", "stages": [
+    {"kind": "block", "name": "thicker"}]})json");
+  for (int i = 1; i <= 5; ++i) {
+    (void)study.add("P0" + std::to_string(i), false, kLaboratory);
+    study.compare_ten("thicker", i == 5 ? 1 : 8 + i % 2);
+  }
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 50});
+  const std::string html = without_breaks(report_html({.store = study.store(),
+                                                       .data = data,
+                                                       .results = results,
+                                                       .results_options = {},
+                                                       .movement = {},
+                                                       .program_version = "1"},
+                                                      {}, {}));
+  EXPECT_TRUE(has(html, "Cautions: in the numbers all the same"));
+  EXPECT_TRUE(has(html, "as of somebody who answers the wrong way round"));
+  const std::size_t primary = html.find("Primary values");
+  ASSERT_NE(primary, std::string::npos);
+  EXPECT_NE(html.find("Caution: P05, who answers the wrong way round, is in it", primary),
+            std::string::npos);
 }
 
 TEST_F(ReportTest, DegenerateDataAreSaidToBeSoAndNoNumberIsMadeUp) {

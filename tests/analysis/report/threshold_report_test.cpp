@@ -90,6 +90,31 @@ TEST_F(ThresholdReportTest, DrawsStaircasesWithTheirReversals) {
       << figure.plot;
 }
 
+TEST_F(ThresholdReportTest, ANumberThatMayBeWrongSaysSoBesideIt) {
+  ResultsSection section{.name = "felt"};
+  section.estimates = {{.name = "felt.threshold",
+                        .value = 0.2,
+                        .meaning = "the level felt in 50 %",
+                        .primary = true,
+                        .cautions = {"few answers"}},
+                       {.name = "felt.spread_ln", .value = 0.5, .meaning = "its spread"}};
+  section.participants = {{"P01", "felt.threshold", 0.2, {}, "", {"one answer"}},
+                          {"P02", "felt.threshold", 0.3, {}, "", {"one answer"}}};
+  HtmlText html;
+  write_section(html, data_, results_, section);
+  const auto has = [&](const std::string& part) {
+    return html.text().find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has("the level felt in 50 %. Caution: few answers")) << html.text();
+  EXPECT_FALSE(has("its spread. Caution"));
+  EXPECT_TRUE(has(">0.2000 §<"));
+  EXPECT_TRUE(has("§ P02, felt.threshold: one answer"));
+  HtmlText glance;
+  StudyResults results{.study = "by_hand", .sections = {section}};
+  write_at_a_glance(glance, results);
+  EXPECT_NE(glance.text().find(". Caution: few answers"), std::string::npos);
+}
+
 TEST_F(ThresholdReportTest, SectionsOfAProcedureAreTitledByIt) {
   StudyWords words;
   words.titles["felt"] = "Least viscosity";

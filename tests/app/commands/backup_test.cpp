@@ -52,7 +52,7 @@ TEST_F(BackupCommandTest, TheCopyGivesTheSameResults) {
       0);
 }
 
-TEST_F(BackupCommandTest, ASessionThatDiedGoesOnInItsBackup) {
+TEST_F(BackupCommandTest, ASessionThatDiedGoesOnInWhatIsMadeOfItsBackup) {
   {
     RunningProgram child({"run", "tiny.json", "--study", "a.study", "--participant", "P01",
                           "--headless", "--seed", "7", "--acknowledge"},
@@ -64,9 +64,20 @@ TEST_F(BackupCommandTest, ASessionThatDiedGoesOnInItsBackup) {
     (void)child.wait();
   }
   EXPECT_EQ(jnd({"backup", "a.study", "--to", "copy"}).exit_code, 0);
-  EXPECT_EQ(jnd({"resume", "copy", "--headless"}).exit_code, 0);
-  EXPECT_TRUE(opened("copy").completed(1));
-  EXPECT_EQ(jnd({"verify", "copy"}).exit_code, 0);
+  for (const std::vector<std::string>& write :
+       {std::vector<std::string>{"resume", "copy", "--headless"},
+        {"run", "tiny.json", "--study", "copy", "--participant", "P02", "--headless"},
+        {"simulate", "tiny.json", "--study", "copy", "--participants", "1"}}) {
+    const ProgramOutcome refused = jnd(write);
+    EXPECT_EQ(refused.exit_code, 1) << write[0];
+    EXPECT_NE(refused.err.find("jnd restore copy"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(jnd({"restore", "copy", "--to", "b.study"}).exit_code, 0);
+  EXPECT_EQ(jnd({"resume", "b.study", "--headless"}).exit_code, 0);
+  EXPECT_TRUE(opened("b.study").completed(1));
+  EXPECT_EQ(jnd({"verify", "b.study"}).exit_code, 0);
+  EXPECT_EQ(jnd({"backup", "b.study", "--to", "copy"}).exit_code, 0);
+  EXPECT_EQ(jnd({"restore", "copy", "--to", "b.study"}).exit_code, 1);
 }
 
 TEST_F(BackupCommandTest, WritesOverNothing) {

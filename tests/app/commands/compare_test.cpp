@@ -83,6 +83,28 @@ TEST(CompareCommand, GivesEffectSizesWithIntervalsThatHoldThem) {
   EXPECT_NEAR(spearman["estimate"].get<double>(), 0.9, 1e-12);
 }
 
+TEST(CompareCommand, TestsOfRanksNameTheirStatisticAndSayHowTheyCount) {
+  const char* equal = "a,b\n2,1\n3,2\n4,3\n5,4\n6,5\n7,7\n";
+  const auto json = document(compared(equal, "wilcoxon").out);
+  EXPECT_EQ(json["statistic"], 0.0) << "the smaller sum, as the key always was";
+  EXPECT_EQ(json["statistic_name"], "T");
+  EXPECT_EQ(json["statistics"]["V"], 15.0);
+  EXPECT_EQ(json["num_zeros"], 1);
+  EXPECT_NEAR(json["p_value"].get<double>(), 0.0625, 1e-15);
+  EXPECT_EQ(json["method"],
+            "Wilcoxon's signed ranks, exact with ties, without 1 difference of 0");
+  const ProgramOutcome people = compared(equal, "wilcoxon", {});
+  for (const char* part : {"V, sum of ranks with a > b", "T, smaller sum of ranks", "0.0625",
+                           "exact with ties, without 1 difference of 0"}) {
+    EXPECT_NE(people.out.find(part), std::string::npos) << part << people.out;
+  }
+  const auto spearman = document(compared("a,b\n1,1\n2,8\n3,27\n4,64\n", "spearman").out);
+  EXPECT_EQ(spearman["status"], "ok");
+  EXPECT_EQ(spearman["statistic_name"], "S");
+  EXPECT_NEAR(spearman["p_value"].get<double>(), 2.0 / 24.0, 1e-15);
+  EXPECT_TRUE(spearman["degrees_of_freedom"].is_null());
+}
+
 constexpr char kGroups[] = "who,a,b\nx,1,0\ny,5,1\nx,3,1\ny,4,2\nx,4,3\ny,9,3\nx,8,4\n";
 
 TEST(CompareCommand, GroupsAreTestedEachAndAdjustedByHolm) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "app/json_document.h"
+#include "app/results_output.h"
+#include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -19,12 +22,24 @@ TEST(DemoCommand, RunsBothStudiesAndOverwritesNothing) {
   EXPECT_EQ(outcome.err, "");
   const auto json = document(outcome.out);
   ASSERT_EQ(json["studies"].size(), 2U);
-  for (const auto& study : json["studies"]) EXPECT_EQ(study["num_participants"], 13);
+  for (const auto& study : json["studies"]) {
+    EXPECT_EQ(study["num_participants"], 13);
+    EXPECT_EQ(study["predictive"]["num_studies"], 1000) << study["predictive"];
+    EXPECT_EQ(study["predictive"]["num_participants"], 13);
+    EXPECT_TRUE(study["predictive"]["joint"]["p_value"].is_number());
+  }
   EXPECT_EQ(json["out"], "demo-1");
   for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {
     const fs::path folder = temporary.path() / "demo-1" / (std::string(study) + ".study");
     EXPECT_TRUE(fs::exists(folder / "study.sqlite")) << study;
     EXPECT_EQ(test_support::run_program({"verify", folder.string()}).exit_code, 0) << study;
+  }
+  // README shows this very run.
+  const std::string readme = read_file(test_support::source_folder() / "README.md");
+  for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {
+    const fs::path folder = temporary.path() / "demo-1" / (std::string(study) + ".study");
+    const std::string table = to_comparison_table(results_of_folder(folder));
+    EXPECT_NE(readme.find(table), std::string::npos) << "expected README.md to show\n" << table;
   }
   const ProgramOutcome again =
       test_support::run_program({"demo", "--fast", "--out", "demo-1"}, options);

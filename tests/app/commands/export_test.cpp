@@ -42,6 +42,32 @@ TEST(ExportCommand, WritesTheTablesAndRefusesAFolderThatIsNotEmpty) {
   EXPECT_EQ(read_file(temporary.path() / "out/of/way/trials.csv"), before);
 }
 
+/// Whatever the machine's usual rights are: persons' data are nobody else's.
+TEST(ExportCommand, WhatItWritesIsForItsOwnerOnly) {
+  const test_support::TemporaryFolder temporary(test_support::memory_folder());
+  const test_support::ProgramOptions options{.folder = temporary.path(), .environment = {}};
+  write_file(temporary.path() / "tiny.json", kTinyStudy);
+  const std::vector<std::vector<std::string>> commands = {
+      {"simulate", "tiny.json", "--participants", "1", "--study", "a.study", "--fast"},
+      {"export", "csv", "a.study", "--out", "csv"},
+      {"export", "bids", "a.study", "--out", "bids"},
+      {"report", "a.study", "--out", "report"}};
+  for (const std::vector<std::string>& words : commands) {
+    ASSERT_EQ(test_support::run_program(words, options).exit_code, 0) << words.front();
+  }
+  for (const char* folder : {"csv", "bids", "report"}) {
+    const auto expect_own = [](const fs::path& path) {
+      EXPECT_EQ(fs::status(path).permissions() & (fs::perms::group_all | fs::perms::others_all),
+                fs::perms::none)
+          << path;
+    };
+    expect_own(temporary.path() / folder);
+    for (const auto& entry : fs::recursive_directory_iterator(temporary.path() / folder)) {
+      expect_own(entry.path());
+    }
+  }
+}
+
 TEST(ExportCommand, CarriesOneRowAnAnsweredTrial) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const test_support::ProgramOptions options{.folder = temporary.path(), .environment = {}};

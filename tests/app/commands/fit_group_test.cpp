@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
@@ -49,17 +52,106 @@ TEST_F(FitGroupCommandTest, HierarchicalPrintsTheMedianPersonOfEachConditionAndT
   EXPECT_EQ(json["participants"].size(), 6U);
 }
 
-TEST_F(FitGroupCommandTest, ALapseRateIsFreeOnRequest) {
+std::vector<std::string> with(std::vector<std::string> arguments,
+                              const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+const std::vector<std::string> kHierarchical = {"hierarchical", "--csv", "g.csv", "--reference",
+                                                "8"};
+
+TEST_F(FitGroupCommandTest, ALapseRateIsFreeUnlessItIsGiven) {
   table("g.csv", kGroup);
-  const std::vector<std::string> fixed = {"hierarchical", "--csv", "g.csv", "--reference", "8"};
-  EXPECT_TRUE(document(fit(fixed).out)["lapse_rate"].is_null());
-  std::vector<std::string> free = fixed;
-  free.insert(free.end(), {"--free", "lapse"});
-  const auto json = document(fit(free).out);
+  const auto json = document(fit(kHierarchical).out);
   EXPECT_GE(json["lapse_rate"], 0.0);
   EXPECT_LT(json["lapse_rate"], 0.1);
+  EXPECT_GT(json["lapse_rate_ci95"][1], json["lapse_rate"]);
+  EXPECT_LE(json["lapse_rate_with_prior_ci95"][1], json["lapse_rate_ci95"][1]);
+  EXPECT_GE(json["lapse_rate_without_prior"], json["lapse_rate"]);
+  EXPECT_TRUE(json["conditions"][0]["weber_fraction_without_prior"].is_number());
   EXPECT_NE(json["method"].get<std::string>().find("lapse rate"), std::string::npos);
-  EXPECT_NE(fit(free, /*as_json=*/false).out.find("lapse rate"), std::string::npos);
+  const std::string text = fit(kHierarchical, /*as_json=*/false).out;
+  EXPECT_NE(text.find("lapse rate"), std::string::npos) << text;
+  EXPECT_NE(text.find("without its prior"), std::string::npos) << text;
+  for (const char* lapse : {"free", "lapse"}) {
+    const char* option = lapse == std::string("lapse") ? "--free" : "--lapse";
+    EXPECT_EQ(document(fit(with(kHierarchical, {option, lapse})).out), json) << lapse;
+  }
+  const auto none = document(fit(with(kHierarchical, {"--lapse", "none"})).out);
+  EXPECT_EQ(none["lapse_rate"], 0.0);
+  EXPECT_TRUE(none["lapse_rate_ci95"][1].is_null());
+  EXPECT_TRUE(none["conditions"][0]["weber_fraction_without_prior"].is_null());
+  const auto some = document(fit(with(kHierarchical, {"--lapse", "0.05"})).out);
+  EXPECT_EQ(some["lapse_rate"], 0.05);
+  EXPECT_LT(some["conditions"][0]["weber_fraction"], none["conditions"][0]["weber_fraction"])
+      << "with lapses the same answers are of steeper curves";
+  EXPECT_EQ(fit(with(kHierarchical, {"--lapse", "0.5"})).exit_code, 2);
+  EXPECT_EQ(fit(with(kHierarchical, {"--lapse", "some"})).exit_code, 2);
+  EXPECT_EQ(fit(with(kHierarchical, {"--lapse", "none", "--free", "lapse"})).exit_code, 2);
+}
+
+TEST_F(FitGroupCommandTest, LevelsTooHardToTellLapsesAreACaution) {
+  std::string hard = "participant,intensity,num_yes,num_trials\n";
+  for (const char* person : {"A", "B", "C", "D"}) {
+    for (const auto& [level, num_yes] : {std::pair{6, 14}, {7, 17}, {9, 22}, {10, 25}}) {
+      hard += std::string(person) + "," + std::to_string(level) + "," +
+              std::to_string(num_yes) + ",40\n";
+    }
+  }
+  table("g.csv", hard);
+  const auto json = document(fit(kHierarchical).out);
+  ASSERT_EQ(json["conditions"][0]["cautions"].size(), 1U) << json;
+  const std::string caution = json["conditions"][0]["cautions"][0];
+  EXPECT_NE(caution.find("too hard"), std::string::npos) << caution;
+  EXPECT_NE(caution.find("0.03"), std::string::npos) << caution;
+  EXPECT_EQ(json["conditions"][0]["easy_ratio"], 0.0);
+  EXPECT_NE(fit(kHierarchical, /*as_json=*/false).out.find("CAUTION: the levels are too hard"),
+            std::string::npos);
+  table("g.csv", kGroup);
+  EXPECT_TRUE(document(fit(kHierarchical).out)["conditions"][0]["cautions"].empty());
+}
+
+TEST_F(FitGroupCommandTest, AGuessRateIsThatOfAForcedChoice) {
+  // Right answers of two alternatives: half and half of what is not felt.
+  std::string right = "participant,intensity,num_yes,num_trials\n";
+  for (const auto& [person, shift] : {std::pair{"A", 0}, {"B", 2}, {"C", -2}}) {
+    for (const auto& [level, num] : {std::pair{2, 21}, {4, 24}, {8, 30}, {16, 37}, {32, 40}}) {
+      right += std::string(person) + "," + std::to_string(level) + "," +
+               std::to_string(std::min(40, num + shift)) + ",40\n";
+    }
+  }
+  table("g.csv", right);
+  const auto half = document(fit(with(kHierarchical, {"--guess", "1/2"})).out);
+  EXPECT_EQ(half["guess_rate"], 0.5);
+  EXPECT_NEAR(half["conditions"][0]["pse"].get<double>(), 8.0, 1.5) << "three quarters right";
+  const auto none = document(fit(kHierarchical).out);
+  EXPECT_LT(none["conditions"][0]["pse"], 4.0) << "half right";
+  ASSERT_EQ(none["warnings"].size(), 1U) << "no level lies below a half";
+  EXPECT_NE(none["warnings"][0].get<std::string>().find("--guess"), std::string::npos);
+  EXPECT_TRUE(half["warnings"].empty());
+  EXPECT_NE(fit(kHierarchical, /*as_json=*/false).out.find("--guess"), std::string::npos);
+  EXPECT_EQ(fit(with(kHierarchical, {"--guess", "1"})).exit_code, 2);
+  table("g.csv", kGroup);
+  EXPECT_TRUE(document(fit(kHierarchical).out)["warnings"].empty()) << "of yes and no";
+}
+
+TEST_F(FitGroupCommandTest, WhoAnswersTheWrongWayRoundIsNamed) {
+  std::string text = kGroup;
+  text += "D,d,5,9,10\nD,d,7,6,10\nD,d,10,4,10\nD,d,14,1,10\n";
+  table("g.csv", text);
+  const auto json = document(fit(kHierarchical).out);
+  ASSERT_EQ(json["warnings"].size(), 1U) << json["warnings"];
+  const std::string warning = json["warnings"][0];
+  EXPECT_TRUE(warning.starts_with("D in d (p < 0.001) answers the wrong way round")) << warning;
+  EXPECT_NE(fit(kHierarchical, /*as_json=*/false).out.find("note: D in d (p < 0.001)"),
+            std::string::npos);
+  for (const auto& one : json["participants"]) {
+    const bool is_large = one["weber_fraction"] > 14.0 / 8.0 - 1.0;
+    EXPECT_EQ(one["cautions"].size(), is_large ? 1U : 0U) << one;
+    EXPECT_TRUE(is_large || one["participant"] != "D") << one;
+    EXPECT_TRUE(one["reason"].is_null());
+  }
 }
 
 TEST_F(FitGroupCommandTest, AColumnReferenceGoesBeforeTheOption) {
@@ -69,6 +161,11 @@ TEST_F(FitGroupCommandTest, AColumnReferenceGoesBeforeTheOption) {
         "B,8,5,3,10\nB,8,7,4,10\nB,8,10,6,10\nB,8,14,8,10\n");
   const auto with_column = document(fit({"hierarchical", "--csv", "g.csv"}).out);
   EXPECT_EQ(with_column["status"], "ok");
+  EXPECT_TRUE(with_column["warnings"].empty()) << with_column["warnings"];
+  const auto beside = document(fit({"hierarchical", "--csv", "g.csv", "--reference", "9"}).out);
+  ASSERT_EQ(beside["warnings"].size(), 1U);
+  EXPECT_EQ(beside["warnings"][0],
+            "the table's column reference is used, and --reference 9 is not");
   EXPECT_NEAR(with_column["conditions"][0]["pse"].get<double>(), 8.0, 2.0);
 }
 
@@ -86,6 +183,33 @@ TEST_F(FitGroupCommandTest, OnePersonIsDegenerateWithTheReasonInJsonAndOnStderr)
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(document(outcome.out)["status"], "degenerate");
   EXPECT_NE(outcome.err.find("fewer than two participants"), std::string::npos);
+}
+
+/// Sessions of one person whose criterion moves by whole standard deviations, and two people
+/// who keep theirs.
+constexpr char kSessions[] =
+    "participant,session,intensity,num_yes,num_trials\n"
+    "A,1,5,0,20\nA,1,7,0,20\nA,1,10,1,20\nA,1,14,5,20\n"
+    "A,2,5,14,20\nA,2,7,19,20\nA,2,10,20,20\nA,2,14,20,20\n"
+    "A,3,5,12,20\nA,3,7,18,20\nA,3,10,20,20\nA,3,14,20,20\n"
+    "B,1,5,4,20\nB,1,7,8,20\nB,1,10,14,20\nB,1,14,18,20\n"
+    "C,1,5,2,20\nC,1,7,7,20\nC,1,10,13,20\nC,1,14,19,20\n";
+
+TEST_F(FitGroupCommandTest, SessionsThatScatterAreWarnedOf) {
+  table("g.csv", kSessions);
+  const auto json = document(fit({"hierarchical", "--csv", "g.csv", "--reference", "8"}).out);
+  ASSERT_EQ(json["warnings"].size(), 1U) << json["warnings"];
+  const std::string warning = json["warnings"][0];
+  EXPECT_NE(warning.find("rows of the same person and level scatter"), std::string::npos);
+  EXPECT_NE(warning.find("most of all those of A)"), std::string::npos) << warning;
+}
+
+TEST_F(FitGroupCommandTest, EffectsOfSessionsThatScatterAreWarnedOf) {
+  table("g.csv", kSessions);
+  const auto json = document(fit({"effects", "--csv", "g.csv", "--reference", "8"}).out);
+  ASSERT_EQ(json["warnings"].size(), 1U) << json["warnings"];
+  const std::string warning = json["warnings"][0];
+  EXPECT_NE(warning.find("scatter more than independent"), std::string::npos) << warning;
 }
 
 TEST_F(FitGroupCommandTest, EffectsOfTrialAndIntervalOrderComeWhereTheTableHasThem) {
@@ -106,6 +230,13 @@ TEST_F(FitGroupCommandTest, EffectsOfTrialAndIntervalOrderComeWhereTheTableHasTh
   EXPECT_TRUE(json["effects"][3]["p_value"].is_number());
   EXPECT_EQ(json["ci95_method"], "Wald");
   EXPECT_EQ(json["p_value_method"], "likelihood ratio");
+  EXPECT_GT(json["slope"], json["slope_ci95"][0]);
+  EXPECT_TRUE(json["warnings"].empty());
+  const std::vector<std::string> far = {"effects", "--csv", "t.csv", "--reference", "2"};
+  EXPECT_EQ(document(fit(far).out)["warnings"].size(), 1U);
+  const std::string words = fit(far, /*as_json=*/false).out;
+  EXPECT_TRUE(words.starts_with("  slope ")) << words;
+  EXPECT_NE(words.find("note: the reference 2 lies outside the levels"), std::string::npos);
 }
 
 constexpr char kAnswers[] =

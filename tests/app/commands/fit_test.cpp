@@ -91,9 +91,30 @@ TEST_F(FitCommandTest, PowerPrintsTheKeysOfTheContract) {
   }
   EXPECT_NEAR(json["k"].get<double>(), 2.0, 1e-9);
   EXPECT_NEAR(json["a"].get<double>(), 0.5, 1e-9);
-  EXPECT_TRUE(json["excluded"].empty());
+  EXPECT_EQ(json["excluded"].size(), 1U) << "at intensity 0 a law is 0 whatever k and a are";
+  EXPECT_EQ(json["num_at_zero"], 1);
+  EXPECT_EQ(json["num_rows"], 3);
   const auto log_log = document(fit({"power", "--csv", "m.csv", "--method", "loglog"}).out);
   EXPECT_EQ(log_log["excluded"].size(), 1U);
+}
+
+TEST_F(FitCommandTest, PowerCountsTheRowsAtIntensityZeroThatItLeavesOut) {
+  table("m.csv", "intensity,magnitude\n0,0\n0,0\n0,0\n1,1\n2,3\n4,3\n");
+  const std::string out = fit({"power", "--csv", "m.csv"}, false).out;
+  EXPECT_NE(out.find("left out 3 rows, lines 2, 3, 4: the intensity is 0"), std::string::npos)
+      << out;
+  EXPECT_NE(out.find("no interval: one degree of freedom is too few"), std::string::npos)
+      << out;
+}
+
+TEST_F(FitCommandTest, TextAndJsonHaveOneIntervalOfTheFactor) {
+  table("m.csv", "intensity,magnitude\n1e12,3e30\n2e12,6e30\n4e12,11e30\n8e12,25e30\n");
+  const std::string out = fit({"power", "--csv", "m.csv"}, false).out;
+  EXPECT_EQ(out.find("not bounded"), std::string::npos) << out;
+  EXPECT_NE(out.find("95 % 1.185e+14 to 5.73e+20"), std::string::npos) << out;
+  const auto json = document(fit({"power", "--csv", "m.csv"}).out);
+  EXPECT_NEAR(json["k_ci95"][0].get<double>() / 1.18e14, 1.0, 0.01);
+  EXPECT_NEAR(json["k_ci95"][1].get<double>() / 5.73e20, 1.0, 0.01);
 }
 
 TEST_F(FitCommandTest, GroupsAreFittedOnTheirOwn) {
@@ -138,6 +159,9 @@ TEST_F(FitCommandTest, TextSaysOpenEndsAndMissingIntervalsInWords) {
   const std::string line = fit({"power", "--csv", "line.csv"}, false).out;
   EXPECT_NE(line.find("no interval: the power law passes through every row"), std::string::npos)
       << line;
+  const auto json = document(fit({"power", "--csv", "line.csv"}).out);
+  EXPECT_TRUE(json["k_ci95"].is_null() || json["k_ci95"][0].is_null()) << json["k_ci95"];
+  EXPECT_EQ(json["no_interval"], "the power law passes through every row");
   table("three.csv", "intensity,magnitude\n1,-0.1\n2,2\n4,3\n");
   const std::string three = fit({"power", "--csv", "three.csv"}, false).out;
   EXPECT_NE(three.find("one degree of freedom is too few"), std::string::npos) << three;
@@ -148,6 +172,210 @@ TEST_F(FitCommandTest, AnEmptyGroupIsMarked) {
   table("m.csv", "who,intensity,magnitude\n,1,2\n,4,4\ny,1,3\ny,2,6\n");
   const std::string out = fit({"power", "--csv", "m.csv", "--group-by", "who"}, false).out;
   EXPECT_NE(out.find("who (empty)\n"), std::string::npos) << out;
+}
+
+constexpr char kForced[] =
+    "intensity,num_yes,num_trials\n0.5,21,40\n0.8,20,40\n1.2,27,40\n1.8,34,40\n2.7,39,40\n";
+
+TEST_F(FitCommandTest, CountsOfAForcedChoiceAreWarnedOfUntilTheirChanceIsTold) {
+  table("f.csv", kForced);
+  const std::vector<std::string> words = {"weber", "--csv",  "f.csv", "--reference",
+                                          "1",     "--free", "pse"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return document(fit(more).out);
+  };
+  const auto as_yes_no = with({});
+  ASSERT_EQ(as_yes_no["warnings"].size(), 1U) << as_yes_no["warnings"];
+  EXPECT_NE(as_yes_no["warnings"][0].get<std::string>().find("--guess"), std::string::npos);
+  EXPECT_TRUE(with({"--guess", "0"})["warnings"].empty()) << "yes and no are told";
+  const auto forced = with({"--guess", "1/2"});
+  EXPECT_TRUE(forced["warnings"].empty()) << forced["warnings"];
+  EXPECT_EQ(forced["guess_rate"], 0.5);
+  EXPECT_EQ(forced["status"], "ok");
+  EXPECT_GT(forced["pse"].get<double>(), 1.3 * as_yes_no["pse"].get<double>());
+  EXPECT_NE(fit(words, false).out.find("--guess 1/2"), std::string::npos);
+}
+
+TEST_F(FitCommandTest, AnswersThatFallAreWarnedOf) {
+  table("f.csv", "intensity,num_yes,num_trials\n2,19,20\n3,16,20\n4,13,20\n5,11,20\n");
+  const std::vector<std::string> words = {"weber", "--csv", "f.csv", "--reference", "1"};
+  const auto json = document(fit(words).out);
+  EXPECT_EQ(json["status"], "ok");
+  ASSERT_FALSE(json["warnings"].empty());
+  const std::string first = json["warnings"][0];
+  EXPECT_NE(first.find("the answers fall as the intensity grows"), std::string::npos) << first;
+  EXPECT_NE(first.find("wrong way round"), std::string::npos) << first;
+  for (const std::string warning : json["warnings"]) {
+    EXPECT_EQ(warning.find("--guess"), std::string::npos) << "nor are they right answers";
+    EXPECT_EQ(warning.find("--overdispersion"), std::string::npos) << "nor do they scatter";
+  }
+  EXPECT_NE(fit(words, false).out.find("note: the answers fall"), std::string::npos);
+  // Also where there is no curve.
+  table("f.csv", "intensity,num_yes,num_trials\n0.5,9,10\n2,1,10\n");
+  const auto none = document(fit(words).out);
+  EXPECT_EQ(none["status"], "degenerate");
+  EXPECT_EQ(none["warnings"].size(), 1U);
+  table("f.csv", "intensity,num_yes,num_trials\n0.5,1,10\n2,9,10\n");
+  EXPECT_TRUE(document(fit(words).out)["warnings"].empty()) << "they rise";
+}
+
+TEST_F(FitCommandTest, AnswersOfSeveralPeopleInOneCurveAreWarnedOf) {
+  table("p.csv",
+        "participant,condition,intensity,num_yes,num_trials\n"
+        "A,d,4,2,20\nA,d,8,9,20\nA,d,14,18,20\nB,d,4,3,20\nB,d,8,10,20\nB,d,14,19,20\n"
+        "B,e,4,2,20\nB,e,8,11,20\nB,e,14,18,20\n");
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"weber", "--csv", "p.csv", "--reference", "8"};
+    words.insert(words.end(), more.begin(), more.end());
+    return document(fit(words).out);
+  };
+  const auto pooled = warnings({})["warnings"];
+  ASSERT_EQ(pooled.size(), 2U) << pooled;
+  const std::string people = pooled[0], conditions = pooled[1];
+  EXPECT_NE(people.find("2 participants are added up"), std::string::npos) << people;
+  EXPECT_NE(people.find("--group-by participant fits"), std::string::npos) << people;
+  EXPECT_NE(people.find("jnd fit hierarchical"), std::string::npos) << people;
+  EXPECT_NE(conditions.find("2 conditions"), std::string::npos) << conditions;
+  const auto groups = warnings({"--group-by", "condition"})["groups"];
+  ASSERT_EQ(groups[0]["warnings"].size(), 1U);
+  EXPECT_NE(
+      groups[0]["warnings"][0].get<std::string>().find("--group-by condition,participant fits"),
+      std::string::npos);
+  EXPECT_TRUE(groups[1]["warnings"].empty()) << "one person's";
+  const auto alone = warnings({"--group-by", "participant,condition"});
+  ASSERT_EQ(alone["groups"].size(), 3U);
+  for (const auto& group : alone["groups"]) {
+    EXPECT_TRUE(group["warnings"].empty());
+  }
+  EXPECT_NE(fit({"weber", "--csv", "p.csv", "--reference", "8"}, false)
+                .out.find("note: the answers of 2 participants"),
+            std::string::npos);
+}
+
+/// A true w of .2 and 5 % lapses at both ends: without lapses in the model .42 (.32 .. .59).
+TEST_F(FitCommandTest, LapsesThatAreNotInTheModelAreWarnedOf) {
+  table("l.csv",
+        "intensity,num_yes,num_trials\n"
+        "0.5,2,20\n0.65,2,20\n0.8,3,20\n0.9,4,20\n1.1,15,20\n1.25,17,20\n1.5,18,20\n2,19,20\n");
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"weber", "--csv", "l.csv", "--reference", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return document(fit(words).out)["warnings"].dump();
+  };
+  for (const char* overdispersion : {"none", "scaled", "beta-binomial"}) {
+    EXPECT_NE(
+        warnings({"--overdispersion", overdispersion}).find("hangs on there being no lapses"),
+        std::string::npos)
+        << overdispersion;
+  }
+  EXPECT_EQ(warnings({"--free", "lapse"}).find("no lapses"), std::string::npos);
+  EXPECT_EQ(warnings({"--lapse", "0.05"}).find("no lapses"), std::string::npos);
+  table("l.csv", "intensity,num_yes,num_trials\n1.031,26,59\n1.228,5,11\n");
+  EXPECT_NE(warnings({"--lapse", "free"}).find("looks like a lapse"), std::string::npos);
+}
+
+/// Three rounds of yes at every level, then three of no.
+TEST_F(FitCommandTest, SingleAnswersThatScatterAreWarnedOfWhateverTheInterval) {
+  std::string text = "intensity,num_yes,num_trials\n";
+  for (int round = 0; round < 24; ++round) {
+    for (const char* level : {"0.5", "0.8", "1.25", "2"}) {
+      const bool high = level[0] != '0';
+      const bool yes = round < 12 ? high || round % 3 > 0 : high && round % 3 == 0;
+      text += std::string(level) + (yes ? ",1,1\n" : ",0,1\n");
+    }
+  }
+  table("s.csv", text);
+  for (const char* overdispersion : {"none", "scaled"}) {
+    const std::string warnings =
+        document(fit({"weber", "--csv", "s.csv", "--reference", "1", "--free", "pse",
+                      "--overdispersion", overdispersion})
+                     .out)["warnings"]
+            .dump();
+    EXPECT_NE(warnings.find("the Weber fraction itself is too large"), std::string::npos)
+        << overdispersion << warnings;
+    EXPECT_EQ(warnings.find("every row is a single answer") != std::string::npos,
+              std::string(overdispersion) == "scaled");
+  }
+}
+
+TEST_F(FitCommandTest, RowsOfSeveralPeopleInOnePowerLawAreWarnedOf) {
+  table("m.csv",
+        "participant,intensity,magnitude\n"
+        "A,1,10\nA,2,15\nA,4,22\nB,1,14\nB,2,25\nB,4,41\n");
+  const std::string pooled = document(fit({"power", "--csv", "m.csv"}).out)["warnings"].dump();
+  EXPECT_NE(pooled.find("2 participants are taken as independent"), std::string::npos);
+  const auto alone =
+      document(fit({"power", "--csv", "m.csv", "--group-by", "participant"}).out);
+  for (const auto& group : alone["groups"]) {
+    EXPECT_TRUE(group["warnings"].empty());
+  }
+}
+
+TEST_F(FitCommandTest, AnotherReferenceInTheTableIsWarnedOf) {
+  table("r.csv",
+        "reference,intensity,num_yes,num_trials\n"
+        "8,4,2,20\n8.0,8,9,20\n10,14,18,20\n");
+  const auto warnings = [&](const char* reference) {
+    return document(fit({"weber", "--csv", "r.csv", "--reference", reference}).out)["warnings"];
+  };
+  const auto of_8 = warnings("8");
+  ASSERT_EQ(of_8.size(), 1U) << of_8;
+  const std::string words = of_8[0];
+  EXPECT_NE(words.find("has 10, and is not used"), std::string::npos) << words;
+  table("r.csv", "reference,intensity,num_yes,num_trials\n8,4,2,20\n8.0,14,18,20\n");
+  EXPECT_TRUE(warnings("8").empty());
+}
+
+TEST_F(FitCommandTest, LapsesAreOfTheUpperEndUnlessTheyAreSymmetric) {
+  table("f.csv", kForced);
+  const auto told = [&](std::vector<std::string> more) {
+    const std::vector<std::string> words = {"weber",  "--csv", "f.csv",   "--reference", "1",
+                                            "--free", "pse",   "--guess", "0.5"};
+    more.insert(more.begin(), words.begin(), words.end());
+    return document(fit(more).out);
+  };
+  EXPECT_EQ(told({"--lapse", "0.02"})["lapse_rate"], 0.02);
+  EXPECT_EQ(told({"--lapse", "0.02"})["lapses_at"], "upper end");
+  EXPECT_EQ(told({"--lapse", "0.02", "--symmetric"})["lapses_at"], "both ends");
+  EXPECT_EQ(told({"--lapse", "free"})["status"], "ok");
+  EXPECT_EQ(told({"--free", "lapse"})["lapses_at"], "both ends") << "as it always was";
+}
+
+TEST_F(FitCommandTest, OverdispersionIsAskedForByName) {
+  table("s.csv",
+        "intensity,num_yes,num_trials\n0.5,2,40\n0.65,15,40\n0.8,9,40\n1,25,40\n1.25,19,40\n"
+        "1.6,37,40\n2.2,34,40\n");
+  const auto told = [&](const char* how) {
+    return document(fit({"weber", "--csv", "s.csv", "--reference", "1", "--free", "pse",
+                         "--overdispersion", how})
+                        .out);
+  };
+  const auto none = told("none"), scaled = told("scaled"), beta = told("beta-binomial");
+  EXPECT_NE(none["warnings"].dump().find("--overdispersion scaled"), std::string::npos);
+  EXPECT_EQ(scaled["overdispersion"]["model"], "scaled");
+  EXPECT_GT(scaled["overdispersion"]["factor"].get<double>(), 2.0);
+  EXPECT_GT(beta["overdispersion"]["correlation"].get<double>(), 0.02);
+  for (const auto& one : {scaled, beta}) {
+    EXPECT_LT(one["weber_fraction_ci95"][0], none["weber_fraction_ci95"][0]);
+    EXPECT_GT(one["weber_fraction_ci95"][1], none["weber_fraction_ci95"][1]);
+    EXPECT_EQ(one["warnings"].dump().find("too narrow"), std::string::npos);
+  }
+}
+
+TEST_F(FitCommandTest, AGaussianBelowZeroHasItsCurveButNoWeberFraction) {
+  table("g.csv", "intensity,num_yes,num_trials\n1,12,20\n2,14,20\n3,15,20\n");
+  const std::vector<std::string> words = {"weber", "--csv",    "g.csv", "--reference",
+                                          "2",     "--family", "gauss"};
+  const ProgramOutcome outcome = fit(words);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  EXPECT_TRUE(json["weber_fraction"].is_null());
+  EXPECT_NE(json["reason"].get<std::string>().find("not above 0"), std::string::npos);
+  EXPECT_LT(json["parameters"]["mean"], 0.0);
+  EXPECT_GT(json["parameters"]["standard_deviation"], 0.0);
+  EXPECT_NE(fit(words, false).out.find("Weber fraction  none: the pse is not above 0"),
+            std::string::npos);
 }
 
 TEST_F(FitCommandTest, HelpShowsListsAsTheyAreTakenAndWhatALapseRateIs) {

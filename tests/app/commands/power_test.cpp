@@ -9,6 +9,7 @@
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -139,6 +140,32 @@ TEST_F(PowerCommandTest, TheNullHypothesisIsRejectedInAboutFivePercent) {
   EXPECT_NEAR(size["tests"][0]["power"], 0.05, 0.015);
   EXPECT_NEAR(size["tests"][0]["mean_difference"], 0.0, 0.02);
   EXPECT_EQ(size["estimates"][0]["true_value"], size["estimates"][1]["true_value"]);
+}
+
+TEST_F(PowerCommandTest, WhereNothingDiffersSaysThatItsShareIsNoPower) {
+  auto laboratory = nlohmann::json::parse(
+      read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
+  laboratory["name"] = "no_viscosity_of_its_own";
+  laboratory["device"]["mechanical_viscosity_n_s_per_m"]["value"] = 0.0;
+  write_file(path("alike.json"), laboratory.dump());
+  const Words words = {"--runs", "40", "--laboratory", "alike.json"};
+  const ProgramOutcome table = power(words);
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  for (const char* part : {"True difference in ln ln(1 + w): ", "Nothing differs", "p < 0.05",
+                           "WARNING: In this laboratory the Weber fractions of group_d and "
+                           "group_e do not differ"}) {
+    EXPECT_NE(table.out.find(part), std::string::npos) << part << " in\n" << table.out;
+  }
+  Words with_json = words;
+  with_json.push_back("--json");
+  const auto json = document(power(with_json).out);
+  EXPECT_EQ(json["nothing_differs"], true);
+  EXPECT_EQ(json["sizes"][0]["tests"][0]["power_is"], "false_positive_rate");
+  EXPECT_NE(json["warnings"].dump().find("rate of false positives"), std::string::npos);
+  const auto apart = document(power({"--runs", "4", "--json"}).out);
+  EXPECT_EQ(apart["nothing_differs"], false);
+  EXPECT_GT(apart["true_difference"], 0.2);
+  EXPECT_EQ(apart["sizes"][0]["tests"][0]["power_is"], "power");
 }
 
 TEST_F(PowerCommandTest, AnotherObserverCostsPower) {

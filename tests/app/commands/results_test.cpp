@@ -155,6 +155,11 @@ TEST_F(ResultsCommandTest, ComparesTheBlocksThatAreAskedFor) {
   EXPECT_EQ(against({}).size(), 3U) << "every two of three references";
   EXPECT_EQ(against({"--compare", "pairs_thick,pairs_thin"}),
             std::vector<std::string>{"pairs_thick_against_pairs_thin"});
+  const auto table =
+      jnd({"results", "p.study", "--resamples", "100", "--compare", "pairs_thick,pairs_thin"});
+  EXPECT_NE(table.out.find("[asked for with --compare, not planned in the study]"),
+            std::string::npos)
+      << table.out;
   for (const char* wrong : {"pairs_thick", "pairs_thick,none", "pairs_thin,pairs_thin"}) {
     const ProgramOutcome outcome = jnd({"results", "p.study", "--compare", wrong});
     EXPECT_EQ(outcome.exit_code, 2) << wrong;
@@ -174,6 +179,8 @@ TEST_F(ResultsCommandTest, TheTableSaysThatItIsSimulatedAndShowsNoNan) {
                               "group_e.weber_fraction_median_person", "pse free (primary)"}) {
     EXPECT_NE(in_short.find(primary), std::string::npos) << primary;
   }
+  EXPECT_NE(in_short.find("[exploratory, every two blocks]"), std::string::npos) << in_short;
+  EXPECT_NE(in_short.find("Nobody planned a comparison"), std::string::npos) << in_short;
   EXPECT_EQ(in_short.find("individual"), std::string::npos) << in_short;
   EXPECT_EQ(outcome.out.find("nan"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("inf "), std::string::npos) << outcome.out;

@@ -54,6 +54,31 @@ TEST_F(RunCommandTest, AcknowledgesEveryEventOnceInOrderAndNothingElse) {
   }
 }
 
+TEST_F(RunCommandTest, APosteriorAtTheEndOfItsGridIsTold) {
+  const auto study_with = [](const std::string& pse) {
+    return R"json({"format": 1, "name": "edge", "languages": ["en"], "title": {"en": "E"},
+      "authors": ["A. Author"], "device": {"min_contact_points": 1}, "stages": [
+      {"kind": "block", "name": "one", "procedure": "quest_plus", "medium": "viscous",
+       "viscosity_pa_s": [5, 7, 9, 11, 14, 20], "reference_viscosity_pa_s": 10,
+       "weber_fraction": [0.02, 8], "max_trials": 30, "pse_viscosity_pa_s": )json" +
+           pse + R"json(, "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
+       "expected_trial_s": 5}]})json";
+  };
+  write_file(temporary_.path() / "narrow.json", study_with("[9.99, 10.01]"));
+  const ProgramOutcome narrow = jnd(run_words("narrow.study", "narrow.json"));
+  EXPECT_EQ(narrow.exit_code, 0) << narrow.err;
+  EXPECT_NE(narrow.err.find("jnd: CAUTION, one: the posterior of QUEST+ reaches "),
+            std::string::npos)
+      << narrow.err;
+  write_file(temporary_.path() / "wide.json", study_with("[2, 50]"));
+  EXPECT_EQ(jnd(run_words("wide.study", "wide.json")).err.find("CAUTION"), std::string::npos);
+  write_file(temporary_.path() / "beside.json", study_with("[12, 16]"));
+  const ProgramOutcome beside = jnd(run_words("beside.study", "beside.json"));
+  EXPECT_EQ(beside.exit_code, 1);
+  EXPECT_NE(beside.err.find("from below the reference to above it (10)"), std::string::npos)
+      << beside.err;
+}
+
 TEST_F(RunCommandTest, TheLanguageIsOneOfTheStudyAndIsKept) {
   std::vector<std::string> words = run_words("a.study", "protocols/short_tour.json");
   words.insert(words.end(), {"--language", "fr"});

@@ -40,6 +40,22 @@ class ShippedStudyTest : public ::testing::TestWithParam<std::string> {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
+/// Whatever is null says why.
+void expect_reasons(const nlohmann::json& results) {
+  for (const auto& section : results["sections"]) {
+    for (const char* list : {"estimates", "participants"}) {
+      for (const auto& one : section[list]) {
+        if (!one["value"].is_null()) continue;
+        EXPECT_NE(one["reason"], "") << section["name"] << " " << one;
+      }
+    }
+    for (const auto& one : section["comparisons"]) {
+      if (one["status"] == "ok" && !one["p_value"].is_null()) continue;
+      EXPECT_NE(one["reason"], "") << section["name"] << " " << one;
+    }
+  }
+}
+
 TEST_P(ShippedStudyTest, IsCheckedPlannedSimulatedVerifiedAndAnalysed) {
   const std::string& name = GetParam();
   ProgramOutcome outcome = jnd({"validate", name, "--device", "lumped"});
@@ -54,13 +70,15 @@ TEST_P(ShippedStudyTest, IsCheckedPlannedSimulatedVerifiedAndAnalysed) {
   if (test_support::kIsSanitized && name != "short_tour") {
     GTEST_SKIP() << "minutes of the same code";
   }
-  outcome = jnd({"simulate", name, "--participants", "2", "--study", "a.study", "--fast"});
+  outcome = jnd({"simulate", name, "--participants", "4", "--study", "a.study", "--fast"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   outcome = jnd({"verify", "a.study", "--json"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   outcome = jnd({"results", "a.study", "--resamples", "100", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_FALSE(nlohmann::json::parse(outcome.out)["sections"].empty());
+  const auto results = nlohmann::json::parse(outcome.out);
+  EXPECT_FALSE(results["sections"].empty());
+  expect_reasons(results);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedStudyTest, ::testing::ValuesIn(shipped_names()),

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "app/json_document.h"
@@ -32,7 +34,7 @@ TEST_F(StudyFileCommandsTest, ValidateTellsEveryProblemWithItsPlace) {
   const ProgramOutcome outcome = jnd({"validate", "wrong.json", "--json"});
   EXPECT_EQ(outcome.exit_code, 1);
   const auto json = document(outcome.out);
-  EXPECT_EQ(keys(json), std::set<std::string>{"problems"});
+  EXPECT_EQ(keys(json), (std::set<std::string>{"problems", "warnings"}));
   ASSERT_GE(json["problems"].size(), 2U);
   std::set<std::string> pointers;
   for (const auto& problem : json["problems"]) {
@@ -58,6 +60,20 @@ TEST_F(StudyFileCommandsTest, ValidateFindsNothingInWhatIsShipped) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
   EXPECT_TRUE(document(outcome.out)["problems"].empty());
+}
+
+TEST_F(StudyFileCommandsTest, ValidateAsksAboutADecimalCommaAndTakesTheStudy) {
+  write_file(file("comma.json"), replaced(kTinyStudy, "[4, 16]", "[4,5, 16]"));
+  const ProgramOutcome plain = jnd({"validate", "comma.json"});
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_NE(plain.out.find("viscosity_pa_s: warning: expected levels in order"),
+            std::string::npos)
+      << plain.out;
+  const auto json = document(jnd({"validate", "comma.json", "--json"}).out);
+  EXPECT_TRUE(json["problems"].empty());
+  ASSERT_EQ(json["warnings"].size(), 1U);
+  EXPECT_EQ(keys(json["warnings"][0]),
+            (std::set<std::string>{"file", "line", "column", "pointer", "message"}));
 }
 
 TEST_F(StudyFileCommandsTest, ValidateTellsTheProblemsOfAllFiles) {
@@ -356,6 +372,26 @@ TEST_F(StudyFileCommandsTest, WhatIsShippedFitsTheDevice) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_TRUE(document(outcome.out)["problems"].empty());
   }
+}
+
+TEST_F(StudyFileCommandsTest, PlanNamesLevelsThatCouldNotTellLapsesAndThoseThatWould) {
+  const std::vector<std::string> plan = {"plan", "viscosity_discrimination"};
+  std::vector<std::string> as_json = plan;
+  as_json.emplace_back("--json");
+  const auto lapses = document(jnd(as_json).out)["lapses"];
+  ASSERT_EQ(lapses.size(), 2U);
+  const auto& hard = lapses[lapses[0]["block"] == "group_d" ? 0 : 1];
+  const auto& easy = lapses[lapses[0]["block"] == "group_d" ? 1 : 0];
+  EXPECT_TRUE(hard["untold"]) << hard;
+  EXPECT_GT(hard["fraction_change"], 0.08);
+  EXPECT_LT(hard["easiest_ratio"], 0.99);
+  // 2.5 times ln(1 + w) from the reference.
+  const double w = hard["weber_fraction"];
+  EXPECT_NEAR(hard["easy_high"].get<double>(), 1.853 * std::pow(1.0 + w, 2.5), 1e-4);
+  EXPECT_FALSE(easy["untold"]) << easy;
+  const std::string text = jnd(plan).out;
+  EXPECT_NE(text.find("group_d: simulated participants"), std::string::npos) << text;
+  EXPECT_EQ(text.find("group_e: simulated participants"), std::string::npos) << text;
 }
 
 TEST_F(StudyFileCommandsTest, TheOrdersOfADoubleBlindStudyAreRefusedUntilItIsUnblinded) {

@@ -47,6 +47,10 @@ class HeadlessUi {
     for (const Drawn::Widget& widget : drawn_.widgets) {
       EXPECT_TRUE(names.insert(widget.name).second) << "drawn twice: " << widget.name;
     }
+    for (const std::string& key : drawn_.shared_keys) {
+      if (may_share_keys) break;
+      ADD_FAILURE() << "more than one control of " << drawn_.view << " has the key " << key;
+    }
     return drawn_;
   }
 
@@ -109,7 +113,8 @@ class HeadlessUi {
   [[nodiscard]] Theme& theme() noexcept { return theme_; }
   [[nodiscard]] InputQueue& queue() noexcept { return queue_; }
 
-  float frame_s = 1.0f / 60;  ///< Passes between two frames.
+  bool may_share_keys = false;  ///< Two controls of a screen may ask for one key.
+  float frame_s = 1.0f / 60;    ///< Passes between two frames.
 
  private:
   static ImGuiContext* make_context(Theme& theme, float width, float height) {

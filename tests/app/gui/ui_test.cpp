@@ -1,5 +1,6 @@
 #include "app/gui/ui.h"
 
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,6 +36,28 @@ TEST(Button, AnswersToItsKeyExactlyOnce) {
   ui.frame(draw);
   EXPECT_EQ(answers.yes, 1);
   EXPECT_EQ(answers.no, 0);
+}
+
+TEST(Button, OfTwoThatHaveOneKeyTheTestsHear) {
+  HeadlessUi ui;
+  EXPECT_NONFATAL_FAILURE(ui.frame([](Ui& frame) {
+    (void)frame.button("yes", kLeft, "Thicker", {.key = kYes});
+    (void)frame.button("other", kRight, "Note", {.key = kYes});
+  }),
+                          "has the key Y");
+  EXPECT_NONFATAL_FAILURE(ui.frame([](Ui& frame) {
+    (void)frame.button("yes", kLeft, "Thicker", {.key = kYes});
+    (void)frame.pressed(kYes);
+  }),
+                          "has the key Y");
+  // One that cannot be used, and what lies below a dialog, take no key from anybody.
+  ui.frame([](Ui& frame) {
+    (void)frame.button("yes", kLeft, "Thicker", {.key = kYes});
+    (void)frame.button("other", kRight, "Note", {.key = kYes, .enabled = false});
+    (void)frame.begin_dialog("sure", 300, 200);
+    (void)frame.button("sure_yes", kLeft, "Yes", {.key = kYes});
+    frame.end_dialog();
+  });
 }
 
 TEST(Button, IsNotReachedByWhatIsTypedAndClickedWhileInputIsHeld) {
@@ -175,6 +198,7 @@ TEST(Keys, BelongToTheFirstControlThatAsks) {
     second += frame.button("second", kRight, "Second", {.key = kYes});
     second += frame.pressed(kYes);
   };
+  ui.may_share_keys = true;
   ui.press(kYes);
   ui.frame(draw);
   EXPECT_EQ(first, 1);

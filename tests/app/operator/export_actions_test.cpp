@@ -76,6 +76,9 @@ TEST_F(ExportActionsTest, ABackupIsReadBackAndKnown) {
   EXPECT_TRUE(outcome.ok);
   EXPECT_NE(outcome.sentence.find("complete"), std::string::npos) << outcome.sentence;
   EXPECT_EQ(core::known_backups(study_.folder()), std::vector<fs::path>{target()});
+  EXPECT_TRUE(outcome.caution);
+  EXPECT_NE(outcome.sentence.find("on the study's own disk"), std::string::npos)
+      << outcome.sentence;
   EXPECT_TRUE(verify_study(target(), control_).ok);
   EXPECT_THROW((void)back_up_study(study_.folder(), study_.folder(), control_), core::Error);
 }

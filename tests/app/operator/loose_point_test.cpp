@@ -196,7 +196,8 @@ TEST_F(LoosePointTest, AnEmergencyStopComesBeforeALooseFinger) {
   EXPECT_EQ(view().step, Step::kFault);
   EXPECT_EQ(view().fault_name, "emergency_stop");
   pass(1.0);
-  act(operate::Rearm{doors_.emergency_stop.num_presses()});
+  act(operate::ReleaseStop{doors_.emergency_stop.num_presses()});
+  act(operate::Rearm{});
   pass(1.0);
   EXPECT_EQ(view().step, Step::kReady);
 }

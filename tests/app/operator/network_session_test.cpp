@@ -14,13 +14,38 @@
 namespace jnd::app {
 namespace {
 
+/// The lumped hand as a device that can hurt somebody.
+class HurtfulHand final : public device::HapticDevice {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "hurtful"; }
+  [[nodiscard]] device::DeviceCapabilities capabilities() const noexcept override {
+    device::DeviceCapabilities can = hand_->capabilities();
+    can.simulated = false;
+    return can;
+  }
+  void open() override { hand_->open(); }
+  [[nodiscard]] bool read(core::HapticState& state) noexcept override {
+    return hand_->read(state);
+  }
+  [[nodiscard]] bool write(const core::PointVectors& force_n) noexcept override {
+    return hand_->write(force_n);
+  }
+  void close() noexcept override { hand_->close(); }
+
+ private:
+  std::unique_ptr<device::HapticDevice> hand_ = device::make_device("lumped", 1000.0);
+};
+
 /// A simulated hand behind the network, at a clock of its own; gone without a word when it is
 /// destroyed, as a process that was killed.
 class ServedHand {
  public:
   /// Port 0: any that is free.
-  explicit ServedHand(std::uint64_t first_stream_id, std::uint16_t port = 0)
-      : port_(device::resolved({.host = "127.0.0.1", .port = port})),
+  explicit ServedHand(std::uint64_t first_stream_id, std::uint16_t port = 0,
+                      std::unique_ptr<device::HapticDevice> hand = device::make_device("lumped",
+                                                                                       1000.0))
+      : device_(std::move(hand)),
+        port_(device::resolved({.host = "127.0.0.1", .port = port})),
         server_(*device_, port_,
                 {.watchdog_s = 0.100,
                  .max_answer_age_s = 0.120,
@@ -44,7 +69,7 @@ class ServedHand {
   [[nodiscard]] std::string place() const { return device::text_of(port_.local()); }
 
  private:
-  std::unique_ptr<device::HapticDevice> device_ = device::make_device("lumped", 1000.0);
+  std::unique_ptr<device::HapticDevice> device_;
   device::UdpPort port_;
   device::DeviceServer server_;
   std::atomic<bool> killed_{false};
@@ -74,7 +99,7 @@ class NetworkSessionTest : public RealtimeSessionTest {
   /// As often as it takes: a connection has to be good for a while first.
   SessionView rearm() {
     return until([this](const SessionView& now) {
-      if (now.step == Step::kFault) session_->request(operate::Rearm{now.num_stop_presses});
+      if (now.step == Step::kFault) session_->request(operate::Rearm{});
       return now.step != Step::kFault;
     });
   }
@@ -136,7 +161,7 @@ TEST_F(NetworkSessionTest, NobodyToArmIsToldAsOftenAsItIsTried) {
   present(trial, "test");
   kill_device();
   for (int attempt = 0; attempt < 2; ++attempt) {
-    session_->request(operate::Rearm{view().num_stop_presses});
+    session_->request(operate::Rearm{});
     const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
     while (std::chrono::steady_clock::now() < patience) session_->advance(0.0);
     EXPECT_EQ(view().step, Step::kFault);
@@ -168,6 +193,24 @@ TEST_F(NetworkSessionTest, ResumesInANewProgramAfterTheDeviceDiedInAPause) {
   EXPECT_EQ(again.trial->trial, second.trial->trial);
   answer(again.trial->trial);
   expect_both_trials_stored_once();
+}
+
+/// A connection may be armed only once it has been good for a while, and `arm` waits for that.
+TEST(NetworkArming, ADeviceThatCanHurtIsArmedWhereSomebodySaysSo) {
+  for (const bool arm : {false, true}) {
+    ServedHand hand(1, 0, std::make_unique<HurtfulHand>());
+    Apparatus::Parameters parameters;
+    parameters.device = "network:" + hand.place();
+    parameters.realtime = true;
+    parameters.allow_no_realtime = true;
+    parameters.arm = arm;
+    const Apparatus apparatus(parameters);
+    EXPECT_FALSE(apparatus.is_simulated());
+    if (!arm) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const core::Arming found = apparatus.telemetry().arming;
+    EXPECT_EQ(found == core::Arming::kArming || found == core::Arming::kArmed, arm)
+        << core::words(apparatus.telemetry().fault);
+  }
 }
 
 }  // namespace

@@ -253,10 +253,13 @@ TEST_F(OperatedSessionTest, TheEmergencyStopPausesAndTheTrialIsRunAgainAfterArmi
   EXPECT_EQ(core::flight_records(store_->recording_file(session_number_)).size(), 1U);
   EXPECT_EQ(act(operate::Answer{trial, 1.0}).refusal, "the device has to be armed first");
   EXPECT_EQ(act(operate::GoOn{}).refusal, "the device has to be armed first");
-  EXPECT_EQ(act(operate::Rearm{now.num_stop_presses - 1}).refusal,
+  EXPECT_EQ(act(operate::Rearm{}).refusal, "the emergency stop is pressed: release it first");
+  EXPECT_EQ(act(operate::ReleaseStop{now.num_stop_presses - 1}).refusal,
             "the emergency stop was pressed again");
   EXPECT_TRUE(doors_.emergency_stop.is_pressed());
-  act(operate::Rearm{now.num_stop_presses});
+  EXPECT_EQ(act(operate::ReleaseStop{now.num_stop_presses}).step, Step::kFault)
+      << "releasing is no arming";
+  act(operate::Rearm{});
   pass(0.1);
   now = view();
   EXPECT_FALSE(doors_.emergency_stop.is_pressed());

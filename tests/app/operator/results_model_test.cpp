@@ -55,14 +55,18 @@ TEST(ResultsModel, EveryNumberIsTheOneOfTheResultsCommand) {
   EXPECT_EQ(figure.quantity, "viscosity");
   EXPECT_EQ(figure.unit, "Pa s");
   EXPECT_EQ(figure.reference, 8.0);
-  const analysis::Estimate& pooled = *results.find("comparison.weber_fraction");
-  EXPECT_EQ(figure.pooled.weber_fraction, pooled.value);
-  EXPECT_EQ(figure.pooled.ci95.low, pooled.ci95.low);
-  EXPECT_EQ(figure.pooled.ci95.high, pooled.ci95.high);
+  const analysis::Estimate& person = *results.find("comparison.weber_fraction_median_person");
+  ASSERT_TRUE(person.primary);
+  EXPECT_EQ(figure.pooled.weber_fraction, person.value);
+  EXPECT_EQ(figure.pooled.ci95.low, person.ci95.low);
+  EXPECT_EQ(figure.pooled.ci95.high, person.ci95.high);
+  EXPECT_EQ(figure.pooled.pse, results.find("comparison.pse_median_person")->value);
+  EXPECT_FALSE(figure.pooled.pooled_curve.empty());
   std::size_t own = 0;
   for (const analysis::ResultsSection& section : results.sections) {
     for (const analysis::ParticipantEstimate& one : section.participants) {
-      if (one.name != "comparison.weber_fraction") continue;
+      if (one.name != "comparison.weber_fraction_free_pse") continue;
+      EXPECT_TRUE(one.primary);
       const PsychometricFigure& drawn = figure.participants.at(own++);
       EXPECT_EQ(drawn.who, one.participant);
       EXPECT_EQ(drawn.weber_fraction, one.value);
@@ -95,12 +99,67 @@ TEST(ResultsModel, TheCurveIsHalfAtTheReferenceAndEightyFourPercentAtTheWeberLin
   HandMadeStudy study(kTinyStudy);
   add_six_comparers(study);
   const Discrimination figure = model_of(study.folder()).discriminations.front();
-  // 80 % right at 1.5 times the reference: ln 1.5 / ln(1 + w) = 0.841621.
-  EXPECT_NEAR(*figure.pooled.weber_fraction, std::exp(std::log(1.5) / 0.841621) - 1.0, 1e-5);
   EXPECT_NEAR(y_at(figure.pooled.curve, 8.0), 0.5, 1e-3);
-  EXPECT_DOUBLE_EQ(*figure.pooled.weber_line, 8.0 * (1.0 + *figure.pooled.weber_fraction));
+  EXPECT_DOUBLE_EQ(*figure.pooled.weber_line,
+                   figure.pooled.pse * (1.0 + *figure.pooled.weber_fraction));
   const PsychometricFigure& steep = figure.participants[2];
   EXPECT_NEAR(y_at(steep.curve, *steep.weber_line), 0.8413, 1e-3);
+  // Through everybody's answers: 80 % right at 1.5 times the reference.
+  EXPECT_NEAR(y_at(figure.pooled.pooled_curve, 12.0), 0.8, 1e-3);
+}
+
+/// As nine of ten right at 12, but with a pse above the reference.
+void compare_above(HandMadeStudy& study) {
+  study.compare_ten("comparison", 9);
+  for (int answered = 0; answered < 10; ++answered) {
+    study.compare("comparison", 9.0, 8.0, answered < 2);
+  }
+}
+
+TEST(ResultsModel, CurveTableAndBoxOfAPersonHaveTheOneFractionThatIsPrimary) {
+  HandMadeStudy study(kTinyStudy);
+  for (const char* name : {"P01", "P02"}) {
+    study.add(name);
+    compare_above(study);
+  }
+  const ResultsModel model = model_of(study.folder());
+  const PsychometricFigure& own = model.discriminations.front().participants[0];
+  const double w = own.weber_fraction.value();
+  EXPECT_EQ(model.rows[0].values[0], w);
+  const auto weber = std::ranges::find(model.boxes, "weber_fraction", &BoxFigure::name);
+  EXPECT_DOUBLE_EQ(weber->boxes.at(0).median, w);
+  EXPECT_NEAR(y_at(own.curve, own.pse), 0.5, 1e-3);
+  EXPECT_GT(own.pse, 8.2);
+  const analysis::StudyResults results = results_of_folder(study.folder());
+  for (const analysis::ResultsSection& section : results.sections) {
+    for (const analysis::ParticipantEstimate& one : section.participants) {
+      if (one.participant == "P01" && one.name == "comparison.weber_fraction") {
+        EXPECT_GT(std::fabs(*one.value - w), 0.05) << "or this says nothing";
+      }
+    }
+  }
+  ASSERT_EQ(own.others.size(), 1U);
+  EXPECT_TRUE(own.others[0].starts_with("with the PSE at the reference 0.")) << own.others[0];
+}
+
+TEST(ResultsModel, WhoAnswersTheWrongWayRoundIsNamedInChipTableAndBesideTheNumber) {
+  HandMadeStudy study(kTinyStudy);
+  for (int i = 1; i <= 5; ++i) {
+    study.add("P0" + std::to_string(i));
+    study.compare_ten("comparison", i == 5 ? 1 : 8 + i % 2);
+  }
+  const ResultsModel model = model_of(study.folder());
+  EXPECT_TRUE(std::ranges::any_of(model.quality, [](const QualityChip& chip) {
+    return chip.tone == Tone::kWarning && chip.text.starts_with("P05: Comparison: the answers");
+  }));
+  EXPECT_NE(model.rows[4].note.find("wrong way round"), std::string::npos);
+  EXPECT_TRUE(std::ranges::any_of(
+      model.discriminations.front().pooled.cautions,
+      [](const std::string& one) { return one.find("P05") != std::string::npos; }));
+  const auto number = std::ranges::find(
+      model.numbers, "comparison.weber_fraction_median_person", &NumberLine::name);
+  EXPECT_NE(number->caution.find("P05"), std::string::npos);
+  EXPECT_TRUE(number->meaning.starts_with("primary value: "));
 }
 
 TEST(ResultsModel, TheBandLiesBetweenTheCurvesOfTheIntervalsEnds) {
@@ -116,8 +175,9 @@ TEST(ResultsModel, TheBandLiesBetweenTheCurvesOfTheIntervalsEnds) {
     }
     const double w = one->ci95.low.value();
     const BandPoint& last = one->band.back();
-    const double z = std::log(last.x / 8.0) / std::log1p(w);
-    EXPECT_NEAR(last.high, 0.5 * std::erfc(-z / std::sqrt(2.0)), 1e-12);
+    const double z = std::log(last.x / one->pse) / std::log1p(w);
+    const double rise = 0.5 * std::erfc(-z / std::sqrt(2.0));
+    EXPECT_NEAR(last.high, one->lapse_rate + (1.0 - 2.0 * one->lapse_rate) * rise, 1e-12);
   }
 }
 
@@ -358,6 +418,9 @@ TEST(ResultsModel, ComparisonsAreInWordsWithTheTitlesOfBlocks) {
   ASSERT_FALSE(model.comparisons.empty());
   EXPECT_TRUE(model.comparisons.front().is_primary) << model.comparisons.front().name;
   EXPECT_TRUE(model.comparisons.front().name.starts_with("Group D - Group E"));
+  EXPECT_NE(model.comparisons.front().detail.find("exploratory, every two blocks"),
+            std::string::npos)
+      << model.comparisons.front().detail;
   const auto of_groups =
       std::ranges::find_if(model.comparisons, [](const ComparisonLine& line) {
         return line.name.starts_with("Group D - Group E: ln ln(1 + w), paired");
@@ -368,6 +431,9 @@ TEST(ResultsModel, ComparisonsAreInWordsWithTheTitlesOfBlocks) {
   EXPECT_NE(first.detail.find("95 % "), std::string::npos) << first.detail;
   EXPECT_NE(first.detail.find("t(2) = "), std::string::npos) << first.detail;
   EXPECT_NE(first.detail.find("p = 0."), std::string::npos) << first.detail;
+  EXPECT_TRUE(std::ranges::any_of(model.comparisons, [](const ComparisonLine& line) {
+    return line.detail.find("V = ") != std::string::npos;
+  })) << "tests of ranks name their statistic";
   EXPECT_TRUE(std::ranges::none_of(model.comparisons, [](const ComparisonLine& line) {
     return line.name.find("troke") != std::string::npos;
   })) << "nobody moved";

@@ -11,7 +11,7 @@ namespace {
 
 TEST(ScopeChannels, AreEveryColumnOfASampleButItsTick) {
   for (const bool with_joints : {false, true}) {
-    const std::vector<std::string> columns = core::sample_column_names(with_joints);
+    const std::vector<std::string> columns = core::sample_column_names({.joints = with_joints});
     const std::vector<ScopeChannel> channels = scope_channels(with_joints);
     ASSERT_EQ(channels.size() + 1, columns.size());
     for (std::size_t i = 0; i < channels.size(); ++i) {

@@ -64,7 +64,7 @@ TEST(ScopeTrace, EveryChannelIsWhatTheTableOfSamplesSays) {
   std::vector<std::string> names;
   for (const ScopeChannel& channel : scope_channels(true)) names.push_back(channel.name);
   const ScopePicture picture = trace.snapshot(names);
-  const std::vector<double> values = core::sample_values(every, true);
+  const std::vector<double> values = core::sample_values(every, {.joints = true});
   ASSERT_EQ(picture.channels.size() + 1, values.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     ASSERT_EQ(picture.channels[i].size(), 1U) << names[i];

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/operator/operated_session_fixture.h"
+#include "app/operator/remembered_stop.h"
 #include "core/safety/fault.h"
 #include "core/storage/flight_record.h"
 #include "core/storage/integrity.h"
@@ -29,7 +30,8 @@ class SessionFaultsTest : public OperatedSessionTest {
     EXPECT_EQ(view().step, Step::kFault);
   }
   SessionView rearm() {
-    act(operate::Rearm{view().num_stop_presses});
+    if (view().stop_pressed) act(operate::ReleaseStop{view().num_stop_presses});
+    act(operate::Rearm{});
     pass(0.05);
     return view();
   }
@@ -111,6 +113,40 @@ TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
   answer_trial(view(), 1.0);
   session_.reset();
   EXPECT_TRUE(core::verify(*store_).problems.empty());
+}
+
+/// Left with the stop pressed, by a program that ends: the doors are new ones.
+TEST_F(SessionFaultsTest, AStopHoldsForTheNextSessionAndTheNextStart) {
+  stops_ = temporary_.path() / "state";
+  open();
+  run_to_block("comparison");
+  stop();
+  ASSERT_TRUE(is_stop_remembered(stops_, "lumped"));
+  act(operate::Leave{});
+  session_.reset();
+  ASSERT_TRUE(doors_.emergency_stop.release(doors_.emergency_stop.num_presses()));
+
+  reopen();
+  EXPECT_TRUE(view().stop_pressed);
+  EXPECT_EQ(view().step, Step::kFault);
+  EXPECT_EQ(view().fault_name, "emergency_stop");
+  EXPECT_EQ(act(operate::Rearm{}).step, Step::kFault);
+  act(operate::ReleaseStop{view().num_stop_presses});
+  EXPECT_EQ(view().step, Step::kFault) << "releasing is no arming";
+  act(operate::Rearm{});
+  pass(0.1);
+  EXPECT_EQ(view().step, Step::kBegin);
+  EXPECT_FALSE(is_stop_remembered(stops_, "lumped"));
+}
+
+TEST_F(SessionFaultsTest, AStopOfOneDeviceIsNoneOfAnother) {
+  const std::filesystem::path folder = temporary_.path() / "state";
+  remember_stop(folder, "network:10.0.0.2:5000");
+  EXPECT_TRUE(is_stop_remembered(folder, "network:10.0.0.2:5000"));
+  EXPECT_FALSE(is_stop_remembered(folder, "network:10.0.0.2:5001"));
+  EXPECT_FALSE(is_stop_remembered("", "network:10.0.0.2:5000"));
+  forget_stop(folder, "network:10.0.0.2:5000");
+  EXPECT_FALSE(is_stop_remembered(folder, "network:10.0.0.2:5000"));
 }
 
 }  // namespace

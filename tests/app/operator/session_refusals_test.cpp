@@ -72,7 +72,7 @@ TEST_F(SessionRefusalsTest, NoneEndsThePresentationUnderWay) {
               {"note without words", operate::AddNote{" "}},
               {"go on", operate::GoOn{}},
               {"go on without", operate::GoOnWithout{1, "sore"}},
-              {"arm", operate::Rearm{0}},
+              {"arm", operate::Rearm{}},
               {"end without a reason", operate::EndEarly{""}}});
   EXPECT_GT(strongest_force_n(1.0), 0.5) << "it is still being felt";
   const double felt_s = view().trial->felt_s;

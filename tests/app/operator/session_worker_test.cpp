@@ -109,7 +109,7 @@ TEST_F(SessionWorkerTest, AWindowThatFallsSilentStopsTheForce) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   EXPECT_EQ(worker->view()->fault_name, "heartbeat_lost");
-  worker->request(operate::Rearm{worker->view()->num_stop_presses});
+  worker->request(operate::Rearm{});
   until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
 }
 

@@ -147,7 +147,8 @@ TEST_F(SlowDiskTest, NoAnswerIsStoredOverAHoleThoughTheDiskHasRecovered) {
   }
   EXPECT_NE(view().fault.find("disk full"), std::string::npos) << view().fault;
   EXPECT_EQ(view().num_refusals, 0U) << "it is no refusal that could be tried again";
-  EXPECT_TRUE(doors_.emergency_stop.is_pressed());
+  until([](const SessionView& now) { return now.telemetry.arming == core::Arming::kDisarmed; });
+  EXPECT_EQ(force_n(view().telemetry.total_force_n), 0.0);
   EXPECT_EQ(kinds().size(), num_events);
   session_->request(operate::Leave{});
   session_->advance(0.0);

@@ -186,6 +186,21 @@ TEST(StudyFolder, KnowsItsBackups) {
             std::vector<fs::path>{made.temporary() / "copy"});
 }
 
+TEST(StudyFolder, ABackupSaysWhatItIsAndOffersNothingToResume) {
+  SimulatedStudy made;
+  (void)made.interrupt(3);
+  ASSERT_EQ(open_study_folder(made.folder()).interrupted.size(), 1U);
+  (void)core::back_up(made.folder(), made.temporary() / "copy", 1);
+  const StudyFolder backup = open_study_folder(made.temporary() / "copy");
+  EXPECT_TRUE(backup.is_backup);
+  EXPECT_TRUE(backup.interrupted.empty());
+  EXPECT_EQ(backup.sessions.size(), 1U);
+  EXPECT_TRUE(backup.summary().starts_with("backup, to be read only")) << backup.summary();
+  const StudyFolder study = open_study_folder(made.folder());
+  EXPECT_FALSE(study.is_backup);
+  EXPECT_FALSE(study.is_safe_elsewhere);
+}
+
 TEST(StudyFolder, AnythingElseIsRefusedWithAReason) {
   const SimulatedStudy made;
   EXPECT_THROW((void)open_study_folder(made.temporary() / "none"), core::Error);

@@ -214,6 +214,38 @@ TEST_F(TaskViewTest, APracticeSaysWhatItCameToAndGoesOnAfterAnUndo) {
   EXPECT_EQ(now.notes, std::vector<std::string>{over});
 }
 
+const std::string kQuestPlusStudy = R"json({"format": 1, "name": "edge", "languages": ["en"],
+    "title": {"en": "E"}, "authors": ["A. Author"], "device": {"min_contact_points": 1},
+    "stages": [{"kind": "block", "name": "one", "procedure": "quest_plus",
+      "medium": "viscous", "viscosity_pa_s": [5, 9, 11, 20], "reference_viscosity_pa_s": 10,
+      "pse_viscosity_pa_s": [5, 20], "max_trials": 6, "instruction": {"en": "Compare."},
+      "question": {"en": "Thicker?"}, "expected_trial_s": 5}]})json";
+
+TEST_F(TaskViewTest, WhatSpeaksAgainstABlockIsToldWhenItIsOver) {
+  open(kQuestPlusStudy);
+  act(operate::Begin{});
+  pass(0.1);
+  while (view().trial) {
+    EXPECT_EQ(view().caution, "") << "not before the end";
+    feel(view());
+    answer(1.0);
+  }
+  EXPECT_NE(view().caution.find("the lower end of `pse_viscosity_pa_s` (5)"), std::string::npos)
+      << view().caution;
+}
+
+TEST_F(TaskViewTest, WhereLevelsAreHiddenNothingIsSaidOfThem) {
+  open(replaced(kQuestPlusStudy, R"("authors")", R"("blinding": "double", "authors")"));
+  act(operate::Begin{});
+  pass(0.1);
+  while (view().trial) {
+    feel(view());
+    answer(1.0);
+  }
+  EXPECT_EQ(view().step, Step::kStageDone);
+  EXPECT_EQ(view().caution, "");
+}
+
 TEST_F(TaskViewTest, AParticipantReadsTheFeedbackInTheSessionsLanguage) {
   open(replaced(kTaskStudy, R"("languages": ["en", "de"])", R"("languages": ["de", "en"])"));
   act(operate::Begin{});

@@ -69,7 +69,7 @@ TEST_F(ApparatusWindowTest, EscapeStopsTheForceFromHereToo) {
   window_->wait_for_text("F4: where it is armed again");
   EXPECT_EQ(window_->screen().view, "apparatus");
   window_->use("apparatus");
-  window_->wait_for("rearm");
+  window_->wait_for("release_stop");
   window_->kill();
 }
 

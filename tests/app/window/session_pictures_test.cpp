@@ -165,7 +165,7 @@ TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
   window_->use("go_on");
   feel_test();
   window_->press("Escape");
-  window_->wait_for("rearm");
+  window_->wait_for("release_stop");
   take("session-stopped");
   window_->press("ctrl+w");
   window_->wait_for_text("Leave the session");

@@ -24,6 +24,7 @@ class StopWindowTest : public WindowTest {
     window_->wait_until("no force", [](const Screen& now) { return force_n(now) == 0.0; });
   }
   void rearm() const {
+    window_->use("release_stop");
     window_->use("rearm");
     window_->wait_until("force again",
                         [](const Screen& now) { return now.find("rearm") == nullptr; });
@@ -38,7 +39,7 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   expect_stopped();
   // It latches: neither the answer nor the pause brings anything back.
   window_->press_at_once({"y", "p", "space"});
-  window_->wait_for("rearm");
+  window_->wait_for("release_stop");
   rearm();
 
   // From a dialog whose text is being written.

@@ -29,6 +29,15 @@ class WindowTest : public ::testing::Test {
     window_ = std::make_unique<WindowDriver>(*display_, temporary_.path() / "person");
   }
 
+  void TearDown() override {
+    if (window_ == nullptr) return;
+    const std::string texts = window_->every_text();
+    const std::size_t shared = texts.find("more than one control of ");
+    EXPECT_EQ(shared, std::string::npos)
+        << "a key that does not do what its button says: "
+        << texts.substr(shared, texts.find('\n', shared) - shared);
+  }
+
   [[nodiscard]] std::filesystem::path path(const std::string& name) const {
     return temporary_.path() / name;
   }

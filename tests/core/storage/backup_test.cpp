@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/storage/backup_mark.h"
 #include "core/storage/kept_study.h"
 #include "core/storage/withdrawal.h"
 #include "support/places.h"
@@ -98,6 +99,8 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   // A session that went on in its backup.
   kept_.add_session("P03");
   (void)back_up(kept_.folder(), kept_.beside("second"), 10);
+  fs::remove(kept_.beside("second") / kBackupMark);
+  forget_backup(kept_.beside("second"), kept_.beside("second"), 10);
   {
     StudyStore store(kept_.beside("second"), StudyStore::Mode::kReadWrite);
     store.append({.event = {.session = 3, .sequence = 7, .kind = "note_added"}});
@@ -130,6 +133,76 @@ TEST_F(BackupTest, AStudyOfAnOlderLayoutKeepsItsIdentity) {
   EXPECT_TRUE(back_up(old, copy(), 1).integrity.complete);
   EXPECT_EQ(back_up(old, copy(), 2).num_chunks_copied, 0);
 }
+
+TEST_F(BackupTest, NothingIsAddedToACopy) {
+  (void)back_up_now();
+  EXPECT_TRUE(is_backup(copy()));
+  EXPECT_FALSE(is_backup(kept_.folder()));
+  const std::string before = bytes_of(copy() / "study.sqlite");
+  for (const StudyStore::Mode mode :
+       {StudyStore::Mode::kReadWrite, StudyStore::Mode::kCreate}) {
+    try {
+      const StudyStore store(copy(), mode);
+      ADD_FAILURE() << "a copy was opened for writing";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("jnd restore"), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_EQ(bytes_of(copy() / "study.sqlite"), before);
+  EXPECT_TRUE(back_up_now().integrity.complete);
+}
+
+TEST_F(BackupTest, ACopyWithoutItsMarkIsKnownByTheListInIt) {
+  (void)back_up_now();
+  fs::remove(copy() / kBackupMark);
+  EXPECT_TRUE(is_backup(copy()));
+  EXPECT_THROW(StudyStore(copy(), StudyStore::Mode::kReadWrite), Error);
+  // The study was moved to where a backup was once.
+  forget_backup(copy(), copy(), ++time_ns_);
+  EXPECT_FALSE(is_backup(copy()));
+  EXPECT_NO_THROW(StudyStore(copy(), StudyStore::Mode::kReadWrite));
+}
+
+TEST_F(BackupTest, AMovedCopyIsStillACopy) {
+  (void)back_up_now();
+  fs::rename(copy(), kept_.beside("moved"));
+  EXPECT_TRUE(is_backup(kept_.beside("moved")));
+}
+
+TEST_F(BackupTest, OfACopyAStudyIsMadeInWhichSessionsCanBeRun) {
+  (void)back_up_now();
+  const fs::path restored = kept_.beside("restored");
+  const BackupReport report = restore(copy(), restored, ++time_ns_);
+  EXPECT_TRUE(report.integrity.complete);
+  EXPECT_EQ(report.integrity.num_samples, 1000);
+  EXPECT_FALSE(is_backup(restored));
+  EXPECT_NO_THROW(StudyStore(restored, StudyStore::Mode::kReadWrite));
+  // The copy goes on as the restored study's copy, and a withdrawal reaches it.
+  EXPECT_TRUE(back_up(restored, copy(), ++time_ns_).integrity.complete);
+  EXPECT_EQ(withdraw(restored, "P01", ++time_ns_).backups.size(), 1U);
+}
+
+TEST_F(BackupTest, AStudyCanBeRestoredToWhereItsBackupWasOnce) {
+  (void)back_up_now();
+  fs::rename(copy(), kept_.beside("moved"));
+  (void)restore(kept_.beside("moved"), copy(), ++time_ns_);
+  EXPECT_FALSE(is_backup(copy()));
+  EXPECT_TRUE(is_backup(kept_.beside("moved")));
+}
+
+TEST_F(BackupTest, RestoringWritesOverNothing) {
+  (void)back_up_now();
+  const std::string before = bytes_of(kept_.folder() / "study.sqlite");
+  EXPECT_THROW((void)restore(copy(), kept_.folder(), 9), Error);
+  EXPECT_THROW((void)restore(copy(), copy(), 9), Error);
+  EXPECT_EQ(bytes_of(kept_.folder() / "study.sqlite"), before);
+  // A study is no backup.
+  EXPECT_THROW((void)restore(kept_.folder(), kept_.beside("restored"), 9), Error);
+  EXPECT_FALSE(fs::exists(kept_.beside("restored")));
+}
+
+TEST_F(BackupTest, SaysThatOneDiskHoldsBoth) { EXPECT_TRUE(back_up_now().on_one_disk); }
 
 }  // namespace
 }  // namespace jnd::core

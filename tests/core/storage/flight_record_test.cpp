@@ -54,10 +54,10 @@ TEST_F(FlightRecordTest, IsATableOfTheTicksUpToTheFaultBesideTheRecording) {
   EXPECT_EQ(file, recording().parent_path() / "0001.fault-000005002.csv");
   const std::vector<std::string> lines = lines_of(file);
   ASSERT_EQ(lines.size(), 4U);
-  EXPECT_EQ(cells_of(lines[0]), sample_column_names(false));
+  EXPECT_EQ(cells_of(lines[0]), sample_column_names({}));
   EXPECT_EQ(cells_of(lines[3]).front(), "5002");
   EXPECT_EQ(cells_of(lines[3]).back(), "8");
-  const std::vector<std::string> names = sample_column_names(false);
+  const std::vector<std::string> names = sample_column_names({});
   const auto column = std::find(names.begin(), names.end(), "middle_force_y_n");
   ASSERT_NE(column, names.end());
   EXPECT_EQ(std::stod(cells_of(lines[1])[static_cast<std::size_t>(column - names.begin())]),
@@ -68,8 +68,8 @@ TEST_F(FlightRecordTest, HoldsJointsWhereTheDeviceHasThem) {
   std::vector<Sample> samples = last_ticks(2, 0);
   samples[1].joint_torque_n_m[21] = 0.5F;
   const std::vector<std::string> lines = lines_of(write_flight_record(recording(), samples));
-  EXPECT_EQ(cells_of(lines[0]), sample_column_names(true));
-  EXPECT_EQ(cells_of(lines[2]).size(), sample_column_names(true).size());
+  EXPECT_EQ(cells_of(lines[0]), sample_column_names({.joints = true}));
+  EXPECT_EQ(cells_of(lines[2]).size(), sample_column_names({.joints = true}).size());
 }
 
 TEST_F(FlightRecordTest, OneThatIsThereIsNotOverwritten) {

@@ -59,6 +59,41 @@ TEST(Recording, CountsTheTicksThatAreMissingInBetween) {
   EXPECT_EQ(RecordingReader(file).missing_ticks(), 3 + 5);
 }
 
+/// Tick 5010 of real time, before which five never ran.
+Sample after_five_missed() {
+  Sample sample = at(5010);
+  sample.num_missed_before = 5;
+  sample.monotonic_ns = 5'010'000'000;
+  return sample;
+}
+
+TEST(Recording, TicksThatNeverRanAreNotLost) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  {
+    RecordingWriter writer(file, 1000.0);
+    for (std::int64_t tick = 0; tick < 5003; ++tick) writer.append(at(tick));
+    writer.append(after_five_missed());
+  }
+  const RecordingReader reader(file);
+  EXPECT_TRUE(reader.has_times());
+  EXPECT_EQ(reader.missed(), (std::vector<TickRange>{{5005, 5009}}));
+  EXPECT_EQ(reader.missing_ticks(), 2) << "5003 and 5004 ran and are nowhere";
+  EXPECT_EQ(reader.ticks(), (std::vector<TickRange>{{0, 5002}, {5010, 5010}}));
+  EXPECT_EQ(reader.accounted(), (std::vector<TickRange>{{0, 5002}, {5005, 5010}}));
+}
+
+TEST(Recording, OfSimulatedTimeIsAsItWas) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  { RecordingWriter(file, 1000.0).append(at(0)); }
+  EXPECT_FALSE(RecordingReader(file).has_times());
+  EXPECT_TRUE(RecordingReader(file).missed().empty());
+  { RecordingWriter(file, 1000.0).append(after_five_missed()); }
+  EXPECT_TRUE(RecordingReader(file).has_times()) << "from the first of real time on";
+  EXPECT_EQ(ticks_in(file, 0, 10000).size(), 2U);
+}
+
 TEST(Recording, IsForItsOwnerOnly) {
   const test_support::TemporaryFolder folder;
   const fs::path file = folder.path() / "0001.sqlite";

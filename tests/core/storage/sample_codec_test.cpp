@@ -146,5 +146,59 @@ TEST(SampleCodec, RefusesNumbersOfADamagedRowInsteadOfAskingForAllMemory) {
   EXPECT_THROW((void)decode_samples(bytes, kLargest - 5, 10, "test"), Error);
 }
 
+/// Of a real loop: each tick late by some microseconds, the device's clock with its own.
+std::vector<Sample> timed(std::vector<Sample> samples) {
+  RandomStream random(3, "lateness", {});
+  for (Sample& sample : samples) {
+    const std::int64_t due_ns = 86'400'000'000'000 + 1'000'000 * sample.tick;
+    sample.monotonic_ns = due_ns + std::llround(20'000.0 * random.uniform());
+    sample.device_time_ns = -5'000'000'000 + 1'000'000 * sample.tick;
+  }
+  return samples;
+}
+
+TEST(SampleCodec, TimesComeBackToTheMicrosecond) {
+  const std::vector<Sample> samples = timed(sweep(4096, 100));
+  const std::vector<Sample> found = decode_samples(encode_samples(samples), 100, 4096, "chunk");
+  ASSERT_EQ(found.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    expect_near(found[i], samples[i]);
+    ASSERT_GE(samples[i].monotonic_ns - found[i].monotonic_ns, 0);
+    ASSERT_LT(samples[i].monotonic_ns - found[i].monotonic_ns, 1000);
+    ASSERT_EQ(found[i].device_time_ns, samples[i].device_time_ns);
+  }
+}
+
+TEST(SampleCodec, TimesOfAnySizeComeBack) {
+  std::vector<Sample> samples = sweep(4, 0);
+  const std::int64_t far_ns = std::numeric_limits<std::int64_t>::max() / 1000 * 1000;
+  const std::int64_t times_ns[] = {far_ns, -far_ns, 0, 7000};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].monotonic_ns = 1000 + static_cast<std::int64_t>(i);
+    samples[i].device_time_ns = times_ns[i];
+  }
+  const std::vector<Sample> found = decode_samples(encode_samples(samples), 0, 4, "chunk");
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(found[i].device_time_ns, times_ns[i]);
+  }
+}
+
+TEST(SampleCodec, TimesCostAtMostTwoBytesASample) {
+  const std::vector<Sample> samples = sweep(4096, 0);
+  const std::size_t without = encode_samples(samples).size();
+  EXPECT_LE(encode_samples(timed(samples)).size(), without + 2 * samples.size());
+}
+
+TEST(SampleCodec, TimesThatAreDamagedAreRefused) {
+  const std::vector<Sample> samples = sweep(64, 0);
+  const std::size_t without = encode_samples(samples).size();
+  const std::string bytes = encode_samples(timed(samples));
+  ASSERT_GT(bytes.size(), without);
+  for (std::size_t size = without + 1; size < bytes.size(); ++size) {
+    EXPECT_THROW((void)decode_samples(bytes.substr(0, size), 0, 64, "chunk"), Error) << size;
+  }
+  EXPECT_EQ(decode_samples(bytes.substr(0, without), 0, 64, "chunk")[5].monotonic_ns, 0);
+}
+
 }  // namespace
 }  // namespace jnd::core

@@ -29,7 +29,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Laboratory {
   explicit Laboratory(const Parameters& parameters = {})
       : exoskeleton(parameters),
-        loop({.rate_hz = parameters.rate_hz}, exoskeleton, {commands, telemetry, stop}) {}
+        loop({.starts_armed = true, .rate_hz = parameters.rate_hz}, exoskeleton,
+             {commands, telemetry, stop}) {}
 
   void feel(const core::MediumAmounts& medium) {
     commands.publish({.sequence = ++sequence, .medium = medium, .ramp_s = 0.0});

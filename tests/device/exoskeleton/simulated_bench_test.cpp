@@ -65,7 +65,7 @@ TEST(SimulatedBench, FreeSpaceFeelsAsViscousAsItTrulyIsToTenPercent) {
     core::LatestValue<core::HapticCommand> commands;
     core::LatestValue<core::Telemetry> telemetry;
     core::EmergencyStop stop;
-    HapticLoop loop({}, exoskeleton, {commands, telemetry, stop});
+    HapticLoop loop({.starts_armed = true}, exoskeleton, {commands, telemetry, stop});
     SimulatedHand& hand = *exoskeleton.simulated_hand();
     hand.begin_strokes({.amplitude_m = 0.2, .max_speed_m_per_s = max_m_per_s},
                        core::RandomStream(3, "stroke"));

@@ -43,7 +43,8 @@ TEST(StabilityMap, ALimiterThatKnowsOfTheLooseFingerGivesItNoForceAtAll) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  HapticLoop loop({.rate_hz = kRate_hz}, exoskeleton, {commands, telemetry, stop});
+  HapticLoop loop({.starts_armed = true, .rate_hz = kRate_hz}, exoskeleton,
+                  {commands, telemetry, stop});
   commands.publish({.sequence = 1, .medium = core::viscous({.viscosity_pa_s = 200.0})});
   for (int tick = 0; tick < 500; ++tick) {
     exoskeleton.load_tip(0, {tick < 100 ? 4.0 : 0.0, 0.0, 0.0});

@@ -249,7 +249,7 @@ TEST_F(NetworkDeviceTest, ALoopThatStartsLateIsNoFault) {
   device = make_device();
   device->open();
   loop = std::make_unique<HapticLoop>(
-      HapticLoop::Parameters{}, *device,
+      HapticLoop::Parameters{.starts_armed = true}, *device,
       HapticLoop::Doors{commands, telemetry_door, stop, nullptr, nullptr});
   loop_runs = false;
   run(60);

@@ -57,7 +57,7 @@ class NetworkTest : public ::testing::Test {
     device->ask();
     device->open();
     loop = std::make_unique<HapticLoop>(
-        HapticLoop::Parameters{}, *device,
+        HapticLoop::Parameters{.starts_armed = true}, *device,
         HapticLoop::Doors{commands, telemetry_door, stop, nullptr, nullptr});
     commands.publish({.sequence = 1,
                       .medium = core::viscous({.viscosity_pa_s = 8.0}),

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "experiments/adaptive/level_scale.h"
 #include "experiments/adaptive/quest_plus.h"
 #include "support/places.h"
 
@@ -82,6 +83,67 @@ TEST(QuestPlusReference, AgreesWithNumPyOverThirtyTrialsOfEachModel) {
       quest.bring_up_to_date(posterior, answers);
     }
   }
+}
+
+const json& grid_ends() {
+  static const json kDocument = [] {
+    std::ifstream in(test_support::source_folder().string() +
+                     "/data/reference/quest_plus/grid_ends.json");
+    return json::parse(in);
+  }();
+  return kDocument;
+}
+
+QuestPlusPosterior posterior_of(const QuestPlus& quest, const json& answers) {
+  std::vector<LevelAnswer> all;
+  for (const json& one : answers) {
+    for (int i = 0; i < one.at(2).get<int>(); ++i) {
+      all.push_back({one.at(0).get<double>(), i < one.at(1).get<int>()});
+    }
+  }
+  return quest.posterior(all);
+}
+
+TEST(QuestPlusReference, ReachesTheEndsOfItsGridsAsSciPyHasIt) {
+  int num_reached = 0;
+  for (const json& c : grid_ends().at("cases")) {
+    SCOPED_TRACE(c.at("name").get<std::string>());
+    const auto grid = [&](const char* name) -> ParameterGrid {
+      return {equally_spaced(LevelScale::kLogarithmic, c.at(name).at(0), c.at(name).at(1),
+                             c.at("grid_values")),
+              std::nullopt};
+    };
+    const QuestPlus quest(
+        {.model = weber_model({grid("pse"),
+                               grid("weber_fraction"),
+                               {{grid_ends().at("lapse_rate").get<double>()}, std::nullopt}}),
+         .intensities = {10.0},
+         .max_trials = 100});
+    bool any_reached = false;
+    for (const QuestPlusEstimate& one : quest.estimates(posterior_of(quest, c.at("answers")))) {
+      if (one.name == "lapse_rate") {
+        EXPECT_FALSE(one.reaches_an_end()) << "a parameter that is known";
+        continue;
+      }
+      const json& expected = c.at("reached").at(one.name);
+      EXPECT_EQ(one.reached_low.has_value(), expected.at(0).get<bool>()) << one.name;
+      EXPECT_EQ(one.reached_high.has_value(), expected.at(1).get<bool>()) << one.name;
+      if (one.reached_low) {
+        EXPECT_EQ(*one.reached_low, c.at(one.name).at(0));
+      }
+      if (one.reached_high) {
+        EXPECT_EQ(*one.reached_high, c.at(one.name).at(1));
+      }
+      any_reached = any_reached || one.reaches_an_end();
+      num_reached += one.reaches_an_end() ? 1 : 0;
+    }
+    if (any_reached) continue;
+    for (const char* name : {"pse", "weber_fraction"}) {
+      EXPECT_LT(c.at("beyond").at(name).at(0).get<double>(), 0.025) << name;
+      EXPECT_LT(c.at("beyond").at(name).at(1).get<double>(), 0.025) << name;
+    }
+  }
+  EXPECT_EQ(num_reached, 8);
 }
 
 }  // namespace

@@ -268,6 +268,27 @@ TEST(QuestPlusEstimate, HasAnIntervalThatHoldsIt) {
   EXPECT_LT(mirrored.mean, 16.0);
 }
 
+TEST(QuestPlusEstimate, ReachesAnEndWhereANormalPosteriorWouldEndItsInterval) {
+  // Normal about 0 with sd 1; a grid that begins 1.9 or 2.1 below is reached, and is not.
+  for (const int count : {10, 40, 400}) {
+    for (const double least : {-1.9, -2.1}) {
+      const std::vector<double> values = equally_spaced(LevelScale::kLinear, least, 4.0, count);
+      std::vector<double> weights;
+      double sum = 0.0;
+      for (const double value : values) sum += std::exp(-0.5 * value * value);
+      for (const double value : values) weights.push_back(std::exp(-0.5 * value * value) / sum);
+      const QuestPlusEstimate found = estimate_of({"shift", {values}, false}, weights, 0.95);
+      EXPECT_EQ(found.reached_low.has_value(), least > -1.96 || count == 10)
+          << count << " values from " << least << "; few are each of much weight";
+      EXPECT_FALSE(found.reached_high.has_value()) << count;
+    }
+  }
+  const QuestPlusEstimate flat = estimate_of({"shift", {{1.0, 2.0}}, false}, {0.5, 0.5}, 0.95);
+  EXPECT_EQ(flat.reached_low, 1.0) << "before the first answer";
+  EXPECT_EQ(flat.reached_high, 2.0);
+  EXPECT_TRUE(flat.reaches_an_end());
+}
+
 TEST(QuestPlus, RefusesARuleThatCannotRun) {
   const auto refused = [](const std::function<void(QuestPlusRule&)>& spoil) {
     QuestPlusRule rule = weber_rule();

@@ -235,6 +235,20 @@ TEST(QuestPlusProcedure, FindsPseAndWeberFractionOfTheObserver) {
   EXPECT_NEAR(estimate(1) / kWeberFraction, 1.0, 0.12);
 }
 
+TEST(QuestPlusProcedure, SaysWhenItsPosteriorReachesTheEndOfAGrid) {
+  const Block wide = block_with(kQuestPlus);
+  const Procedure& procedure = procedure_named("quest_plus");
+  EXPECT_EQ(procedure.caution(wide, answered_by_observer(wide, 1)), "");
+  std::vector<AnsweredTrial> all_yes;
+  for (int i = 0; i < 20; ++i) all_yes.push_back({{.intensity = 4.0}, 1.0});
+  const std::string caution = procedure.caution(wide, all_yes);
+  EXPECT_NE(caution.find("the lower end of `pse_viscosity_pa_s` (4)"), std::string::npos)
+      << caution;
+  EXPECT_EQ(procedure.caution(wide, {}).find("weber_fraction_"), std::string::npos)
+      << "no unit behind what has none";
+  EXPECT_EQ(procedure_named("staircase").caution(wide, all_yes), "") << "it has no grid";
+}
+
 TEST(QuestPlusProcedure, EndsWhenTheWeberFractionIsKnownWellEnough) {
   const Block block = block_with(kQuestPlus + R"(, "stop_sd_ln": 0.4, "min_trials": 10)");
   const std::size_t num_trials = answered_by_observer(block, 4).size();

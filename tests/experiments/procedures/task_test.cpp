@@ -95,6 +95,24 @@ TEST(Task, KnowsWhichAnswerIsRightAndThatNoneIs) {
   EXPECT_EQ(right_response(Task::kYesNo, nothing), 0.0);
 }
 
+TEST(Task, FeedbackCallsAnAnswerRightAlsoWhereTwoEqualStimuliAreCompared) {
+  const PlannedTrial equal{.intensity = 8.0, .reference_intensity = 8.0, .is_catch = true};
+  const PlannedTrial more{.intensity = 9.0, .reference_intensity = 8.0};
+  EXPECT_EQ(feedback_response(Task::kReminder, equal), 0.0) << "the test is not more";
+  EXPECT_EQ(feedback_response(Task::kReminder, more), 1.0);
+  EXPECT_EQ(feedback_response(Task::kSameDifferent, equal), 0.0);
+  EXPECT_EQ(feedback_response(Task::kYesNo, {.intensity = 0.0, .is_catch = true}), 0.0);
+  // Of two intervals whichever was drawn for the test, so that either is right half the time.
+  for (const int test : {1, 2}) {
+    PlannedTrial trial = equal;
+    trial.test_interval = test;
+    const double right = feedback_response(Task::kTwoInterval, trial).value();
+    EXPECT_EQ(answer_of(AnswerKind::kInterval, trial, right), test);
+  }
+  EXPECT_EQ(procedure_named("magnitude_estimation").feedback_response({}, {.intensity = 2.0}),
+            std::nullopt);
+}
+
 TEST(Task, OfAMagnitudeNoAnswerIsRight) {
   for (const char* name : {"magnitude_estimation", "magnitude_production"}) {
     EXPECT_EQ(procedure_named(name).right_response({}, {.intensity = 2.0}), std::nullopt);

@@ -49,6 +49,7 @@ std::vector<EventData> one_of_each() {
                        .lateness = {{1024, 4}, {2048, 5}},
                        .tick_cost = {{512, 9}}},
           Unblinded{"why"},
+          ArmingChanged{"armed", "by the experimenter"},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }

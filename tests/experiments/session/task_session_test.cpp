@@ -272,12 +272,31 @@ TEST_F(TaskSessionTest, FeedbackTellsRightOrWrongUntilTheNextTrial) {
   EXPECT_EQ(silent.state().feedback_right, std::nullopt);
 }
 
-TEST_F(TaskSessionTest, NothingIsToldWhereNoAnswerIsRight) {
-  Session s = begun(kConstant + R"json(, "feedback": true, "catch_trials": 5)json");
-  while (s.state().current_trial()) {
-    const bool is_catch = now(s).is_catch;
-    run_trial(s, 1.0);
-    EXPECT_EQ(s.state().feedback_right.has_value(), !is_catch);
+TEST_F(TaskSessionTest, FeedbackComesAfterEveryTrialSoThatNoCatchTrialIsFoundOut) {
+  const std::string quest_plus =
+      R"json("procedure": "quest_plus", "viscosity_pa_s": [4, 6, 11, 16],
+    "reference_viscosity_pa_s": 8, "pse_viscosity_pa_s": [2, 32], "max_trials": 12)json";
+  const std::string limits = R"json("procedure": "limits", "viscosity_pa_s": [4, 6, 11, 16],
+    "reference_viscosity_pa_s": 8, "num_series": 4)json";
+  const std::string some = R"json(, "catch_probability": 0.4)json";
+  for (const std::string& keys :
+       {kConstant + R"json(, "catch_trials": 5)json",
+        kTwoInterval + R"json(, "catch_trials": 5)json", kStaircase, quest_plus + some,
+        limits + some, quest_plus + some + R"json(, "task": "two_interval")json"}) {
+    log_.events.clear();
+    Session s = begun(keys + R"json(, "feedback": true)json");
+    int num_catch = 0;
+    while (s.state().current_trial()) {
+      const bool is_catch = now(s).is_catch;
+      const bool is_reminder = !now(s).test_interval;
+      run_trial(s, is_catch ? 1.0 : answer(s, true));
+      ASSERT_TRUE(s.state().feedback_right.has_value()) << keys;
+      num_catch += is_catch ? 1 : 0;
+      if (is_catch && is_reminder) {
+        EXPECT_EQ(s.state().feedback_right, false) << "equal is not more";
+      }
+    }
+    EXPECT_GT(num_catch, 0) << keys;
   }
 }
 

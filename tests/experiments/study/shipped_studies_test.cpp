@@ -110,7 +110,7 @@ TEST(ShippedStudies, AskTheSevenScalesInTenStepsAndKnowTheirDirection) {
     for (const auto& item : content_of<Questionnaire>(study, "experience").items) {
       if (item.kind != "scale") continue;
       EXPECT_EQ(item.num_steps, 10);
-      high_is_good[item.name] = item.high_is_good;
+      high_is_good[item.name] = item.high_is_good.value();
     }
     EXPECT_EQ(high_is_good, (std::map<std::string, bool>{{"control_ease", false},
                                                          {"control_intuitivity", false},

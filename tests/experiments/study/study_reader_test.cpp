@@ -66,14 +66,15 @@ TEST(StudyReader, ReadsAQuestionnaire) {
   EXPECT_EQ(items[1].options[1].value, "left");
   EXPECT_EQ(items[1].options[1].label.at("de"), "links");
   EXPECT_EQ(items[2].num_steps, 10);
-  EXPECT_TRUE(items[2].high_is_good);
-  EXPECT_FALSE(
-      std::get<Questionnaire>(
-          read_study_text(broken("\"high_is_good\": true", "\"high_is_good\": false"), "x")
-              .stages[3]
-              .content)
-          .items[2]
-          .high_is_good);
+  EXPECT_EQ(items[2].high_is_good, true);
+  const auto items_of = [](const std::string& from, const std::string& to) {
+    return std::get<Questionnaire>(read_study_text(broken(from, to), "x").stages[3].content)
+        .items;
+  };
+  EXPECT_EQ(items_of("\"high_is_good\": true", "\"high_is_good\": false")[2].high_is_good,
+            false);
+  EXPECT_EQ(items_of(",\n        \"high_is_good\": true", "")[2].high_is_good, std::nullopt)
+      << "neither end is better";
 }
 
 TEST(StudyReader, FillsInTheDefaultsOfTheTables) {
@@ -160,6 +161,20 @@ TEST(StudyReader, ThrowsEveryProblemAtOnce) {
     EXPECT_EQ(error.problems().size(), 2u);
     EXPECT_EQ(std::string(error.what()), problems_of(text));
   }
+}
+
+TEST(StudyReader, AStudyThatWasBegunIsReadThoughABlockCannotComeToWhatItIsFor) {
+  const std::string text = R"json({
+    "format": 1, "name": "begun", "languages": ["en"], "title": {"en": "A"},
+    "authors": ["A. Author"], "stages": [{"kind": "block", "name": "one",
+    "procedure": "quest_plus", "medium": "viscous", "viscosity_pa_s": [5, 8, 12, 18],
+    "reference_viscosity_pa_s": 10, "pse_viscosity_pa_s": [12, 16],
+    "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
+    "expected_trial_s": 5}]})json";
+  EXPECT_THROW((void)read_study_text(text, "x.json"), ProtocolError);
+  const Study study = read_stored_study(text, "x.study: stored protocol");
+  EXPECT_EQ(std::get<Block>(study.stages.front().content).procedure, "quest_plus");
+  EXPECT_THROW((void)read_stored_study(text.substr(1), "x"), ProtocolError);
 }
 
 TEST(StudyReader, TellsOfAFileThatCannotBeRead) {

@@ -61,8 +61,9 @@ class ResultsViewTest : public ::testing::Test {
 TEST_F(ResultsViewTest, ShowsTheFractionWithItsIntervalAndTheTable) {
   (void)draw(ui_);
   const auto& figure = results().discriminations.front();
-  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*figure.median_person)));
-  EXPECT_TRUE(ui_.drawn().shows("pooled " + two_digits(*figure.pooled.weber_fraction)));
+  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*figure.pooled.weber_fraction)));
+  EXPECT_TRUE(ui_.drawn().shows("median person"));
+  EXPECT_TRUE(ui_.drawn().shows("curve through all answers 0."));
   for (const char* words : {"All participants", "P01", "P04", "p (1 + w)"}) {
     EXPECT_TRUE(ui_.drawn().shows(words)) << words;
   }
@@ -77,7 +78,7 @@ TEST_F(ResultsViewTest, ArrowsShowOneParticipantAfterTheOther) {
   (void)after_key({Key::kUp});
   (void)after_key({Key::kUp});
   EXPECT_EQ(shown_participant(results(), state_), "P04");
-  EXPECT_TRUE(ui_.drawn().shows("No curve: ")) << all_texts(ui_.drawn());
+  EXPECT_TRUE(ui_.drawn().shows("No Weber fraction: ")) << all_texts(ui_.drawn());
   ui_.click("participant_2");
   (void)draw(ui_);
   EXPECT_EQ(shown_participant(results(), state_), "P02");

@@ -149,6 +149,18 @@ TEST_F(RunView, APassedLimitIsToldWhereOneMayRest) {
   EXPECT_TRUE(ui_.drawn().shows(sentence));
 }
 
+TEST_F(RunView, WhatSpeaksAgainstABlockIsToldWhenItIsOver) {
+  const std::string sentence = "Caution: the posterior reaches an end.";
+  SessionView view = comparison();
+  view.caution = "the posterior reaches an end";
+  draw(view);
+  EXPECT_FALSE(ui_.drawn().shows(sentence));
+  view.step = Step::kStageDone;
+  view.trial.reset();
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows(sentence));
+}
+
 /// The second interval of a trial in drawn order is being felt.
 SessionView two_intervals() {
   SessionView view = comparison();
@@ -373,6 +385,21 @@ TEST_F(RunView, AFaultSaysWhatHappenedWhatIsSafeAndHowToGoOn) {
   draw(view);
   EXPECT_TRUE(ui_.drawn().shows("up to trial 22 is on disk"));
   EXPECT_TRUE(ui_.drawn().shows("Release the stop"));
+  (void)after_key<operate::ReleaseStop>(view, {Key::kEnter, true});
+  view.stop_pressed = false;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("Arm again"));
+  (void)after_key<operate::Rearm>(view, {Key::kEnter, true});
+}
+
+TEST_F(RunView, ADeviceThatNobodyHasArmedIsNoFault) {
+  SessionView view = comparison();
+  view.step = Step::kFault;
+  view.is_disarmed = true;
+  view.sentence = "There is no force before somebody arms the device.";
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("Disarmed"));
+  EXPECT_FALSE(ui_.drawn().shows("The trial under way will be run again"));
   (void)after_key<operate::Rearm>(view, {Key::kEnter, true});
 }
 

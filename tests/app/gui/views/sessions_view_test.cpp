@@ -51,6 +51,26 @@ TEST_F(SessionsViewTest, EveryActionHasItsKey) {
   EXPECT_EQ(after_key({.key = letter('2'), .control = true}).tab, StudyTab::kResults);
 }
 
+TEST_F(SessionsViewTest, InABackupNoSessionBegins) {
+  study_.is_backup = true;
+  study_.interrupted.clear();
+  EXPECT_FALSE(after_key({letter('N')}).new_session);
+  EXPECT_EQ(ui_.drawn().find("new_session"), nullptr);
+  EXPECT_TRUE(ui_.drawn().shows("backup, read only"));
+  EXPECT_TRUE(ui_.drawn().shows("sessions are run in the study"));
+  EXPECT_FALSE(ui_.drawn().find("back_up")->enabled);
+  EXPECT_TRUE(after_key({letter('V')}).verify);
+}
+
+TEST_F(SessionsViewTest, SaysThatNoBackupLiesOnAnotherDisk) {
+  study_.backups = {"/data/copy"};
+  (void)draw();
+  EXPECT_TRUE(ui_.drawn().shows("1, none on another disk"));
+  study_.is_safe_elsewhere = true;
+  (void)draw();
+  EXPECT_FALSE(ui_.drawn().shows("none on another disk"));
+}
+
 TEST_F(SessionsViewTest, WhatIsCompletedCannotBeResumed) {
   (void)draw();
   ui_.click("session_1");

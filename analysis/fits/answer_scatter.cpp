@@ -1,0 +1,158 @@
+#include "analysis/fits/answer_scatter.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/gamma.hpp>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace jnd::analysis {
+namespace {
+
+struct Count {
+  double num_yes = 0.0, num_trials = 0.0;
+
+  void add(const AnswerCount& row) {
+    num_yes += static_cast<double>(row.num_yes);
+    num_trials += static_cast<double>(row.num_trials);
+  }
+};
+
+/// Rows of a single answer in the order in which they were given: a quarter of them each is a
+/// row. Not where the table is sorted by level, which says nothing of when they were given.
+class Runs {
+ public:
+  explicit Runs(const std::vector<AnswerCount>& rows) {
+    std::int64_t num_changes = 0;
+    std::map<std::pair<double, double>, std::int64_t> asked;
+    const AnswerCount* before = nullptr;
+    for (const AnswerCount& row : rows) {
+      if (row.num_trials != 1) continue;
+      ++num_singles_;
+      ++asked[{row.intensity, row.order}];
+      num_changes += before != nullptr && before->intensity != row.intensity ? 1 : 0;
+      before = &row;
+    }
+    is_in_order_ = num_changes > 2 * std::ssize(asked);
+  }
+
+  /// Of the next such row.
+  std::int64_t next() {
+    constexpr std::int64_t kNumRuns = 4;
+    return is_in_order_ ? kNumRuns * at_++ / num_singles_ : 0;
+  }
+
+ private:
+  std::int64_t num_singles_ = 0, at_ = 0;
+  bool is_in_order_ = false;
+};
+
+/// Twice what the answers' own share gains over the probability.
+double deviance_of(double num_yes, double num_trials, double probability) {
+  const double num_no = num_trials - num_yes;
+  double deviance = 0.0;
+  if (num_yes > 0.0) deviance += num_yes * std::log(num_yes / (num_trials * probability));
+  if (num_no > 0.0) deviance += num_no * std::log(num_no / (num_trials * (1.0 - probability)));
+  return std::max(0.0, 2.0 * deviance);
+}
+
+struct Moments {
+  double mean = 0.0, variance = 0.0;
+};
+
+/// Of the deviance, over all numbers of yes that are not out of reach.
+Moments deviance_moments(double num_trials, double probability) {
+  constexpr double kReach = 9.0, kMargin = 30.0;
+  const double mean_yes = num_trials * probability;
+  const double reach = kReach * std::sqrt(mean_yes * (1.0 - probability)) + kMargin;
+  const double first = std::max(0.0, std::floor(mean_yes - reach));
+  const double last = std::min(num_trials, std::ceil(mean_yes + reach));
+  const double log_odds = std::log(probability) - std::log1p(-probability);
+  const double log_all = std::lgamma(num_trials + 1.0) + num_trials * std::log1p(-probability);
+  Moments raw;
+  for (double num_yes = first; num_yes <= last; num_yes += 1.0) {
+    const double weight =
+        std::exp(log_all - std::lgamma(num_yes + 1.0) -
+                 std::lgamma(num_trials - num_yes + 1.0) + num_yes * log_odds);
+    const double deviance = deviance_of(num_yes, num_trials, probability);
+    raw.mean += weight * deviance;
+    raw.variance += weight * deviance * deviance;
+  }
+  return {raw.mean, raw.variance - raw.mean * raw.mean};
+}
+
+}  // namespace
+
+RowScatter& RowScatter::operator+=(const RowScatter& other) noexcept {
+  statistic += other.statistic;
+  degrees_of_freedom += other.degrees_of_freedom;
+  return *this;
+}
+
+std::optional<double> RowScatter::p_value() const {
+  if (degrees_of_freedom < 1) return std::nullopt;
+  const boost::math::chi_squared chance(degrees_of_freedom);
+  return boost::math::cdf(boost::math::complement(chance, statistic));
+}
+
+bool RowScatter::is_significant() const {
+  const std::optional<double> p = p_value();
+  return p && *p < kScatterBelow;
+}
+
+RowScatter row_scatter(const std::vector<AnswerCount>& rows) {
+  struct Level {
+    std::vector<Count> rows;
+    std::map<std::int64_t, Count> singles;  ///< By the run.
+  };
+  Runs runs(rows);
+  std::map<std::pair<double, double>, Level> levels;
+  for (const AnswerCount& row : rows) {
+    if (row.num_trials == 0) continue;
+    Level& level = levels[{row.intensity, row.order}];
+    (row.num_trials > 1 ? level.rows.emplace_back() : level.singles[runs.next()]).add(row);
+  }
+  RowScatter scatter;
+  for (auto& [asked, level] : levels) {
+    for (const auto& [run, answers] : level.singles) level.rows.push_back(answers);
+    Count all;
+    for (const Count& row : level.rows) {
+      all.num_yes += row.num_yes;
+      all.num_trials += row.num_trials;
+    }
+    const double share = all.num_yes / all.num_trials;
+    if (!(share > 0.0 && share < 1.0)) continue;
+    for (const Count& row : level.rows) {
+      const double excess = row.num_yes - row.num_trials * share;
+      scatter.statistic += excess * excess / (row.num_trials * share * (1.0 - share));
+    }
+    scatter.degrees_of_freedom += static_cast<int>(level.rows.size()) - 1;
+  }
+  return scatter;
+}
+
+std::optional<double> misfit_p_value(const std::vector<FittedAnswers>& answers,
+                                     double num_fitted) {
+  constexpr double kCertain = 1e-12;
+  double deviance = 0.0, num_levels = 0.0;
+  Moments expected;
+  for (const FittedAnswers& one : answers) {
+    if (!(one.num_trials > 0.0)) continue;
+    const double probability = std::clamp(one.probability, kCertain, 1.0 - kCertain);
+    deviance += deviance_of(one.num_yes, one.num_trials, probability);
+    const Moments moments = deviance_moments(one.num_trials, probability);
+    expected.mean += moments.mean;
+    expected.variance += moments.variance;
+    num_levels += 1.0;
+  }
+  if (!(num_levels - num_fitted >= 1.0)) return std::nullopt;
+  // Levels of which nothing is in doubt have next to no deviance, and no degree of freedom.
+  const double left = expected.mean - num_fitted;
+  if (!(left > 0.0)) return std::nullopt;
+  const double scale = expected.variance / expected.mean;
+  const boost::math::gamma_distribution<double> chance(left / scale, scale);
+  return boost::math::cdf(boost::math::complement(chance, deviance));
+}
+
+}  // namespace jnd::analysis

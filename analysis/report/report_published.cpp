@@ -1,0 +1,131 @@
+#include "analysis/report/report_published.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "analysis/report/report_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// "0.70 (0.44 to 1.02)": median and middle 95 % of the simulated studies.
+std::string simulated_words(const Estimate& estimate) {
+  if (!estimate.predictive) return "–";
+  const PredictiveTail& of = *estimate.predictive;
+  return with_interval(of.median, {.low = of.low, .high = of.high});
+}
+
+/// "0.004 below (se 0.002)": the share of simulated studies as far on the published value's
+/// side, with its standard error.
+std::string tail_words(const Estimate& estimate) {
+  if (!estimate.predictive) return "–";
+  const PredictiveTail& of = *estimate.predictive;
+  const std::string error =
+      of.tail > 0.0 ? " (se " + number_words(of.standard_error, 3) + ")" : "";
+  return p_words(of.tail) + (of.is_below ? " below" : " above") + error;
+}
+
+std::string joint_words(const JointTail& joint, const std::string& which) {
+  return which + ", " + counted_words(joint.num_statistics, "value") +
+         " together: " + number_words(joint.p_value, 3) +
+         " of the simulated studies are as far out (standard "
+         "error " +
+         number_words(joint.standard_error, 3) + ").";
+}
+
+std::vector<std::string> predictive_notes(const Predictive& predictive) {
+  if (predictive.num_studies == 0) {
+    return predictive.reason.empty()
+               ? std::vector<std::string>{}
+               : std::vector<std::string>{
+                     "Without simulated studies to compare with: " + predictive.reason + "."};
+  }
+  std::vector<std::string> notes = {
+      "Simulated studies: " + std::to_string(predictive.num_studies) + " of " +
+      counted_words(predictive.num_participants, "participant") + ", drawn from " +
+      std::to_string(predictive.num_people) +
+      " simulated people, by the statistic that was published: median (middle 95 %). Tail: the "
+      "share of them as far on the published value’s side. The published study is taken for "
+      "one more of these, so its own error is in it; of many values some lie far out by "
+      "chance, which is what those together are for."};
+  if (predictive.joint) notes.push_back(joint_words(*predictive.joint, "All"));
+  if (predictive.joint_held_out) {
+    notes.push_back(joint_words(*predictive.joint_held_out, "Held out, not implied"));
+  }
+  return notes;
+}
+
+}  // namespace
+
+std::string published_words(const Estimate& estimate) {
+  if (estimate.published_positive && !estimate.published) return "> 0";
+  if (!estimate.published) return "–";
+  std::string words = shortest_words(*estimate.published);
+  if (estimate.published_sd) words += " ± " + shortest_words(*estimate.published_sd);
+  return words;
+}
+
+std::vector<std::string> published_notes(const std::vector<const Estimate*>& estimates) {
+  const bool any_sd = std::ranges::any_of(
+      estimates, [](const Estimate* estimate) { return estimate->published_sd.has_value(); });
+  if (!any_sd) return {};
+  return {
+      "Published a ± b: b is the standard deviation between participants; our 95 % interval "
+      "is that of the estimate itself, and narrower."};
+}
+
+std::string basis_words(const Estimate& estimate) {
+  if (!estimate.is_published()) return "–";
+  if (estimate.calibrated) return "calibrated";
+  return estimate.implied ? "implied" : "held out";
+}
+
+std::string unit_words(const std::string& unit) {
+  std::string words;
+  for (const char letter : unit == "1" ? "" : unit) {
+    words += letter == ' ' ? "\u00a0" : std::string(1, letter);
+  }
+  return words;
+}
+
+HtmlTable published_table(const StudyResults& results) {
+  const bool has_simulated = results.predictive.num_studies > 0;
+  HtmlTable table{.caption = "Ours beside the published values",
+                  .columns = {{"Estimate, and how it was published", false, true},
+                              {"Value", true},
+                              {"95 % interval", true},
+                              {"Unit"},
+                              {"Published", true}}};
+  if (has_simulated) {
+    table.columns.push_back({"Simulated studies", true});
+    table.columns.push_back({"Tail", true});
+  }
+  if (results.simulated) table.columns.push_back({"Basis"});
+  const std::vector<const Estimate*> published =
+      estimates_where(results, &Estimate::is_published);
+  for (const Estimate* estimate : published) {
+    std::vector<std::string> row = {
+        estimate->published_statistic.empty()
+            ? estimate->name
+            : estimate->name + "\n" + estimate->published_statistic,
+        number_words(estimate->value),
+        interval_words(estimate->name, estimate->ci95, estimate->value),
+        unit_words(estimate->unit), published_words(*estimate)};
+    if (has_simulated) {
+      row.push_back(simulated_words(*estimate));
+      row.push_back(tail_words(*estimate));
+    }
+    if (results.simulated) row.push_back(basis_words(*estimate));
+    table.rows.push_back(std::move(row));
+  }
+  table.notes = published_notes(published);
+  std::ranges::move(predictive_notes(results.predictive), std::back_inserter(table.notes));
+  if (results.simulated) {
+    table.notes.emplace_back(
+        "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "
+        "follows from values that were. Held out: the laboratory knows nothing of it.");
+  }
+  return table;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "app/command.h"
+
+namespace jnd::app {
+
+/// `jnd fit weber`, below `fit`.
+void add_fit_weber(CLI::App& fit, Invocation& invocation);
+
+}  // namespace jnd::app

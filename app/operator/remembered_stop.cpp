@@ -1,0 +1,64 @@
+#include "app/operator/remembered_stop.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <system_error>
+
+#include "app/operator/recent_studies.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "network:10.0.0.2:5000" has signs that are none of a file name's.
+fs::path file_for(const fs::path& folder, const std::string& device) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string name = "stop_";
+  for (const char letter : device) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (std::isalnum(byte) != 0 || letter == '_') {
+      name += letter;
+    } else {
+      name += {'-', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+  }
+  return folder / name;
+}
+
+}  // namespace
+
+void remember_stop(const fs::path& folder, const std::string& device) {
+  if (folder.empty()) return;
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const int file =
+      ::open(file_for(folder, device).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return;
+  (void)::fsync(file);
+  ::close(file);
+  const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0) return;
+  (void)::fsync(directory);
+  ::close(directory);
+}
+
+void forget_stop(const fs::path& folder, const std::string& device) {
+  if (folder.empty()) return;
+  std::error_code ignored;
+  fs::remove(file_for(folder, device), ignored);
+}
+
+bool is_stop_remembered(const fs::path& folder, const std::string& device) {
+  std::error_code ignored;
+  return !folder.empty() && fs::exists(file_for(folder, device), ignored);
+}
+
+fs::path stops_folder() {
+  const fs::path recent = RecentStudies::default_file();
+  return recent.empty() ? fs::path() : recent.parent_path();
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,120 @@
+#pragma once
+
+// People whose Weber fractions are known, and how often an interval held them.
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "analysis/fits/psychometric_fit.h"
+#include "analysis/fits/sigmoid.h"
+#include "core/random_stream.h"
+
+namespace jnd::coverage {
+
+using namespace jnd::analysis;
+using core::RandomStream;
+
+/// Stimuli about a reference; of group D and E of `viscosity_discrimination`.
+struct Levels {
+  std::string words;
+  double reference = 0.0;
+  std::vector<double> intensities;
+};
+inline const Levels kHardLevels = {
+    "hard", 1.853, {1.093, 1.237, 1.646, 1.7495, 2.203, 2.553, 3.185, 3.883}};
+inline const Levels kEasyLevels = {
+    "easy", 16.06, {10.1, 11.58, 13.83, 14.945, 17.505, 18.95, 23.2, 29.335}};
+
+/// A person: z = slope (ln(x / reference) - place), with what no fit knows of.
+struct Person {
+  double slope = 1.0, place = 0.0, drift = 0.0, lapse = 0.0;
+  Sigmoid sigmoid = Sigmoid::kNormal;
+
+  /// `time` from -0.5 at the first trial to 0.5 at the last.
+  [[nodiscard]] double probability(double log_ratio, double time) const {
+    const double z = slope * (log_ratio - place - drift * time);
+    return lapse + (1.0 - 2.0 * lapse) * sigmoid_tails(sigmoid, z).lower;
+  }
+};
+
+/// Whom people are drawn from.
+struct Population {
+  std::string words;
+  double weber_fraction = 0.7;  ///< Of the median person.
+  double spread_ln = 0.0;       ///< Sd of ln ln(1 + w).
+  double place_sd_ln = 0.0;
+  double drift_ln = 0.0, lapse = 0.0;
+  Sigmoid sigmoid = Sigmoid::kNormal;
+  /// The truth is what a curve that is even in ln has for the Weber fraction, half the distance
+  /// between 15.87 and 84.13 %; of normal noise that is w itself.
+  bool even_truth = false;
+
+  [[nodiscard]] Person person(double slope_z, double place_z) const {
+    return {sigmoid_jnd(sigmoid) / std::log1p(weber_fraction) * std::exp(spread_ln * slope_z),
+            place_sd_ln * place_z, drift_ln, lapse, sigmoid};
+  }
+  [[nodiscard]] double truth() const {
+    if (!even_truth) return weber_fraction;
+    constexpr double kUpper = 0.84134474606854293;
+    const double distance =
+        sigmoid_quantile(sigmoid, kUpper) - sigmoid_quantile(sigmoid, 1.0 - kUpper);
+    return std::expm1(std::log1p(weber_fraction) * 0.5 * distance / sigmoid_jnd(sigmoid));
+  }
+};
+
+inline std::vector<AnswerCount> answers_of(const Person& person, const Levels& levels,
+                                           int num_trials, RandomStream& random) {
+  std::vector<AnswerCount> rows;
+  for (const double x : levels.intensities) {
+    AnswerCount row{.intensity = x, .num_trials = num_trials};
+    for (int trial = 0; trial < num_trials; ++trial) {
+      const double time = (trial + 0.5) / num_trials - 0.5;
+      row.num_yes +=
+          random.with_probability(person.probability(std::log(x / levels.reference), time)) ? 1
+                                                                                            : 0;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// How often an interval held the truth; an open end holds whatever lies there.
+struct Coverage {
+  int num_sets = 0, num_without = 0, num_held = 0;
+
+  void add(bool exists, const Interval& interval, double truth) {
+    ++num_sets;
+    if (!exists || (!interval.low && !interval.high)) {
+      ++num_without;
+      return;
+    }
+    num_held +=
+        interval.low.value_or(-1e300) <= truth && truth <= interval.high.value_or(1e300);
+  }
+  [[nodiscard]] std::string words() const {
+    const int with = num_sets - num_without;
+    if (with == 0) return "-";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.1f %%", 100.0 * num_held / with);
+    return text;
+  }
+};
+
+inline void print_row(const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) std::printf("| %s ", cell.c_str());
+  std::printf("|\n");
+}
+
+inline std::string percent(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%+.1f %%", 100.0 * value);
+  return text;
+}
+
+/// Markdown sections on stdout.
+void cover_groups(int num_sets, std::uint64_t seed);
+void cover_difference(int num_sets, std::uint64_t seed);
+
+}  // namespace jnd::coverage

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "device/haptic_loop.h"
+#include "haptic_loop_fixture.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Arming;
+using core::Fault;
+
+/// A hand that moves through a thick fluid, on a loop that nobody has armed.
+class LoopArmingTest : public HapticLoopTest {
+ protected:
+  LoopArmingTest() {
+    starts_armed = false;
+    make_loop({});
+    device.move_all({0.2, 0.0, 0.0});
+    command(core::viscous({.viscosity_pa_s = 8.0}));
+  }
+};
+
+TEST_F(LoopArmingTest, ThereIsNoForceBeforeSomebodyAsksForIt) {
+  run(2000);
+  EXPECT_EQ(max_received_n(0), 0.0);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed);
+  EXPECT_EQ(telemetry().fault, Fault::kNotArmed);
+  EXPECT_EQ(telemetry().num_faults, 0U) << "nothing is wrong";
+  EXPECT_FALSE(loop->flight_recorder().is_frozen());
+}
+
+TEST_F(LoopArmingTest, ItFadesInOverHalfASecond) {
+  run(10);
+  loop->rearm();
+  run(1);
+  EXPECT_EQ(telemetry().arming, Arming::kArming);
+  run(250);
+  const double half_n = device.last_total_n().norm();
+  run(300);
+  EXPECT_EQ(telemetry().arming, Arming::kArmed);
+  EXPECT_EQ(telemetry().fault, Fault::kNone);
+  EXPECT_NEAR(half_n / device.last_total_n().norm(), 0.5, 0.01);
+}
+
+TEST_F(LoopArmingTest, AHandThatIsBeingPutInIsNoFault) {
+  device.state.tip_position_m[2].x() += 0.5;
+  run(1);
+  device.move_all({9.0, 0.0, 0.0});
+  run(1);
+  device.move_all({0.0, 0.0, 0.0});
+  device.state.tip_position_m[2].x() = 3.0;
+  run(1);
+  EXPECT_EQ(telemetry().fault, Fault::kNotArmed);
+}
+
+TEST_F(LoopArmingTest, WhatIsWrongWithTheDeviceIsToldAllTheSame) {
+  device.state.tip_position_m[0].x() = std::numeric_limits<double>::quiet_NaN();
+  run(1);
+  EXPECT_EQ(telemetry().fault, Fault::kNonFiniteState);
+  EXPECT_EQ(telemetry().arming, Arming::kFaulted);
+}
+
+TEST_F(LoopArmingTest, AStopThatIsPressedHoldsAgainstArming) {
+  stop.press();
+  run(1);
+  EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
+  loop->rearm();
+  run(1000);
+  EXPECT_EQ(max_received_n(0), 0.0);
+  EXPECT_TRUE(stop.release(stop.num_presses()));
+  run(1000);
+  EXPECT_EQ(max_received_n(0), 0.0) << "releasing is no arming";
+  loop->rearm();
+  run(1000);
+  EXPECT_GT(max_received_n(0), 0.5);
+}
+
+TEST_F(LoopArmingTest, DisarmedIsZeroAtOnce) {
+  loop->rearm();
+  run(1000);
+  loop->disarm();
+  const std::size_t from = device.received.size();
+  run(100);
+  EXPECT_EQ(max_received_n(from), 0.0);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed);
+  EXPECT_EQ(telemetry().num_faults, 0U);
+}
+
+TEST_F(LoopArmingTest, WhoAsksToArmAndToDisarmAtOnceGetsNoForce) {
+  run(10);
+  loop->disarm();
+  loop->rearm();
+  run(1000);
+  EXPECT_EQ(max_received_n(0), 0.0);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed);
+}
+
+TEST_F(LoopArmingTest, AStopPressedAndReleasedBetweenTwoTicksLatches) {
+  loop->rearm();
+  run(1000);
+  stop.press();
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  const std::size_t from = device.received.size();
+  run(10);
+  EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
+  EXPECT_EQ(max_received_n(from), 0.0);
+}
+
+TEST_F(LoopArmingTest, AMachineThatSleptIsAFault) {
+  loop->rearm();
+  run(1000);
+  loop->suspended();
+  const std::size_t from = device.received.size();
+  run(10);
+  EXPECT_EQ(telemetry().fault, Fault::kSuspended);
+  EXPECT_EQ(max_received_n(from), 0.0);
+  loop->rearm();
+  run(1000);
+  EXPECT_EQ(telemetry().fault, Fault::kNone);
+}
+
+/// The same measurement again and again: the device's fault, unless the loop itself stood
+/// still.
+TEST_F(LoopArmingTest, AnOldMeasurementIsTheMachinesFaultWhereTicksWereMissed) {
+  for (const bool missed : {false, true}) {
+    device.while_read = nullptr;
+    make_loop({{.first_tick = 20, .num_ticks = 100, .injection = Injection::kStaleTime}});
+    run(1);
+    loop->rearm();
+    for (int tick = 0; tick < 60; ++tick) {
+      loop->due(1 + tick, missed && tick % 4 == 0 ? 2 : 0);
+      run(1);
+    }
+    EXPECT_EQ(telemetry().fault, missed ? Fault::kHostTooSlow : Fault::kStaleSample);
+  }
+}
+
+}  // namespace
+}  // namespace jnd::device
