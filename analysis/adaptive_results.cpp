@@ -47,9 +47,9 @@ std::string percent_words(double probability) {
 }
 
 /// One block's section while it is written.
-class Writer {
+class AdaptiveWriter {
  public:
-  Writer(const StudyData& data, const BlockDesign& block)
+  AdaptiveWriter(const StudyData& data, const BlockDesign& block)
       : data_(data), block_(block), section_{.name = block.block + "_" + block.procedure} {}
 
   [[nodiscard]] ResultsSection finish() && { return std::move(section_); }
@@ -113,7 +113,7 @@ class Writer {
   ResultsSection section_;
 };
 
-void Writer::tell_tracks(const AdaptiveRun& run) {
+void AdaptiveWriter::tell_tracks(const AdaptiveRun& run) {
   if (run.tracks.size() < 2) return;
   for (const AdaptiveTrack& track : run.tracks) {
     tell(run, "staircase_threshold_" + std::to_string(track.series), track.threshold,
@@ -121,7 +121,7 @@ void Writer::tell_tracks(const AdaptiveRun& run) {
   }
 }
 
-void Writer::write_staircase() {
+void AdaptiveWriter::write_staircase() {
   OwnNumbers thresholds, fractions;
   std::string rule;
   double target = 0.5;
@@ -164,7 +164,7 @@ void Writer::write_staircase() {
                fractions);
 }
 
-void Writer::write_limits() {
+void AdaptiveWriter::write_limits() {
   OwnNumbers levels, ascending, descending, errors;
   bool is_logarithmic = true;
   for (const AdaptiveRun* run : runs()) {
@@ -203,7 +203,7 @@ void Writer::write_limits() {
                                   .comparison = one_sample_t_test(values)});
 }
 
-void Writer::write_quest_plus() {
+void AdaptiveWriter::write_quest_plus() {
   std::map<std::string, OwnNumbers> values;
   int num_at_edge = 0, num_runs = 0;
   for (const AdaptiveRun* run : runs()) {
@@ -244,7 +244,7 @@ void Writer::write_quest_plus() {
   }
 }
 
-void Writer::caution_group(std::size_t first, int num_at_edge, int num_runs) {
+void AdaptiveWriter::caution_group(std::size_t first, int num_at_edge, int num_runs) {
   const std::string other = block_.compares() ? "weber_fraction_median_person" : "threshold";
   for (std::size_t i = first; i < section_.estimates.size(); ++i) {
     Estimate& estimate = section_.estimates[i];
@@ -268,7 +268,7 @@ bool has_fixed_levels(const BlockDesign& block) {
 }
 
 ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block) {
-  Writer writer(data, block);
+  AdaptiveWriter writer(data, block);
   if (block.procedure == "staircase") writer.write_staircase();
   if (block.procedure == "limits") writer.write_limits();
   if (block.procedure == "quest_plus") writer.write_quest_plus();

@@ -32,9 +32,9 @@ CatchCounts counts_of(const ParticipantData& participant, const std::string& blo
 }
 
 /// The section while it is written.
-class Writer {
+class CatchWriter {
  public:
-  explicit Writer(const BlockDesign& block)
+  explicit CatchWriter(const BlockDesign& block)
       : block_(block.block), section_{.name = block.block + "_catch_trials"} {}
 
   void add(const std::string& participant, const CatchCounts& counts) {
@@ -117,7 +117,7 @@ bool has_catch_trials(const StudyData& data, const BlockDesign& block) {
 }
 
 ResultsSection catch_results(const StudyData& data, const BlockDesign& block) {
-  Writer writer(block);
+  CatchWriter writer(block);
   for (const ParticipantData& participant : data.participants) {
     const CatchCounts counts = counts_of(participant, block.block);
     if (counts.num_trials > 0) writer.add(participant.participant, counts);

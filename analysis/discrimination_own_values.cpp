@@ -4,7 +4,7 @@ namespace jnd::analysis {
 namespace {
 
 /// The smallest p value there can be is one over one more.
-constexpr int kRedraws = 1000;
+constexpr int kOwnRedraws = 1000;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     const auto fit_of = [&](bool free_pse) {
       return own_fit(answers, {.free_pse = free_pse,
                                .intervals = true,
-                               .num_goodness = kRedraws,
+                               .num_goodness = kOwnRedraws,
                                .seed = options.seed});
     };
     const PsychometricFit fixed = fit_of(false);

@@ -7,6 +7,7 @@
 
 #include "analysis/groups/summary.h"
 #include "analysis/report/report_words.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using Places = std::vector<std::size_t>;
 using Statistic = std::function<CensoredValue(const Places&)>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 double quantile_of(std::vector<double> values, double probability) {
   std::ranges::sort(values);
@@ -57,10 +58,10 @@ std::string untold_words(const OwnFractions& fractions, const CensoredValue& med
 }
 
 /// Where the estimates go, and with which pse.
-class Writer {
+class OwnFractionWriter {
  public:
-  Writer(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
-         const BlockDesign& block, const ResultsOptions& options, bool is_primary)
+  OwnFractionWriter(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
+                    const BlockDesign& block, const ResultsOptions& options, bool is_primary)
       : section_(section),
         options_(options),
         is_primary_(is_primary),
@@ -245,7 +246,7 @@ void add_individual_fractions(ResultsSection& section,
                               const std::vector<DiscriminationAnswers>& all,
                               const BlockDesign& block, const ResultsOptions& options) {
   for (const bool is_primary : {true, false}) {
-    Writer(section, all, block, options, is_primary).write();
+    OwnFractionWriter(section, all, block, options, is_primary).write();
   }
 }
 

@@ -29,9 +29,9 @@ void add_means(const MagnitudeBlock& magnitudes, const std::string& block,
 
 void add_movement(const ParticipantData& participant, PersonOutcome& person) {
   constexpr std::pair<const char*, std::optional<double> core::PresentationRow::*>
-      kQuantities[] = {{"stroke_width_m", &core::PresentationRow::stroke_width_m},
-                       {"max_speed_m_per_s", &core::PresentationRow::max_speed_m_per_s}};
-  for (const auto& [name, value] : kQuantities) {
+      kMovements[] = {{"stroke_width_m", &core::PresentationRow::stroke_width_m},
+                      {"max_speed_m_per_s", &core::PresentationRow::max_speed_m_per_s}};
+  for (const auto& [name, value] : kMovements) {
     std::vector<core::PresentationRow> all;
     for (const auto& [block, rows] : participant.presentations) {
       if (const auto mean = movement_mean(rows, value)) {

@@ -12,7 +12,7 @@
 namespace jnd::analysis {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 constexpr std::string_view kYes = "num_yes.", kTrials = "num_trials.", kMean = "mean.";
@@ -35,7 +35,7 @@ std::map<std::string, double> columns_of(const PersonOutcome& person) {
   return values;
 }
 
-json six_digits(double value) {
+ordered_json six_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   const double rounded = std::strtod(text, nullptr);
@@ -69,7 +69,7 @@ void set_value(PersonOutcome& person, const std::string& column, double value) {
   }
 }
 
-json header_of(const PredictivePeople& people) {
+ordered_json header_of(const PredictivePeople& people) {
   return {{"format", kFormat},
           {"comment",
            "Simulated people, one a line, from whom studies are drawn to compare published "
@@ -82,7 +82,7 @@ json header_of(const PredictivePeople& people) {
           {"seed", people.seed}};
 }
 
-PredictivePeople people_of(const json& document) {
+PredictivePeople people_of(const ordered_json& document) {
   if (document.at("format") != kFormat) throw core::Error("another format than 1");
   const auto text = [&](const char* key) { return document.at(key).get<std::string>(); };
   PredictivePeople people{.key = {.study = text("study"),
@@ -92,7 +92,7 @@ PredictivePeople people_of(const json& document) {
                                   .device = text("device")},
                           .seed = document.at("seed").get<std::uint64_t>()};
   const auto columns = document.at("columns").get<std::vector<std::string>>();
-  for (const json& row : document.at("people")) {
+  for (const ordered_json& row : document.at("people")) {
     if (row.size() != columns.size()) throw core::Error("a person without all columns");
     const auto group = row.at(0).get<std::size_t>();
     if (group > people.groups.size()) throw core::Error("groups out of their order");
@@ -123,16 +123,17 @@ std::string to_text(const PredictivePeople& people) {
       for (const auto& [name, value] : values.back()) names.insert(name);
     }
   }
-  json columns = {"group", "cells"};
+  ordered_json columns = {"group", "cells"};
   for (const std::string& name : names) columns.push_back(name);
   std::string rows;
   std::size_t place = 0;
   for (std::size_t group = 0; group < people.groups.size(); ++group) {
     for (const PersonOutcome& person : people.groups[group]) {
-      json row = {group, person.cells};
+      ordered_json row = {group, person.cells};
       for (const std::string& name : names) {
         const auto found = values[place].find(name);
-        row.push_back(found == values[place].end() ? json(nullptr) : six_digits(found->second));
+        row.push_back(found == values[place].end() ? ordered_json(nullptr)
+                                                   : six_digits(found->second));
       }
       rows += (place == 0 ? "\n" : ",\n") + row.dump();
       ++place;
@@ -146,7 +147,7 @@ std::string to_text(const PredictivePeople& people) {
 
 PredictivePeople predictive_people_from(const std::string& text, const std::string& place) {
   try {
-    return people_of(json::parse(text));
+    return people_of(ordered_json::parse(text));
   } catch (const std::exception& error) {
     throw core::Error(place + ": expected simulated people, found: " + error.what());
   }

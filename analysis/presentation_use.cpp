@@ -7,7 +7,7 @@ namespace jnd::analysis {
 namespace {
 
 /// Beyond that a block's intensities are set rather than designed.
-constexpr std::size_t kMostLevels = 32;
+constexpr std::size_t kMostUsedLevels = 32;
 
 struct Sums {
   int num_presented = 0, num_used = 0;
@@ -62,7 +62,7 @@ std::vector<PresentationUse> presentation_uses(const StudyData& data) {
   for (const BlockDesign& block : data.blocks) {
     if (block.medium == "solid") continue;  // Pressed: it can hold no stroke.
     for (const auto& [interval, levels] : levels_by_interval(data, block.block)) {
-      const bool by_level = levels.size() <= kMostLevels;
+      const bool by_level = levels.size() <= kMostUsedLevels;
       for (const auto& [level, sum] : sums_of(data, block.block, interval, by_level)) {
         PresentationUse use{.block = block.block,
                             .interval = interval,

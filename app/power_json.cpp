@@ -73,7 +73,7 @@ ordered_json to_json(const PlannedPower& power, const PlannedName& name, bool al
 }
 
 ordered_json to_json(const PlannedPrecision& precision, const PlannedName& name,
-                     const PlannedBlock& block) {
+                     const analysis::PlannedBlock& block) {
   return {{"name", name.name},
           {"meaning", name.meaning},
           {"true_value", number(block.true_value)},
@@ -93,7 +93,7 @@ ordered_json to_json(const PowerDesign& design) {
   ordered_json json = request_json(design);
   json["paired"] = design.analysis.paired;
   auto blocks = ordered_json::array();
-  for (const PlannedBlock& block : design.analysis.blocks) {
+  for (const analysis::PlannedBlock& block : design.analysis.blocks) {
     blocks.push_back({{"name", block.name},
                       {"quantity", word_of(block.quantity)},
                       {"reference", block.reference},

@@ -151,7 +151,7 @@ analysis::StudyResults results_of_data(const analysis::StudyData& data,
   return results;
 }
 
-json to_json(const analysis::StudyResults& results) {
+json results_json(const analysis::StudyResults& results) {
   json sections = json::array();
   for (const analysis::ResultsSection& section : results.sections) {
     json estimates = json::array();

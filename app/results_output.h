@@ -21,7 +21,7 @@ namespace jnd::app {
     const analysis::PredictivePeople* people = nullptr);
 
 /// The contract's JSON: study, simulated, sections.
-[[nodiscard]] nlohmann::json to_json(const analysis::StudyResults& results);
+[[nodiscard]] nlohmann::json results_json(const analysis::StudyResults& results);
 
 /// Every estimate with interval and published value, a table a section.
 [[nodiscard]] std::string to_table(const analysis::StudyResults& results);

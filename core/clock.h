@@ -4,6 +4,8 @@
 
 namespace jnd::core {
 
+inline constexpr std::int64_t kNsPerS = 1'000'000'000;
+
 /// Where a session takes the time of its events from. Passed in, so that a simulated session
 /// runs on simulated time and a test on its own.
 class Clock {

@@ -22,4 +22,9 @@ void require_not_negative(double value, std::string_view field) {
   require(value >= 0.0 && std::isfinite(value), field, "a finite number >= 0", value);
 }
 
+double period_s_at(double rate_hz) {
+  require_positive(rate_hz, "rate_hz");
+  return 1.0 / rate_hz;
+}
+
 }  // namespace jnd::core

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <limits>
 #include <string_view>
 
 #include "core/error.h"
 
 namespace jnd::core {
+
+/// No bound.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Throws `Error` "FIELD: expected RULE, found VALUE" unless `holds`. Write the condition so
 /// that NaN fails it: `require(x > 0, ...)`. Not real time.
@@ -14,5 +18,8 @@ void require(bool holds, std::string_view field, std::string_view rule, double v
 void require_positive(double value, std::string_view field);
 /// A finite number >= 0.
 void require_not_negative(double value, std::string_view field);
+
+/// Seconds of a period at `rate_hz`, a finite number > 0.
+[[nodiscard]] double period_s_at(double rate_hz);
 
 }  // namespace jnd::core

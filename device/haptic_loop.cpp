@@ -12,11 +12,6 @@ namespace {
 using core::Fault;
 using core::kNumContactPoints;
 
-double period_of(double rate_hz) {
-  core::require_positive(rate_hz, "rate_hz");
-  return 1.0 / rate_hz;
-}
-
 core::ForceLimiter::Parameters within(core::ForceLimiter::Parameters limits,
                                       const DeviceCapabilities& device) {
   limits.per_point_n = std::min(limits.per_point_n, device.max_force_per_point_n);
@@ -52,7 +47,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
     : parameters_(parameters),
       device_(device),
       doors_(doors),
-      period_s_(period_of(parameters.rate_hz)),
+      period_s_(core::period_s_at(parameters.rate_hz)),
       has_joints_(device.capabilities().num_joints > 0),
       max_stale_ticks_(
           ticks(std::max(parameters.max_stale_s, device.capabilities().max_stale_s),

@@ -11,16 +11,11 @@ using core::require;
 using core::require_not_negative;
 using core::require_positive;
 
-double period_of(double rate_hz) {
-  require_positive(rate_hz, "rate_hz");
-  return 1.0 / rate_hz;
-}
-
 }  // namespace
 
 LumpedHandDevice::LumpedHandDevice(const Parameters& parameters)
     : parameters_(parameters),
-      period_s_(period_of(parameters.rate_hz)),
+      period_s_(core::period_s_at(parameters.rate_hz)),
       arm_(parameters.arm, period_s_),
       hand_(parameters.rate_hz, arm_.arm().reference_m()) {
   require_positive(parameters.mass_kg, "mass_kg");

@@ -12,11 +12,6 @@ using core::require;
 using core::require_not_negative;
 using core::require_positive;
 
-double period_of(double rate_hz) {
-  require_positive(rate_hz, "rate_hz");
-  return 1.0 / rate_hz;
-}
-
 Eigen::Vector3d horizontal(const Eigen::Vector2d& vector, double z) noexcept {
   return {vector.x(), vector.y(), z};
 }
@@ -36,7 +31,7 @@ MouseDevice::MouseDevice(const Parameters& parameters,
                          core::LatestValue<core::PointerPosition>* pointer)
     : parameters_(parameters),
       pointer_(pointer != nullptr ? pointer : &own_pointer_),
-      guide_(parameters.guide, period_of(parameters.rate_hz)),
+      guide_(parameters.guide, core::period_s_at(parameters.rate_hz)),
       hand_(parameters.rate_hz, {0.0, 0.0, parameters.height_m}) {
   require_positive(parameters.mass_kg, "mass_kg");
   require_positive(parameters.stiffness_n_per_m, "stiffness_n_per_m");

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/require.h"
 #include "device/adaptive_spin.h"
@@ -16,7 +17,7 @@
 namespace jnd::device {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
+using core::kNsPerS;
 
 std::int64_t time_ns(clockid_t clock) noexcept {
   timespec now{};

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <ctime>
 
+#include "core/clock.h"
 #include "core/require.h"
 
 namespace jnd::device {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
+using core::kNsPerS;
 constexpr double kLooksPerTimeout = 10.0;
 
 std::int64_t timeout_ns_of(const Watchdog::Parameters& parameters) {

@@ -43,10 +43,10 @@ BidsDataset dataset_of(const core::StudyStore& store, const ExportOptions& optio
   return dataset;
 }
 
-class Export {
+class BidsExport {
  public:
-  Export(const core::StudyStore& store, const UnfinishedFolder& folder,
-         const ExportOptions& options)
+  BidsExport(const core::StudyStore& store, const UnfinishedFolder& folder,
+             const ExportOptions& options)
       : store_(store),
         folder_(folder),
         options_(options),
@@ -201,7 +201,7 @@ ExportOutcome export_bids(const core::StudyStore& store, const fs::path& folder,
                           const ExportOptions& options, const std::string& results_json) {
   ExportOutcome outcome;
   write_folder(folder, [&](const UnfinishedFolder& unfinished) {
-    outcome = Export(store, unfinished, options).run(results_json);
+    outcome = BidsExport(store, unfinished, options).run(results_json);
   });
   return outcome;
 }

@@ -28,7 +28,7 @@ std::string component_of(const std::string& name) {
 }
 
 /// BIDS has no type of force: it goes with what is miscellaneous.
-std::string type_of(const RecordingColumn& column) {
+std::string bids_type_of(const RecordingColumn& column) {
   if (column.name.ends_with("_position_rad")) return "JNTANG";
   if (column.unit == "m") return "POS";
   return column.unit == "m/s" ? "VEL" : "MISC";
@@ -49,7 +49,7 @@ std::vector<BidsChannel> channels_of(const std::vector<RecordingColumn>& columns
     if (column.name == "tick") continue;
     channels.push_back({.name = column.name,
                         .component = component_of(column.name),
-                        .type = type_of(column),
+                        .type = bids_type_of(column),
                         .tracked_point = tracked_point_of(column.name),
                         .units = column.unit,
                         .description = column.meaning});

@@ -55,10 +55,10 @@ struct SessionRows {
   std::vector<QuestionnaireItem> questions;
 };
 
-class Export {
+class CsvExport {
  public:
-  Export(const core::StudyStore& store, const UnfinishedFolder& folder,
-         const ExportOptions& options)
+  CsvExport(const core::StudyStore& store, const UnfinishedFolder& folder,
+            const ExportOptions& options)
       : store_(store),
         folder_(folder),
         options_(options),
@@ -239,7 +239,7 @@ ExportOutcome export_csv(const core::StudyStore& store, const fs::path& folder,
                          const ExportOptions& options) {
   ExportOutcome outcome;
   write_folder(folder, [&](const UnfinishedFolder& unfinished) {
-    outcome = Export(store, unfinished, options).run();
+    outcome = CsvExport(store, unfinished, options).run();
   });
   return outcome;
 }

@@ -26,7 +26,7 @@ std::string group_name(std::int64_t session) {
   return name;
 }
 
-Hdf5Number type_of(const RecordingColumn& column) {
+Hdf5Number hdf5_type_of(const RecordingColumn& column) {
   if (column.name == "tick") return Hdf5Number::kInt64;
   return column.unit.empty() ? Hdf5Number::kUint8 : Hdf5Number::kDouble;
 }
@@ -37,7 +37,8 @@ void write_samples(const Hdf5Group& group, const ExportedRecording& recording) {
   std::vector<Hdf5Column> datasets;
   std::vector<std::vector<double>> buffers(columns.size());
   for (const RecordingColumn& column : columns) {
-    datasets.push_back(group.column(column.name, type_of(column), column.unit, column.meaning));
+    datasets.push_back(
+        group.column(column.name, hdf5_type_of(column), column.unit, column.meaning));
   }
   const auto flush = [&] {
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -55,9 +56,9 @@ void write_samples(const Hdf5Group& group, const ExportedRecording& recording) {
   flush();
 }
 
-class Export {
+class Hdf5Export {
  public:
-  Export(const core::StudyStore& store, const ExportOptions& options, const Hdf5Group& root)
+  Hdf5Export(const core::StudyStore& store, const ExportOptions& options, const Hdf5Group& root)
       : store_(store),
         options_(options),
         root_(root),
@@ -178,7 +179,7 @@ ExportOutcome export_hdf5(const core::StudyStore& store, const fs::path& folder,
   ExportOutcome outcome;
   write_folder(folder, [&](const UnfinishedFolder& unfinished) {
     Hdf5File file(unfinished.path() / "study.h5");
-    outcome = Export(store, options, file.root()).run();
+    outcome = Hdf5Export(store, options, file.root()).run();
     file.finish();
   });
   return outcome;

@@ -10,13 +10,10 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr std::string_view kTooFew =
-    "too few rows: a power law needs two different intensities > 0";
 constexpr int kFewestRowsOfInterval = 4;
 /// Of a residual in units of the largest magnitude, or of one in logarithms: what rounding
 /// leaves of none.
 constexpr double kNoResidual = 1e-9;
-constexpr std::string_view kOutOfRange = "k or a exceeds the range of numbers";
 
 /// Variances of intercept and slope of a line over x per unit of variance, the intercept's
 /// column being `weight` and the slope's weight x: (J^T J)^-1.
@@ -139,7 +136,7 @@ void fit_logarithms(PowerFit& fit, const std::vector<Magnitude>& data) {
   }
   fit.num_rows = static_cast<int>(x.size());
   if (x.size() < 2 || std::all_of(x.begin(), x.end(), [&](double v) { return v == x[0]; })) {
-    fit.reason = kTooFew;
+    fit.reason = kTooFewRows;
     return;
   }
   double mean_x = 0.0, mean_y = 0.0;
@@ -154,7 +151,7 @@ void fit_logarithms(PowerFit& fit, const std::vector<Magnitude>& data) {
   }
   const double a = xy / xx, log_k = mean_y - a * mean_x;
   if (!(std::fabs(log_k) < 700.0)) {
-    fit.reason = kOutOfRange;
+    fit.reason = kPowerOutOfRange;
     return;
   }
   double squares = 0.0;

@@ -9,8 +9,6 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr std::string_view kTooFew =
-    "too few rows: a power law needs two different intensities > 0";
 constexpr std::string_view kAllZero = "all magnitudes are 0: no k > 0 fits";
 constexpr std::string_view kNotPositive =
     "no k > 0 fits better than magnitudes of 0 everywhere";
@@ -18,7 +16,6 @@ constexpr std::string_view kSteep =
     "only the highest intensity's magnitude counts: the exponent grows without bound";
 constexpr std::string_view kFalling =
     "only the lowest intensity's magnitude counts: the exponent falls without bound";
-constexpr std::string_view kOutOfRange = "k or a exceeds the range of numbers";
 constexpr std::string_view kLost = "the search for the optimum did not come to rest";
 
 /// Intensities as t = (ln I - origin) / unit, which lies in [-1, 1]; with
@@ -226,7 +223,7 @@ PowerMinimum none(std::string_view reason) { return {FitStatus::kDegenerate, rea
 
 PowerMinimum power_minimum(const std::vector<Magnitude>& data, Solver solver) {
   const ScaledRows rows = scaled(data);
-  if (rows.t.size() < 2 || rows.unit == 0.0) return none(kTooFew);
+  if (rows.t.size() < 2 || rows.unit == 0.0) return none(kTooFewRows);
   double squares = 0.0;
   for (const double magnitude : rows.magnitude) squares += magnitude * magnitude;
   if (squares == 0.0) return none(kAllZero);
@@ -241,7 +238,7 @@ PowerMinimum power_minimum(const std::vector<Magnitude>& data, Solver solver) {
   const double a = best.b / rows.unit;
   const double log_k =
       std::log(best.at.best_c) + std::log(rows.largest) + best.at.log_scale - a * rows.origin;
-  if (!(std::fabs(log_k) < 700.0)) return none(kOutOfRange);
+  if (!(std::fabs(log_k) < 700.0)) return none(kPowerOutOfRange);
   return {FitStatus::kOk, "", log_k, a, rows.largest, best.at.value};
 }
 

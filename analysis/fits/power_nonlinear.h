@@ -7,6 +7,10 @@
 
 namespace jnd::analysis {
 
+inline constexpr std::string_view kTooFewRows =
+    "too few rows: a power law needs two different intensities > 0";
+inline constexpr std::string_view kPowerOutOfRange = "k or a exceeds the range of numbers";
+
 /// The least-squares power law through magnitudes, S = exp(log_k) I^a.
 struct PowerMinimum {
   FitStatus status = FitStatus::kDegenerate;

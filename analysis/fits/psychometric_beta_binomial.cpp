@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLargestCorrelation = 1.0 - 1e-6;
 /// Below these a rate is taken to be on its bound 0.
-constexpr double kNoLapse = 1e-7, kNoCorrelation = 1e-9;
+constexpr double kFewestLapses = 1e-7, kNoCorrelation = 1e-9;
 
 /// ln of a product and its derivatives in the first factor and in the step between factors.
 struct LogProduct {
@@ -166,7 +166,7 @@ std::optional<double> error_of_first(const Model& model, const LikelihoodOptimum
   std::vector<std::size_t> moving;
   for (std::size_t at = 0; at < model.size(); ++at) {
     const bool no_lapse =
-        free[2] && at == model.lapse_at() && model.curve(optimum.at).lapse < kNoLapse;
+        free[2] && at == model.lapse_at() && model.curve(optimum.at).lapse < kFewestLapses;
     const bool alone =
         at == model.correlation_at() && model.correlation(optimum.at) < kNoCorrelation;
     if (!no_lapse && !alone) moving.push_back(at);
@@ -212,7 +212,7 @@ BetaBinomialFit fit_beta_binomial(const PsychometricLevels& levels, const FreePa
   fit.correlation = spread.correlation(found.at);
   fit.log_likelihood = -found.cost;
   if (fit.correlation < kNoCorrelation) fit.correlation = 0.0;
-  if (fit.curve.lapse < kNoLapse && free[2]) fit.curve.lapse = 0.0;
+  if (fit.curve.lapse < kFewestLapses && free[2]) fit.curve.lapse = 0.0;
   if (!found.converged) {
     const double change = std::fabs(std::log(fit.curve.slope / start.slope));
     fit.status = change > 5.0 ? FitStatus::kDegenerate : FitStatus::kNotConverged;

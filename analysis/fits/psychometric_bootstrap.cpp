@@ -8,11 +8,12 @@
 #include "analysis/groups/summary.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 constexpr double kTail = 0.025;
 
 /// The refit's Weber fraction or, without an optimum, the limit it tends to; absent if the

@@ -1,4 +1,5 @@
 #include "analysis/fits/psychometric_existence.h"
+#include "core/require.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 constexpr std::string_view kNoTrials = "too few rows: no level has an answer";
 constexpr std::string_view kTooFewForLapse =

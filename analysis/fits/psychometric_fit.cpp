@@ -21,7 +21,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+using enum PsychometricMethod;
 /// Half the 95 % quantile of chi-squared with one degree of freedom.
 constexpr double kLikelihoodDrop = 1.9207294103470617;
 constexpr char kNotRelative[] =

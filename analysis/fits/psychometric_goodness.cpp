@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+using enum PsychometricMethod;
 
 /// Log-likelihood of a level at its own proportion.
 double saturated_term(double yes, double trials) {

@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "analysis/fits/psychometric_limits.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 /// Where to try the pse at one slope, ascending: every 0.7 z within 6 z of a level, and in the
 /// middle of wider gaps.

@@ -7,7 +7,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+using enum PsychometricMethod;
 
 /// Levels that share one probability f, as a weighted count: answers for maximum likelihood,
 /// levels for least squares.

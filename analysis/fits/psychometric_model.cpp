@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+using enum PsychometricMethod;
 
 /// ln(x / origin), keeping the relative accuracy of a small difference.
 double log_ratio(double x, double origin) {

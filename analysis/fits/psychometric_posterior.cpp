@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "analysis/fits/posterior_axis.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 constexpr double kTail = 0.025;           ///< On either side of an interval.
 constexpr double kLapsePriorPower = 9.0;  ///< Beta(1, 10): (1 - lapse)^9.
 

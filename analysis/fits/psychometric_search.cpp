@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+using enum PsychometricMethod;
 constexpr std::string_view kRidge = "not identified: many curves fit equally well";
 
 /// What rounding may make of a cost. The root is for small residuals, which are differences of

@@ -13,7 +13,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr auto kMaximumLikelihood = PsychometricMethod::kMaximumLikelihood;
+using enum PsychometricMethod;
 
 /// Whether a deviance is beyond what chi-squared with as many degrees of freedom has in one of
 /// a hundred data sets.

@@ -55,7 +55,7 @@ Interval grown(const Interval& interval, int exponent) {
 }
 
 /// Rounding of values as large as `largest` leaves a spread of this where there is none.
-double rounding(double largest) {
+double rounding_of(double largest) {
   return 8.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
@@ -85,7 +85,7 @@ void test_differences(Comparison& result, const std::vector<double>& differences
   result.estimate = grown(summary.mean, exponent);
   if (!result.reason.empty()) return;
   const double deviation = *summary.standard_deviation;
-  if (!(deviation > rounding(std::ldexp(largest, -exponent)))) {
+  if (!(deviation > rounding_of(std::ldexp(largest, -exponent)))) {
     result.reason = result.kind == Comparison::Kind::kOneSample
                         ? "all values are alike: t is undefined"
                         : "all differences are alike: t is undefined";
@@ -178,7 +178,7 @@ Comparison welch_t_test(const std::vector<double>& a, const std::vector<double>&
     return result;
   }
   const double spread = std::max(*of_a.standard_deviation, *of_b.standard_deviation);
-  if (!(spread > rounding(std::ldexp(largest, -exponent)))) {
+  if (!(spread > rounding_of(std::ldexp(largest, -exponent)))) {
     result.reason = "all values of each group are alike: t is undefined";
     return result;
   }
@@ -229,8 +229,8 @@ Comparison pearson_correlation(const std::vector<double>& a, const std::vector<d
   const std::vector<double> own_a = shrunk(a, exponent_of(largest_magnitude(a, {})));
   const std::vector<double> own_b = shrunk(b, exponent_of(largest_magnitude(b, {})));
   const Summary of_a = summary_of(own_a), of_b = summary_of(own_b);
-  if (!(*of_a.standard_deviation > rounding(largest_magnitude(own_a, {}))) ||
-      !(*of_b.standard_deviation > rounding(largest_magnitude(own_b, {})))) {
+  if (!(*of_a.standard_deviation > rounding_of(largest_magnitude(own_a, {}))) ||
+      !(*of_b.standard_deviation > rounding_of(largest_magnitude(own_b, {})))) {
     result.reason = "a column is constant: the correlation is undefined";
     return result;
   }
@@ -282,7 +282,7 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
   std::vector<double> roundings;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double larger = std::max(std::fabs(a[i]), std::fabs(b[i]));
-    roundings.push_back(rounding(std::ldexp(larger, -exponent)));
+    roundings.push_back(rounding_of(std::ldexp(larger, -exponent)));
   }
   const SignedRanks ranks = signed_ranks(difference, roundings);
   if (ranks.num_nonzero == 0) {

@@ -1,4 +1,5 @@
 #include "analysis/groups/pairwise_order.h"
+#include "core/require.h"
 
 #include <bit>
 #include <cstdint>
@@ -8,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 /// Numbers as integers in the same order, so that halving an interval ends after 64 steps.
 std::int64_t ordinal_of(double value) {

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// Beyond that a block's intensities are adjusted rather than designed.
-constexpr std::size_t kMostLevels = 32;
+constexpr std::size_t kMostPlannedLevels = 32;
 
 struct TrialPlan {
   core::DesignRow design;
@@ -63,7 +63,7 @@ PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& p
                        .first_tick = row.first_tick,
                        .last_tick = row.last_tick},
           .commanded = {medium, row.intensity, row.commanded_damping_n_s_per_m},
-          .is_level = !is_free && plan.levels.size() <= kMostLevels &&
+          .is_level = !is_free && plan.levels.size() <= kMostPlannedLevels &&
                       plan.levels.contains(row.intensity)};
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Okabe and Ito's colours (2008), told apart by colour-blind eyes; in a grey print the marks
 /// and dashes tell them apart.
-constexpr char kStyle[] = R"(  set linetype 1 lc rgb '#0072B2' dt 1 pt 7
+constexpr char kGnuplotStyle[] = R"(  set linetype 1 lc rgb '#0072B2' dt 1 pt 7
   set linetype 2 lc rgb '#D55E00' dt (10,4) pt 4
   set linetype 3 lc rgb '#009E73' dt (3,3) pt 9
   set linetype 4 lc rgb '#CC79A7' dt (12,4,3,4) pt 12
@@ -88,7 +88,7 @@ std::string gnuplot_script(const Figure& figure, bool simulated) {
       "  set encoding utf8\n"
       "  set datafile separator comma\n"
       "  set datafile columnheaders\n";
-  script += kStyle;
+  script += kGnuplotStyle;
   if (simulated) {
     script += "  set label 99 'SIMULATED' at screen 0.995," + inches(0.12 / figure.height_in) +
               " right font small tc rgb '#777777'\n";

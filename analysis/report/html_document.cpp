@@ -4,7 +4,7 @@ namespace jnd::analysis {
 namespace {
 
 /// For the screen and for A4; no colour carries meaning, so that a grey print says the same.
-constexpr char kStyle[] = R"css(
+constexpr char kPageStyle[] = R"css(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
 html { background: #fff; color: #1b1b1b; }
@@ -81,7 +81,7 @@ std::string html_document(const std::string& title, const std::string& mark,
   page += "}\n";
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         html_escaped(title) + "</title>\n<style>" + kStyle + page +
+         html_escaped(title) + "</title>\n<style>" + kPageStyle + page +
          "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";
 }
 

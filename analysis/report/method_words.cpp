@@ -12,9 +12,9 @@ namespace jnd::analysis {
 namespace {
 
 /// Paragraphs as they are written, with what they cite.
-class Writer {
+class MethodWriter {
  public:
-  explicit Writer(const ReportSource& source) : source_(source) {
+  explicit MethodWriter(const ReportSource& source) : source_(source) {
     for (const ResultsSection& section : source.results.sections) {
       for (const NamedComparison& named : section.comparisons) {
         if (named.comparison.status == FitStatus::kOk) comparisons_.push_back(&named);
@@ -77,7 +77,7 @@ class Writer {
   std::set<std::string> cited_;
 };
 
-void Writer::write_analysis() {
+void MethodWriter::write_analysis() {
   std::string text = "Computed by jnd " + source_.program_version +
                      ". Each table says what is estimated and how.";
   if (!source_.data.blocks.empty()) {
@@ -95,7 +95,7 @@ void Writer::write_analysis() {
   add("Analysis", text);
 }
 
-void Writer::write_psychometric() {
+void MethodWriter::write_psychometric() {
   if (!discriminates()) return;
   add("Psychometric function",
       "The probability of the answer “more than the reference” at intensity x is P(x) = "
@@ -122,7 +122,7 @@ void Writer::write_psychometric() {
           "). Error bars of single proportions are Wilson’s (" + cite("Wilson 1927") + ").");
 }
 
-void Writer::write_wrong_way_round() {
+void MethodWriter::write_wrong_way_round() {
   if (!any_inverted()) return;
   std::string text;
   if (discriminates()) {
@@ -144,13 +144,13 @@ void Writer::write_wrong_way_round() {
   add("Wrong way round", text);
 }
 
-void Writer::write_thresholds() {
+void MethodWriter::write_thresholds() {
   add_threshold_methods(
       source_.data, [this](const std::string& work) { return cite(work); },
       [this](const std::string& topic, const std::string& text) { add(topic, text); });
 }
 
-void Writer::write_hierarchical() {
+void MethodWriter::write_hierarchical() {
   const bool any =
       std::ranges::any_of(source_.results.sections, [](const ResultsSection& section) {
         return std::ranges::any_of(section.estimates, [](const Estimate& one) {
@@ -183,7 +183,7 @@ void Writer::write_hierarchical() {
           "); nobody with answers is left out.");
 }
 
-void Writer::write_power_laws() {
+void MethodWriter::write_power_laws() {
   if (!has_magnitudes()) return;
   std::string text = "S = k I^a (" + cite("Stevens 1957") +
                      "), S being the magnitude as a ratio to the modulus and I the intensity. "
@@ -232,7 +232,7 @@ void Writer::write_power_laws() {
   add("Power laws", text);
 }
 
-void Writer::write_matching() {
+void MethodWriter::write_matching() {
   if (!has_procedure("matching")) return;
   add("Matching",
       "Method of adjustment (as in " + cite("Bergmann Tiest et al. 2013") +
@@ -247,7 +247,7 @@ void Writer::write_matching() {
           "its logarithm that all standards share, each with a level of its own.");
 }
 
-void Writer::write_groups() {
+void MethodWriter::write_groups() {
   std::string text;
   if (discriminates() || has_magnitudes() || has_procedure("matching")) {
     text =
@@ -274,13 +274,13 @@ void Writer::write_groups() {
   add("Groups", text);
 }
 
-void Writer::write_tests() {
+void MethodWriter::write_tests() {
   add_test_methods(
       comparisons_, discriminates(), [this](const std::string& work) { return cite(work); },
       [this](const std::string& topic, const std::string& text) { add(topic, text); });
 }
 
-void Writer::write_movement() {
+void MethodWriter::write_movement() {
   const bool presented = !presentation_uses(source_.data).empty();
   if (!presented && !source_.movement.any()) return;
   std::string text =
@@ -318,7 +318,7 @@ void Writer::write_movement() {
 }  // namespace
 
 MethodWords method_words(const ReportSource& source) {
-  Writer writer(source);
+  MethodWriter writer(source);
   writer.write_analysis();
   writer.write_psychometric();
   writer.write_wrong_way_round();

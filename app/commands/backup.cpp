@@ -11,7 +11,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct BackupOptions {
   std::string folder;
   std::string target;
   std::string forget;
@@ -58,13 +58,13 @@ int print_copy(const core::BackupReport& report, const std::string& target, bool
   return report.integrity.complete ? kDone : kHasProblems;
 }
 
-core::BackupReport backed_up(const Options& options) {
+core::BackupReport backed_up(const BackupOptions& options) {
   ProgressBar bar("backup");
   return core::back_up(options.folder, options.target, core::SystemClock().now_ns(),
                        [&](double done) { bar.show(done); });
 }
 
-int run(const Options& options) {
+int run_backup(const BackupOptions& options) {
   if (options.target.empty() == options.forget.empty()) {
     throw UsageError("backup: expected --to with a folder, or --forget with one, found " +
                      std::string(options.target.empty() ? "neither" : "both"));
@@ -78,7 +78,7 @@ int run(const Options& options) {
   return print_copy(backed_up(options), options.target, options.json);
 }
 
-int run_restore(const Options& options) {
+int run_restore(const BackupOptions& options) {
   ProgressBar bar("restore");
   const core::BackupReport report =
       core::restore(options.folder, options.target, core::SystemClock().now_ns(),
@@ -91,7 +91,7 @@ int run_restore(const Options& options) {
 void add_backup(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "backup", "Copies a study, also while a session runs; again, copies what is new");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BackupOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -101,13 +101,13 @@ void add_backup(CLI::App& program, Invocation& invocation) {
                       "Folder of a copy that was deleted: withdrawals will not look for it");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_backup(*options); }; });
 }
 
 void add_restore(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "restore", "Makes a study of a backup, where the study itself is lost");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BackupOptions>();
   command->add_option("DIR", options->folder, "Folder of the backup")
       ->required()
       ->check(CLI::ExistingDirectory);

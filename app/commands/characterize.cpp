@@ -34,7 +34,7 @@ constexpr double kRate_hz = 1000.0;
 constexpr double kStroking_s = 20.0;
 constexpr std::array kJoints = {"abduction", "extension", "proximal"};
 
-struct Options {
+struct CharacterizeOptions {
   std::string device = "exoskeleton";
   std::string finger = "index";
   int repetitions = 10;
@@ -43,7 +43,7 @@ struct Options {
   bool json = false;
 };
 
-struct Outcome {
+struct CharacterizeOutcome {
   device::FingerCharacter finger;
   device::FreeSpaceRegression free_space;
 };
@@ -109,7 +109,7 @@ class MeasuringLoop {
   device::RealtimeThread thread_;
 };
 
-Outcome measured_on_model(const Options& options) {
+CharacterizeOutcome measured_on_model(const CharacterizeOptions& options) {
   ProgressBar bar("characterize");
   const auto part = [&bar](double from, double to) {
     return [&bar, from, to](double done) {
@@ -127,7 +127,8 @@ Outcome measured_on_model(const Options& options) {
           device::stroke_in_free_space(kRate_hz, options.seed, part(0.9, 1.0))};
 }
 
-Outcome measured_by_person(const Options& options, device::HapticDevice& device) {
+CharacterizeOutcome measured_by_person(const CharacterizeOptions& options,
+                                       device::HapticDevice& device) {
   MeasuringLoop loop(device, options.allow_no_realtime);
   const auto measure = [&loop](double duration_s,
                                const std::function<void(const core::Sample&)>& take) {
@@ -135,7 +136,7 @@ Outcome measured_by_person(const Options& options, device::HapticDevice& device)
   };
   PersonBench bench(std::cin, std::cerr, point_named(options.finger), options.repetitions,
                     measure);
-  Outcome outcome;
+  CharacterizeOutcome outcome;
   outcome.finger = device::characterize_finger(bench, options.repetitions,
                                                [](double) { stop_if_requested(); });
   if (device::SimulatedHand* hand = device.simulated_hand()) {
@@ -151,7 +152,7 @@ Outcome measured_by_person(const Options& options, device::HapticDevice& device)
   return outcome;
 }
 
-Outcome outcome_of(const Options& options) {
+CharacterizeOutcome outcome_of(const CharacterizeOptions& options) {
   if (options.device == "exoskeleton") return measured_on_model(options);
   const auto device = device::make_device(options.device, kRate_hz);
   if (device->capabilities().num_joints != core::kNumJoints) {
@@ -167,7 +168,7 @@ ordered_json json_of(const device::MeanAndSpread& value) {
   return {{"mean", value.mean}, {"sd", value.sd}};
 }
 
-ordered_json json_of(const Outcome& outcome, const Options& options) {
+ordered_json json_of(const CharacterizeOutcome& outcome, const CharacterizeOptions& options) {
   auto poses = ordered_json::array();
   for (const device::BreakAway& entry : outcome.finger.break_away) {
     poses.push_back({{"pose", device::kFingerPoseNames[static_cast<std::size_t>(entry.pose)]},
@@ -200,7 +201,7 @@ ordered_json json_of(const Outcome& outcome, const Options& options) {
             {"num_samples", outcome.free_space.num_samples()}}}};
 }
 
-void print(const Outcome& outcome, const Options& options) {
+void print(const CharacterizeOutcome& outcome, const CharacterizeOptions& options) {
   fmt::print("{}, finger `{}`\n\nForce at the tip that moves it, {} times each\n",
              options.device, options.finger, options.repetitions);
   for (const device::BreakAway& entry : outcome.finger.break_away) {
@@ -231,11 +232,11 @@ void print(const Outcome& outcome, const Options& options) {
       outcome.free_space.num_samples());
 }
 
-int run(const Options& options) {
+int run_characterize(const CharacterizeOptions& options) {
   require_device(options.device);
   (void)point_named(options.finger);
   stop_on_signals();
-  const Outcome outcome = outcome_of(options);
+  const CharacterizeOutcome outcome = outcome_of(options);
   if (options.json) {
     fmt::print("{}\n", json_text(json_of(outcome, options)));
   } else {
@@ -250,7 +251,7 @@ void add_characterize(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "characterize",
       "Measures friction, torque sensors and free-space viscosity of a device with joints");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CharacterizeOptions>();
   command->add_option("--device", options->device, "exoskeleton, or network:HOST:PORT")
       ->capture_default_str();
   command->add_option("--finger", options->finger, "The one that weights hang on")
@@ -264,8 +265,9 @@ void add_characterize(CLI::App& program, Invocation& invocation) {
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "A real device also without real-time priority");
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_characterize(*options); };
+  });
 }
 
 }  // namespace jnd::app

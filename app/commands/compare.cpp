@@ -23,7 +23,7 @@ using analysis::Comparison;
 using analysis::FitStatus;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CompareOptions {
   std::string csv, test;
   std::vector<std::string> group_by;
   bool json = false;
@@ -97,7 +97,7 @@ struct Tests {
 };
 
 /// Throws `core::Error` where the table has problems.
-Tests tests_of(const Options& options) {
+Tests tests_of(const CompareOptions& options) {
   Tests tests{.columns = analysis::read_compared(analysis::CsvTable::read(options.csv),
                                                  options.group_by, is_paired(options.test))};
   std::vector<std::optional<double>> p_values;
@@ -136,7 +136,7 @@ void print_for_people(const Tests& tests) {
   }
 }
 
-int run(const Options& options) {
+int run_compare(const CompareOptions& options) {
   const Tests tests = tests_of(options);
   if (options.json) {
     fmt::print("{}\n", json_text(options.group_by.empty() ? analysis::to_json(tests.results[0])
@@ -170,7 +170,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& program, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareOptions>();
   CLI::App& compare = *program.add_subcommand("compare", "Compare two columns of a table");
   compare.add_option("--csv", options->csv, "table with the columns a,b")->required();
   compare
@@ -190,7 +190,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       ->option_text("COLUMN[,COLUMN,..]");
   compare.add_flag("--json", options->json, "print one JSON document");
   compare.callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_compare(*options); }; });
 }
 
 }  // namespace jnd::app

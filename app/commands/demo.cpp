@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr int kParticipants = 13;
 constexpr const char* kStudies[] = {"magnitude_of_virtual_water", "viscosity_discrimination"};
 
-struct Options {
+struct DemoOptions {
   bool fast = false;
   std::string out;
   std::uint64_t seed = 1;
@@ -53,7 +53,7 @@ fs::path fresh_folder() {
   }
 }
 
-int run(const Options& options) {
+int run_demo(const DemoOptions& options) {
   require_number_of_people(options.predictive);
   require_device(options.device);
   require_device_moves_by_itself(options.device, "--device " + options.device);
@@ -105,7 +105,7 @@ int run(const Options& options) {
     const analysis::StudyResults results = compared_results(folder, options.predictive);
     has_simulated_studies = results.predictive.num_studies > 0;
     if (options.json) {
-      document["studies"].push_back(to_json(results));
+      document["studies"].push_back(results_json(results));
     } else {
       std::printf("%s\n", to_comparison_table(results).c_str());
     }
@@ -151,7 +151,7 @@ void add_demo(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "demo",
       "Both studies of the thesis with simulated participants, beside the published values");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DemoOptions>();
   command->add_flag("--fast", options->fast,
                     "Same sessions and answers; recordings reduced to summaries of strokes");
   command->add_option("--out", options->out, "Folder to make; default: a fresh demo-N");
@@ -169,7 +169,7 @@ void add_demo(CLI::App& program, Invocation& invocation) {
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback([&invocation, options] {
     options->predictive.jobs = options->jobs;
-    invocation.run = [options] { return run(*options); };
+    invocation.run = [options] { return run_demo(*options); };
   });
 }
 

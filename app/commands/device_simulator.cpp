@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
-struct Options {
+struct DeviceSimulatorOptions {
   int port = 4700;
   std::string device = "lumped";
   std::string listen = "127.0.0.1";
@@ -38,7 +38,7 @@ struct Options {
 /// Steps a server by absolute time until it is told to stop. Returns how many steps were left
 /// out because the machine held this program up: a device's own time goes on by its steps.
 std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
-                   const Options& options) {
+                   const DeviceSimulatorOptions& options) {
   const std::int64_t period_ns = std::llround(1e9 / options.rate_hz);
   const std::int64_t start_ns = port.now_ns();
   const std::int64_t end_ns = options.seconds > 0.0
@@ -97,7 +97,7 @@ void print(const device::DeviceServer& server, std::int64_t num_missed, bool jso
       link.received, link.lost, link.doubled, link.reordered, link.refused, link.late);
 }
 
-std::unique_ptr<device::HapticDevice> served_device(const Options& options) {
+std::unique_ptr<device::HapticDevice> served_device(const DeviceSimulatorOptions& options) {
   require_device(options.device);
   std::unique_ptr<device::HapticDevice> device;
   try {
@@ -112,7 +112,7 @@ std::unique_ptr<device::HapticDevice> served_device(const Options& options) {
                    "; see `jnd devices`");
 }
 
-int run(const Options& options) {
+int run_device_simulator(const DeviceSimulatorOptions& options) {
   const std::unique_ptr<device::HapticDevice> device = served_device(options);
   std::unique_ptr<device::UdpPort> port;
   try {
@@ -147,7 +147,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_device_simulator(CLI::App& program, Invocation& invocation) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DeviceSimulatorOptions>();
   CLI::App* command = program.add_subcommand(
       "device-simulator", "Serves a simulated device to `--device network:HOST:PORT`");
   command->add_option("--port", options->port, "0: any that is free (default 4700)")
@@ -165,8 +165,9 @@ void add_device_simulator(CLI::App& program, Invocation& invocation) {
       ->check(number_between(0.001, 31'536'000.0));
   command->add_flag("--json", options->json,
                     "Print one JSON document at the end; the address goes to stderr");
-  command->callback(
-      [options, &invocation] { invocation.run = [options] { return run(*options); }; });
+  command->callback([options, &invocation] {
+    invocation.run = [options] { return run_device_simulator(*options); };
+  });
 }
 
 }  // namespace jnd::app

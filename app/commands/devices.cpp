@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUsualRateHz = 1000.0;
 
-int run(bool json) {
+int run_devices(bool json) {
   auto list = nlohmann::ordered_json::array();
   for (const device::DeviceEntry& entry : device::devices()) {
     const device::DeviceCapabilities can = entry.make("", kUsualRateHz)->capabilities();
@@ -42,7 +42,8 @@ void add_devices(CLI::App& program, Invocation& invocation) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand("devices", "The devices that can be used here");
   command->add_flag("--json", *json, "Print one JSON document");
-  command->callback([json, &invocation] { invocation.run = [json] { return run(*json); }; });
+  command->callback(
+      [json, &invocation] { invocation.run = [json] { return run_devices(*json); }; });
 }
 
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 namespace jnd::app {
 namespace {
 
-int run(bool as_json) {
+int run_doctor(bool as_json) {
   const std::vector<MachineCheck> checks = machine_checks();
   if (as_json) {
     nlohmann::json list = nlohmann::json::array();
@@ -39,7 +39,7 @@ void add_doctor(CLI::App& program, Invocation& invocation) {
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "One JSON document on stdout");
   command->callback(
-      [&invocation, as_json] { invocation.run = [as_json] { return run(*as_json); }; });
+      [&invocation, as_json] { invocation.run = [as_json] { return run_doctor(*as_json); }; });
 }
 
 }  // namespace jnd::app

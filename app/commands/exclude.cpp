@@ -13,7 +13,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct ExcludeOptions {
   std::string folder;
   std::vector<std::int64_t> trials;
   std::string reason;
@@ -23,7 +23,7 @@ struct Options {
 };
 
 /// The one session that is meant: trials are counted within a session.
-core::SessionRow session_meant(const core::StudyStore& store, const Options& options) {
+core::SessionRow session_meant(const core::StudyStore& store, const ExcludeOptions& options) {
   std::vector<core::SessionRow> meant;
   for (const core::SessionRow& row : store.sessions()) {
     if (options.session && row.session != *options.session) continue;
@@ -43,7 +43,7 @@ core::SessionRow session_meant(const core::StudyStore& store, const Options& opt
 }
 
 /// All of them can be, before the first one is.
-void require_trials(const experiments::SessionState& state, const Options& options) {
+void require_trials(const experiments::SessionState& state, const ExcludeOptions& options) {
   const auto num_trials = static_cast<std::int64_t>(state.trials.size());
   for (const std::int64_t trial : options.trials) {
     if (trial >= 1 && trial <= num_trials) continue;
@@ -52,7 +52,7 @@ void require_trials(const experiments::SessionState& state, const Options& optio
   }
 }
 
-int run(const Options& options) {
+int run_exclude(const ExcludeOptions& options) {
   if (options.reason.empty()) {
     throw UsageError("--reason: expected why, for those who read the data, found nothing");
   }
@@ -77,7 +77,7 @@ int run(const Options& options) {
 void add_exclude(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "exclude", "Leaves trials out of results, with a reason; nothing is deleted");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExcludeOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -92,7 +92,7 @@ void add_exclude(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 1000000));
   command->add_flag("--include", options->include, "Take an exclusion back");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_exclude(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -17,7 +17,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string format;
   std::string folder;
   std::string out;
@@ -29,7 +29,7 @@ std::string results_text(const core::StudyStore& store) {
   const std::vector<core::SessionRow> sessions = store.sessions();
   const bool any = std::any_of(sessions.begin(), sessions.end(),
                                [](const core::SessionRow& row) { return !row.pilot; });
-  return any ? json_text(to_json(results_of_data(load_study_data(store)))) : "";
+  return any ? json_text(results_json(results_of_data(load_study_data(store)))) : "";
 }
 
 std::vector<std::string> stage_names_of(const core::StudyStore& store,
@@ -53,7 +53,7 @@ std::string samples_text(const analysis::ExportOutcome& outcome, bool asked) {
   return asked ? "; the study has no samples to write" : "";
 }
 
-Written export_as(const Options& options, const core::StudyStore& store) {
+Written export_as(const ExportOptions& options, const core::StudyStore& store) {
   const bool asked = options.data.recordings;
   if (options.format == "bids") {
     const analysis::ExportOutcome outcome =
@@ -73,7 +73,7 @@ Written export_as(const Options& options, const core::StudyStore& store) {
   return {"tables and codebook.csv" + samples_text(outcome, asked), outcome.problems};
 }
 
-int run(Options options) {
+int run_export(ExportOptions options) {
   stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
@@ -99,7 +99,7 @@ int run(Options options) {
 void add_export(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("export", "A study as a data set for other programs");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   command
       ->add_option("FORMAT", options->format,
                    "csv: tables; bids: BIDS 1.9.0; hdf5: recordings, tables beside them")
@@ -113,7 +113,7 @@ void add_export(CLI::App& program, Invocation& invocation) {
                     "Also every sample; hdf5 always has them");
   command->add_flag("--pilot", options->data.pilot, "Also pilot sessions");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_export(*options); }; });
 }
 
 }  // namespace jnd::app

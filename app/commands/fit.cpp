@@ -23,7 +23,7 @@ namespace {
 using analysis::FitStatus;
 using Json = nlohmann::ordered_json;
 
-struct Options : TableOptions {
+struct FitOptions : TableOptions {
   std::string power_method = "nls";
   double k1 = 0.0, a1 = 0.0, k2 = 0.0, a2 = 0.0;
   std::vector<double> intensities;
@@ -70,7 +70,7 @@ void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lin
   fmt::print("  R squared  {}\n", number(fit.r_squared));
 }
 
-int fit_power(const Options& options) {
+int fit_power(const FitOptions& options) {
   const auto method = options.power_method == "loglog" ? analysis::PowerMethod::kLogLog
                                                        : analysis::PowerMethod::kNonlinear;
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
@@ -90,7 +90,7 @@ int fit_power(const Options& options) {
       [](const auto& fit, const auto& group) { print_for_people(fit, group.lines); });
 }
 
-int fit_between(const Options& options) {
+int fit_between(const FitOptions& options) {
   for (const double k : {options.k1, options.k2}) {
     if (!(k > 0.0 && std::isfinite(k))) {
       throw UsageError(fmt::format("--k1, --k2: expected numbers > 0, found {}", k));
@@ -130,7 +130,7 @@ int fit_between(const Options& options) {
 }  // namespace
 
 void add_fit(CLI::App& program, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FitOptions>();
   CLI::App& fit = *program.add_subcommand("fit", "Fit a curve to a table of answers");
   fit.require_subcommand(1);
 

@@ -24,7 +24,7 @@ namespace {
 
 using analysis::FitStatus;
 
-struct Options {
+struct FitGroupOptions {
   std::string csv, link = "log-slope", pse = "personal", slopes = "correlated";
   std::string guess = "0", lapse = "free";
   std::vector<std::string> free;
@@ -33,7 +33,7 @@ struct Options {
   bool json = false;
 };
 
-void require_reference(const Options& options) {
+void require_reference(const FitGroupOptions& options) {
   if (!options.reference) return;
   if (!(*options.reference > 0.0 && std::isfinite(*options.reference))) {
     throw UsageError(
@@ -103,16 +103,16 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   if (!fit.note.empty()) fmt::print("  {}\n", fit.note);
 }
 
-double guess_of(const Options& options) { return std::stod(options.guess); }
+double guess_of(const FitGroupOptions& options) { return std::stod(options.guess); }
 
 /// None where it is free.
-std::optional<double> lapse_of(const Options& options) {
+std::optional<double> lapse_of(const FitGroupOptions& options) {
   if (options.lapse == "free") return std::nullopt;
   if (options.lapse == "none") return 0.0;
   return std::stod(options.lapse);
 }
 
-void require_lapses(const Options& options) {
+void require_lapses(const FitGroupOptions& options) {
   const std::optional<double> lapse = lapse_of(options);
   if (!lapse) return;
   if (!options.free.empty()) {
@@ -127,7 +127,7 @@ void require_lapses(const Options& options) {
       options.guess, options.lapse));
 }
 
-int fit_hierarchical(const Options& options) {
+int fit_hierarchical(const FitGroupOptions& options) {
   require_reference(options);
   require_lapses(options);
   const std::optional<double> lapse = lapse_of(options);
@@ -224,7 +224,7 @@ void print_for_people(const analysis::PsychometricEffects& found) {
       analysis::kEffectInterval, analysis::kEffectTest);
 }
 
-int fit_effects(const Options& options) {
+int fit_effects(const FitGroupOptions& options) {
   require_reference(options);
   const analysis::PsychometricEffects found = analysis::psychometric_effects(
       read_ordered_answers(analysis::CsvTable::read(options.csv)), *options.reference);
@@ -246,7 +246,7 @@ int fit_effects(const Options& options) {
 }  // namespace
 
 void add_fit_group(CLI::App& fit, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FitGroupOptions>();
   CLI::App& group = *fit.add_subcommand(
       "hierarchical", "Weber fraction of the median person from everybody's yes/no answers");
   group

@@ -22,7 +22,7 @@ namespace {
 
 using analysis::FitStatus;
 
-struct Options : TableOptions {
+struct FitWeberOptions : TableOptions {
   std::string method = "ml", family = "weber", bootstrap_kind = "parametric";
   std::string guess, lapse;  ///< A rate; of lapses also "free"; "" where not told.
   std::string overdispersion = "none";
@@ -92,7 +92,7 @@ std::string why_no_interval(const analysis::PsychometricFit& fit) {
   return "";
 }
 
-void print_for_people(const analysis::PsychometricFit& fit, const Options& options) {
+void print_for_people(const analysis::PsychometricFit& fit, const FitWeberOptions& options) {
   fmt::print("  {}, {} level{}, {} trial{}\n",
              fit.method == analysis::PsychometricMethod::kLeastSquares ? "least squares"
                                                                        : "maximum likelihood",
@@ -141,7 +141,7 @@ double rate_of(const std::string& text) { return text.empty() ? 0.0 : std::stod(
 
 /// Of --lapse at the upper end, unless told otherwise; of --free lapse, and of yes and no, at
 /// both.
-bool has_lapses_at_both_ends(const Options& options) {
+bool has_lapses_at_both_ends(const FitWeberOptions& options) {
   if (!options.lapse.empty()) return options.symmetric;
   return options.frees("lapse") || rate_of(options.guess) == 0.0;
 }
@@ -154,7 +154,7 @@ analysis::Overdispersion overdispersion_named(const std::string& name) {
   return analysis::Overdispersion::kNone;
 }
 
-void require_overdispersion(const Options& options) {
+void require_overdispersion(const FitWeberOptions& options) {
   if (options.overdispersion == "none") return;
   if (options.method != "ml" || options.num_bootstrap > 0 || options.posterior) {
     throw UsageError(fmt::format(
@@ -165,7 +165,7 @@ void require_overdispersion(const Options& options) {
 }
 
 /// What the options of guesses and lapses say together.
-void require_rates(const Options& options) {
+void require_rates(const FitWeberOptions& options) {
   if (options.frees("lapse") && !options.lapse.empty()) {
     throw UsageError(
         "--free lapse, --lapse: expected one of them; --free lapse is --lapse free "
@@ -187,7 +187,7 @@ void require_rates(const Options& options) {
 /// That one curve is fitted to the answers of several people, or of several conditions.
 std::vector<std::string> pooling_warnings(
     const analysis::CsvTable& table, const analysis::DataGroup<analysis::AnswerCount>& group,
-    const Options& options) {
+    const FitWeberOptions& options) {
   std::vector<std::string> warnings;
   if (const std::size_t num = num_pooled(table, group, options, "participant"); num > 1) {
     warnings.push_back(fmt::format(
@@ -223,7 +223,7 @@ std::vector<std::string> reference_warnings(
       fmt::join(others, ", "), reference)};
 }
 
-int fit_weber(const Options& options) {
+int fit_weber(const FitWeberOptions& options) {
   if (!(options.reference > 0.0 && std::isfinite(options.reference))) {
     throw UsageError(
         fmt::format("--reference: expected a number > 0 in the unit of the intensities, found "
@@ -272,7 +272,7 @@ int fit_weber(const Options& options) {
 }  // namespace
 
 void add_fit_weber(CLI::App& fit, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FitWeberOptions>();
   CLI::App& weber = *fit.add_subcommand("weber", "Weber fraction from yes/no answers");
   add_table_options(weber, *options, "intensity,num_yes,num_trials");
   weber.add_option("--reference", options->reference, "reference intensity, > 0")->required();

@@ -30,7 +30,7 @@ constexpr double kWaterViscosityPaS = 0.001;
 constexpr double kHandLengthM = 0.1;
 constexpr double kHandAreaM2 = 0.0148;
 
-struct Options {
+struct ForceOptions {
   std::string law;
   double viscosity_pa_s = 1.0;
   double scale = 1.0;
@@ -73,7 +73,7 @@ Vector velocity_from(const std::string& text) {
   return velocity;
 }
 
-core::MediumAmounts medium_of(const Options& options) {
+core::MediumAmounts medium_of(const ForceOptions& options) {
   using core::ViscousDrag;
   if (options.law == "free") return core::free_space();
   if (options.law == "water") return core::water({.scale = options.scale});
@@ -92,7 +92,7 @@ core::MediumAmounts medium_of(const Options& options) {
   return core::viscous({.viscosity_pa_s = viscosity_pa_s, .shape = shape});
 }
 
-std::optional<core::ForceMap> map_of(const Options& options) {
+std::optional<core::ForceMap> map_of(const ForceOptions& options) {
   if (!options.force_map.empty()) {
     return experiments::read_force_map(user_or_shipped(options.force_map, "data/force_maps"));
   }
@@ -119,7 +119,7 @@ core::HapticState hand_turned(const Eigen::Vector3d& velocity_m_per_s, double an
   return state;
 }
 
-LawForce force_of(const Options& options, const Vector& velocity) {
+LawForce force_of(const ForceOptions& options, const Vector& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1], velocity[2]);
   const double sine = std::abs(std::sin(options.angle_of_attack_rad));
   const Eigen::Vector3d velocity_m_per_s(velocity[0], velocity[1], velocity[2]);
@@ -165,7 +165,7 @@ LawForce force_of(const Options& options, const Vector& velocity) {
 }
 
 /// Beyond it the law is no better than a guess; the number is printed nevertheless.
-void warn_of_reynolds(const Options& options, const LawForce& force) {
+void warn_of_reynolds(const ForceOptions& options, const LawForce& force) {
   if (options.law != "viscous-schiller-naumann" || !force.reynolds_number) return;
   if (*force.reynolds_number <= core::InertialDrag::kMaxReynolds) return;
   fmt::print(stderr,
@@ -192,7 +192,7 @@ void print_json(const LawForce& force) {
   fmt::print("{}\n", json_text(out));
 }
 
-void print_for_people(const Options& options, const LawForce& force) {
+void print_for_people(const ForceOptions& options, const LawForce& force) {
   const char* const where = options.law == "lift"        ? "across the motion"
                             : options.law == "ellipsoid" ? "on the hand"
                                                          : "against the motion";
@@ -208,7 +208,7 @@ void print_for_people(const Options& options, const LawForce& force) {
   }
 }
 
-int run(const Options& options) {
+int run_force(const ForceOptions& options) {
   const Vector velocity = velocity_from(options.velocity_m_per_s);
   LawForce force;
   try {
@@ -228,7 +228,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_force(CLI::App& program, Invocation& invocation) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ForceOptions>();
   CLI::App* command =
       program.add_subcommand("force", "The force of a law on a moving hand, before any limit");
   command
@@ -261,7 +261,7 @@ void add_force(CLI::App& program, Invocation& invocation) {
     if (map->count() > 0 && law != "map" && law != "lift") {
       throw UsageError("--force-map: expected only with map or lift, found with " + law);
     }
-    invocation.run = [options] { return run(*options); };
+    invocation.run = [options] { return run_force(*options); };
   });
 }
 

@@ -21,7 +21,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct LoopOptions {
   double rate_hz = 1000.0;
   double seconds = 5.0;
   std::string device = "lumped";
@@ -50,8 +50,8 @@ void print_line(const char* what, const Percentiles& us) {
 }
 
 /// All there is to say about a run.
-struct Outcome {
-  const Options& options;
+struct LoopOutcome {
+  const LoopOptions& options;
   const device::LoopTiming& timing;
   const device::RealtimeReport& report;
   const device::ThreadUse& use;
@@ -60,7 +60,7 @@ struct Outcome {
   [[nodiscard]] double cpu_time_ratio() const { return use.cpu_time_s / options.seconds; }
 };
 
-std::string verdict(const Outcome& outcome) {
+std::string verdict(const LoopOutcome& outcome) {
   if (outcome.timing.missed_ticks() > 0) {
     return fmt::format(
         "Not fit for a person: {} ticks were missed. Close other programs, or give "
@@ -81,7 +81,7 @@ std::string verdict(const Outcome& outcome) {
   return "Fit for a person: no tick was missed and every force came in time.";
 }
 
-void print_for_people(const Outcome& outcome) {
+void print_for_people(const LoopOutcome& outcome) {
   const device::RealtimeReport& report = outcome.report;
   fmt::print("{} ticks at {:g} Hz on {}, {} missed; {} samples lost\n",
              outcome.timing.num_ticks(), outcome.options.rate_hz, outcome.options.device,
@@ -97,7 +97,7 @@ void print_for_people(const Outcome& outcome) {
   fmt::print("\n{}\n", verdict(outcome));
 }
 
-void print_json(const Outcome& outcome) {
+void print_json(const LoopOutcome& outcome) {
   nlohmann::ordered_json out;
   out["rate_hz"] = outcome.options.rate_hz;
   out["num_ticks"] = outcome.timing.num_ticks();
@@ -117,8 +117,8 @@ void print_json(const Outcome& outcome) {
 }
 
 /// Whatever is wrong with the arguments is found here, before anything runs.
-struct Setup {
-  explicit Setup(const Options& options) try
+struct LoopSetup {
+  explicit LoopSetup(const LoopOptions& options) try
       : device(device::make_device(options.device, options.rate_hz)),
         loop({.starts_armed = device->capabilities().simulated, .rate_hz = options.rate_hz},
              *device, {commands, telemetry, emergency_stop, &samples}),
@@ -139,7 +139,7 @@ struct Setup {
   device::RealtimeThread thread;
 };
 
-int run(const Options& options) {
+int run_loop(const LoopOptions& options) {
   if (!(options.seconds > 0.0 && options.seconds <= 86'400.0)) {
     throw UsageError(fmt::format("--seconds: expected a number > 0 and at most 86400, found {}",
                                  options.seconds));
@@ -149,7 +149,7 @@ int run(const Options& options) {
         "--rate-hz: expected a number > 0 and at most 100000, found {}", options.rate_hz));
   }
   require_device(options.device);
-  Setup setup(options);
+  LoopSetup setup(options);
   const device::RealtimeReport& report = setup.thread.report();
   if (options.cpu >= 0 && !report.pinned) throw EnvironmentError(report.lacks);
   {
@@ -172,8 +172,8 @@ int run(const Options& options) {
   }
   setup.device->close();
 
-  const Outcome outcome{options, setup.thread.timing(), report, setup.thread.use(),
-                        setup.samples.num_dropped()};
+  const LoopOutcome outcome{options, setup.thread.timing(), report, setup.thread.use(),
+                            setup.samples.num_dropped()};
   if (options.json) {
     print_json(outcome);
   } else {
@@ -189,7 +189,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_loop(CLI::App& program, Invocation& invocation) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LoopOptions>();
   CLI::App* command =
       program.add_subcommand("loop", "Runs the haptic loop and tells how punctual it is");
   command->add_option("--rate-hz", options->rate_hz, "Ticks a second (default 1000)");
@@ -199,7 +199,7 @@ void add_loop(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(0, 1023));
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
-      [options, &invocation] { invocation.run = [options] { return run(*options); }; });
+      [options, &invocation] { invocation.run = [options] { return run_loop(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct NewOptions {
   std::string name;
   std::string from;
   bool json = false;
@@ -81,7 +81,7 @@ void print(const fs::path& file, Schema schema) {
              file.string(), file.string());
 }
 
-int run(const Options& options) {
+int run_new(const NewOptions& options) {
   fs::path file = options.name;
   if (file.extension() != ".json") file += ".json";
   const std::string name = file.stem().string();
@@ -113,7 +113,7 @@ int run(const Options& options) {
 
 void add_new(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("new", "Write a commented starter study");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NewOptions>();
   command
       ->add_option("NAME", options->name,
                    "Name of the study; NAME.json is written, never over "
@@ -122,7 +122,7 @@ void add_new(CLI::App& program, Invocation& invocation) {
   command->add_option("--from", options->from, "Study to copy, a file or a shipped one");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_new(*options); }; });
 }
 
 }  // namespace jnd::app

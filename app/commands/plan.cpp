@@ -32,7 +32,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct PlanOptions {
   std::string file;
   std::string folder;
   int participants = 13;
@@ -45,7 +45,7 @@ struct Options {
 };
 
 /// All that the command has to tell.
-struct Outcome {
+struct PlanOutcome {
   experiments::Study study;
   std::vector<experiments::ParticipantPlan> plans;
   std::vector<experiments::RangeEntry> range;
@@ -60,8 +60,8 @@ struct Outcome {
   std::string folder_problem;  ///< Why its sessions cannot go to the folder; "" if they can.
 };
 
-Outcome outcome_of(const Options& options) {
-  Outcome outcome;
+PlanOutcome outcome_of(const PlanOptions& options) {
+  PlanOutcome outcome;
   outcome.study = experiments::read_study(user_or_shipped(options.file, "protocols"));
   experiments::PlanRequest request = {.participants = {}, .seed = options.seed};
   bool unblinded = false;
@@ -106,7 +106,7 @@ Outcome outcome_of(const Options& options) {
 }
 
 /// Cell to sessions, completed ones and with the planned ones.
-std::map<std::string, std::pair<int, int>> balance_of(const Outcome& outcome) {
+std::map<std::string, std::pair<int, int>> balance_of(const PlanOutcome& outcome) {
   std::map<std::string, std::pair<int, int>> balance;
   for (const experiments::Cell& cell : experiments::cells_of(outcome.study)) {
     balance[to_string(cell)] = {0, 0};
@@ -184,7 +184,7 @@ ordered_json to_json(const device::ExoskeletonStability& limits) {
 }
 
 /// null for a device without a map.
-ordered_json stability_json(const Outcome& outcome) {
+ordered_json stability_json(const PlanOutcome& outcome) {
   if (!outcome.stability) return nullptr;
   return {{"rate_hz", outcome.stability->rate_hz},
           {"attached", to_json(outcome.stability->attached)},
@@ -192,7 +192,7 @@ ordered_json stability_json(const Outcome& outcome) {
           {"remark", detached_remark(*outcome.stability)}};
 }
 
-ordered_json to_json(const Outcome& outcome, const Options& options) {
+ordered_json to_json(const PlanOutcome& outcome, const PlanOptions& options) {
   auto participants = ordered_json::array();
   for (const auto& plan : outcome.plans)
     participants.push_back(to_json(plan, outcome.statistics));
@@ -261,7 +261,7 @@ void print_order(const experiments::PlannedBlock& block) {
   fmt::print("\n");
 }
 
-void print_range(const Outcome& outcome, const Options& options) {
+void print_range(const PlanOutcome& outcome, const PlanOptions& options) {
   fmt::print(
       "\nStimuli on `{}`: at most {:g} N at a point and {:g} N in all; hand head on at {:g} "
       "m/s, "
@@ -294,7 +294,7 @@ void print_range(const Outcome& outcome, const Options& options) {
   if (!remark.empty()) fmt::print("{}.\n", remark);
 }
 
-void print(const Outcome& outcome, const Options& options) {
+void print(const PlanOutcome& outcome, const PlanOptions& options) {
   const double mean_s = spread_of(outcome.statistics.durations_s).mean;
   fmt::print("{}: {} participants, seed {}, about {:.0f} min each", outcome.study.name,
              outcome.plans.size(), options.seed, mean_s / 60.0);
@@ -318,7 +318,7 @@ void print(const Outcome& outcome, const Options& options) {
 }
 
 /// What speaks against running the study on this device, a sentence each.
-std::vector<std::string> problems_of(const Outcome& outcome, const Options& options) {
+std::vector<std::string> problems_of(const PlanOutcome& outcome, const PlanOptions& options) {
   std::vector<std::string> problems;
   if (!outcome.folder_problem.empty()) problems.push_back(outcome.folder_problem);
   const auto too_strong = std::count_if(outcome.range.begin(), outcome.range.end(),
@@ -356,9 +356,9 @@ std::vector<std::string> problems_of(const Outcome& outcome, const Options& opti
   return problems;
 }
 
-int run(const Options& options) {
+int run_plan(const PlanOptions& options) {
   require_device(options.device);
-  const Outcome outcome = outcome_of(options);
+  const PlanOutcome outcome = outcome_of(options);
   const std::vector<std::string> problems = problems_of(outcome, options);
   if (options.json) {
     ordered_json json = to_json(outcome, options);
@@ -377,7 +377,7 @@ int run(const Options& options) {
 void add_plan(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "plan", "Orders, balance, duration and range of a study before anyone comes");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanOptions>();
   options->device = std::string(device::devices().front().name);
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();
@@ -403,7 +403,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_plan(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -20,7 +20,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct PowerOptions {
   std::string file;
   std::string participants;
   std::int64_t runs = 1000;
@@ -50,7 +50,7 @@ std::optional<PowerShard> shard_of(const std::string& text) {
                    "`");
 }
 
-int run(const Options& options) {
+int run_power(const PowerOptions& options) {
   std::optional<analysis::BlockNames> compared;
   if (!options.compare.empty()) compared = compared_names(options.compare);
   const PowerRequest request = {
@@ -102,7 +102,7 @@ int run(const Options& options) {
 void add_power(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "power", "Power, precision and duration of a study by number of participants, simulated");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PowerOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();
   command
@@ -138,7 +138,7 @@ void add_power(CLI::App& program, Invocation& invocation) {
                       "Folder for power.json and the figure, or for the shard");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_power(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -11,13 +11,13 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct PowerMergeOptions {
   std::vector<std::string> files;
   std::string out;
   bool json = false;
 };
 
-int run(const Options& options) {
+int run_power_merge(const PowerMergeOptions& options) {
   if (!options.out.empty()) analysis::require_free_folder(options.out);
   const MergedPower merged = merge_power_shards({options.files.begin(), options.files.end()});
   tell_power(merged.design, merged.runs, {.out = options.out, .json = options.json});
@@ -29,12 +29,13 @@ int run(const Options& options) {
 void add_power_merge(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "power-merge", "The result of `jnd power` from the shards of several machines");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PowerMergeOptions>();
   command->add_option("FILES", options->files, "Every shard-I-of-N.json")->required();
   command->add_option("--out", options->out, "New folder for power.json and the figure");
   command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_power_merge(*options); };
+  });
 }
 
 }  // namespace jnd::app

@@ -17,7 +17,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string folder;
   std::string out;
   bool pilot = false;
@@ -28,8 +28,8 @@ struct Options {
   analysis::ResultsOptions results;
 };
 
-nlohmann::json to_json(const analysis::StudyResults& results, const Options& options,
-                       const analysis::ReportOutcome& outcome) {
+nlohmann::json report_json(const analysis::StudyResults& results, const ReportOptions& options,
+                           const analysis::ReportOutcome& outcome) {
   nlohmann::json figures = nlohmann::json::array();
   for (std::size_t i = 0; i < outcome.figures.size(); ++i) {
     const analysis::Figure& figure = outcome.figures[i];
@@ -50,7 +50,7 @@ nlohmann::json to_json(const analysis::StudyResults& results, const Options& opt
           {"problems", outcome.problems}};
 }
 
-StudyReport written(const Options& options) {
+StudyReport written(const ReportOptions& options) {
   analysis::ResultsOptions results = options.results;
   results.compared = compared_names(options.compare);
   ProgressBar bar("report");
@@ -63,7 +63,7 @@ StudyReport written(const Options& options) {
                              .on_progress = [&bar](double done) { bar.show(done); }});
 }
 
-int run(const Options& options) {
+int run_report(const ReportOptions& options) {
   const StudyReport report = written(options);
   const analysis::StudyResults& results = report.results;
   const analysis::ReportOutcome& outcome = report.outcome;
@@ -71,7 +71,7 @@ int run(const Options& options) {
     std::fprintf(stderr, "jnd: %s\n", problem.c_str());
   }
   if (options.json) {
-    std::puts(json_text(to_json(results, options, outcome)).c_str());
+    std::puts(json_text(report_json(results, options, outcome)).c_str());
     return kDone;
   }
   std::printf("%s: report of %d participants%s with %zu figures written to %s%s\n",
@@ -86,7 +86,7 @@ int run(const Options& options) {
 void add_report(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "report", "Everything a study shows, as HTML and PDF with figures, for a paper");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReportOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -107,7 +107,7 @@ void add_report(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_report(*options); }; });
 }
 
 }  // namespace jnd::app

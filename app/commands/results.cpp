@@ -21,7 +21,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct ResultsOptions {
   std::string folder;
   bool json = false;
   bool delivered = false;
@@ -39,7 +39,7 @@ nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
           {"num_left_out", study.num_left_out}};
 }
 
-int run(Options options) {
+int run_results(ResultsOptions options) {
   options.results.compared = compared_names(options.compare);
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
@@ -55,7 +55,7 @@ int run(Options options) {
         analysis::recorded_results(analysis::analyse_movement(store, {.explored = false})));
   }
   if (options.json) {
-    nlohmann::json document = to_json(results);
+    nlohmann::json document = results_json(results);
     if (options.delivered) document["intensities"] = basis_of(study);
     std::puts(json_text(document).c_str());
     return kDone;
@@ -74,7 +74,7 @@ int run(Options options) {
 void add_results(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "results", "Every fit and comparison that a study's design calls for");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ResultsOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -95,7 +95,7 @@ void add_results(CLI::App& program, Invocation& invocation) {
   add_predictive_option(*command, options->predictive);
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_results(*options); }; });
 }
 
 }  // namespace jnd::app

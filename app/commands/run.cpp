@@ -25,7 +25,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string file;
   std::string folder;
   std::string participant;
@@ -72,12 +72,12 @@ class Acknowledgements {
   bool unheard_ = false;
 };
 
-std::string how_to_go_on(const Options& options, std::int64_t session) {
+std::string how_to_go_on(const RunOptions& options, std::int64_t session) {
   return "`jnd resume " + options.folder + " --session " + std::to_string(session) +
          " --headless" + (options.realtime ? " --realtime" : "") + "` goes on from there";
 }
 
-int run_session(const Options& options, core::StudyStore& store,
+int run_session(const RunOptions& options, core::StudyStore& store,
                 const experiments::Study& study, const experiments::Laboratory& laboratory,
                 std::int64_t session) {
   stop_on_signals();
@@ -153,7 +153,7 @@ void warn_of_lookalike(const core::StudyStore& store, const std::string& partici
 }
 
 /// Nothing arms a real device but somebody who says so.
-void require_arming(const Options& options, const std::string& device, double rate_hz) {
+void require_arming(const RunOptions& options, const std::string& device, double rate_hz) {
   if (options.arm || device::make_device(device, rate_hz)->capabilities().simulated) return;
   throw UsageError(
       "--device " + device +
@@ -161,7 +161,7 @@ void require_arming(const Options& options, const std::string& device, double ra
       "disarmed");
 }
 
-int run(Options options) {
+int run_run(RunOptions options) {
   require_device(options.device);
   require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
@@ -205,7 +205,7 @@ int run(Options options) {
 
 /// The session asked for, or the open one; none if everything is finished.
 std::optional<core::SessionRow> session_to_resume(const core::StudyStore& store,
-                                                  const Options& options) {
+                                                  const RunOptions& options) {
   if (options.session) {
     core::SessionRow row = store.session(*options.session);
     return store.finished(row.session) ? std::nullopt : std::optional(std::move(row));
@@ -224,7 +224,7 @@ std::optional<core::SessionRow> session_to_resume(const core::StudyStore& store,
 }
 
 /// A session of two laboratories would be no result at all.
-experiments::Laboratory laboratory_of(const Options& options, const core::SessionRow& row) {
+experiments::Laboratory laboratory_of(const RunOptions& options, const core::SessionRow& row) {
   if (!options.laboratory.empty()) {
     const experiments::Laboratory asked =
         experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
@@ -238,7 +238,7 @@ experiments::Laboratory laboratory_of(const Options& options, const core::Sessio
   return experiments::parse_laboratory(row.laboratory, options.folder + ": laboratory");
 }
 
-int resume_headless(Options options, core::StudyStore& store, const core::SessionRow& row) {
+int resume_headless(RunOptions options, core::StudyStore& store, const core::SessionRow& row) {
   const experiments::Study study = stored_study(store, row.session);
   require_arming(options, row.device, row.rate_hz);
   require_device_starts(row.device, row.rate_hz);
@@ -251,7 +251,7 @@ int resume_headless(Options options, core::StudyStore& store, const core::Sessio
   return run_session(options, store, study, laboratory, row.session);
 }
 
-int resume(const Options& options) {
+int resume(const RunOptions& options) {
   std::optional<core::StudyStore> store(std::in_place, options.folder,
                                         core::StudyStore::Mode::kReadWrite);
   const std::optional<core::SessionRow> row = session_to_resume(*store, options);
@@ -267,7 +267,7 @@ int resume(const Options& options) {
 }
 
 /// In a window the experimenter arms a real device by a key.
-void add_headless_options(CLI::App& command, Options& options) {
+void add_headless_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--headless", options.headless, "Without a window, participant simulated");
   command.add_flag("--arm", options.arm,
                    "With --headless: a real device may give force, and somebody is beside it");
@@ -277,7 +277,7 @@ void add_headless_options(CLI::App& command, Options& options) {
 
 void add_run(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("run", "Run a session");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();
   command->add_option("--study", options->folder, "Study folder, NAME.study, made if absent")
@@ -303,13 +303,13 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_flag("--acknowledge", options->acknowledge,
                     "Print EVENT SEQUENCE KIND after each durable commit");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_run(*options); }; });
 }
 
 void add_resume(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("resume", "Go on with a session that was interrupted");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   options->laboratory.clear();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

@@ -17,7 +17,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string file;
   int participants = 0;
   std::string folder;
@@ -30,7 +30,7 @@ struct Options {
   bool json = false;
 };
 
-int run(const Options& options) {
+int run_simulate(const SimulateOptions& options) {
   require_device(options.device);
   require_device_moves_by_itself(options.device, "--device " + options.device);
   require_device_keeps_pace(options.device, "--device " + options.device);
@@ -97,7 +97,7 @@ int run(const Options& options) {
 void add_simulate(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("simulate", "Whole sessions with simulated participants");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();
   command->add_option("--participants", options->participants, "How many")
@@ -119,8 +119,9 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
                    "What all of them bring; default: drawn for each");
   command->add_flag("--fast", options->fast, "Keep summaries of strokes instead of samples");
   command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_simulate(*options); };
+  });
 }
 
 }  // namespace jnd::app

@@ -21,7 +21,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct StabilityOptions {
   std::string device = "exoskeleton";
   std::vector<double> rates_hz = {833.0, 1000.0, 2000.0};
   std::vector<double> delays_s = {0.0, 0.001, 0.002, 0.003};
@@ -69,7 +69,7 @@ void write(const std::string& file, const std::string& text) {
   }
 }
 
-int run(const Options& options) {
+int run_stability(const StabilityOptions& options) {
   require_device(options.device);
   if (options.device != "exoskeleton") {
     throw UsageError(
@@ -104,7 +104,7 @@ int run(const Options& options) {
 void add_stability(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "stability", "Up to which viscosity and stiffness a simulated device is stable");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StabilityOptions>();
   command->add_option("--device", options->device, "exoskeleton")->capture_default_str();
   command->add_option("--rate-hz", options->rates_hz, "Rates of the loop, R,...")
       ->delimiter(',')
@@ -119,8 +119,9 @@ void add_stability(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command->add_option("--out", options->out, "File that takes the map as JSON");
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_stability(*options); };
+  });
 }
 
 }  // namespace jnd::app

@@ -9,12 +9,12 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct UnblindOptions {
   std::string folder;
   std::string reason;
 };
 
-int run(const Options& options) {
+int run_unblind(const UnblindOptions& options) {
   if (options.reason.empty()) {
     throw UsageError("--reason: expected why, for those who read the data, found nothing");
   }
@@ -27,13 +27,13 @@ int run(const Options& options) {
 void add_unblind(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "unblind", "Lets the levels of a double-blind study be seen, and leaves a record");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<UnblindOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_option("--reason", options->reason, "Why; kept with the data")->required();
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_unblind(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -18,7 +18,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct ValidateOptions {
   std::vector<std::string> files;
   std::string device;  ///< "": a study by itself.
   double speed_m_per_s = 0.5;
@@ -26,13 +26,13 @@ struct Options {
 };
 
 std::vector<experiments::StudyProblem> problems_of(const std::filesystem::path& file,
-                                                   const Options& options) {
+                                                   const ValidateOptions& options) {
   std::vector<experiments::StudyProblem> found = experiments::study_problems(file);
   if (!found.empty() || options.device.empty()) return found;
   return device_problems(file, options.device, options.speed_m_per_s);
 }
 
-int run(const Options& options) {
+int run_validate(const ValidateOptions& options) {
   if (!options.device.empty()) require_device(options.device);
   std::vector<experiments::StudyProblem> problems, doubts;
   const auto add = [](auto& all, std::vector<experiments::StudyProblem> found) {
@@ -93,7 +93,7 @@ std::string error_json(const core::Error& error) {
 
 void add_validate(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("validate", "Tell every problem of study files");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ValidateOptions>();
   command->add_option("FILE", options->files, "Study files, or names of shipped studies")
       ->required();
   command->add_option(
@@ -105,8 +105,9 @@ void add_validate(CLI::App& program, Invocation& invocation) {
       ->check(number_between(0.001, 10.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_validate(*options); };
+  });
 }
 
 }  // namespace jnd::app

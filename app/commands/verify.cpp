@@ -10,7 +10,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct VerifyOptions {
   std::string folder;
   bool json = false;
 };
@@ -46,7 +46,7 @@ core::Integrity integrity_of(const std::string& folder) try {
   return {.complete = false, .problems = {{0, error.what()}}};
 }
 
-int run(const Options& options) {
+int run_verify(const VerifyOptions& options) {
   const core::Integrity integrity = integrity_of(options.folder);
   if (options.json) {
     const nlohmann::json document = {
@@ -73,13 +73,13 @@ int run(const Options& options) {
 void add_verify(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "verify", "Compares what a study should hold with what it does hold");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VerifyOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+      [&invocation, options] { invocation.run = [options] { return run_verify(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 namespace jnd::app {
 namespace {
 
-struct Options {
+struct WithdrawOptions {
   std::string folder;
   std::string participant;
   bool yes = false;
@@ -22,7 +22,7 @@ struct Options {
 };
 
 /// On a terminal the pseudonym is asked for again: there is no way back.
-bool confirmed(const Options& options) {
+bool confirmed(const WithdrawOptions& options) {
   if (options.yes || ::isatty(STDIN_FILENO) == 0) return true;
   std::fprintf(stderr,
                "This deletes every answer and every sample of %s, here and in the backups that "
@@ -33,7 +33,7 @@ bool confirmed(const Options& options) {
   return typed == options.participant;
 }
 
-int run(const Options& options) {
+int run_withdraw(const WithdrawOptions& options) {
   if (!confirmed(options)) {
     throw UsageError("withdraw: expected the pseudonym " + options.participant +
                      " to be typed again, found something else; nothing was deleted");
@@ -69,7 +69,7 @@ int run(const Options& options) {
 void add_withdraw(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "withdraw", "Deletes a participant for good, also from known backups");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WithdrawOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -78,8 +78,9 @@ void add_withdraw(CLI::App& program, Invocation& invocation) {
   command->add_flag("--yes", options->yes,
                     "Do not ask again on a terminal (elsewhere nothing is asked)");
   command->add_flag("--json", options->json, "One JSON document on stdout");
-  command->callback(
-      [&invocation, options] { invocation.run = [options] { return run(*options); }; });
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_withdraw(*options); };
+  });
 }
 
 }  // namespace jnd::app

@@ -31,17 +31,17 @@ std::string json_string(std::string_view text) {
   return result + '"';
 }
 
-std::string pixels(float logical, float scale) {
+std::string pixel_text(float logical, float scale) {
   return std::to_string(std::lround(logical * scale));
 }
 
 std::string widget_json(const Drawn::Widget& widget, float scale) {
   return "{\"name\": " + json_string(widget.name) +
          ", \"label\": " + json_string(widget.label) + ", \"key\": " + json_string(widget.key) +
-         ", \"x\": " + pixels(widget.place.x, scale) +
-         ", \"y\": " + pixels(widget.place.y, scale) +
-         ", \"width\": " + pixels(widget.place.width, scale) +
-         ", \"height\": " + pixels(widget.place.height, scale) +
+         ", \"x\": " + pixel_text(widget.place.x, scale) +
+         ", \"y\": " + pixel_text(widget.place.y, scale) +
+         ", \"width\": " + pixel_text(widget.place.width, scale) +
+         ", \"height\": " + pixel_text(widget.place.height, scale) +
          ", \"enabled\": " + (widget.enabled ? "true" : "false") + "}";
 }
 

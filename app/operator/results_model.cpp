@@ -40,7 +40,7 @@ std::string number(double value, const std::string& unit) {
 }
 
 /// "95 % 0.38 to 1.04"; "" where both ends are open.
-std::string interval_words(const Interval& ci95) {
+std::string open_interval_words(const Interval& ci95) {
   if (!ci95.low && !ci95.high) return "";
   if (!ci95.low) return fmt::format("95 % below {:.3g}", *ci95.high);
   if (!ci95.high) return fmt::format("95 % above {:.3g}", *ci95.low);
@@ -61,7 +61,7 @@ std::string p_words(double p_value) {
 std::string comparison_words(const analysis::NamedComparison& named) {
   const analysis::Comparison& c = named.comparison;
   if (c.status != analysis::FitStatus::kOk) return c.reason;
-  std::string words = interval_words(analysis::bounded_by_data(c.ci95, c.estimate));
+  std::string words = open_interval_words(analysis::bounded_by_data(c.ci95, c.estimate));
   const auto add = [&words](const std::string& part) {
     words += (words.empty() ? "" : ", ") + part;
   };
@@ -135,7 +135,7 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
            .value = estimate.value && std::isfinite(*estimate.value)
                         ? number(*estimate.value, estimate.unit)
                         : "",
-           .interval = interval_words(
+           .interval = open_interval_words(
                analysis::told_interval(estimate.name, estimate.ci95, estimate.value)),
            .published = published_words(estimate),
            .meaning = meaning_words(estimate),

@@ -25,8 +25,8 @@ using analysis::Estimate;
 using analysis::ParticipantEstimate;
 
 /// "95 % 0.18 to 0.26"; "" where both ends are open.
-std::string interval_words(const analysis::Interval& whole,
-                           const std::optional<double>& value) {
+std::string bounded_interval_words(const analysis::Interval& whole,
+                                   const std::optional<double>& value) {
   const analysis::Interval ci95 = analysis::bounded_by_data(whole, value);
   if (!ci95.low && !ci95.high) return "";
   if (!ci95.low) return fmt::format("95 % below {:.3g}", *ci95.high);
@@ -68,7 +68,7 @@ void add_value(ThresholdFigure& figure, const Shown& shown, const std::string& u
     return;
   }
   figure.value = value_words(shown, *value, unit);
-  figure.detail = interval_words(ci95, value);
+  figure.detail = bounded_interval_words(ci95, value);
   if (!shown.is_fraction) figure.line = value;
 }
 

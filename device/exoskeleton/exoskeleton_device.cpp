@@ -9,13 +9,6 @@
 namespace jnd::device {
 namespace {
 
-double period_of(double rate_hz) {
-  // Beyond that the magnets, stiff within a few steps, let the simulation blow up or crawl.
-  core::require(rate_hz >= 100.0 && rate_hz <= 10000.0, "rate_hz", "a number in [100, 10000]",
-                rate_hz);
-  return 1.0 / rate_hz;
-}
-
 int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
   core::require(delay_s >= 0.0 && delay_s <= 0.02, "extra_delay_s", "a number in [0, 0.02]",
                 delay_s);
@@ -29,7 +22,7 @@ int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
 
 ExoskeletonDevice::ExoskeletonDevice(const Parameters& parameters)
     : parameters_(parameters),
-      period_s_(period_of(parameters.rate_hz)),
+      period_s_(core::period_s_at(parameters.rate_hz)),
       period_ns_(std::llround(1e9 / parameters.rate_hz)),
       delay_ticks_(
           delay_ticks_of(parameters.extra_delay_s, parameters.rate_hz, kMaxDelayTicks)),

@@ -12,7 +12,7 @@ namespace {
 using core::Fault;
 
 /// More than come in a step, and few enough that a flood costs no step.
-constexpr int kMostTaken = 256;
+constexpr int kMostTakenByServer = 256;
 
 std::int64_t nanoseconds(double duration_s, const char* field) {
   core::require(duration_s > 0.0 && duration_s <= 3600.0, field, "a number in (0, 3600]",
@@ -111,7 +111,7 @@ void DeviceServer::renew_device() {
 void DeviceServer::take_in(std::int64_t now_ns) noexcept {
   std::array<std::byte, 2 * wire::kMaxBytes> bytes;
   Address from;
-  for (int i = 0; i < kMostTaken; ++i) {
+  for (int i = 0; i < kMostTakenByServer; ++i) {
     const std::size_t size = port_.receive(bytes, from);
     if (size == 0) return;
     const std::span<const std::byte> received = std::span(bytes).first(size);

@@ -9,7 +9,7 @@ namespace {
 using core::Fault;
 
 /// More than come in a tick, and few enough that a flood costs no tick.
-constexpr int kMostTaken = 64;
+constexpr int kMostTakenByHost = 64;
 constexpr std::int64_t kHelloEvery_ns = 50'000'000;
 /// Without a state for so long, the stream is given up.
 constexpr std::int64_t kStreamOver_ns = 200'000'000;
@@ -110,7 +110,7 @@ void NetworkDevice::halt() noexcept {
 void NetworkDevice::take_in(std::int64_t now_ns) noexcept {
   std::array<std::byte, 2 * wire::kMaxBytes> bytes;
   Address from;
-  for (int i = 0; i < kMostTaken; ++i) {
+  for (int i = 0; i < kMostTakenByHost; ++i) {
     const std::size_t size = port_->receive(bytes, from);
     if (size == 0) return;
     if (!(from == server_)) continue;

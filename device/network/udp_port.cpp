@@ -12,13 +12,14 @@
 #include <cstring>
 #include <ctime>
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
+using core::kNsPerS;
 
 static_assert(sizeof(sockaddr_in6) <= sizeof(Address::bytes));
 static_assert(sizeof(sockaddr_in) <= sizeof(Address::bytes));

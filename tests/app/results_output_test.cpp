@@ -49,7 +49,7 @@ TEST(ResultsOutput, CautionsAndReasonsStandBesideTheirNumbersInTextAndJson) {
   section.participants.push_back({"P09", "group_d.held", 0.7, {}, ""});
   section.participants[0].cautions = {"falls"};
   section.cautions = {{"P09", "answers fall"}};
-  const nlohmann::json json = to_json(results)["sections"][0];
+  const nlohmann::json json = results_json(results)["sections"][0];
   EXPECT_EQ(json["estimates"][0]["cautions"], nlohmann::json::array({"P09 is in it"}));
   EXPECT_EQ(json["estimates"][1]["cautions"], nlohmann::json::array());
   EXPECT_EQ(json["estimates"][2]["reason"], "nobody has a value");
@@ -69,7 +69,7 @@ TEST(ResultsOutput, CautionsAndReasonsStandBesideTheirNumbersInTextAndJson) {
 }
 
 TEST(ResultsOutput, JsonHasTheKeysOfTheContractAndNullForWhatIsNot) {
-  const nlohmann::json json = to_json(some_results());
+  const nlohmann::json json = results_json(some_results());
   EXPECT_EQ(json["study"], "honey");
   EXPECT_EQ(json["simulated"], true);
   const nlohmann::json& section = json["sections"][0];
@@ -108,7 +108,7 @@ TEST(ResultsOutput, SessionsThatAreMissingStandBelowTheHeading) {
                        "left out; 2 sessions of participants who withdrew left no data\n"),
             std::string::npos)
       << table;
-  const nlohmann::json json = to_json(results);
+  const nlohmann::json json = results_json(results);
   EXPECT_EQ(json["sessions"], nlohmann::json::parse(
                                   R"({"open": ["P13"], "ended_early": ["P02", "P05"],
                                       "num_pilots_left_out": 1, "num_withdrawn": 2})"));
@@ -168,7 +168,7 @@ TEST(ResultsOutput, WithoutSimulatedStudiesTheComparisonSaysWhyAndKeepsTheInterv
 }
 
 TEST(ResultsOutput, JsonTellsTheStatisticAndTheTail) {
-  const nlohmann::json json = to_json(compared_results());
+  const nlohmann::json json = results_json(compared_results());
   const nlohmann::json& held = json["sections"][0]["estimates"][0];
   EXPECT_EQ(held["published_statistic"], "mean of something");
   EXPECT_EQ(held["predictive_p"], 2.0 / 3.0);
@@ -201,7 +201,7 @@ analysis::StudyResults answered_results() {
 }
 
 TEST(ResultsOutput, JsonHasTheAdjustedTestsEffectSizesAndFreeAnswers) {
-  const nlohmann::json section = to_json(answered_results())["sections"][0];
+  const nlohmann::json section = results_json(answered_results())["sections"][0];
   const nlohmann::json& t = section["comparisons"][0];
   EXPECT_EQ(t["p_value_holm"], 0.5);
   EXPECT_EQ(t["family"], "exploratory, t tests");
@@ -268,7 +268,7 @@ TEST(ResultsOutput, WhatMayBeWrongSaysSoBelowTheNumberAndInJson) {
   EXPECT_NE(table.find("P01 group_d.pse"), std::string::npos) << "not in a column\n" << table;
   EXPECT_NE(table.find("caution: at the edge\n"), std::string::npos) << table;
   EXPECT_NE(to_comparison_table(results).find("caution: all of it\n"), std::string::npos);
-  const nlohmann::json json = to_json(results)["sections"][0];
+  const nlohmann::json json = results_json(results)["sections"][0];
   EXPECT_EQ(json["estimates"][0]["cautions"][0], "all of it");
   EXPECT_TRUE(json["estimates"][1]["cautions"].empty());
   EXPECT_EQ(json["participants"][0]["cautions"][0], "at the edge");
@@ -284,7 +284,7 @@ TEST(ResultsOutput, AnEndThatIsNoStatementIsPrintedAsOpenAndKeptInJson) {
   const std::string table = to_table(results);
   EXPECT_NE(table.find("0.6180 .. open"), std::string::npos) << table;
   EXPECT_NE(table.find("not bounded by these data"), std::string::npos) << table;
-  EXPECT_EQ(to_json(results)["sections"][0]["participants"][0]["ci95"][1], 402367.0);
+  EXPECT_EQ(results_json(results)["sections"][0]["participants"][0]["ci95"][1], 402367.0);
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results);
 /// "0.72": two digits after the point, as far as it goes.
 [[nodiscard]] std::string two_digits(double value);
 /// "95 % 0.60 to 0.88"; "" where both ends are open.
+inline constexpr double kPercent = 100.0;
+
 [[nodiscard]] std::string interval_words(const analysis::Interval& ci95);
 
 }  // namespace jnd::app::gui

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "app/gui/views/results_parts.h"
+
 namespace jnd::app::gui {
 namespace {
-
-constexpr double kPercent = 100.0;
 
 std::string axis_label(const std::string& what, const std::string& quantity) {
   return what + " " + quantity;

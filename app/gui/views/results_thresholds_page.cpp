@@ -11,8 +11,6 @@ namespace {
 
 using namespace results;
 
-constexpr double kPercent = 100.0;
-
 void draw_threshold(Ui& ui, const Rect& place, const Threshold& block, const std::string& who) {
   ui.card(place);
   Rect inside = place.inset(kPadding);

@@ -10,7 +10,6 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr float kFooter = 40;
-constexpr float kGap = 16;
 
 /// The sides give way before the card in the middle does.
 float left_width(float width) { return width < 1400 ? 188.0f : 236.0f; }

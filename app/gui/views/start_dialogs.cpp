@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostKeys = 9;
+constexpr std::size_t kMostDialogKeys = 9;
 
 Chord key_of(std::size_t place) {
-  if (place >= kMostKeys) return {};
+  if (place >= kMostDialogKeys) return {};
   return {.key = letter(static_cast<char>('1' + place)), .control = true};
 }
 

@@ -19,13 +19,13 @@ constexpr std::array kTabs = {Tab{StudyTab::kStudy, "tab_study", "Study", '3'},
                               Tab{StudyTab::kSessions, "tab_sessions", "Sessions", '1'},
                               Tab{StudyTab::kStart, "tab_start", "Start", '0'}};
 
-struct Chip {
+struct HeaderChip {
   const char* words;
   Colour colour;
 };
 
-std::vector<Chip> chips_of(const StudyFolder& study) {
-  std::vector<Chip> chips;
+std::vector<HeaderChip> chips_of(const StudyFolder& study) {
+  std::vector<HeaderChip> chips;
   if (study.blinding == experiments::Blinding::kDouble) {
     chips.push_back({study.hides_levels ? "double-blind" : "unblinded", Colour::kBlue});
   }
@@ -59,7 +59,7 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   strip.take_right(12);
   const float title = ui.text_width(study.title, Font::kBody) + 2;
   float chips = 0;
-  for (const Chip& chip : chips_of(study)) chips += ui.chip_width(chip.words) + 10;
+  for (const HeaderChip& chip : chips_of(study)) chips += ui.chip_width(chip.words) + 10;
   // The words in the middle of the view say the same where there is no room for chips.
   const bool has_chips = strip.width >= std::min(title, 180.0f) + 8 + chips;
   const float room = has_chips ? strip.width - chips - 8 : strip.width;
@@ -68,7 +68,7 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   header.shows_marks = has_chips && study.simulated;
   if (!has_chips) return header;
   float x = strip.x;
-  for (const Chip& chip : chips_of(study)) {
+  for (const HeaderChip& chip : chips_of(study)) {
     x += ui.chip(x, place.y + (place.height - 26) / 2, chip.words, chip.colour) + 10;
   }
   return header;

@@ -107,7 +107,8 @@ void draw_outline(Ui& ui, const Rect& place, const StudyOutline& outline,
   ui.end_scroll();
 }
 
-void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value) {
+void draw_wrapped_fact(Ui& ui, Rect& inside, const std::string& name,
+                       const std::string& value) {
   if (value.empty()) return;
   const TextStyle style{.font = Font::kSmall, .wrap = true};
   constexpr float kName = 104;
@@ -132,13 +133,13 @@ void draw_facts(Ui& ui, Rect& inside, const StudyOutline& outline) {
             {.colour = Colour::kSoft});
     return;
   }
-  draw_fact(ui, inside, "Length",
-            length_words(outline) + ", " + counted_words(outline.num_trials, "trial"));
-  draw_fact(ui, inside, "Blinding", outline.blinding);
-  draw_fact(ui, inside, "Device", outline.device);
-  draw_fact(ui, inside, "Languages", outline.languages);
-  draw_fact(ui, inside, "Authors", outline.authors);
-  draw_fact(ui, inside, "About", outline.description);
+  draw_wrapped_fact(ui, inside, "Length",
+                    length_words(outline) + ", " + counted_words(outline.num_trials, "trial"));
+  draw_wrapped_fact(ui, inside, "Blinding", outline.blinding);
+  draw_wrapped_fact(ui, inside, "Device", outline.device);
+  draw_wrapped_fact(ui, inside, "Languages", outline.languages);
+  draw_wrapped_fact(ui, inside, "Authors", outline.authors);
+  draw_wrapped_fact(ui, inside, "About", outline.description);
   inside.take_top(14);
 }
 
