@@ -22,9 +22,8 @@
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
 #include "device/mouse_device.h"
-#include "device/realtime_thread.h"
 #include "device/simulated_hand.h"
-#include "device/watchdog.h"
+#include "device/watched_loop.h"
 
 namespace jnd::app {
 namespace {
@@ -137,27 +136,26 @@ struct Apparatus::Implementation {
                 }};
     if (parameters.realtime) {
       storage.emplace(samples, consumer);
-      const double timeout_s = device->capabilities().watchdog_timeout_s;
-      thread.emplace(
-          device::RealtimeThread::Parameters{.clear_cpu = true, .max_stall_s = timeout_s});
-      watchdog.emplace(device::WatchdogThread::Parameters{.watchdog = {.timeout_s = timeout_s}},
-                       *device, watchdog_state);
-      device::start_haptics(*device, loop, *thread, parameters.allow_no_realtime,
-                            &watchdog->report());
+      running.emplace(
+          *device, loop, watchdog_state,
+          device::WatchedLoop::Parameters{.allow_no_realtime = parameters.allow_no_realtime,
+                                          .clear_cpu = true});
+    } else if (!device->capabilities().simulated) {
+      throw core::Error(parameters.device +
+                        ": expected a simulated device, found a real one, which runs in real "
+                        "time alone; add --realtime");
     } else {
       device->open();
     }
   }
 
   ~Implementation() {
-    // No force from the loop's last tick on: storage may take its time. The watchdog stays
-    // until then, for a loop that is stuck in the device and does not end.
-    if (thread) {
-      thread->stop();
-      device->halt();
+    // No force from the loop's last tick on: storage may take its time.
+    if (running) {
+      running->stop();
+    } else {
+      device->close();
     }
-    watchdog.reset();
-    device->close();
     storage.reset();
   }
 
@@ -295,8 +293,7 @@ struct Apparatus::Implementation {
   bool metering = false;
   std::atomic<int> num_metered_strokes{0};
   std::optional<core::StorageThread> storage;
-  std::optional<device::RealtimeThread> thread;
-  std::optional<device::WatchdogThread> watchdog;
+  std::optional<device::WatchedLoop> running;
   core::SimulatedClock simulated_clock;
   core::SystemClock system_clock;
   core::HapticCommand command;
@@ -441,12 +438,12 @@ const core::ContactSums& Apparatus::metered_sums() const noexcept {
 }
 
 const device::RealtimeThread* Apparatus::realtime_thread() const noexcept {
-  return implementation_->thread ? &*implementation_->thread : nullptr;
+  return implementation_->running ? &implementation_->running->thread() : nullptr;
 }
 
 std::string Apparatus::realtime() const {
-  if (!implementation_->thread) return "simulated";
-  const device::RealtimeReport& report = implementation_->thread->report();
+  if (!implementation_->running) return "simulated";
+  const device::RealtimeReport& report = implementation_->running->thread().report();
   return report.scheduler + (report.memory_locked ? ", memory locked" : ", memory not locked");
 }
 

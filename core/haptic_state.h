@@ -20,6 +20,11 @@ struct HapticState {
                                     Eigen::Vector3d::Zero()};
   /// Whether the point is held to the hand. A point that came off gets no force.
   std::array<bool, kNumContactPoints> attached{true, true, true, true, true};
+  /// On the hand, from the measurement before until this one: of a device whose
+  /// `DeviceCapabilities` say that it tells, else zeros.
+  PointVectors acted_n{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                       Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                       Eigen::Vector3d::Zero()};
   Eigen::Vector3d end_effector_position_m = Eigen::Vector3d::Zero();  ///< Of the carrying arm.
   std::array<double, kNumJoints> joint_position_rad{};  ///< 0 from a device without joints.
   std::array<double, kNumJoints> joint_torque_n_m{};    ///< As its sensors say; likewise.

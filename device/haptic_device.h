@@ -32,8 +32,12 @@ struct DeviceCapabilities {
   double heartbeat_timeout_s = 0.250;
   /// It lives at its own pace: a session on it runs in real time, also if it is simulated.
   bool has_own_clock = false;
-  bool simulated = false;        ///< No person can be hurt by it.
-  int num_joints = 0;            ///< It tells of: 0 or `core::kNumJoints`.
+  bool simulated = false;  ///< No person can be hurt by it.
+  int num_joints = 0;      ///< It tells of: 0 or `core::kNumJoints`.
+  /// Its measurements say which force acted until then, `HapticState::acted_n`: what was sent
+  /// is late by the way there and may have been limited. A device that does not tell is taken
+  /// to act at once, and only a simulated one is armed so.
+  bool tells_acting_force = false;
   bool moves_by_itself = false;  ///< By a simulated arm: nobody has to be there.
 };
 
@@ -75,8 +79,9 @@ class HapticDevice {
   /// Zero force at once and until a `write` of nothing but zeros: a loop that was held up in
   /// the middle of a tick must not bring an old force back. The watchdog's, which may call it
   /// from any thread, also while the loop's thread is stuck in the middle of the device; and
-  /// the loop's, whose writes fail. Real time.
-  virtual void halt() noexcept {}
+  /// the loop's, whose writes fail. A device that computes its forces in this program keeps a
+  /// `HaltLatch`; one elsewhere passes it on. Real time.
+  virtual void halt() noexcept = 0;
 
   /// The simulated person on it; nullptr: the hand is moved by somebody else.
   [[nodiscard]] virtual SimulatedHand* simulated_hand() noexcept { return nullptr; }

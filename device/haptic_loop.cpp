@@ -55,6 +55,12 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       heartbeat_(doors.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
+      port_energy_(parameters.port_energy, period_s_),
+      oscillation_(parameters.oscillation, period_s_),
+      velocity_check_(parameters.velocity_check),
+      watches_port_(device.capabilities().tells_acting_force &&
+                    (parameters.watches_port || !device.capabilities().simulated)),
+      may_be_armed_(device.capabilities().simulated || watches_port_),
       flight_recorder_(static_cast<std::size_t>(
           std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
   core::require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
@@ -130,6 +136,7 @@ void HapticLoop::obey_watchdog() noexcept {
 /// force.
 static bool is_of_motion(Fault fault) noexcept {
   return fault == Fault::kPositionJump || fault == Fault::kOverVelocity ||
+         fault == Fault::kVelocityContradicts || fault == Fault::kEnergyGiven ||
          fault == Fault::kOutsideWorkspace || fault == Fault::kStaleSample;
 }
 
@@ -164,11 +171,15 @@ void HapticLoop::rearm_if_requested() noexcept {
   if (doors_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
   fault_ = Fault::kNone;
   authority_ratio_ = 0.0;
+  if (!may_be_armed_) return latch(Fault::kActingForceUnknown);
   if (!device_.may_arm()) {
     return latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kLinkLost);
   }
   limiter_.rearm();
   passivity_.reset();
+  port_energy_.reset();
+  oscillation_.reset();
+  velocity_check_.reset();
   solids_.release();
   has_last_state_ = false;
   num_stale_ticks_ = 0;
@@ -251,6 +262,10 @@ Fault HapticLoop::check_against_last() noexcept {
         squared_m2 == 0.0 && state_.tip_velocity_m_per_s[i].squaredNorm() > kMovingM2PerS2;
   }
   if (jumped) return Fault::kPositionJump;
+  if (watches_port_ && elapsed_s > 0.0) {
+    const Fault found = watch_port(elapsed_s);
+    if (found != Fault::kNone) return found;
+  }
   // Time that stands still, or a point that moves without getting anywhere.
   const bool stale = elapsed_s <= 0.0 || moves_without_getting_anywhere;
   num_stale_ticks_ = stale ? num_stale_ticks_ + 1 : 0;
@@ -260,12 +275,32 @@ Fault HapticLoop::check_against_last() noexcept {
   return num_missed_while_stale_ > 0 ? Fault::kHostTooSlow : Fault::kStaleSample;
 }
 
+/// Where device and hand meet, in measurements alone: of force and way of the same time, and of
+/// the velocity that the forces are made of.
+Fault HapticLoop::watch_port(double elapsed_s) noexcept {
+  port_energy_.observe(state_.tip_position_m, state_.acted_n, storing_bits_);
+  if (port_energy_.is_exceeded()) return Fault::kEnergyGiven;
+  velocity_check_.observe(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached,
+                          elapsed_s);
+  return velocity_check_.is_contradicted() ? Fault::kVelocityContradicts : Fault::kNone;
+}
+
+void HapticLoop::watch_oscillation() noexcept {
+  Eigen::Vector3d whole_n = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& force_n : force_on_hand_n_) whole_n += force_n;
+  oscillation_.observe(whole_n);
+  if (oscillation_.is_found()) latch(Fault::kForceOscillates);
+}
+
 void HapticLoop::take_command() noexcept {
   if (doors_.commands.fetch()) {
     const core::HapticCommand& command = doors_.commands.value();
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that had met a value that is no number would never get rid of it.
     if (command_is_finite_) ramp_.start(command.medium, command.ramp_s);
+    // What the program changes itself is no swing of the loop.
+    oscillation_.reset();
+    port_energy_.grant_credit();
   }
   if (!command_is_finite_) latch(Fault::kNonFiniteForce);
 }
@@ -286,6 +321,8 @@ void HapticLoop::compute_force() noexcept {
     const int inside = command.immersion.contains(state_.tip_position_m[i]) ? 1 : 0;
     immersed_bits_ = static_cast<std::uint8_t>(immersed_bits_ | inside << i);
   }
+  storing_bits_ = static_cast<std::uint8_t>((is_solid ? solids_.held_bits() : 0) |
+                                            (medium.buoyancy_n != 0.0 ? immersed_bits_ : 0));
   limited_ = false;
   if (authority_ratio_ == 0.0) {
     // Limiter and passivity start from here when the loop is armed again.
@@ -305,6 +342,7 @@ void HapticLoop::compute_force() noexcept {
   passivity_.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n_);
   limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_);
   passivity_.sent(force_on_hand_n_);
+  if (watches_port_) watch_oscillation();
   if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
 }
 

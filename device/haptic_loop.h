@@ -12,8 +12,11 @@
 #include "core/media/solid_surfaces.h"
 #include "core/safety/emergency_stop.h"
 #include "core/safety/force_limiter.h"
+#include "core/safety/force_oscillation.h"
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
+#include "core/safety/port_energy.h"
+#include "core/safety/velocity_check.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
 #include "core/telemetry.h"
@@ -40,6 +43,9 @@ class HapticLoop {
     double fade_speed_m_per_s = 0.005;      ///< See `distribute_drag`, > 0.
     core::ForceLimiter::Parameters limits;  ///< The device's own limits apply besides.
     core::PassivityController::Parameters passivity;
+    core::PortEnergy::Parameters port_energy;
+    core::ForceOscillation::Parameters oscillation;
+    core::VelocityCheck::Parameters velocity_check;
     double heartbeat_timeout_s = 0.250;  ///< > 0.
     double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
     double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
@@ -50,6 +56,9 @@ class HapticLoop {
     core::Workspace workspace;
     /// For media that need one; borrowed, nullptr: the thesis's C_D and no lift.
     const core::ForceMap* force_map = nullptr;
+    /// Of a simulated device, whether energy, oscillation and velocity are watched where it
+    /// tells of its force; a real one always is. Who measures the loop itself does without.
+    bool watches_port = true;
     double max_jump_m = 0.005;       ///< Of a point between ticks beyond its top speed, > 0.
     double flight_recorder_s = 1.0;  ///< > 0.
     std::int64_t first_tick = 0;  ///< Number of the first sample: a resumed recording goes on.
@@ -113,6 +122,11 @@ class HapticLoop {
 
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
 
+  /// Whether a heartbeat reaches it and this is where it tells its watchdog that it lives.
+  [[nodiscard]] bool is_watched_by(const core::WatchdogState& watched) const noexcept {
+    return doors_.heartbeat != nullptr && doors_.watchdog == &watched;
+  }
+
   /// The last second before a fault; read it before `rearm`.
   [[nodiscard]] const core::FlightRecorder& flight_recorder() const noexcept {
     return flight_recorder_;
@@ -129,6 +143,8 @@ class HapticLoop {
   void watch_attachment() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
+  [[nodiscard]] core::Fault watch_port(double elapsed_s) noexcept;
+  void watch_oscillation() noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
   void take_command() noexcept;
   void compute_force() noexcept;
@@ -147,6 +163,11 @@ class HapticLoop {
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
+  core::PortEnergy port_energy_;
+  core::ForceOscillation oscillation_;
+  core::VelocityCheck velocity_check_;
+  bool watches_port_;
+  bool may_be_armed_;
   core::FlightRecorder flight_recorder_;
   std::atomic<bool> rearm_requested_{false};
   std::atomic<bool> disarm_requested_{false};
@@ -166,6 +187,7 @@ class HapticLoop {
   std::int64_t num_missed_while_stale_ = 0;
   std::uint8_t attached_bits_ = 0;
   std::uint8_t immersed_bits_ = 0;
+  std::uint8_t storing_bits_ = 0;  ///< Points that a surface holds, or that float.
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;

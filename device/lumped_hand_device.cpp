@@ -45,6 +45,7 @@ DeviceCapabilities LumpedHandDevice::capabilities() const noexcept {
 
 void LumpedHandDevice::open() {
   arm_.reset();
+  halt_.reset();
   hand_.rest_at(arm_.arm().reference_m());
 }
 
@@ -55,7 +56,8 @@ bool LumpedHandDevice::read(core::HapticState& state) noexcept {
 
 bool LumpedHandDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   arm_.follow_orders();
-  const Eigen::Vector3d rendered_n = total_of(force_on_hand_n);
+  Eigen::Vector3d rendered_n = Eigen::Vector3d::Zero();
+  if (!halt_.withholds(force_on_hand_n)) rendered_n = total_of(force_on_hand_n);
   const Eigen::Vector3d velocity_m_per_s = hand_.velocity_m_per_s();
   double damping_n_s_per_m = parameters_.mechanical_viscosity_n_s_per_m;
   if (parameters_.dry_friction_n > 0.0) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "device/drawn_mass.h"
+#include "device/halt_latch.h"
 #include "device/haptic_device.h"
 #include "device/ordered_arm.h"
 #include "device/stroking_arm.h"
@@ -38,6 +39,7 @@ class LumpedHandDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override {}
+  void halt() noexcept override { halt_.halt(); }
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
     return hand_.sums();
   }
@@ -48,6 +50,7 @@ class LumpedHandDevice final : public HapticDevice {
   double period_s_;
   OrderedArm arm_;
   DrawnMass hand_;
+  HaltLatch halt_;
 };
 
 }  // namespace jnd::device

@@ -61,6 +61,7 @@ DeviceCapabilities MouseDevice::capabilities() const noexcept {
 void MouseDevice::open() {
   guide_ = PointerGuide(parameters_.guide, hand_.period_s());
   hand_.rest_at({0.0, 0.0, parameters_.height_m});
+  halt_.reset();
 }
 
 bool MouseDevice::read(core::HapticState& state) noexcept {
@@ -70,7 +71,8 @@ bool MouseDevice::read(core::HapticState& state) noexcept {
 
 bool MouseDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   const Eigen::Vector3d velocity_m_per_s = hand_.velocity_m_per_s();
-  Eigen::Vector3d rendered_n = total_of(force_on_hand_n);
+  Eigen::Vector3d rendered_n = Eigen::Vector3d::Zero();
+  if (!halt_.withholds(force_on_hand_n)) rendered_n = total_of(force_on_hand_n);
   hand_.feel(rendered_n, 0.0);
   rendered_n.z() = 0.0;  // The hand keeps its height.
 

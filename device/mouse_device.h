@@ -5,6 +5,7 @@
 #include "core/doors/latest_value.h"
 #include "core/pointer.h"
 #include "device/drawn_mass.h"
+#include "device/halt_latch.h"
 #include "device/haptic_device.h"
 #include "device/pointer_guide.h"
 
@@ -61,6 +62,7 @@ class MouseDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override {}
+  void halt() noexcept override { halt_.halt(); }
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override {
     return hand_.sums();
   }
@@ -71,6 +73,7 @@ class MouseDevice final : public HapticDevice {
   core::LatestValue<core::PointerPosition>* pointer_;
   PointerGuide guide_;
   DrawnMass hand_;
+  HaltLatch halt_;
 };
 
 }  // namespace jnd::device

@@ -30,6 +30,7 @@ class UnpluggedDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState&) noexcept override { return false; }
   [[nodiscard]] bool write(const core::PointVectors&) noexcept override { return false; }
   void close() noexcept override {}
+  void halt() noexcept override {}  ///< It never gives force.
 
  private:
   double rate_hz_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/device_run.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/person_bench.h"
@@ -21,8 +22,6 @@
 #include "device/characterization.h"
 #include "device/device_registry.h"
 #include "device/exoskeleton/simulated_bench.h"
-#include "device/haptic_loop.h"
-#include "device/realtime_thread.h"
 #include "device/simulated_hand.h"
 
 namespace jnd::app {
@@ -62,52 +61,33 @@ int point_named(const std::string& finger) {
                                fmt::join(core::kContactPointNames, ", "), finger));
 }
 
-/// A device in free space, all the time, and its samples while they are wanted.
-class MeasuringLoop {
- public:
-  MeasuringLoop(device::HapticDevice& device, bool allow_no_realtime)
-      : device_(device),
-        loop_({.starts_armed = device.capabilities().simulated, .rate_hz = kRate_hz}, device,
-              {commands_, telemetry_, stop_, &samples_}),
-        thread_({}) {
-    try {
-      device::start_haptics(device, loop_, thread_, allow_no_realtime);
-    } catch (const core::Error& error) {
-      throw EnvironmentError(error.what());
+/// The samples of the next `duration_s`.
+void measure(DeviceRun& run, double duration_s,
+             const std::function<void(const core::Sample&)>& take) {
+  run.take([](const core::Sample&) {});  // From before.
+  const auto wanted = static_cast<std::int64_t>(duration_s * kRate_hz);
+  for (std::int64_t taken = 0; taken < wanted;) {
+    stop_if_requested();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (const core::Fault fault = run.telemetry().fault; core::is_failure(fault)) {
+      throw core::Error("device: " + std::string(core::words(fault)));
     }
+    run.take([&](const core::Sample& sample) {
+      if (taken++ < wanted) take(sample);
+    });
   }
-  ~MeasuringLoop() {
-    thread_.stop();
-    device_.close();
-  }
-  MeasuringLoop(const MeasuringLoop&) = delete;
-  MeasuringLoop& operator=(const MeasuringLoop&) = delete;
+}
 
-  void measure(double duration_s, const std::function<void(const core::Sample&)>& take) {
-    samples_.drain([](const core::Sample&) {});  // From before.
-    const auto wanted = static_cast<std::int64_t>(duration_s * kRate_hz);
-    for (std::int64_t taken = 0; taken < wanted;) {
-      stop_if_requested();
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      telemetry_.fetch();
-      if (const core::Fault fault = telemetry_.value().fault; core::is_failure(fault)) {
-        throw core::Error("device: " + std::string(core::words(fault)));
-      }
-      samples_.drain([&](const core::Sample& sample) {
-        if (taken++ < wanted) take(sample);
-      });
-    }
+std::unique_ptr<DeviceRun> started(device::HapticDevice& device,
+                                   const CharacterizeOptions& options) {
+  try {
+    return std::make_unique<DeviceRun>(
+        device, DeviceRun::Parameters{.rate_hz = kRate_hz,
+                                      .allow_no_realtime = options.allow_no_realtime});
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
   }
-
- private:
-  core::LatestValue<core::HapticCommand> commands_;  ///< None: free space, no force.
-  core::LatestValue<core::Telemetry> telemetry_;
-  core::EmergencyStop stop_;
-  core::SpscQueue<core::Sample> samples_{32768};
-  device::HapticDevice& device_;
-  device::HapticLoop loop_;
-  device::RealtimeThread thread_;
-};
+}
 
 CharacterizeOutcome measured_on_model(const CharacterizeOptions& options) {
   ProgressBar bar("characterize");
@@ -129,13 +109,13 @@ CharacterizeOutcome measured_on_model(const CharacterizeOptions& options) {
 
 CharacterizeOutcome measured_by_person(const CharacterizeOptions& options,
                                        device::HapticDevice& device) {
-  MeasuringLoop loop(device, options.allow_no_realtime);
-  const auto measure = [&loop](double duration_s,
-                               const std::function<void(const core::Sample&)>& take) {
-    loop.measure(duration_s, take);
+  const std::unique_ptr<DeviceRun> run = started(device, options);
+  const auto measure_on_it = [&run](double duration_s,
+                                    const std::function<void(const core::Sample&)>& take) {
+    measure(*run, duration_s, take);
   };
   PersonBench bench(std::cin, std::cerr, point_named(options.finger), options.repetitions,
-                    measure);
+                    measure_on_it);
   CharacterizeOutcome outcome;
   outcome.finger = device::characterize_finger(bench, options.repetitions,
                                                [](double) { stop_if_requested(); });
@@ -147,7 +127,7 @@ CharacterizeOutcome measured_by_person(const CharacterizeOptions& options,
         "now fast",
         kStroking_s));
   }
-  measure(kStroking_s,
+  measure(*run, kStroking_s,
           [&outcome](const core::Sample& sample) { outcome.free_space.add(sample); });
   return outcome;
 }

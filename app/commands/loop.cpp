@@ -8,14 +8,13 @@
 #include <thread>
 
 #include "app/commands/commands.h"
+#include "app/device_run.h"
 #include "app/json_text.h"
 #include "app/option_checks.h"
 #include "app/session_setup.h"
+#include "app/stop_signals.h"
 #include "core/error.h"
-#include "core/storage/storage_thread.h"
 #include "device/device_registry.h"
-#include "device/haptic_loop.h"
-#include "device/realtime_thread.h"
 #include "device/simulated_hand.h"
 
 namespace jnd::app {
@@ -116,28 +115,24 @@ void print_json(const LoopOutcome& outcome) {
   fmt::print("{}\n", json_text(out));
 }
 
-/// Whatever is wrong with the arguments is found here, before anything runs.
-struct LoopSetup {
-  explicit LoopSetup(const LoopOptions& options) try
-      : device(device::make_device(options.device, options.rate_hz)),
-        loop({.starts_armed = device->capabilities().simulated, .rate_hz = options.rate_hz},
-             *device, {commands, telemetry, emergency_stop, &samples}),
-        thread({.cpu = options.cpu}) {
+std::unique_ptr<device::HapticDevice> device_of(const LoopOptions& options) {
+  try {
+    return device::make_device(options.device, options.rate_hz);
   } catch (const device::DeviceUnreachable&) {
     throw;
   } catch (const core::Error& error) {
     throw UsageError(error.what());
   }
+}
 
-  core::LatestValue<core::HapticCommand> commands;
-  core::LatestValue<core::Telemetry> telemetry;
-  core::EmergencyStop emergency_stop;
-  /// As large as a session's, and emptied like it.
-  core::SpscQueue<core::Sample> samples{32768};
-  std::unique_ptr<device::HapticDevice> device;
-  device::HapticLoop loop;
-  device::RealtimeThread thread;
-};
+std::unique_ptr<DeviceRun> started(device::HapticDevice& device, const LoopOptions& options) {
+  try {
+    return std::make_unique<DeviceRun>(
+        device, DeviceRun::Parameters{.rate_hz = options.rate_hz, .cpu = options.cpu});
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
+  }
+}
 
 int run_loop(const LoopOptions& options) {
   if (!(options.seconds > 0.0 && options.seconds <= 86'400.0)) {
@@ -149,38 +144,31 @@ int run_loop(const LoopOptions& options) {
         "--rate-hz: expected a number > 0 and at most 100000, found {}", options.rate_hz));
   }
   require_device(options.device);
-  LoopSetup setup(options);
-  const device::RealtimeReport& report = setup.thread.report();
-  if (options.cpu >= 0 && !report.pinned) throw EnvironmentError(report.lacks);
-  {
-    core::StorageThread storage(setup.samples, {});
-    try {
-      device::start_haptics(*setup.device, setup.loop, setup.thread, false);
-    } catch (const core::Error& error) {
-      throw EnvironmentError(error.what());
-    }
-    // A hand that strokes through water: a tick with everything in it.
-    // A real one stays in free space, for nobody watches over a hand in it here.
-    if (setup.device->capabilities().simulated) {
-      setup.commands.publish({.sequence = 1, .medium = core::water({})});
-    }
-    if (device::SimulatedHand* hand = setup.device->simulated_hand()) {
-      hand->begin_strokes({}, core::RandomStream(1, "loop"));
-    }
-    std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));
-    setup.thread.stop();
+  const std::unique_ptr<device::HapticDevice> device = device_of(options);
+  stop_on_signals();
+  const std::unique_ptr<DeviceRun> run = started(*device, options);
+  // A hand that strokes through water: a tick with everything in it. A real one stays in free
+  // space and without force.
+  if (device->capabilities().simulated) run->render(core::water({}));
+  if (device::SimulatedHand* hand = device->simulated_hand()) {
+    hand->begin_strokes({}, core::RandomStream(1, "loop"));
   }
-  setup.device->close();
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
+  while (std::chrono::steady_clock::now() < end && !stop_requested()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    run->take([](const core::Sample&) {});
+  }
+  run->stop();
 
-  const LoopOutcome outcome{options, setup.thread.timing(), report, setup.thread.use(),
-                            setup.samples.num_dropped()};
+  const LoopOutcome outcome{options, run->thread().timing(), run->thread().report(),
+                            run->thread().use(), run->num_dropped_samples()};
   if (options.json) {
     print_json(outcome);
   } else {
     print_for_people(outcome);
   }
-  setup.telemetry.fetch();
-  const core::Fault fault = setup.telemetry.value().fault;
+  const core::Fault fault = run->telemetry().fault;
   if (!core::is_failure(fault)) return kDone;
   fmt::print(stderr, "jnd: {}\n", core::words(fault));
   return kHasProblems;

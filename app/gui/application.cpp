@@ -117,7 +117,11 @@ void Application::picture_saved(const fs::path& file, const std::string& problem
 }
 
 void Application::escape() noexcept {
-  if (worker_ != nullptr) doors_.emergency_stop.press();
+  if (worker_ != nullptr) {
+    doors_.emergency_stop.press();
+  } else if (preflight_ != nullptr) {
+    preflight_->press_emergency_stop();
+  }
 }
 
 void Application::mouse_pressed(float x, float y) noexcept {

@@ -151,7 +151,8 @@ std::vector<PreflightLine> look_before_session(
 
 Preflight::Preflight(PreflightRequest request, std::function<void()> wake)
     : work_(
-          [this, request = std::move(request)](WorkControl& control) {
+          [this, request = std::move(request)](WorkControl& control) mutable {
+            request.emergency_stop = &emergency_stop_;
             (void)look_before_session(request, control,
                                       [this](const std::vector<PreflightLine>& lines) {
                                         const std::lock_guard guard(mutex_);

@@ -10,6 +10,7 @@
 
 #include "app/operator/background_task.h"
 #include "app/stability_limits.h"
+#include "core/safety/emergency_stop.h"
 #include "experiments/session/plan.h"
 
 namespace jnd::app {
@@ -33,6 +34,8 @@ struct PreflightRequest {
   std::string device = "lumped";
   bool allow_no_realtime = false;  ///< A real device also without real-time rights.
   double loop_test_s = 2.0;
+  /// That reaches the device in the loop's test; nullptr: none but the program's end.
+  core::EmergencyStop* emergency_stop = nullptr;
 };
 
 /// Looks at everything in turn: study file, folder, disk, real-time priority, memory lock,
@@ -53,11 +56,14 @@ class Preflight {
   /// Everything was looked at, and nothing failed.
   [[nodiscard]] bool passed() const;
   void cancel() noexcept { work_.cancel(); }
+  /// Takes the force from the device in the loop's test, which fails then. Any thread.
+  void press_emergency_stop() noexcept { emergency_stop_.press(); }
   void wait() { work_.wait(); }
 
  private:
   mutable std::mutex mutex_;
   std::vector<PreflightLine> lines_;
+  core::EmergencyStop emergency_stop_;
   BackgroundWork work_;
 };
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "app/device_run.h"
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
 #include "core/error.h"
@@ -16,7 +17,6 @@
 #include "core/storage/study_store.h"
 #include "core/storage/writer_lock.h"
 #include "device/device_registry.h"
-#include "device/realtime_thread.h"
 
 namespace jnd::app {
 namespace {
@@ -52,31 +52,6 @@ std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
-
-/// Device, loop and thread, stopped in the order that is safe whatever happens.
-struct RunningLoop {
-  RunningLoop(const PreflightRequest& request, double rate_hz)
-      : device(device::make_device(request.device, rate_hz)),
-        loop({.starts_armed = device->capabilities().simulated, .rate_hz = rate_hz}, *device,
-             {commands, telemetry, emergency_stop, &samples}),
-        thread({}) {
-    device::start_haptics(*device, loop, thread, request.allow_no_realtime);
-  }
-  ~RunningLoop() {
-    thread.stop();
-    device->close();
-  }
-  RunningLoop(const RunningLoop&) = delete;
-  RunningLoop& operator=(const RunningLoop&) = delete;
-
-  core::LatestValue<core::HapticCommand> commands;  ///< None: free space.
-  core::LatestValue<core::Telemetry> telemetry;
-  core::EmergencyStop emergency_stop;
-  core::SpscQueue<core::Sample> samples{1024};
-  std::unique_ptr<device::HapticDevice> device;
-  device::HapticLoop loop;
-  device::RealtimeThread thread;
-};
 
 }  // namespace
 
@@ -218,21 +193,24 @@ LoopTest test_loop(const PreflightRequest& request, double rate_hz,
                    const std::function<void(double)>& on_progress) {
   using Clock = std::chrono::steady_clock;
   LoopTest test{.rate_hz = rate_hz, .duration_s = request.loop_test_s};
-  RunningLoop running(request, rate_hz);
-  test.for_a_person = !running.device->capabilities().simulated;
+  const std::unique_ptr<device::HapticDevice> device =
+      device::make_device(request.device, rate_hz);
+  test.for_a_person = !device->capabilities().simulated;
+  DeviceRun run(*device, {.rate_hz = rate_hz,
+                          .allow_no_realtime = request.allow_no_realtime,
+                          .emergency_stop = request.emergency_stop});
   const Clock::time_point begin = Clock::now();
   for (double done = 0.0; done < 1.0;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    running.samples.drain([](const core::Sample&) {});
+    run.take([](const core::Sample&) {});
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
     done = std::min(1.0, elapsed_s / request.loop_test_s);
     if (on_progress) on_progress(done);
   }
-  running.thread.stop();
-  running.telemetry.fetch();
-  const core::Fault fault = running.telemetry.value().fault;
+  run.stop();
+  const core::Fault fault = run.telemetry().fault;
   if (core::is_failure(fault)) test.fault = std::string(core::words(fault));
-  const device::LoopTiming& timing = running.thread.timing();
+  const device::LoopTiming& timing = run.thread().timing();
   test.missed_ticks = timing.missed_ticks();
   test.lateness_p99_us = 1e-3 * static_cast<double>(timing.lateness().percentile_ns(0.99));
   return test;

@@ -38,6 +38,14 @@ std::string_view name(Fault fault) noexcept {
       return "suspended";
     case Fault::kHostTooSlow:
       return "host_too_slow";
+    case Fault::kEnergyGiven:
+      return "energy_given";
+    case Fault::kForceOscillates:
+      return "force_oscillates";
+    case Fault::kVelocityContradicts:
+      return "velocity_contradicts";
+    case Fault::kActingForceUnknown:
+      return "acting_force_unknown";
   }
   return "unknown";
 }
@@ -97,6 +105,24 @@ std::string_view words(Fault fault) noexcept {
     case Fault::kHostTooSlow:
       return "This machine is too slow for the loop: no new measurement came while ticks were "
              "missed; close what burdens it, look at `jnd doctor`, then arm the device again.";
+    case Fault::kEnergyGiven:
+      return "The force moved the hand along instead of holding it back: the device answers "
+             "too "
+             "late or wrongly for so strong a medium; weaken the stimulus or measure the "
+             "device, "
+             "then arm it again.";
+    case Fault::kForceOscillates:
+      return "The force swung to and fro faster than a hand can move: the loop is unstable "
+             "with "
+             "so strong a medium; weaken the stimulus or measure the device, then arm it "
+             "again.";
+    case Fault::kVelocityContradicts:
+      return "The velocity that the device reports is not that of its positions: check its "
+             "signs, units and filters, then arm it again.";
+    case Fault::kActingForceUnknown:
+      return "The device does not tell which force acted while it measured, so nobody could "
+             "see "
+             "it push the hand: it cannot be armed before its driver tells that.";
   }
   return "Unknown fault: stop the session.";
 }

@@ -25,8 +25,12 @@ enum class Fault : std::uint8_t {
   kNotArmed = 14,  ///< Nobody has asked for force yet: nothing is wrong.
   kSuspended = 15,
   kHostTooSlow = 16,
+  kEnergyGiven = 17,
+  kForceOscillates = 18,
+  kVelocityContradicts = 19,
+  kActingForceUnknown = 20,
 };
-inline constexpr Fault kLastFault = Fault::kHostTooSlow;
+inline constexpr Fault kLastFault = Fault::kActingForceUnknown;
 
 /// Something went wrong, or somebody stopped it.
 [[nodiscard]] constexpr bool is_failure(Fault fault) noexcept {

@@ -9,6 +9,13 @@
 namespace jnd::device {
 namespace {
 
+double period_of(double rate_hz) {
+  // Beyond that the magnets, stiff within a few steps, let the simulation blow up or crawl.
+  core::require(rate_hz >= 100.0 && rate_hz <= 10000.0, "rate_hz", "a number in [100, 10000]",
+                rate_hz);
+  return 1.0 / rate_hz;
+}
+
 int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
   core::require(delay_s >= 0.0 && delay_s <= 0.02, "extra_delay_s", "a number in [0, 0.02]",
                 delay_s);
@@ -22,7 +29,7 @@ int delay_ticks_of(double delay_s, double rate_hz, int max_ticks) {
 
 ExoskeletonDevice::ExoskeletonDevice(const Parameters& parameters)
     : parameters_(parameters),
-      period_s_(core::period_s_at(parameters.rate_hz)),
+      period_s_(period_of(parameters.rate_hz)),
       period_ns_(std::llround(1e9 / parameters.rate_hz)),
       delay_ticks_(
           delay_ticks_of(parameters.extra_delay_s, parameters.rate_hz, kMaxDelayTicks)),
@@ -49,6 +56,7 @@ DeviceCapabilities ExoskeletonDevice::capabilities() const noexcept {
           .watchdog_timeout_s = 0.250,
           .simulated = true,
           .num_joints = core::kNumJoints,
+          .tells_acting_force = true,
           .moves_by_itself = true};
 }
 
@@ -57,9 +65,10 @@ void ExoskeletonDevice::open() {
   world_.reset();
   control_.reset();
   filter_.start(world_.encoder_position_rad());
-  halted_.store(false, std::memory_order_relaxed);
+  halt_.reset();
   delay_line_.fill(core::zero_vectors());
   delay_slot_ = 0;
+  acted_n_ = core::zero_vectors();
   device_time_ns_ = 0;
   sums_ = {};
   measure();
@@ -80,6 +89,7 @@ bool ExoskeletonDevice::read(core::HapticState& state) noexcept {
   state.tip_position_m = kinematics_.tip_position_m();
   state.tip_velocity_m_per_s = tip_velocity_m_per_s_;
   state.attached = world_.attached();
+  state.acted_n = acted_n_;
   state.end_effector_position_m = kinematics_.end_effector_position_m();
   for (int joint = 0; joint < core::kNumJoints; ++joint) {
     state.joint_position_rad[joint] = measured_.position_rad[joint];
@@ -93,10 +103,7 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
       std::all_of(force_on_hand_n.begin(), force_on_hand_n.end(),
                   [](const Eigen::Vector3d& force_n) { return force_n.isZero(0.0); });
   if (nothing_asked) control_.rearm();
-  // Only zeros end a halt: a loop held up in mid-tick must not bring its force back.
-  const bool halted = nothing_asked ? halted_.exchange(false, std::memory_order_acq_rel)
-                                    : halted_.load(std::memory_order_acquire);
-  if (halted) delay_line_.fill(core::zero_vectors());
+  if (halt_.withholds(force_on_hand_n)) delay_line_.fill(core::zero_vectors());
   arm_.follow_orders();
   if (arm_.takes_putting_back()) {
     for (int point = 0; point < core::kNumContactPoints; ++point) world_.attach(point);
@@ -108,7 +115,7 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
   JointVector torque_n_m = control_.torque_n_m(kinematics_, measured_, given_n);
   if (control_.fault() != core::Fault::kNone) delay_line_.fill(core::zero_vectors());
   // Halted in the middle of it: the force goes, the robot's weight stays held.
-  if (halted_.load(std::memory_order_acquire)) {
+  if (halt_.is_halted()) {
     torque_n_m = kinematics_.gravity_torque_n_m();
     given_n = core::zero_vectors();
   }
@@ -117,6 +124,7 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
   const Eigen::Vector3d pull_n =
       arm_.arm().force_n(world_.hand_position_m(), world_.hand_velocity_m_per_s());
   const bool stepped = world_.step(torque_n_m, pull_n);
+  acted_n_ = control_.fault() == core::Fault::kNone ? given_n : core::zero_vectors();
   device_time_ns_ += period_ns_;
   if (!stepped) return false;
   if (control_.fault() == core::Fault::kNone) add_to_sums(given_n);

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 
 #include "device/exoskeleton/kinematics.h"
 #include "device/exoskeleton/mujoco_world.h"
 #include "device/exoskeleton/torque_control.h"
 #include "device/exoskeleton/velocity_filter.h"
+#include "device/halt_latch.h"
 #include "device/haptic_device.h"
 #include "device/ordered_arm.h"
 
@@ -54,7 +54,7 @@ class ExoskeletonDevice final : public HapticDevice {
   void close() noexcept override {}
 
   [[nodiscard]] core::Fault fault() const noexcept override;
-  void halt() noexcept override { halted_.store(true, std::memory_order_release); }
+  void halt() noexcept override { halt_.halt(); }
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override { return &arm_; }
   /// What opposes is all that the magnets do to the hand.
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override { return sums_; }
@@ -87,7 +87,8 @@ class ExoskeletonDevice final : public HapticDevice {
   TorqueControl control_;
   VelocityFilter filter_;
 
-  std::atomic<bool> halted_{false};
+  HaltLatch halt_;
+  core::PointVectors acted_n_ = core::zero_vectors();  ///< In the last step.
   std::array<core::PointVectors, kMaxDelayTicks> delay_line_;
   int delay_slot_ = 0;
   std::int64_t device_time_ns_ = 0;

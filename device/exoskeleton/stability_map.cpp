@@ -74,6 +74,7 @@ class DisturbedExoskeleton final : public HapticDevice {
     return exoskeleton_.write(force_on_hand_n);
   }
   void close() noexcept override { exoskeleton_.close(); }
+  void halt() noexcept override { exoskeleton_.halt(); }
   [[nodiscard]] core::Fault fault() const noexcept override { return exoskeleton_.fault(); }
 
  private:

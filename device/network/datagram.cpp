@@ -153,6 +153,7 @@ void fields(Bytes& bytes, T& state) noexcept {
   flag(bytes, state.is_home);
   choice(bytes, state.fault, core::Fault::kNone, core::kLastFault);
   choice(bytes, state.level, LinkLevel::kUnacceptable, LinkLevel::kExcellent);
+  for (auto& force : measured.acted_n) vector(bytes, force);
 }
 
 template <typename Bytes, typename T>

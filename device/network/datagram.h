@@ -21,7 +21,7 @@
 /// trusted: see `decode`.
 namespace jnd::device::wire {
 
-inline constexpr std::uint16_t kVersion = 1;
+inline constexpr std::uint16_t kVersion = 2;
 inline constexpr std::size_t kHeaderBytes = 40;
 inline constexpr std::size_t kChecksumBytes = 4;
 /// Of the largest datagram; below what any Ethernet carries in one piece.

@@ -75,6 +75,7 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
       welcome_(welcome_of(device, parameters.watchdog_s)),
       limiter_(limits_of(device.capabilities(), parameters.slew_n_per_s),
                1.0 / device.capabilities().rate_hz),
+      tells_acting_force_(device.capabilities().tells_acting_force),
       quality_(parameters.quality),
       next_stream_id_(parameters.first_stream_id),
       sequence_(parameters.first_sequence) {}
@@ -279,6 +280,7 @@ void DeviceServer::measure() noexcept {
   }
   if (state_.is_measured) {
     state_.measured = measured;
+    if (!tells_acting_force_) state_.measured.acted_n = written_n_;
   } else {
     disarm(fault);
     state_.fault = fault;
@@ -293,6 +295,7 @@ void DeviceServer::apply_force() noexcept {
                          force_on_hand_n);
     if (limiter_.fault() != Fault::kNone) disarm(limiter_.fault());
   }
+  written_n_ = force_on_hand_n;
   if (!device_.write(force_on_hand_n)) {
     disarm(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
   }

@@ -111,6 +111,8 @@ class DeviceServer {
   std::uint32_t max_answer_age_;  ///< In steps.
   wire::Welcome welcome_;
   core::ForceLimiter limiter_;
+  bool tells_acting_force_;
+  core::PointVectors written_n_ = core::zero_vectors();  ///< Last.
   LinkQuality quality_;
   Counts counts_;
 

@@ -51,6 +51,7 @@ DeviceCapabilities NetworkDevice::capabilities() const noexcept {
       device_ ? device_->capabilities : DeviceCapabilities{.rate_hz = parameters_.rate_hz};
   can.max_stale_s = std::max(can.max_stale_s, parameters_.max_stale_s);
   can.has_own_clock = true;
+  can.tells_acting_force = true;  // Every state does.
   if (can.simulated) can.watchdog_timeout_s = kSimulatedWatchdog_s;
   return can;
 }

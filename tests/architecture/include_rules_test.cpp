@@ -105,4 +105,25 @@ TEST(IncludeRules, DependenciesPointTowardCore) {
   EXPECT_GT(includes_checked, 0) << "no sources found under " << root;
 }
 
+// A device opened any other way would have no watchdog, no heartbeat or no stop.
+TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
+  const fs::path root = jnd::test_support::source_folder();
+  const std::set<std::string> allowed = {"device/realtime_thread.h",
+                                         "device/realtime_thread.cpp",
+                                         "device/watched_loop.cpp"};
+  std::set<std::string> found;
+  for (const std::string folder : {"core", "device", "experiments", "analysis", "app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      std::ifstream source(entry.path());
+      for (std::string line; std::getline(source, line);) {
+        if (line.find("start_haptics(") != std::string::npos) {
+          found.insert(fs::relative(entry.path(), root).generic_string());
+        }
+      }
+    }
+  }
+  EXPECT_EQ(found, allowed);
+}
+
 }  // namespace

@@ -144,7 +144,9 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
 class BouncingDevice final : public HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "bouncing"; }
-  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override { return {}; }
+  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+    return {.simulated = true};
+  }
   void open() override {}
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
     state = core::HapticState();
@@ -168,6 +170,7 @@ class BouncingDevice final : public HapticDevice {
     return true;
   }
   void close() noexcept override {}
+  void halt() noexcept override {}
   /// Above the surface.
   [[nodiscard]] double energy_j() const {
     return kMassKg * (0.5 * v_m_per_s * v_m_per_s + kGravityMPerS2 * z_m);

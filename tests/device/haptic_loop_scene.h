@@ -114,6 +114,9 @@ struct LoopScene {
     hand.state.attached = attached;
     hand.move_all({0.1, 0.02, -0.05});
     hand.device_capabilities.num_joints = core::kNumJoints;
+    // What it measures follows from no force: its port is not watched.
+    hand.device_capabilities.simulated = true;
+    hand.device_capabilities.tells_acting_force = false;
     return hand;
   }
 

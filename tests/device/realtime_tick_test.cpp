@@ -307,6 +307,7 @@ class WatchingDevice final : public HapticDevice {
     return hand_.write(force_on_hand_n);
   }
   void close() noexcept override {}
+  void halt() noexcept override {}
 
   std::size_t num_allocations = 0;
   std::size_t num_locks = 0;

@@ -35,6 +35,7 @@ class ScriptedDevice final : public HapticDevice {
     if (is_zero) halted = false;
     standing_n = halted ? core::zero_vectors() : force_on_hand_n;
     state.device_time_ns += 1'000'000;
+    state.acted_n = standing_n;
     for (int i = 0; i < core::kNumContactPoints; ++i) {
       state.tip_position_m[i] += 0.001 * state.tip_velocity_m_per_s[i];
     }
@@ -56,7 +57,7 @@ class ScriptedDevice final : public HapticDevice {
   }
 
   core::HapticState state;
-  DeviceCapabilities device_capabilities;
+  DeviceCapabilities device_capabilities{.tells_acting_force = true};
   std::vector<core::PointVectors> received;
   core::PointVectors standing_n = core::zero_vectors();  ///< What the hand feels now.
   bool halted = false;

@@ -32,7 +32,9 @@ class SampledMass final : public HapticDevice {
   std::int64_t broken_from_tick = 1'000'000;
 
   [[nodiscard]] std::string_view name() const noexcept override { return "sampled_mass"; }
-  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override { return {}; }
+  [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+    return {.simulated = true};
+  }
   void open() override {
     position_m_ = 0.0;
     velocity_m_per_s_ = start_m_per_s;
@@ -60,6 +62,7 @@ class SampledMass final : public HapticDevice {
     return true;
   }
   void close() noexcept override {}
+  void halt() noexcept override {}
 
  private:
   double position_m_ = 0.0, velocity_m_per_s_ = 0.0;

@@ -17,7 +17,9 @@ class WatchedLoopTest : public ::testing::TestWithParam<int> {
   class Device final : public HapticDevice {
    public:
     [[nodiscard]] std::string_view name() const noexcept override { return "watched"; }
-    [[nodiscard]] DeviceCapabilities capabilities() const noexcept override { return {}; }
+    [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+      return {.simulated = true};
+    }
     void open() override {}
     [[nodiscard]] bool read(core::HapticState& measured) noexcept override {
       return scripted.read(measured);

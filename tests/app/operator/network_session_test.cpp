@@ -31,6 +31,7 @@ class HurtfulHand final : public device::HapticDevice {
     return hand_->write(force_n);
   }
   void close() noexcept override { hand_->close(); }
+  void halt() noexcept override { hand_->halt(); }
 
  private:
   std::unique_ptr<device::HapticDevice> hand_ = device::make_device("lumped", 1000.0);

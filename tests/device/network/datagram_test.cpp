@@ -43,6 +43,7 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
     for (int axis = 0; axis < 3; ++axis) {
       state.measured.tip_position_m[point][axis] = random.normal();
       state.measured.tip_velocity_m_per_s[point][axis] = -1e-310 * random.uniform();
+      state.measured.acted_n[point][axis] = random.normal();
       command.force_on_hand_n[point][axis] = random.normal();
     }
     state.measured.attached[point] = random.with_probability(0.5);
@@ -135,15 +136,17 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
   state.armed = true;
   state.fault = core::Fault::kLinkLost;
   state.level = LinkLevel::kGood;
+  state.measured.acted_n[0].x() = 4.0;
+  state.measured.acted_n[4].z() = 5.0;
   const Bytes bytes = encoded({{.stream_id = 0x1122, .sequence = 0x33445566}, state});
-  ASSERT_EQ(bytes.size(), 722u);
+  ASSERT_EQ(bytes.size(), 842u);
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), 4), "JDLK");
-  EXPECT_EQ(bytes[4], std::byte{1});
+  EXPECT_EQ(bytes[4], std::byte{2});
   EXPECT_EQ(bytes[6], std::byte{4});
   EXPECT_EQ(bytes[8], std::byte{0x22});
   EXPECT_EQ(bytes[16], std::byte{0x66});
-  EXPECT_EQ(bytes[20], std::byte{722 & 0xff});
-  EXPECT_EQ(bytes[21], std::byte{722 >> 8});
+  EXPECT_EQ(bytes[20], std::byte{842 & 0xff});
+  EXPECT_EQ(bytes[21], std::byte{842 >> 8});
   EXPECT_EQ(bytes[40], std::byte{8});
   EXPECT_EQ(double_at(bytes, 48), 0.25);
   EXPECT_EQ(double_at(bytes, 280), -1.5);
@@ -154,6 +157,8 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
   EXPECT_EQ(bytes[712], std::byte{0b00101});
   EXPECT_EQ(bytes[713], std::byte{1});
   EXPECT_EQ(bytes[716], std::byte{12});
+  EXPECT_EQ(double_at(bytes, 718), 4.0);
+  EXPECT_EQ(double_at(bytes, 830), 5.0);
 }
 
 TEST(Datagram, WhatAnotherProgramWroteAfterTheTablesIsUnderstood) {
@@ -242,8 +247,8 @@ TEST(Datagram, EachProblemHasItsOwnName) {
   };
   EXPECT_EQ(wire::decode({}, back), Problem::kTooShort);
   EXPECT_EQ(wire::decode(changed(0, 'X'), back), Problem::kWrongMagic);
-  EXPECT_EQ(wire::decode(changed(4, 2), back), Problem::kWrongVersion);
-  EXPECT_EQ(wire::version_of(changed(4, 2)), 2);
+  EXPECT_EQ(wire::decode(changed(4, 3), back), Problem::kWrongVersion);
+  EXPECT_EQ(wire::version_of(changed(4, 3)), 3);
   EXPECT_EQ(wire::version_of(changed(0, 'X')), 0);
   EXPECT_EQ(wire::decode(changed(20, 45), back), Problem::kWrongSize);
   EXPECT_EQ(wire::decode(changed(6, 0), back), Problem::kUnknownKind);

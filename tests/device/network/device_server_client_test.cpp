@@ -218,6 +218,7 @@ TEST_F(DeviceServerTest, PuttingFingersBackDoesNotDisturbTheMovement) {
     [[nodiscard]] bool read(core::HapticState&) noexcept override { return true; }
     [[nodiscard]] bool write(const core::PointVectors&) noexcept override { return true; }
     void close() noexcept override {}
+    void halt() noexcept override {}
     [[nodiscard]] SimulatedHand* simulated_hand() noexcept override { return &hand; }
     Hand hand;
   };

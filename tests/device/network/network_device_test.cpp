@@ -35,6 +35,7 @@ TEST_F(NetworkDeviceTest, WhatTheDeviceCanDoIsKnownBeforeItIsOpened) {
                                   .max_total_force_n = 17.0,
                                   .simulated = true,
                                   .num_joints = 22,
+                                  .tells_acting_force = true,
                                   .moves_by_itself = true};
   serve({});
   device = make_device();
@@ -112,18 +113,18 @@ TEST_F(NetworkDeviceTest, ASecondProgramIsRefusedAndTheFirstFeelsNothing) {
 TEST_F(NetworkDeviceTest, AnotherVersionIsNamedOnBothSides) {
   server = nullptr;
   Bytes refusal = encoded({{}, wire::Refusal{.reason = wire::RefusalReason::kOtherVersion}});
-  refusal[4] = std::byte{2};
+  refusal[4] = std::byte{3};
   network.on_millisecond = [&] {
     network.post({.bytes = refusal, .from = kServer, .to = kProgram});
   };
   const std::string said = sentence([this] { make_device()->ask(); });
-  EXPECT_NE(said.find("expected datagrams of version 1, found version 2"), std::string::npos)
+  EXPECT_NE(said.find("expected datagrams of version 2, found version 3"), std::string::npos)
       << said;
 
   serve({});
   network.on_millisecond = [this] { server->step(network.now_ns); };
   Bytes hello = encoded({{}, wire::Hello{}});
-  hello[4] = std::byte{2};
+  hello[4] = std::byte{3};
   network.post({.bytes = hello, .from = kOtherProgram, .to = kServer});
   run(1);
   std::array<std::byte, 2048> bytes;

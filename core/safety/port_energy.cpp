@@ -1,0 +1,41 @@
+#include "core/safety/port_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/require.h"
+
+namespace jnd::core {
+
+PortEnergy::PortEnergy(const Parameters& parameters, double period_s)
+    : max_given_j_(parameters.max_given_j),
+      kept_ratio_(std::exp(-period_s / parameters.memory_s)),
+      max_credit_j_(parameters.max_credit_j) {
+  require_positive(parameters.max_given_j, "max_given_j");
+  require_positive(parameters.memory_s, "memory_s");
+  require_positive(parameters.max_credit_j, "max_credit_j");
+  require_positive(period_s, "period_s");
+}
+
+void PortEnergy::observe(const PointVectors& tip_position_m, const PointVectors& acted_n,
+                         std::uint8_t storing_bits) noexcept {
+  for (int i = 0; has_last_ && i < kNumContactPoints; ++i) {
+    const double work_j = acted_n[i].dot(tip_position_m[i] - last_position_m_[i]);
+    if (!std::isfinite(work_j)) continue;
+    const double least_j = (storing_bits >> i & 1) != 0 ? -max_credit_j_ : 0.0;
+    double& given_j = given_j_[i];
+    if (given_j > 0.0) given_j *= kept_ratio_;
+    given_j = std::max(std::max(given_j, least_j) + work_j, least_j);
+    is_exceeded_ |= given_j > max_given_j_;
+  }
+  last_position_m_ = tip_position_m;
+  has_last_ = true;
+}
+
+void PortEnergy::reset() noexcept {
+  has_last_ = false;
+  is_exceeded_ = false;
+  given_j_.fill(0.0);
+}
+
+}  // namespace jnd::core
