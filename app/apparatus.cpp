@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -181,9 +182,14 @@ struct Apparatus::Implementation {
     work();
   }
 
+  /// Of the points that the device has.
   void feed_lag(const core::Sample& sample) noexcept {
     constexpr int kNumPalmPoints = 2;
-    constexpr int kNumFingerPoints = core::kNumContactPoints - kNumPalmPoints;
+    constexpr unsigned kPalmBits = 0b00011;
+    const unsigned bits = core::measured_bits(sample);
+    const int num_palm = std::popcount(bits & kPalmBits);
+    const int num_fingers = std::popcount(bits & ~kPalmBits);
+    if (num_palm == 0 || num_fingers == 0) return;
     Eigen::Vector3d palm_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d palm_velocity_m_per_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d fingers_m = Eigen::Vector3d::Zero();
@@ -191,11 +197,10 @@ struct Apparatus::Implementation {
       for (int axis = 0; axis < 3; ++axis) {
         const double position_m = sample.tip_position_m[point][axis];
         if (point < kNumPalmPoints) {
-          palm_m[axis] += position_m / kNumPalmPoints;
-          palm_velocity_m_per_s[axis] +=
-              sample.tip_velocity_m_per_s[point][axis] / kNumPalmPoints;
+          palm_m[axis] += position_m / num_palm;
+          palm_velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis] / num_palm;
         } else {
-          fingers_m[axis] += position_m / kNumFingerPoints;
+          fingers_m[axis] += position_m / num_fingers;
         }
       }
     }
@@ -203,6 +208,7 @@ struct Apparatus::Implementation {
   }
 
   void feed_meter(const core::Sample& sample) noexcept {
+    const int num_points = core::num_measured_points(sample);
     feed_lag(sample);
     Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
@@ -214,10 +220,9 @@ struct Apparatus::Implementation {
         force_n[axis] += sample.tip_force_n[point][axis];
       }
     }
-    velocity_m_per_s /= core::kNumContactPoints;
+    velocity_m_per_s /= num_points;
     const double num_periods = static_cast<double>(1 + sample.num_missed_before);
-    meter.feed(position_m / core::kNumContactPoints, velocity_m_per_s,
-               num_periods * loop.period_s());
+    meter.feed(position_m / num_points, velocity_m_per_s, num_periods * loop.period_s());
     const double speed_m_per_s = velocity_m_per_s.norm();
     ++sums.num_ticks;
     sums.speed_m_per_s += speed_m_per_s;
@@ -390,6 +395,11 @@ const core::Telemetry& Apparatus::telemetry() const noexcept {
 
 bool Apparatus::is_laboratory_hand() const noexcept {
   return implementation_->parameters.device == kLumped;
+}
+
+int Apparatus::num_contact_points() const noexcept {
+  return std::clamp(implementation_->device->capabilities().num_contact_points, 1,
+                    core::kNumContactPoints);
 }
 
 double Apparatus::max_total_force_n() const noexcept {

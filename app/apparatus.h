@@ -97,6 +97,8 @@ class Apparatus {
   [[nodiscard]] bool is_simulated() const noexcept;
   /// The laboratory's own lumped hand, and no device with mechanics of its own.
   [[nodiscard]] bool is_laboratory_hand() const noexcept;
+  /// That the device declares: the first of the hand's.
+  [[nodiscard]] int num_contact_points() const noexcept;
   /// The most that the points together ever get: the least of the limiter's and the device's.
   [[nodiscard]] double max_total_force_n() const noexcept;
   /// Strokes from now on until `finish_strokes`.

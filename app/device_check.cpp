@@ -61,6 +61,7 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
   const experiments::RangeLimits limits = {
       .max_force_per_point_n = capabilities.max_force_per_point_n,
       .max_total_force_n = capabilities.max_total_force_n,
+      .num_contact_points = capabilities.num_contact_points,
       .expected_speed_m_per_s = expected_speed_m_per_s};
   const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);
   std::optional<StabilityCheck> stability;

@@ -22,6 +22,16 @@ inline constexpr std::array<std::string_view, kNumContactPoints> kContactPointNa
 inline constexpr std::array<double, kNumContactPoints> kAreaShareRatio = {0.35, 0.35, 0.10,
                                                                           0.10, 0.10};
 
+/// What the first `num_points` points, in [1, 5], carry together: those that a device declares.
+/// A force meant for the whole hand is divided by it, so that 1, 2, 3 and 5 points come to the
+/// same. Exactly 1 for all five. Real time.
+[[nodiscard]] constexpr double declared_share_ratio(int num_points) noexcept {
+  if (num_points >= kNumContactPoints) return 1.0;
+  double sum = kAreaShareRatio[0];
+  for (int i = 1; i < num_points; ++i) sum += kAreaShareRatio[static_cast<std::size_t>(i)];
+  return sum;
+}
+
 /// One vector per contact point, in the order of `ContactPoint`.
 using PointVectors = std::array<Eigen::Vector3d, kNumContactPoints>;
 

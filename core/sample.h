@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <type_traits>
 
@@ -40,5 +42,20 @@ struct Sample {
 };
 
 static_assert(std::is_trivially_copyable_v<Sample>);
+
+/// Bit i: the device has contact point i. One that it does not have holds nothing and lies at
+/// exactly zero, so that sums over all points are sums over those. Real time.
+[[nodiscard]] inline std::uint8_t measured_bits(const Sample& sample) noexcept {
+  unsigned bits = sample.attached_bits;
+  for (unsigned point = 0; point < kNumContactPoints; ++point) {
+    if (sample.tip_position_m[point] != PlainVector{}) bits |= 1U << point;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+/// How many points a mean over the hand is of: those that the device has, at least 1.
+[[nodiscard]] inline int num_measured_points(const Sample& sample) noexcept {
+  return std::max(1, std::popcount(static_cast<unsigned>(measured_bits(sample))));
+}
 
 }  // namespace jnd::core

@@ -22,7 +22,7 @@ struct Telemetry {
   bool limited = false;           ///< The limiter changed the force in this tick.
   bool ramp_finished = true;      ///< The medium in force is the commanded one.
   double authority_ratio = 1;     ///< 1 normally; below while the force fades out or back in.
-  PlainVector hand_position_m{};  ///< Mean of the five tips.
+  PlainVector hand_position_m{};  ///< Mean of the tips that the device declares.
   PlainVector hand_velocity_m_per_s{};  ///< Mean of the attached tips.
   PlainVector total_force_n{};          ///< On the hand, sum of the points, after every limit.
   std::uint64_t num_dropped_samples = 0;

@@ -58,6 +58,8 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       port_energy_(parameters.port_energy, period_s_),
       oscillation_(parameters.oscillation, period_s_),
       velocity_check_(parameters.velocity_check),
+      num_points_(std::clamp(device.capabilities().num_contact_points, 1, kNumContactPoints)),
+      whole_hand_ratio_(1.0 / core::declared_share_ratio(num_points_)),
       watches_port_(device.capabilities().tells_acting_force &&
                     (parameters.watches_port || !device.capabilities().simulated)),
       may_be_armed_(device.capabilities().simulated || watches_port_),
@@ -297,7 +299,11 @@ void HapticLoop::take_command() noexcept {
     const core::HapticCommand& command = doors_.commands.value();
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that had met a value that is no number would never get rid of it.
-    if (command_is_finite_) ramp_.start(command.medium, command.ramp_s);
+    if (command_is_finite_) {
+      ramp_.start(num_points_ == kNumContactPoints ? command.medium
+                                                   : command.medium.times(whole_hand_ratio_),
+                  command.ramp_s);
+    }
     // What the program changes itself is no swing of the loop.
     oscillation_.reset();
     port_energy_.grant_credit();
@@ -310,6 +316,8 @@ void HapticLoop::compute_force() noexcept {
   const core::MediumAmounts& medium = ramp_.advance(period_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
+  // Fewer than three points have no plane: the hand is taken to meet the fluid head on.
+  if (num_points_ < 3 && motion_.speed_m_per_s > 0.0) motion_.sin_angle_of_attack = 1.0;
   const bool is_solid = core::SolidSurfaces::are_there(medium);
   if (is_solid) {
     solids_.render(medium, command.immersion, state_, period_s_, solid_force_n_);
@@ -321,8 +329,11 @@ void HapticLoop::compute_force() noexcept {
     const int inside = command.immersion.contains(state_.tip_position_m[i]) ? 1 : 0;
     immersed_bits_ = static_cast<std::uint8_t>(immersed_bits_ | inside << i);
   }
-  storing_bits_ = static_cast<std::uint8_t>((is_solid ? solids_.held_bits() : 0) |
-                                            (medium.buoyancy_n != 0.0 ? immersed_bits_ : 0));
+  storing_bits_ = medium.buoyancy_n != 0.0 ? immersed_bits_ : std::uint8_t{0};
+  for (int i = 0; is_solid && i < kNumContactPoints; ++i) {
+    const int touches = solid_force_n_[i].isZero(0.0) ? 0 : 1;
+    storing_bits_ = static_cast<std::uint8_t>(storing_bits_ | touches << i);
+  }
   limited_ = false;
   if (authority_ratio_ == 0.0) {
     // Limiter and passivity start from here when the loop is armed again.
@@ -387,7 +398,7 @@ void HapticLoop::report() noexcept {
     sample.tip_position_m[i] = plain(state_.tip_position_m[i]);
     sample.tip_velocity_m_per_s[i] = plain(state_.tip_velocity_m_per_s[i]);
     sample.tip_force_n[i] = plain(force_on_hand_n_[i]);
-    position_sum += state_.tip_position_m[i];
+    if (i < num_points_) position_sum += state_.tip_position_m[i];
     force_sum += force_on_hand_n_[i];
   }
   sample.end_effector_position_m = plain(state_.end_effector_position_m);
@@ -413,7 +424,7 @@ void HapticLoop::report() noexcept {
   telemetry_.limited = limited_;
   telemetry_.ramp_finished = ramp_.finished();
   telemetry_.authority_ratio = authority_ratio_;
-  telemetry_.hand_position_m = plain(position_sum / kNumContactPoints);
+  telemetry_.hand_position_m = plain(position_sum / num_points_);
   telemetry_.hand_velocity_m_per_s = plain(motion_.velocity_m_per_s);
   telemetry_.total_force_n = plain(force_sum);
   if (limited_) ++telemetry_.num_limited_ticks;

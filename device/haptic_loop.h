@@ -166,6 +166,8 @@ class HapticLoop {
   core::PortEnergy port_energy_;
   core::ForceOscillation oscillation_;
   core::VelocityCheck velocity_check_;
+  int num_points_;           ///< That the device declares, the first ones.
+  double whole_hand_ratio_;  ///< Of a force that only those points carry; 1 for all five.
   bool watches_port_;
   bool may_be_armed_;
   core::FlightRecorder flight_recorder_;

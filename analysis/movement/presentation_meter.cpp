@@ -29,7 +29,7 @@ void MovementSums::add(const MovementSums& other) {
 }
 
 HandTick hand_tick(const core::Sample& sample, const std::array<double, 2>& forward) noexcept {
-  constexpr double kShare = 1.0 / core::kNumContactPoints;
+  const double share = 1.0 / core::num_measured_points(sample);
   HandTick hand{.tick = sample.tick};
   core::PlainVector velocity_m_per_s{}, force_n{};
   for (int point = 0; point < core::kNumContactPoints; ++point) {
@@ -45,11 +45,11 @@ HandTick hand_tick(const core::Sample& sample, const std::array<double, 2>& forw
       hand.dissipated_w -= force[axis] * velocity[axis];
     }
   }
-  hand.x_m *= kShare;
-  hand.y_m *= kShare;
-  hand.z_m *= kShare;
-  const double x = kShare * velocity_m_per_s[0], y = kShare * velocity_m_per_s[1],
-               z = kShare * velocity_m_per_s[2];
+  hand.x_m *= share;
+  hand.y_m *= share;
+  hand.z_m *= share;
+  const double x = share * velocity_m_per_s[0], y = share * velocity_m_per_s[1],
+               z = share * velocity_m_per_s[2];
   hand.speed_m_per_s = std::sqrt(x * x + y * y + z * z);
   hand.forward_velocity_m_per_s = x * forward[0] + y * forward[1];
   if (hand.speed_m_per_s > 0.0) {

@@ -96,6 +96,7 @@ PlanOutcome outcome_of(const PlanOptions& options) {
       device::make_device(options.device, outcome.study.device.rate_hz)->capabilities();
   outcome.limits = {.max_force_per_point_n = outcome.device.max_force_per_point_n,
                     .max_total_force_n = outcome.device.max_total_force_n,
+                    .num_contact_points = outcome.device.num_contact_points,
                     .expected_speed_m_per_s = options.speed_m_per_s};
   outcome.range = experiments::planned_range(outcome.study, outcome.limits);
   if (const auto map = shipped_stability_map(options.device)) {

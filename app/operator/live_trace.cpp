@@ -36,9 +36,9 @@ LiveTrace::LiveTrace(const Parameters& parameters) : parameters_(parameters) {
 }
 
 void LiveTrace::take(const core::Sample& sample) {
-  constexpr double kPoints = core::kNumContactPoints;
+  const double num_points = core::num_measured_points(sample);
   const core::PlainVector position_m = sum_of(sample.tip_position_m);
-  const double speed_m_per_s = length_of(sum_of(sample.tip_velocity_m_per_s)) / kPoints;
+  const double speed_m_per_s = length_of(sum_of(sample.tip_velocity_m_per_s)) / num_points;
   const double force_n = length_of(sum_of(sample.tip_force_n));
   if (!std::isfinite(length_of(position_m) + speed_m_per_s + force_n)) return;
 
@@ -52,9 +52,9 @@ void LiveTrace::take(const core::Sample& sample) {
     current_ = {.time_s =
                     static_cast<double>(interval * ticks_per_point_) / parameters_.rate_hz};
   }
-  current_.x_m = position_m[0] / kPoints;
-  current_.y_m = position_m[1] / kPoints;
-  current_.z_m = position_m[2] / kPoints;
+  current_.x_m = position_m[0] / num_points;
+  current_.y_m = position_m[1] / num_points;
+  current_.z_m = position_m[2] / num_points;
   current_.speed_m_per_s = std::max(current_.speed_m_per_s, speed_m_per_s);
   current_.force_n = std::max(current_.force_n, force_n);
 }

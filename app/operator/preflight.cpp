@@ -110,7 +110,8 @@ class Look {
       const device::DeviceCapabilities can =
           device::make_device(request_.device, rate_hz_)->capabilities();
       const experiments::RangeLimits limits{.max_force_per_point_n = can.max_force_per_point_n,
-                                            .max_total_force_n = can.max_total_force_n};
+                                            .max_total_force_n = can.max_total_force_n,
+                                            .num_contact_points = can.num_contact_points};
       const std::vector<experiments::RangeEntry> range =
           experiments::planned_range(*study_, limits);
       std::optional<StabilityCheck> stability;

@@ -20,6 +20,12 @@ bool MediumAmounts::is_finite() const noexcept {
   return true;
 }
 
+MediumAmounts MediumAmounts::times(double factor) const noexcept {
+  MediumAmounts all = *this;
+  for (double MediumAmounts::*const amount : kAmounts) all.*amount *= factor;
+  return all;
+}
+
 MediumAmounts& MediumAmounts::operator+=(const MediumAmounts& other) noexcept {
   for (const auto amount : kAmounts) this->*amount += other.*amount;
   return *this;

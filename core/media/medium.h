@@ -69,6 +69,8 @@ struct MediumAmounts {
   [[nodiscard]] bool is_plain_damping() const noexcept;
   /// Neither infinite nor NaN in any amount. Real time.
   [[nodiscard]] bool is_finite() const noexcept;
+  /// Every amount that many times: the force is linear in them.
+  [[nodiscard]] MediumAmounts times(double factor) const noexcept;
   MediumAmounts& operator+=(const MediumAmounts& other) noexcept;
   [[nodiscard]] friend MediumAmounts operator+(MediumAmounts left,
                                                const MediumAmounts& right) noexcept {

@@ -20,11 +20,17 @@ PortEnergy::PortEnergy(const Parameters& parameters, double period_s)
 void PortEnergy::observe(const PointVectors& tip_position_m, const PointVectors& acted_n,
                          std::uint8_t storing_bits) noexcept {
   for (int i = 0; has_last_ && i < kNumContactPoints; ++i) {
-    const double work_j = acted_n[i].dot(tip_position_m[i] - last_position_m_[i]);
+    double work_j = acted_n[i].dot(tip_position_m[i] - last_position_m_[i]);
     if (!std::isfinite(work_j)) continue;
-    const double least_j = (storing_bits >> i & 1) != 0 ? -max_credit_j_ : 0.0;
     double& given_j = given_j_[i];
     if (given_j > 0.0) given_j *= kept_ratio_;
+    double least_j = 0.0;
+    if ((storing_bits >> i & 1) != 0) {
+      least_j = -max_credit_j_;
+      const double by_grant_j = std::clamp(work_j, 0.0, granted_j_[i]);
+      granted_j_[i] -= by_grant_j;
+      work_j -= by_grant_j;
+    }
     given_j = std::max(std::max(given_j, least_j) + work_j, least_j);
     is_exceeded_ |= given_j > max_given_j_;
   }
@@ -36,6 +42,7 @@ void PortEnergy::reset() noexcept {
   has_last_ = false;
   is_exceeded_ = false;
   given_j_.fill(0.0);
+  granted_j_.fill(0.0);
 }
 
 }  // namespace jnd::core

@@ -37,9 +37,9 @@ class PortEnergy {
   void observe(const PointVectors& tip_position_m, const PointVectors& acted_n,
                std::uint8_t storing_bits) noexcept;
 
-  /// Gives every point its whole credit, for a medium that has been put around the hand may
-  /// push it out. Where nothing stores it is gone with the next measurement.
-  void grant_credit() noexcept { given_j_.fill(-max_credit_j_); }
+  /// A medium that has been put around the hand may push it out: once, and by no more than the
+  /// credit, each point may give what it did not get before, while it is held or floats.
+  void grant_credit() noexcept { granted_j_.fill(max_credit_j_); }
 
   [[nodiscard]] bool is_exceeded() const noexcept { return is_exceeded_; }
   /// What this point has given beyond its credit and is not forgotten yet, in joules; below 0:
@@ -56,6 +56,7 @@ class PortEnergy {
   bool has_last_ = false;
   bool is_exceeded_ = false;
   std::array<double, kNumContactPoints> given_j_{};
+  std::array<double, kNumContactPoints> granted_j_{};
   PointVectors last_position_m_ = zero_vectors();
 };
 

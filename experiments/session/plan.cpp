@@ -100,8 +100,9 @@ class RangeCollector {
       }
     }
     const core::MediumAmounts amounts = amounts_of(setting);
+    // The first point carries no less than any other.
     const double share =
-        *std::max_element(core::kAreaShareRatio.begin(), core::kAreaShareRatio.end());
+        core::kAreaShareRatio[0] / core::declared_share_ratio(limits_.num_contact_points);
     RangeEntry entry;
     entry.stage = stage.name;
     entry.setting = setting;

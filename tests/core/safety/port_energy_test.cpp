@@ -67,13 +67,20 @@ TEST(PortEnergy, CreditIsOfThePointsThatStore) {
   EXPECT_EQ(energy.given_j(2), 0.0) << "it was let go";
 }
 
-TEST(PortEnergy, WhatIsPutAroundAHandMayPushItOut) {
-  PortEnergy energy({}, kPeriod_s);
-  energy.observe(along_x(0.0), along_x(0.0), 0b00001);
+TEST(PortEnergy, WhatIsPutAroundAHandMayPushItOutOnce) {
+  PortEnergy energy({.max_credit_j = 0.5}, kPeriod_s);
+  energy.observe(along_x(0.0), along_x(0.0), 0);
   energy.grant_credit();
-  energy.observe(along_x(0.09), along_x(10.0), 0b00001);
-  EXPECT_NEAR(energy.given_j(0), -0.1, 1e-12) << "of one joule";
-  EXPECT_TRUE(energy.is_exceeded()) << "the others are in a fluid";
+  energy.observe(along_x(0.0), along_x(0.0), 0);
+  energy.observe(along_x(0.05), along_x(10.0), 0b11111);
+  EXPECT_EQ(energy.given_j(0), 0.0) << "the grant waits for the contact";
+  energy.observe(along_x(0.051), along_x(10.0), 0b11111);
+  EXPECT_NEAR(energy.given_j(0), 0.01, 1e-12) << "and is used up";
+  energy.reset();
+  energy.grant_credit();
+  energy.observe(along_x(0.0), along_x(0.0), 0);
+  energy.observe(along_x(0.0021), along_x(10.0), 0);
+  EXPECT_TRUE(energy.is_exceeded()) << "a fluid has none";
 }
 
 TEST(PortEnergy, ForgetsWithItsTimeConstant) {

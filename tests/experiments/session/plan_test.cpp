@@ -263,6 +263,26 @@ TEST(Plan, PutsTheOtherMediaAgainstTheLimitsToo) {
               7.4 * std::hypot(1.0, 3.0), 0.05);
 }
 
+TEST(Plan, FewerPointsHaveLargerShares) {
+  const auto largest_n = [](int num_points) {
+    const auto range =
+        planned_range(read_study_text(kStudy, "x"), {.max_force_per_point_n = 10.0,
+                                                     .max_total_force_n = 40.0,
+                                                     .num_contact_points = num_points,
+                                                     .expected_speed_m_per_s = 1.0});
+    const auto found = std::find_if(range.begin(), range.end(), [](const RangeEntry& e) {
+      return e.stage == "comparison" && e.setting.intensity == 16.0;
+    });
+    EXPECT_EQ(found->fits, num_points == 5) << num_points;
+    return found->largest_point_force_n;
+  };
+  // 28.416 N in all, of which the palm's inner point carries .35 of what all points carry.
+  EXPECT_NEAR(largest_n(5), 9.9456, 1e-9);
+  EXPECT_NEAR(largest_n(3), 28.416 * 0.35 / 0.8, 1e-9);
+  EXPECT_NEAR(largest_n(2), 14.208, 1e-9);
+  EXPECT_NEAR(largest_n(1), 28.416, 1e-9);
+}
+
 TEST(Plan, NamesTheTotalLimitWhereItIsTheTighterOne) {
   const auto range =
       planned_range(read_study_text(kStudy, "x"),
