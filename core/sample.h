@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -53,9 +52,11 @@ static_assert(std::is_trivially_copyable_v<Sample>);
   return static_cast<std::uint8_t>(bits);
 }
 
-/// How many points a mean over the hand is of: those that the device has, at least 1.
+/// How many points a mean over the hand is of: those that the device has; of a sample that
+/// tells of none, all.
 [[nodiscard]] inline int num_measured_points(const Sample& sample) noexcept {
-  return std::max(1, std::popcount(static_cast<unsigned>(measured_bits(sample))));
+  const int num_points = std::popcount(static_cast<unsigned>(measured_bits(sample)));
+  return num_points > 0 ? num_points : kNumContactPoints;
 }
 
 }  // namespace jnd::core

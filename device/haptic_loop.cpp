@@ -27,12 +27,13 @@ core::PlainVector plain(const Eigen::Vector3d& vector) noexcept {
   return {vector.x(), vector.y(), vector.z()};
 }
 
-bool is_finite(const core::HapticState& state, bool has_joints) noexcept {
+bool is_finite(const core::HapticState& state, bool has_joints, bool tells_force) noexcept {
   // A sum is finite only if every term is; overflow would need coordinates of 1e307.
   Eigen::Vector3d sum = state.end_effector_position_m;
   for (int i = 0; i < kNumContactPoints; ++i) {
     sum += state.tip_position_m[i] + state.tip_velocity_m_per_s[i];
   }
+  for (int i = 0; tells_force && i < kNumContactPoints; ++i) sum += state.acted_n[i];
   double joints = 0.0;
   for (int i = 0; has_joints && i < core::kNumJoints; ++i) {
     joints += std::abs(state.joint_position_rad[i]) + std::abs(state.joint_torque_n_m[i]);
@@ -132,6 +133,12 @@ void HapticLoop::obey_watchdog() noexcept {
   stalled_ |= doors_.watchdog != nullptr && doors_.watchdog->has_bitten();
   if (suspended_) latch(Fault::kSuspended);
   if (stalled_) latch(Fault::kWatchdog);
+  stall_is_told_ = stalled_ || suspended_;
+}
+
+bool HapticLoop::stands_still() const noexcept {
+  return stalled_ || suspended_ ||
+         (doors_.watchdog != nullptr && doors_.watchdog->has_bitten());
 }
 
 /// A hand that is being put in moves the device about: that is no fault while there is no
@@ -171,6 +178,8 @@ void HapticLoop::rearm_if_requested() noexcept {
   if (!rearm_requested_.load(std::memory_order_relaxed)) return;
   rearm_requested_.store(false, std::memory_order_relaxed);
   if (doors_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
+  // Asked for before anybody knew that the loop had stood still: refused.
+  if (stands_still() && !stall_is_told_) return;
   fault_ = Fault::kNone;
   authority_ratio_ = 0.0;
   if (!may_be_armed_) return latch(Fault::kActingForceUnknown);
@@ -187,11 +196,18 @@ void HapticLoop::rearm_if_requested() noexcept {
   num_stale_ticks_ = 0;
   stalled_ = false;
   suspended_ = false;
+  stall_is_told_ = false;
+  is_first_armed_tick_ = true;
   if (doors_.watchdog != nullptr) doors_.watchdog->forgive();
   flight_recorder_.thaw();
 }
 
 void HapticLoop::advance_authority() noexcept {
+  if (is_first_armed_tick_) {
+    // Zeros are written once more: a device that was halted waits for them.
+    is_first_armed_tick_ = false;
+    return;
+  }
   if (fault_ == Fault::kNone) {
     authority_ratio_ = std::min(1.0, authority_ratio_ + period_s_ / parameters_.rearm_s);
   } else {
@@ -205,7 +221,14 @@ Fault HapticLoop::read_device() noexcept {
     state_ = last_state_;
     return device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceReadFailed;
   }
-  if (!is_finite(state_, has_joints_)) {
+  // Whatever a device says of points that it does not have.
+  for (int i = num_points_; i < kNumContactPoints; ++i) {
+    state_.attached[i] = false;
+    state_.tip_position_m[i].setZero();
+    state_.tip_velocity_m_per_s[i].setZero();
+    state_.acted_n[i].setZero();
+  }
+  if (!is_finite(state_, has_joints_, watches_port_)) {
     // Recordings and telemetry get the last state that was one.
     state_ = last_state_;
     return Fault::kNonFiniteState;
@@ -240,9 +263,8 @@ void HapticLoop::watch_attachment() noexcept {
 /// Time that is said to have passed widens what a hand may have moved, but no further than a
 /// measurement may stand in: a clock that leaps excuses no leap of the hand.
 double HapticLoop::max_distance_m(double elapsed_s) const noexcept {
-  const double longest_s = static_cast<double>(max_stale_ticks_ + 1) * period_s_;
   return parameters_.max_jump_m +
-         parameters_.limits.max_speed_m_per_s * std::clamp(elapsed_s, period_s_, longest_s);
+         parameters_.limits.max_speed_m_per_s * std::clamp(elapsed_s, period_s_, longest_s());
 }
 
 Fault HapticLoop::check_against_last() noexcept {
@@ -280,8 +302,13 @@ Fault HapticLoop::check_against_last() noexcept {
 /// Where device and hand meet, in measurements alone: of force and way of the same time, and of
 /// the velocity that the forces are made of.
 Fault HapticLoop::watch_port(double elapsed_s) noexcept {
-  port_energy_.observe(state_.tip_position_m, state_.acted_n, storing_bits_);
+  port_energy_.observe(state_.tip_position_m, state_.acted_n, state_.attached, storing_bits_);
   if (port_energy_.is_exceeded()) return Fault::kEnergyGiven;
+  // A clock that leaps says nothing of speed.
+  if (elapsed_s > longest_s()) {
+    velocity_check_.reset();
+    return Fault::kNone;
+  }
   velocity_check_.observe(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached,
                           elapsed_s);
   return velocity_check_.is_contradicted() ? Fault::kVelocityContradicts : Fault::kNone;
@@ -316,8 +343,10 @@ void HapticLoop::compute_force() noexcept {
   const core::MediumAmounts& medium = ramp_.advance(period_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
-  // Fewer than three points have no plane: the hand is taken to meet the fluid head on.
-  if (num_points_ < 3 && motion_.speed_m_per_s > 0.0) motion_.sin_angle_of_attack = 1.0;
+  // Without index and middle finger there is no hand plane: the hand meets the fluid head on.
+  if (num_points_ <= static_cast<int>(core::ContactPoint::kIndex) &&
+      motion_.speed_m_per_s > 0.0)
+    motion_.sin_angle_of_attack = 1.0;
   const bool is_solid = core::SolidSurfaces::are_there(medium);
   if (is_solid) {
     solids_.render(medium, command.immersion, state_, period_s_, solid_force_n_);

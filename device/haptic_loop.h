@@ -136,6 +136,11 @@ class HapticLoop {
   void latch(core::Fault fault) noexcept;
   void obey_emergency_stop() noexcept;
   void obey_watchdog() noexcept;
+  [[nodiscard]] bool stands_still() const noexcept;
+  /// For which a measurement may stand in.
+  [[nodiscard]] double longest_s() const noexcept {
+    return static_cast<double>(max_stale_ticks_ + 1) * period_s_;
+  }
   void rearm_if_requested() noexcept;
   void disarm_if_requested() noexcept;
   [[nodiscard]] core::Arming arming() const noexcept;
@@ -157,6 +162,8 @@ class HapticLoop {
   bool has_joints_;
   bool stalled_ = false;
   bool suspended_ = false;
+  bool stall_is_told_ = false;  ///< One of the two was latched.
+  bool is_first_armed_tick_ = false;
   std::int64_t monotonic_ns_ = 0;
   std::int64_t num_missed_ = 0;  ///< Since the last tick.
   std::int64_t max_stale_ticks_;

@@ -1,5 +1,7 @@
 #include "device/watched_loop.h"
 
+#include <string>
+
 #include "core/error.h"
 
 namespace jnd::device {
@@ -16,12 +18,16 @@ WatchedLoop::WatchedLoop(HapticDevice& device, HapticLoop& loop, core::WatchdogS
         "device "
         "is opened without them");
   }
+  const double timeout_s = device.capabilities().watchdog_timeout_s;
+  if (!(loop.period_s() < 0.5 * timeout_s)) {
+    throw core::Error("rate_hz: expected a rate above " + std::to_string(2.0 / timeout_s) +
+                      " Hz, so that two ticks come within the watchdog's timeout, found " +
+                      std::to_string(1.0 / loop.period_s()) + " Hz");
+  }
   if (parameters.cpu >= 0 && !thread_.report().pinned)
     throw core::Error(thread_.report().lacks);
-  watchdog_.emplace(
-      WatchdogThread::Parameters{
-          .watchdog = {.timeout_s = device.capabilities().watchdog_timeout_s}},
-      device, watched);
+  watchdog_.emplace(WatchdogThread::Parameters{.watchdog = {.timeout_s = timeout_s}}, device,
+                    watched);
   start_haptics(device, loop, thread_, parameters.allow_no_realtime, &watchdog_->report());
 }
 

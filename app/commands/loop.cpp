@@ -56,7 +56,10 @@ struct LoopOutcome {
   const device::ThreadUse& use;
   std::uint64_t num_dropped_samples = 0;
 
-  [[nodiscard]] double cpu_time_ratio() const { return use.cpu_time_s / options.seconds; }
+  [[nodiscard]] double cpu_time_ratio() const {
+    const auto num_ticks = static_cast<double>(timing.num_ticks() + timing.missed_ticks());
+    return num_ticks > 0.0 ? use.cpu_time_s * options.rate_hz / num_ticks : 0.0;
+  }
 };
 
 std::string verdict(const LoopOutcome& outcome) {
@@ -169,7 +172,8 @@ int run_loop(const LoopOptions& options) {
     print_for_people(outcome);
   }
   const core::Fault fault = run->telemetry().fault;
-  if (!core::is_failure(fault)) return kDone;
+  const bool was_ended = fault == core::Fault::kEmergencyStop && stop_requested();
+  if (!core::is_failure(fault) || was_ended) return kDone;
   fmt::print(stderr, "jnd: {}\n", core::words(fault));
   return kHasProblems;
 }

@@ -18,10 +18,11 @@ PortEnergy::PortEnergy(const Parameters& parameters, double period_s)
 }
 
 void PortEnergy::observe(const PointVectors& tip_position_m, const PointVectors& acted_n,
+                         const std::array<bool, kNumContactPoints>& attached,
                          std::uint8_t storing_bits) noexcept {
   for (int i = 0; has_last_ && i < kNumContactPoints; ++i) {
     double work_j = acted_n[i].dot(tip_position_m[i] - last_position_m_[i]);
-    if (!std::isfinite(work_j)) continue;
+    if (!std::isfinite(work_j) || !attached[i] || !was_held_[i]) continue;
     double& given_j = given_j_[i];
     if (given_j > 0.0) given_j *= kept_ratio_;
     double least_j = 0.0;
@@ -35,7 +36,14 @@ void PortEnergy::observe(const PointVectors& tip_position_m, const PointVectors&
     is_exceeded_ |= given_j > max_given_j_;
   }
   last_position_m_ = tip_position_m;
+  was_held_ = attached;
   has_last_ = true;
+}
+
+void PortEnergy::grant_credit() noexcept {
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    granted_j_[i] = max_credit_j_ - std::clamp(-given_j_[i], 0.0, max_credit_j_);
+  }
 }
 
 void PortEnergy::reset() noexcept {

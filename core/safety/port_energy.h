@@ -33,13 +33,15 @@ class PortEnergy {
 
   /// One measurement. `acted_n`: on the hand, from the measurement before until this one;
   /// workspace frame. `storing_bits`: bit i where contact point i is held by a surface or
-  /// floats. Values that are not finite are not added up.
+  /// floats. Values that are not finite are not added up,
+  /// nor is the way of a point that does not hold the hand or has just been put back.
   void observe(const PointVectors& tip_position_m, const PointVectors& acted_n,
+               const std::array<bool, kNumContactPoints>& attached,
                std::uint8_t storing_bits) noexcept;
 
   /// A medium that has been put around the hand may push it out: once, and by no more than the
   /// credit, each point may give what it did not get before, while it is held or floats.
-  void grant_credit() noexcept { granted_j_.fill(max_credit_j_); }
+  void grant_credit() noexcept;
 
   [[nodiscard]] bool is_exceeded() const noexcept { return is_exceeded_; }
   /// What this point has given beyond its credit and is not forgotten yet, in joules; below 0:
@@ -55,6 +57,7 @@ class PortEnergy {
   double max_credit_j_;
   bool has_last_ = false;
   bool is_exceeded_ = false;
+  std::array<bool, kNumContactPoints> was_held_{};
   std::array<double, kNumContactPoints> given_j_{};
   std::array<double, kNumContactPoints> granted_j_{};
   PointVectors last_position_m_ = zero_vectors();

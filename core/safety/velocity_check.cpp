@@ -24,7 +24,7 @@ void VelocityCheck::observe(const PointVectors& tip_position_m,
       way_m_[i] = 0.0;
       continue;
     }
-    if (!has_last_) continue;
+    if (!has_last_ || !was_held_[i]) continue;
     const Eigen::Vector3d moved_m = tip_position_m[i] - last_position_m_[i];
     error_m_[i] = kept_ratio * error_m_[i] + elapsed_s * tip_velocity_m_per_s[i] - moved_m;
     way_m_[i] = kept_ratio * way_m_[i] + moved_m.lpNorm<1>();
@@ -33,6 +33,7 @@ void VelocityCheck::observe(const PointVectors& tip_position_m,
         std::max(parameters_.max_error_m, parameters_.max_error_ratio * way_m_[i]);
   }
   last_position_m_ = tip_position_m;
+  was_held_ = attached;
   has_last_ = true;
 }
 

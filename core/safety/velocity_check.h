@@ -37,6 +37,7 @@ class VelocityCheck {
   Parameters parameters_;
   bool has_last_ = false;
   bool is_contradicted_ = false;
+  std::array<bool, kNumContactPoints> was_held_{};
   PointVectors last_position_m_ = zero_vectors();
   PointVectors error_m_ = zero_vectors();
   std::array<double, kNumContactPoints> way_m_{};

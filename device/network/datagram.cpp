@@ -117,6 +117,7 @@ void fields(Bytes& bytes, T& welcome) noexcept {
   not_negative(bytes, can.max_stale_s);
   if (!(can.max_stale_s <= kMostStale_s)) bytes.refuse(Problem::kOutOfRange);
   count(bytes, can.num_contact_points, core::kNumContactPoints);
+  if (can.num_contact_points < 1) bytes.refuse(Problem::kOutOfRange);
   count(bytes, can.num_joints, core::kNumJoints);
   flag(bytes, can.simulated);
   flag(bytes, can.moves_by_itself);

@@ -44,6 +44,7 @@ bool is_finite(const core::HapticState& state) noexcept {
   for (const Eigen::Vector3d& velocity : state.tip_velocity_m_per_s) {
     finite &= velocity.allFinite();
   }
+  for (const Eigen::Vector3d& force : state.acted_n) finite &= force.allFinite();
   for (const double angle : state.joint_position_rad) finite &= std::isfinite(angle);
   for (const double torque : state.joint_torque_n_m) finite &= std::isfinite(torque);
   return finite;
@@ -78,7 +79,13 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
       tells_acting_force_(device.capabilities().tells_acting_force),
       quality_(parameters.quality),
       next_stream_id_(parameters.first_stream_id),
-      sequence_(parameters.first_sequence) {}
+      sequence_(parameters.first_sequence) {
+  if (!tells_acting_force_ && !device.capabilities().simulated) {
+    throw core::Error(std::string(device.name()) +
+                      ": expected a real device to tell which force acted while it measured, "
+                      "found that it does not; nobody could see it push a hand");
+  }
+}
 
 void DeviceServer::step(std::int64_t now_ns) noexcept {
   ++counts_.num_steps;

@@ -121,6 +121,35 @@ TEST_F(LoopArmingTest, AMachineThatSleptIsAFault) {
   EXPECT_EQ(telemetry().fault, Fault::kNone);
 }
 
+TEST_F(LoopArmingTest, WhoAsksWhileTheLoopStandsStillIsRefused) {
+  const auto stand_still = [this](bool suspends) {
+    suspends ? loop->suspended() : loop->stalled();
+    loop->rearm();
+    const std::size_t from = device.received.size();
+    run(600);
+    EXPECT_EQ(telemetry().fault, suspends ? Fault::kSuspended : Fault::kWatchdog);
+    EXPECT_EQ(max_received_n(from), 0.0);
+    loop->rearm();
+    run(600);
+    EXPECT_EQ(telemetry().fault, Fault::kNone) << "who has seen it may";
+    loop->disarm();
+    run(10);
+  };
+  stand_still(false);
+  stand_still(true);
+}
+
+TEST_F(LoopArmingTest, ADeviceThatWasHaltedGetsItsZerosFirst) {
+  run(10);
+  device.halt();
+  device.halted = true;
+  loop->rearm();
+  run(1);
+  EXPECT_FALSE(device.halted) << "a write of zeros has ended it";
+  run(600);
+  EXPECT_GT(device.last_total_n().norm(), 0.5);
+}
+
 /// The same measurement again and again: the device's fault, unless the loop itself stood
 /// still.
 TEST_F(LoopArmingTest, AnOldMeasurementIsTheMachinesFaultWhereTicksWereMissed) {

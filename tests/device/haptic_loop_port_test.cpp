@@ -176,8 +176,7 @@ void expect_rest_or_an_early_fault(const LateDevice::Parameters& parameters,
   // Seen at once, or as late as the whole reading is.
   const double most_j = parameters.reading_lag_ticks < 10 ? 0.15 : 0.3;
   EXPECT_LT(rig.device.top_given_j, most_j);
-  EXPECT_LE(rig.device.top_m_per_s,
-            std::sqrt(2.0 * (begins_j + most_j) / parameters.mass_kg));
+  EXPECT_LE(rig.device.top_m_per_s, std::sqrt(2.0 * (begins_j + most_j) / parameters.mass_kg));
   EXPECT_LT(rig.telemetry.value().num_ticks, 100) << "of its first swings";
 }
 
@@ -239,12 +238,14 @@ class SilentDevice final : public HapticDevice {
   void open() override {}
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
     state.device_time_ns = time_ns += 1'000'000;
+    state.acted_n = acted_n;
     return true;
   }
   [[nodiscard]] bool write(const core::PointVectors&) noexcept override { return true; }
   void close() noexcept override {}
   void halt() noexcept override {}
   bool simulated = false, tells = false;
+  core::PointVectors acted_n = core::zero_vectors();
   std::int64_t time_ns = 0;
 };
 
@@ -268,6 +269,13 @@ TEST(HapticLoopPort, ARealDeviceThatDoesNotTellItsForceIsNotArmed) {
   device.tells = false;
   device.simulated = true;
   EXPECT_EQ(after_arming(device), Fault::kNone);
+}
+
+TEST(HapticLoopPort, AForceThatIsNoNumberBlindsNobody) {
+  SilentDevice device;
+  device.tells = true;
+  device.acted_n[3].y() = std::nan("");
+  EXPECT_EQ(after_arming(device), Fault::kNonFiniteState);
 }
 
 }  // namespace

@@ -21,13 +21,17 @@ class HurtfulHand final : public device::HapticDevice {
   [[nodiscard]] device::DeviceCapabilities capabilities() const noexcept override {
     device::DeviceCapabilities can = hand_->capabilities();
     can.simulated = false;
+    can.tells_acting_force = true;
     return can;
   }
   void open() override { hand_->open(); }
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
-    return hand_->read(state);
+    const bool is_read = hand_->read(state);
+    state.acted_n = acted_n_;
+    return is_read;
   }
   [[nodiscard]] bool write(const core::PointVectors& force_n) noexcept override {
+    acted_n_ = force_n;
     return hand_->write(force_n);
   }
   void close() noexcept override { hand_->close(); }
@@ -35,6 +39,7 @@ class HurtfulHand final : public device::HapticDevice {
 
  private:
   std::unique_ptr<device::HapticDevice> hand_ = device::make_device("lumped", 1000.0);
+  core::PointVectors acted_n_ = core::zero_vectors();
 };
 
 /// A simulated hand behind the network, at a clock of its own; gone without a word when it is

@@ -213,7 +213,9 @@ TEST_F(DeviceServerTest, PuttingFingersBackDoesNotDisturbTheMovement) {
   class Handed final : public HapticDevice {
    public:
     [[nodiscard]] std::string_view name() const noexcept override { return "handed"; }
-    [[nodiscard]] DeviceCapabilities capabilities() const noexcept override { return {}; }
+    [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+      return {.simulated = true};
+    }
     void open() override {}
     [[nodiscard]] bool read(core::HapticState&) noexcept override { return true; }
     [[nodiscard]] bool write(const core::PointVectors&) noexcept override { return true; }
