@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
 
 namespace jnd::app::gui {
