@@ -108,9 +108,8 @@ TEST(IncludeRules, DependenciesPointTowardCore) {
 // A device opened any other way would have no watchdog, no heartbeat or no stop.
 TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   const fs::path root = jnd::test_support::source_folder();
-  const std::set<std::string> allowed = {"device/realtime_thread.h",
-                                         "device/realtime_thread.cpp",
-                                         "device/watched_loop.cpp"};
+  const std::set<std::string> allowed = {
+      "device/realtime_thread.h", "device/realtime_thread.cpp", "device/watched_loop.cpp"};
   std::set<std::string> found;
   for (const std::string folder : {"core", "device", "experiments", "analysis", "app"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {

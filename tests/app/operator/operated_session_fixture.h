@@ -25,9 +25,9 @@ class OperatedSessionTest : public ::testing::Test {
   /// A new folder with one session, and the session opened.
   void open(const std::string& study_text = kTinyStudy) {
     study_ = std::make_unique<experiments::Study>(experiments::read_study_text(
-        may_miss_ticks_ ? replaced(study_text, "\"device\": {",
-                                   "\"device\": {\"max_missed_ratio\": 1, ")
-                        : study_text,
+        may_miss_ticks_
+            ? replaced(study_text, "\"device\": {", "\"device\": {\"max_missed_ratio\": 1, ")
+            : study_text,
         "study.json"));
     store_ = std::make_unique<core::StudyStore>(folder_, core::StudyStore::Mode::kCreate,
                                                 core::Durability::kAtClose);
