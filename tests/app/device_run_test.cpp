@@ -110,6 +110,12 @@ TEST(DeviceRun, ARealDeviceGetsNoForceWhateverIsAskedFor) {
   EXPECT_EQ(run.telemetry().fault, core::Fault::kNotArmed);
 }
 
+TEST(DeviceRun, ARateThatItsWatchdogCannotFollowIsRefusedBeforeTheMotorsAreOn) {
+  StuckDevice device;
+  EXPECT_THROW(DeviceRun(device, {.rate_hz = 20.0}), core::Error) << "two ticks in 100 ms";
+  EXPECT_EQ(device.num_closed, 0) << "it never was open";
+}
+
 TEST(DeviceRun, TheEndHaltsAndClosesOnce) {
   StuckDevice device;
   {

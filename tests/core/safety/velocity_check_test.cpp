@@ -60,6 +60,16 @@ TEST(VelocityCheck, APointThatIsNotHeldMayReportAnything) {
   EXPECT_EQ(contradicted_at([](double t_s) { return -truly_m_per_s(t_s); }, {}), -1);
 }
 
+TEST(VelocityCheck, APointThatIsPutBackElsewhereIsNoContradiction) {
+  constexpr std::array<bool, kNumContactPoints> kNone = {};
+  VelocityCheck check({});
+  check.observe(along_y(0.0), along_y(0.0), kAll, kPeriod_s);
+  check.observe(along_y(0.0), along_y(0.0), kNone, kPeriod_s);
+  check.observe(along_y(0.3), along_y(0.0), kAll, kPeriod_s);
+  check.observe(along_y(0.3), along_y(0.0), kAll, kPeriod_s);
+  EXPECT_FALSE(check.is_contradicted());
+}
+
 TEST(VelocityCheck, NoiseOfAHandAtRestIsNoContradiction) {
   VelocityCheck check({});
   for (int i = 0; i < 10'000; ++i) {

@@ -227,6 +227,13 @@ TEST(Datagram, WhatIsNoNumberIsRefusedWhereverItStands) {
       ++num_refused;
     }
     for (int i = 0; i < 15; ++i) {
+      Bytes bytes = encoded({{}, state});
+      put_double(bytes, static_cast<std::size_t>(718 + 8 * i), poison);
+      Datagram back;
+      EXPECT_EQ(wire::decode(sealed(bytes), back), Problem::kNotFinite) << i;
+      ++num_refused;
+    }
+    for (int i = 0; i < 15; ++i) {
       Bytes bytes = encoded({{}, wire::Command{}});
       put_double(bytes, static_cast<std::size_t>(48 + 8 * i), poison);
       Datagram back;
@@ -234,7 +241,7 @@ TEST(Datagram, WhatIsNoNumberIsRefusedWhereverItStands) {
       ++num_refused;
     }
   }
-  EXPECT_EQ(num_refused, 3 * 92);
+  EXPECT_EQ(num_refused, 3 * 107);
 }
 
 TEST(Datagram, EachProblemHasItsOwnName) {
@@ -274,6 +281,7 @@ TEST(Datagram, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(refused(wire::Hello{}, 48, 2)) << "a flag of two";
   EXPECT_TRUE(refused(wire::Refusal{}, 48, 0)) << "a refusal for no reason";
   EXPECT_TRUE(refused(wire::Welcome{}, 80, 6)) << "six contact points";
+  EXPECT_TRUE(refused(wire::Welcome{}, 80, 0)) << "none at all";
   EXPECT_TRUE(refused(wire::Welcome{}, 90, 7)) << "a name that rings a bell";
   EXPECT_TRUE(refused(wire::Welcome{}, 91, 'x')) << "a letter behind the end of the name";
   EXPECT_TRUE(refused(wire::Order{}, 53 + 7, 0x80)) << "a negative width";

@@ -11,6 +11,15 @@ namespace {
 
 using core::Fault;
 
+TEST_F(DeviceServerTest, ARealDeviceThatDoesNotTellItsForceIsNotServed) {
+  ScriptedDevice silent;
+  silent.device_capabilities = {.simulated = false};
+  const auto port_of_its_own = network.port(address_number(7));
+  EXPECT_THROW(DeviceServer(silent, *port_of_its_own, {}), core::Error);
+  silent.device_capabilities = {.simulated = true};
+  EXPECT_NO_THROW(DeviceServer(silent, *port_of_its_own, {}));
+}
+
 TEST_F(DeviceServerTest, NobodyElseGetsAWordIn) {
   arm();
   talk(5, 1.0);
