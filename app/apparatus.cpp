@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "analysis/movement/finger_lag.h"
+#include "app/sleep_inhibitor.h"
 #include "core/doors/latest_value.h"
 #include "core/doors/spsc_queue.h"
 #include "core/error.h"
@@ -136,6 +138,7 @@ struct Apparatus::Implementation {
                   if (parameters.on_sample) parameters.on_sample(sample);
                 }};
     if (parameters.realtime) {
+      awake.emplace();
       storage.emplace(samples, consumer);
       running.emplace(
           *device, loop, watchdog_state,
@@ -277,7 +280,8 @@ struct Apparatus::Implementation {
   }
 
   Parameters parameters;
-  OperatorDoors own_doors;  ///< Used where there is no window.
+  std::optional<SleepInhibitor> awake;  ///< In real time.
+  OperatorDoors own_doors;              ///< Used where there is no window.
   OperatorDoors& doors;
   std::unique_ptr<device::HapticDevice> bare_device;  ///< Where faults are injected into it.
   std::unique_ptr<device::HapticDevice> device;

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "app/share.h"
+#include "app/sleep_inhibitor.h"
 
 namespace jnd::app {
 namespace {
@@ -159,6 +160,13 @@ MachineCheck check_memory_lock() {
           ok ? "" : join_realtime("memlock unlimited")};
 }
 
+MachineCheck check_sleep() {
+  const bool ok = SleepInhibitor().is_held();
+  return {"sleep", ok,
+          ok ? "kept away while a session runs" : "cannot be kept away: no systemd-inhibit",
+          ok ? "" : "switch off automatic suspend, and leave the lid open"};
+}
+
 std::vector<MachineCheck> machine_checks() {
   return {check_realtime_priority(),
           check_memory_lock(),
@@ -166,6 +174,7 @@ std::vector<MachineCheck> machine_checks() {
           timers(),
           cpu_governor(),
           idle_states(),
+          check_sleep(),
           processors(),
           disk_space(),
           display(),

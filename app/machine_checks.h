@@ -21,6 +21,9 @@ struct MachineCheck {
 /// Whether it would lock memory. Unlocks the process's memory: not while a loop runs.
 [[nodiscard]] MachineCheck check_memory_lock();
 
+/// Whether the machine can be kept from falling asleep in a session; it is not afterwards.
+[[nodiscard]] MachineCheck check_sleep();
+
 /// Everything `jnd doctor` tells, in its order.
 [[nodiscard]] std::vector<MachineCheck> machine_checks();
 

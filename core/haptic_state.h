@@ -12,6 +12,9 @@ namespace jnd::core {
 /// from the participant, +z up; the surface of a fluid is the plane z = 0, the fluid is below.
 struct HapticState {
   std::int64_t device_time_ns = 0;  ///< The device's own clock; must advance every tick.
+  /// Whether the robot's own side lets it give force: an enabling switch there, or a key. Where
+  /// it is open nothing this program does brings force.
+  bool enabled = true;
   PointVectors tip_position_m{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                               Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                               Eigen::Vector3d::Zero()};

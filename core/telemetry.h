@@ -19,7 +19,9 @@ struct Telemetry {
   std::uint64_t command_sequence = 0;  ///< Of the command in force.
   Fault fault = Fault::kNone;
   Arming arming = Arming::kDisarmed;
-  bool limited = false;           ///< The limiter changed the force in this tick.
+  bool limited = false;  ///< The limiter changed the force in this tick.
+  /// A hand stands so still that its force is being taken away until it moves.
+  bool asks_to_move = false;
   bool ramp_finished = true;      ///< The medium in force is the commanded one.
   double authority_ratio = 1;     ///< 1 normally; below while the force fades out or back in.
   PlainVector hand_position_m{};  ///< Mean of the tips that the device declares.

@@ -1,6 +1,7 @@
 #include "device/device_registry.h"
 
 #include <array>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -9,24 +10,57 @@
 #include "device/exoskeleton/exoskeleton_options.h"
 #include "device/lumped_hand_device.h"
 #include "device/mouse_device.h"
+#include "device/network/device_key.h"
 #include "device/network/network_device.h"
+#include "device/network/network_options.h"
 #include "device/network/udp_port.h"
 #include "device/unplugged_device.h"
 
 namespace jnd::device {
 namespace {
 
+/// What a program does not do on a network where others may be: believe a device that it cannot
+/// tell from another.
+std::optional<DeviceKey> key_for(const NetworkOptions& options, const Address& server) {
+  if (!options.key_name.empty()) return read_device_key(device_key_file(options.key_name));
+  if (is_loopback(server)) return std::nullopt;
+  throw core::Error("device network " + text_of(server) +
+                    ": expected a key, for others on that network could command the device or "
+                    "answer for it; make one with `jnd device-key NAME`, copy its file to the "
+                    "other machine and write HOST:PORT,key=NAME");
+}
+
+/// A device's own word that nobody can be hurt by it waives real time and arming: the operator
+/// has to say it as well.
+void require_as_told(const NetworkDevice& device, const NetworkOptions& options,
+                     const Address& server) {
+  const std::string place = "device network " + text_of(server) + ": expected ";
+  if (device.says_simulated() && !options.is_simulated) {
+    throw core::Error(place + "a real device, found one that says it is simulated; write " +
+                      text_of(server) + ",simulated if that is true, or " + text_of(server) +
+                      ",real to use it as if it were not");
+  }
+  if (!device.says_simulated() && options.is_simulated.value_or(false)) {
+    throw core::Error(place + "a simulated device, as \",simulated\" says, found a real one");
+  }
+}
+
 /// Asked what it can do, unless there is no address: then it is there to be listed.
 std::unique_ptr<HapticDevice> network_device(std::string_view argument, double rate_hz) {
-  const Endpoint endpoint =
-      argument.empty() ? Endpoint{.host = "127.0.0.1", .port = 1} : endpoint_of(argument);
-  const Address server = resolved(endpoint);
+  const NetworkOptions options =
+      argument.empty() ? NetworkOptions{.endpoint = {.host = "127.0.0.1", .port = 1}}
+                       : network_options(argument);
+  const Address server = resolved(options.endpoint);
   std::random_device draw;
   auto device = std::make_unique<NetworkDevice>(
       UdpPort::connected_to(server), server,
       NetworkDevice::Parameters{.rate_hz = rate_hz,
-                                .token = std::uint64_t{draw()} << 32 | draw()});
-  if (!argument.empty()) device->ask();
+                                .token = std::uint64_t{draw()} << 32 | draw(),
+                                .key = key_for(options, server),
+                                .believes_simulated = options.is_simulated.value_or(false)});
+  if (argument.empty()) return device;
+  device->ask();
+  require_as_told(*device, options, server);
   return device;
 }
 
@@ -61,7 +95,9 @@ constexpr std::array kDevices = {
     DeviceEntry{.name = "network",
                 .argument = "HOST:PORT",
                 .description = "a device that another program serves, such as "
-                               "`jnd device-simulator`; it says what it can do when asked",
+                               "`jnd device-simulator`; it says what it can do when asked; "
+                               "behind the address key=NAME, simulated or real, with commas "
+                               "between",
                 .make = network_device},
     DeviceEntry{.name = "unplugged",
                 .argument = "",

@@ -38,6 +38,11 @@ struct DeviceCapabilities {
   /// is late by the way there and may have been limited. A device that does not tell is taken
   /// to act at once, and only a simulated one is armed so.
   bool tells_acting_force = false;
+  /// For how long a hand that a solid or a float pushes may read the very same position, to the
+  /// last digit, before the loop takes the force away to see whether it moves: what its noise,
+  /// its resolution and its friction make likely. Of no meaning for a simulation, which comes
+  /// to rest exactly.
+  double max_still_s = 2.0;
   bool moves_by_itself = false;  ///< By a simulated arm: nobody has to be there.
 };
 

@@ -64,6 +64,8 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       watches_port_(device.capabilities().tells_acting_force &&
                     (parameters.watches_port || !device.capabilities().simulated)),
       may_be_armed_(device.capabilities().simulated || watches_port_),
+      stillness_({.max_still_s = device.capabilities().max_still_s}, period_s_),
+      watches_stillness_(!device.capabilities().simulated),
       flight_recorder_(static_cast<std::size_t>(
           std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
   core::require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
@@ -141,10 +143,11 @@ bool HapticLoop::stands_still() const noexcept {
          (doors_.watchdog != nullptr && doors_.watchdog->has_bitten());
 }
 
-/// A hand that is being put in moves the device about: that is no fault while there is no
-/// force.
-static bool is_of_motion(Fault fault) noexcept {
-  return fault == Fault::kPositionJump || fault == Fault::kOverVelocity ||
+/// A hand that is being put in moves the device about, and whoever holds its switch leaves it
+/// open: that is no fault while there is no force.
+static bool is_of_no_matter_yet(Fault fault) noexcept {
+  return fault == Fault::kNotEnabled || fault == Fault::kPositionFrozen ||
+         fault == Fault::kPositionJump || fault == Fault::kOverVelocity ||
          fault == Fault::kVelocityContradicts || fault == Fault::kEnergyGiven ||
          fault == Fault::kOutsideWorkspace || fault == Fault::kStaleSample;
 }
@@ -152,7 +155,7 @@ static bool is_of_motion(Fault fault) noexcept {
 void HapticLoop::latch(Fault fault) noexcept {
   // The first fault is the one to tell, but the fading of a lost heartbeat must not soften what
   // comes on top of it.
-  if (fault_ == Fault::kNotArmed && is_of_motion(fault)) return;
+  if (fault_ == Fault::kNotArmed && is_of_no_matter_yet(fault)) return;
   const bool gives_way = fault_ == Fault::kHeartbeatLost || fault_ == Fault::kNotArmed;
   if (fault_ == Fault::kNone || (gives_way && fault != fault_)) {
     fault_ = fault;
@@ -191,6 +194,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   port_energy_.reset();
   oscillation_.reset();
   velocity_check_.reset();
+  stillness_.reset();
   solids_.release();
   has_last_state_ = false;
   num_stale_ticks_ = 0;
@@ -235,6 +239,8 @@ Fault HapticLoop::read_device() noexcept {
   }
   Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
   has_last_state_ = true;
+  if (found == Fault::kNone && watches_stillness_) found = watch_stillness();
+  if (!state_.enabled) found = Fault::kNotEnabled;
   watch_attachment();
   attached_bits_ = 0;
   for (int i = 0; i < kNumContactPoints; ++i) {
@@ -245,6 +251,13 @@ Fault HapticLoop::read_device() noexcept {
     }
   }
   return found;
+}
+
+/// A sensor that died while the hand rested on something.
+Fault HapticLoop::watch_stillness() noexcept {
+  stillness_.observe(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached,
+                     pushed_bits_);
+  return stillness_.is_frozen() ? Fault::kPositionFrozen : Fault::kNone;
 }
 
 /// A magnet that chatters must not knock: a point that is held again gets its force slowly.
@@ -364,6 +377,7 @@ void HapticLoop::compute_force() noexcept {
     storing_bits_ = static_cast<std::uint8_t>(storing_bits_ | touches << i);
   }
   limited_ = false;
+  pushed_bits_ = 0;
   if (authority_ratio_ == 0.0) {
     // Limiter and passivity start from here when the loop is armed again.
     force_on_hand_n_ = core::zero_vectors();
@@ -376,11 +390,18 @@ void HapticLoop::compute_force() noexcept {
     for (int i = 0; i < kNumContactPoints; ++i) force_on_hand_n_[i] += solid_force_n_[i];
   }
   for (int i = 0; i < kNumContactPoints; ++i) {
-    const double ratio = authority_ratio_ * point_authority_ratio_[i];
+    // Friction holds a hand against less.
+    constexpr double kPushN = 1.0;
+    const bool is_pushed =
+        (storing_bits_ >> i & 1) != 0 && force_on_hand_n_[i].squaredNorm() >= kPushN * kPushN;
+    pushed_bits_ = static_cast<std::uint8_t>(pushed_bits_ | (is_pushed ? 1 : 0) << i);
+    const double ratio =
+        authority_ratio_ * point_authority_ratio_[i] * stillness_.authority_ratio(i);
     if (ratio < 1.0) force_on_hand_n_[i] *= ratio;
   }
   passivity_.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n_);
-  limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_);
+  limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_) ||
+             stillness_.asks_to_move();
   passivity_.sent(force_on_hand_n_);
   if (watches_port_) watch_oscillation();
   if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
@@ -451,6 +472,7 @@ void HapticLoop::report() noexcept {
   telemetry_.fault = fault_;
   telemetry_.arming = arming();
   telemetry_.limited = limited_;
+  telemetry_.asks_to_move = stillness_.asks_to_move();
   telemetry_.ramp_finished = ramp_.finished();
   telemetry_.authority_ratio = authority_ratio_;
   telemetry_.hand_position_m = plain(position_sum / num_points_);

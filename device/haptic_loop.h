@@ -16,6 +16,7 @@
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
 #include "core/safety/port_energy.h"
+#include "core/safety/stillness_watch.h"
 #include "core/safety/velocity_check.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
@@ -149,6 +150,7 @@ class HapticLoop {
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
   [[nodiscard]] core::Fault watch_port(double elapsed_s) noexcept;
+  [[nodiscard]] core::Fault watch_stillness() noexcept;
   void watch_oscillation() noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
   void take_command() noexcept;
@@ -177,6 +179,8 @@ class HapticLoop {
   double whole_hand_ratio_;  ///< Of a force that only those points carry; 1 for all five.
   bool watches_port_;
   bool may_be_armed_;
+  core::StillnessWatch stillness_;
+  bool watches_stillness_;
   core::FlightRecorder flight_recorder_;
   std::atomic<bool> rearm_requested_{false};
   std::atomic<bool> disarm_requested_{false};
@@ -197,6 +201,7 @@ class HapticLoop {
   std::uint8_t attached_bits_ = 0;
   std::uint8_t immersed_bits_ = 0;
   std::uint8_t storing_bits_ = 0;  ///< Points that a surface holds, or that float.
+  std::uint8_t pushed_bits_ = 0;   ///< And with more than friction could hold them against.
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;

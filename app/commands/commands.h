@@ -16,6 +16,7 @@ void add_force(CLI::App& program, Invocation& invocation);
 void add_loop(CLI::App& program, Invocation& invocation);
 void add_devices(CLI::App& program, Invocation& invocation);
 void add_device_simulator(CLI::App& program, Invocation& invocation);
+void add_device_key(CLI::App& program, Invocation& invocation);
 void add_stability(CLI::App& program, Invocation& invocation);
 void add_characterize(CLI::App& program, Invocation& invocation);
 void add_run(CLI::App& program, Invocation& invocation);

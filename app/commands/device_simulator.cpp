@@ -7,8 +7,10 @@
 #include <ctime>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/json_text.h"
@@ -17,6 +19,7 @@
 #include "app/stop_signals.h"
 #include "core/error.h"
 #include "device/device_registry.h"
+#include "device/network/device_key.h"
 #include "device/network/device_server.h"
 #include "device/network/udp_port.h"
 #include "device/realtime_report.h"
@@ -30,6 +33,8 @@ struct DeviceSimulatorOptions {
   int port = 4700;
   std::string device = "lumped";
   std::string listen = "127.0.0.1";
+  std::string key;                 ///< Name of a key; "": none.
+  std::vector<std::string> allow;  ///< Hosts; none: any.
   double rate_hz = 1000.0;
   double seconds = 0.0;  ///< 0: until it is told to stop.
   bool json = false;
@@ -66,7 +71,8 @@ std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
   return num_missed;
 }
 
-void print(const device::DeviceServer& server, std::int64_t num_missed, bool json) {
+void print(const device::DeviceServer& server, std::int64_t num_not_accepted,
+           std::int64_t num_missed, bool json) {
   const device::DeviceServer::Counts& counts = server.counts();
   const device::LinkCounts& link = server.quality().counts();
   if (json) {
@@ -75,6 +81,7 @@ void print(const device::DeviceServer& server, std::int64_t num_missed, bool jso
     out["num_missed_steps"] = num_missed;
     out["num_clients"] = counts.num_clients;
     out["num_turned_away"] = counts.num_turned_away;
+    out["num_not_accepted"] = num_not_accepted;
     out["num_armings"] = counts.num_armings;
     out["num_disarmings"] = counts.num_disarmings;
     out["last_fault"] = std::string(core::name(counts.last_fault));
@@ -88,13 +95,14 @@ void print(const device::DeviceServer& server, std::int64_t num_missed, bool jso
       "{} steps, {} left out; {} programs connected, {} turned away; armed {} times, disarmed "
       "itself {} times{}\n{} datagrams received, {} lost, {} doubled, {} reordered, {} "
       "refused; "
-      "{} steps without a new one\n",
+      "{} steps without a new one; {} from hosts that are not allowed\n",
       counts.num_steps, num_missed, counts.num_clients, counts.num_turned_away,
       counts.num_armings, counts.num_disarmings,
       counts.last_fault == core::Fault::kNone
           ? ""
           : fmt::format(" (last: {})", core::name(counts.last_fault)),
-      link.received, link.lost, link.doubled, link.reordered, link.refused, link.late);
+      link.received, link.lost, link.doubled, link.reordered, link.refused, link.late,
+      num_not_accepted);
 }
 
 std::unique_ptr<device::HapticDevice> served_device(const DeviceSimulatorOptions& options) {
@@ -112,13 +120,40 @@ std::unique_ptr<device::HapticDevice> served_device(const DeviceSimulatorOptions
                    "; see `jnd devices`");
 }
 
+/// Whoever can send to an address that is not this machine's own could command the device.
+std::optional<device::DeviceKey> key_for(const DeviceSimulatorOptions& options,
+                                         const device::Address& address) {
+  if (!options.key.empty()) {
+    try {
+      return device::read_device_key(device::device_key_file(options.key));
+    } catch (const core::Error& error) {
+      throw EnvironmentError(error.what());
+    }
+  }
+  if (device::is_loopback(address)) return std::nullopt;
+  throw UsageError("--listen: expected a key for an address that others can reach, found " +
+                   options.listen +
+                   "; make one with `jnd device-key NAME` and give --key NAME on both sides");
+}
+
+std::vector<device::Address> allowed_hosts(const DeviceSimulatorOptions& options) {
+  std::vector<device::Address> hosts;
+  for (const std::string& host : options.allow) {
+    hosts.push_back(device::resolved({.host = host, .port = 1}));
+  }
+  return hosts;
+}
+
 int run_device_simulator(const DeviceSimulatorOptions& options) {
   const std::unique_ptr<device::HapticDevice> device = served_device(options);
   std::unique_ptr<device::UdpPort> port;
+  std::optional<device::DeviceKey> key;
   try {
-    device::Address address = device::resolved(
+    const device::Address address = device::resolved(
         {.host = options.listen, .port = static_cast<std::uint16_t>(options.port)});
+    key = key_for(options, address);
     port = std::make_unique<device::UdpPort>(address);
+    port->accept_only_from(allowed_hosts(options));
     device->open();
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());
@@ -129,7 +164,9 @@ int run_device_simulator(const DeviceSimulatorOptions& options) {
   device::DeviceServer server(*device, *port,
                               {.watchdog_s = 0.100,
                                .max_answer_age_s = 0.120,
-                               .first_stream_id = std::uint64_t{draw()} << 32 | draw()});
+                               .first_stream_id = std::uint64_t{draw()} << 32 | draw(),
+                               .first_challenge = std::uint64_t{draw()} << 32 | draw(),
+                               .key = key});
   // What is not given costs punctuality alone: nobody can be hurt by a simulation.
   device::RealtimeReport report;
   device::obtain_scheduler(80, report);
@@ -137,10 +174,11 @@ int run_device_simulator(const DeviceSimulatorOptions& options) {
   device::prefault_stack();
   std::FILE* told = options.json ? stderr : stdout;
   fmt::print(told, "listening on {}\n", device::text_of(port->local()));
+  if (!key) fmt::print(told, "without a key: every program of this machine may connect\n");
   std::fflush(told);
   const std::int64_t num_missed = serve(server, *port, options);
   device->close();
-  print(server, num_missed, options.json);
+  print(server, port->num_not_accepted(), num_missed, options.json);
   return kDone;
 }
 
@@ -157,8 +195,13 @@ void add_device_simulator(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--listen", options->listen,
                    "Address to be reached at; for other machines one of this machine's own, "
-                   "in a network where nobody else is")
+                   "with --key")
       ->capture_default_str();
+  command->add_option("--key", options->key,
+                      "Name of a key of `jnd device-key`: only programs that have it too may "
+                      "connect");
+  command->add_option("--allow", options->allow,
+                      "Host that may connect; may be repeated (default: any)");
   command->add_option("--rate-hz", options->rate_hz, "Steps a second (default 1000)")
       ->check(number_between(10.0, 10'000.0));
   command->add_option("--seconds", options->seconds, "How long; default: until it is stopped")

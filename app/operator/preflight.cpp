@@ -21,6 +21,7 @@ enum Place : std::size_t {
   kDisk,
   kPriority,
   kMemory,
+  kSleep,
   kDevice,
   kStimuli,
   kLoop,
@@ -41,7 +42,7 @@ class Look {
        const std::function<void(const std::vector<PreflightLine>&)>& on_lines)
       : request_(request), control_(control), on_lines_(on_lines) {
     for (const char* name : {"Study file", "Study folder", "Disk", "Real-time priority",
-                             "Memory lock", "Device", "Stimuli", "Loop"}) {
+                             "Memory lock", "Sleep", "Device", "Stimuli", "Loop"}) {
       lines_.push_back({.name = name});
     }
     tell();
@@ -54,6 +55,7 @@ class Look {
     const bool must = is_for_a_person() && !request_.allow_no_realtime;
     put(kPriority, line_of(check_realtime_priority(), "Real-time priority", must));
     put(kMemory, line_of(check_memory_lock(), "Memory lock", must));
+    put(kSleep, sleep_line());
     put(kDevice,
         device_line(request_.device, rate_hz_, study_ ? study_->device.min_contact_points : 1));
     put(kStimuli, stimuli());
@@ -90,6 +92,14 @@ class Look {
     return !device::make_device(request_.device, rate_hz_)->capabilities().simulated;
   } catch (const core::Error&) {
     return true;
+  }
+
+  [[nodiscard]] static PreflightLine sleep_line() {
+    const MachineCheck check = check_sleep();
+    return {.name = "Sleep",
+            .status = check.ok ? Status::kOk : Status::kWarning,
+            .found = check.ok ? "kept away" : "not kept away",
+            .remedy = check.remedy};
   }
 
   [[nodiscard]] PreflightLine disk() const {

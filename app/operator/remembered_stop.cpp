@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <string_view>
 #include <system_error>
 
 #include "app/operator/recent_studies.h"
@@ -13,11 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "network:10.0.0.2:5000" has signs that are none of a file name's.
+/// "network:10.0.0.2:5000,key=robot" has signs that are none of a file name's; what stands
+/// behind the comma is how it is used, and not which it is.
 fs::path file_for(const fs::path& folder, const std::string& device) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string name = "stop_";
-  for (const char letter : device) {
+  for (const char letter : std::string_view(device).substr(0, device.find(','))) {
     const auto byte = static_cast<unsigned char>(letter);
     if (std::isalnum(byte) != 0 || letter == '_') {
       name += letter;

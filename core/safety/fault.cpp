@@ -46,6 +46,10 @@ std::string_view name(Fault fault) noexcept {
       return "velocity_contradicts";
     case Fault::kActingForceUnknown:
       return "acting_force_unknown";
+    case Fault::kNotEnabled:
+      return "not_enabled";
+    case Fault::kPositionFrozen:
+      return "position_frozen";
   }
   return "unknown";
 }
@@ -123,6 +127,13 @@ std::string_view words(Fault fault) noexcept {
       return "The device does not tell which force acted while it measured, so nobody could "
              "see "
              "it push the hand: it cannot be armed before its driver tells that.";
+    case Fault::kNotEnabled:
+      return "The enabling switch of the device is open: whoever holds it closes it, then arm "
+             "the device.";
+    case Fault::kPositionFrozen:
+      return "A contact point stood still to the last digit while its force went away or its "
+             "velocity said that it moved: check that its sensor is alive, then arm the device "
+             "again.";
   }
   return "Unknown fault: stop the session.";
 }

@@ -29,8 +29,10 @@ enum class Fault : std::uint8_t {
   kForceOscillates = 18,
   kVelocityContradicts = 19,
   kActingForceUnknown = 20,
+  kNotEnabled = 21,
+  kPositionFrozen = 22,
 };
-inline constexpr Fault kLastFault = Fault::kActingForceUnknown;
+inline constexpr Fault kLastFault = Fault::kPositionFrozen;
 
 /// Something went wrong, or somebody stopped it.
 [[nodiscard]] constexpr bool is_failure(Fault fault) noexcept {

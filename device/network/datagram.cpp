@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x4b4c444a;  // "JDLK", as it lies in the bytes.
 constexpr std::size_t kVersionAt = 4;
+constexpr std::size_t kKindAt = 6;
+constexpr std::size_t kSizeAt = 20;
 
 static_assert(sizeof(core::RandomStream) == sizeof(std::uint64_t) &&
                   std::is_trivially_copyable_v<core::RandomStream>,
@@ -104,6 +106,7 @@ requires std::same_as<std::remove_const_t<T>, Hello>
 void fields(Bytes& bytes, T& hello) noexcept {
   bytes.number(hello.token);
   flag(bytes, hello.only_asks);
+  bytes.number(hello.challenge);
 }
 
 template <typename Bytes, typename T>
@@ -122,13 +125,14 @@ void fields(Bytes& bytes, T& welcome) noexcept {
   flag(bytes, can.simulated);
   flag(bytes, can.moves_by_itself);
   device_name(bytes, welcome.name);
+  bytes.number(welcome.challenge);
 }
 
 template <typename Bytes, typename T>
 requires std::same_as<std::remove_const_t<T>, Refusal>
 void fields(Bytes& bytes, T& refusal) noexcept {
   bytes.number(refusal.token);
-  choice(bytes, refusal.reason, RefusalReason::kBusy, RefusalReason::kOtherVersion);
+  choice(bytes, refusal.reason, RefusalReason::kBusy, RefusalReason::kOtherKey);
 }
 
 template <typename Bytes, typename T>
@@ -155,6 +159,7 @@ void fields(Bytes& bytes, T& state) noexcept {
   choice(bytes, state.fault, core::Fault::kNone, core::kLastFault);
   choice(bytes, state.level, LinkLevel::kUnacceptable, LinkLevel::kExcellent);
   for (auto& force : measured.acted_n) vector(bytes, force);
+  flag(bytes, measured.enabled);
 }
 
 template <typename Bytes, typename T>
@@ -227,6 +232,8 @@ std::string_view name(Problem problem) noexcept {
       return "not_finite";
     case Problem::kOutOfRange:
       return "out_of_range";
+    case Problem::kOtherKey:
+      return "other_key";
   }
   return "unknown";
 }
@@ -259,6 +266,23 @@ std::uint16_t version_of(std::span<const std::byte> bytes) noexcept {
   head.number(magic);
   head.number(version);
   return magic == kMagic ? version : std::uint16_t{0};
+}
+
+std::size_t size_of(std::span<const std::byte> bytes) noexcept {
+  if (version_of(bytes) != kVersion || bytes.size() < kHeaderBytes) return 0;
+  ByteReader head(bytes.subspan(kSizeAt));
+  std::uint32_t size = 0;
+  head.number(size);
+  return size;
+}
+
+bool is_of_stream(std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() < kHeaderBytes) return false;
+  ByteReader head(bytes.subspan(kKindAt));
+  std::uint16_t kind = 0;
+  head.number(kind);
+  constexpr std::uint16_t kRefusal = 3;
+  return kind > kRefusal;
 }
 
 Problem decode(std::span<const std::byte> bytes, Datagram& datagram) noexcept {

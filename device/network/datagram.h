@@ -46,6 +46,7 @@ struct Header {
 struct Hello {
   std::uint64_t token = 0;  ///< Drawn by the program; the answer repeats it.
   bool only_asks = false;
+  std::uint64_t challenge = 0;  ///< Of the last welcome: no old hello opens a stream.
 };
 
 using DeviceName = std::array<char, 32>;  ///< Printable ASCII, zeros behind it.
@@ -55,12 +56,14 @@ struct Welcome {
   std::uint64_t token = 0;
   DeviceCapabilities capabilities;
   DeviceName name{};
+  std::uint64_t challenge = 0;  ///< What the next hello that opens a stream has to repeat.
 };
 
 enum class RefusalReason : std::uint8_t {
   kBusy = 1,           ///< Another program is connected.
   kUnknownStream = 2,  ///< The stream in the header is none, or none any more.
   kOtherVersion = 3,   ///< The header says which one the device speaks.
+  kOtherKey = 4,       ///< The keys of both sides differ, or only one has one.
 };
 
 /// Device to program.
@@ -128,6 +131,7 @@ enum class Problem : std::uint8_t {
   kUnknownKind,
   kNotFinite,
   kOutOfRange,
+  kOtherKey,  ///< See `DatagramSeal`.
 };
 
 /// "wrong_checksum", as JSON spells it. Real time.
@@ -143,5 +147,11 @@ enum class Problem : std::uint8_t {
 
 /// The version that something with our magic claims; 0 without it. Real time.
 [[nodiscard]] std::uint16_t version_of(std::span<const std::byte> bytes) noexcept;
+
+/// The size that something of our version claims; 0: it is not of it. Real time.
+[[nodiscard]] std::size_t size_of(std::span<const std::byte> bytes) noexcept;
+
+/// Neither hello nor welcome nor refusal, by the kind that it claims. Real time.
+[[nodiscard]] bool is_of_stream(std::span<const std::byte> bytes) noexcept;
 
 }  // namespace jnd::device::wire

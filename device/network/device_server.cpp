@@ -78,8 +78,10 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
                1.0 / device.capabilities().rate_hz),
       tells_acting_force_(device.capabilities().tells_acting_force),
       quality_(parameters.quality),
+      seal_(DatagramSeal::Side::kDevice, parameters.key),
       next_stream_id_(parameters.first_stream_id),
       sequence_(parameters.first_sequence) {
+  welcome_.challenge = parameters.first_challenge;
   if (!tells_acting_force_ && !device.capabilities().simulated) {
     throw core::Error(std::string(device.name()) +
                       ": expected a real device to tell which force acted while it measured, "
@@ -123,11 +125,13 @@ void DeviceServer::take_in(std::int64_t now_ns) noexcept {
     const std::size_t size = port_.receive(bytes, from);
     if (size == 0) return;
     const std::span<const std::byte> received = std::span(bytes).first(size);
-    const wire::Problem problem = wire::decode(received, incoming_);
+    const wire::Problem problem = seal_.read(received, incoming_);
     if (problem != wire::Problem::kNone) {
       quality_.refused();
       if (problem == wire::Problem::kWrongVersion) {
-        refuse(from, 0, {.reason = wire::RefusalReason::kOtherVersion}, now_ns);
+        hint(from, wire::RefusalReason::kOtherVersion, now_ns);
+      } else if (problem == wire::Problem::kOtherKey && !wire::is_of_stream(received)) {
+        hint(from, wire::RefusalReason::kOtherKey, now_ns);
       }
       continue;
     }
@@ -136,7 +140,8 @@ void DeviceServer::take_in(std::int64_t now_ns) noexcept {
     } else if (client_ && from == client_->address &&
                incoming_.header.stream_id == client_->stream_id) {
       take_from_client(incoming_.header, incoming_.content, now_ns);
-    } else if (std::holds_alternative<wire::Command>(incoming_.content)) {
+    } else if (!seal_.has_key() && std::holds_alternative<wire::Command>(incoming_.content)) {
+      // With a key, whoever had heard a command could have this answer sealed for later use.
       refuse(from, incoming_.header.stream_id, {.reason = wire::RefusalReason::kUnknownStream},
              now_ns);
     }
@@ -150,6 +155,17 @@ void DeviceServer::refuse(const Address& to, std::uint64_t stream_id,
   send(to, stream_id, refusal, now_ns);
 }
 
+/// To somebody whom we do not understand: without a seal, for words alone.
+void DeviceServer::hint(const Address& to, wire::RefusalReason reason,
+                        std::int64_t now_ns) noexcept {
+  if (refused_in_step_) return;
+  refused_in_step_ = true;
+  std::array<std::byte, wire::kMaxBytes> bytes;
+  const std::size_t size = wire::encode(
+      {.header = {.sent_ns = now_ns}, .content = wire::Refusal{.reason = reason}}, bytes);
+  port_.send(std::span(bytes).first(size), to);
+}
+
 void DeviceServer::take(const wire::Hello& hello, const Address& from,
                         std::int64_t now_ns) noexcept {
   const bool is_known = client_ && from == client_->address;
@@ -160,15 +176,20 @@ void DeviceServer::take(const wire::Hello& hello, const Address& from,
   }
   welcomed_in_step_ = true;
   welcome_.token = hello.token;
-  if (hello.only_asks) return send(from, 0, welcome_, now_ns);
   // The same hello again: our answer was lost.
-  if (!is_known || hello.token != client_->token) {
+  const bool is_again = is_known && hello.token == client_->token;
+  // One from long ago, which somebody has kept, opens nothing.
+  const bool opens = !hello.only_asks && (is_again || hello.challenge == welcome_.challenge);
+  if (!opens) return send(from, 0, welcome_, now_ns);
+  if (!is_again) {
     end_session();
+    ++welcome_.challenge;
     if (next_stream_id_ == 0) next_stream_id_ = 1;
     client_ = Client{.address = from,
                      .token = hello.token,
                      .stream_id = next_stream_id_++,
                      .last_heard_ns = now_ns};
+    seal_.begin_stream(client_->token, client_->stream_id);
     ++counts_.num_clients;
     quality_.restart();
     sequence_ = parameters_.first_sequence;
@@ -286,6 +307,7 @@ void DeviceServer::measure() noexcept {
     fault = Fault::kNonFiniteState;
   }
   if (state_.is_measured) {
+    if (state_.measured.enabled && !measured.enabled) disarm(Fault::kNotEnabled);
     state_.measured = measured;
     if (!tells_acting_force_) state_.measured.acted_n = written_n_;
   } else {
@@ -296,7 +318,13 @@ void DeviceServer::measure() noexcept {
 
 void DeviceServer::apply_force() noexcept {
   core::PointVectors force_on_hand_n = core::zero_vectors();
-  if (armed_) {
+  const bool is_enabled = state_.measured.enabled;
+  // Whoever closes the switch must not be met by a force that waited for it.
+  if (armed_ && is_enabled && !was_enabled_ && !is_without_force(client_->command)) {
+    disarm(Fault::kNotEnabled);
+  }
+  was_enabled_ = is_enabled;
+  if (armed_ && is_enabled) {
     force_on_hand_n = client_->command.force_on_hand_n;
     (void)limiter_.limit(state_.measured.attached, state_.measured.tip_velocity_m_per_s,
                          force_on_hand_n);
@@ -344,8 +372,8 @@ void DeviceServer::send(const Address& to, std::uint64_t stream_id,
                                            .sent_ns = now_ns,
                                            .echo_ns = is_of_stream ? client_->last_sent_ns : 0},
                                 .content = content};
-  std::array<std::byte, wire::kMaxBytes> bytes;
-  const std::size_t size = wire::encode(datagram, bytes);
+  std::array<std::byte, DatagramSeal::kMostBytes> bytes;
+  const std::size_t size = seal_.write(datagram, bytes);
   port_.send(std::span(bytes).first(size), to);
 }
 

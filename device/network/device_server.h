@@ -7,6 +7,7 @@
 #include "device/haptic_device.h"
 #include "device/network/datagram.h"
 #include "device/network/datagram_port.h"
+#include "device/network/datagram_seal.h"
 #include "device/network/link_quality.h"
 
 namespace jnd::device {
@@ -18,7 +19,7 @@ namespace jnd::device {
 ///   - a command newer than all before has come within `watchdog_s`;
 ///   - that command answers to a state younger than `max_answer_age_s`;
 ///   - the steps themselves came without a pause of `watchdog_s`;
-///   - the device was read in this step;
+///   - the device was read in this step, and its enabling switch is closed;
 /// and within limits of its own, as `core::ForceLimiter` has them. Whatever fails means no
 /// force at once, until the program arms again by a command with a new number and without any
 /// force. So neither a program that died nor one that came back can make a force step.
@@ -33,6 +34,9 @@ class DeviceServer {
     double slew_n_per_s = 2000.0;       ///< > 0.
     std::uint64_t first_stream_id = 1;  ///< Drawn anew whenever a server starts.
     std::uint32_t first_sequence = 1;   ///< Of what it sends on a stream.
+    std::uint64_t first_challenge = 0;  ///< Drawn anew whenever a server starts.
+    /// With it, only programs that have it too are listened to; see `DatagramSeal`.
+    std::optional<DeviceKey> key;
     LinkQuality::Parameters quality;
   };
 
@@ -85,6 +89,7 @@ class DeviceServer {
   void take_in(std::int64_t now_ns) noexcept;
   void refuse(const Address& to, std::uint64_t stream_id, const wire::Refusal& refusal,
               std::int64_t now_ns) noexcept;
+  void hint(const Address& to, wire::RefusalReason reason, std::int64_t now_ns) noexcept;
   void take(const wire::Hello& hello, const Address& from, std::int64_t now_ns) noexcept;
   void take_from_client(const wire::Header& header, const wire::Content& content,
                         std::int64_t now_ns) noexcept;
@@ -116,11 +121,13 @@ class DeviceServer {
   LinkQuality quality_;
   Counts counts_;
 
+  DatagramSeal seal_;
   std::optional<Client> client_;
   std::uint64_t next_stream_id_;
   std::uint32_t sequence_;
   bool armed_ = false;
-  bool was_used_ = false;  ///< A program has left the device since it was opened.
+  bool was_enabled_ = false;  ///< The device, in the step before.
+  bool was_used_ = false;     ///< A program has left the device since it was opened.
   std::optional<std::int64_t> last_step_ns_;
   // One answer of each kind a step: nobody is to be flooded through us.
   bool welcomed_in_step_ = false, refused_in_step_ = false;

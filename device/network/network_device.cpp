@@ -22,6 +22,8 @@ constexpr std::int64_t kMostDeaf_ns = 40'000'000;
 constexpr int kMostFailedSends = 5;
 /// Where nobody can be hurt, as the simulated devices themselves have it.
 constexpr double kSimulatedWatchdog_s = 0.250;
+/// However long a device asks for: a hand moves on while its measurement stands in.
+constexpr double kMostStaleOfReal_s = 0.020;
 
 bool has_force(const core::PointVectors& force_n) noexcept {
   return std::any_of(force_n.begin(), force_n.end(),
@@ -49,7 +51,9 @@ std::string_view NetworkDevice::served_name() const noexcept {
 DeviceCapabilities NetworkDevice::capabilities() const noexcept {
   DeviceCapabilities can =
       device_ ? device_->capabilities : DeviceCapabilities{.rate_hz = parameters_.rate_hz};
+  can.simulated = can.simulated && parameters_.believes_simulated;
   can.max_stale_s = std::max(can.max_stale_s, parameters_.max_stale_s);
+  if (!can.simulated) can.max_stale_s = std::min(can.max_stale_s, kMostStaleOfReal_s);
   can.has_own_clock = true;
   can.tells_acting_force = true;  // Every state does.
   if (can.simulated) can.watchdog_timeout_s = kSimulatedWatchdog_s;
@@ -99,12 +103,15 @@ bool NetworkDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
 void NetworkDevice::halt() noexcept {
   const std::uint64_t stream_id = stream_id_.load();
   if (stream_id == 0) return;
+  // The other one is that of the loop's thread.
+  DatagramSeal seal(DatagramSeal::Side::kProgram, parameters_.key);
+  seal.begin_stream(stream_token_.load(), stream_id);
   const wire::Datagram datagram{.header = {.stream_id = stream_id,
                                            .sequence = sequence_.fetch_add(1),
                                            .sent_ns = port_->now_ns()},
                                 .content = wire::Halt{}};
-  std::array<std::byte, wire::kMaxBytes> bytes;
-  const std::size_t size = wire::encode(datagram, bytes);
+  std::array<std::byte, DatagramSeal::kMostBytes> bytes;
+  const std::size_t size = seal.write(datagram, bytes);
   port_->send(std::span(bytes).first(size), server_);
 }
 
@@ -116,13 +123,15 @@ void NetworkDevice::take_in(std::int64_t now_ns) noexcept {
     if (size == 0) return;
     if (!(from == server_)) continue;
     const std::span<const std::byte> received = std::span(bytes).first(size);
-    const wire::Problem problem = wire::decode(received, incoming_);
+    const wire::Problem problem = seal_.read(received, incoming_);
     if (problem != wire::Problem::kNone) {
       quality_.refused();
+      has_other_key_ |= problem == wire::Problem::kOtherKey;
       if (problem == wire::Problem::kWrongVersion) other_version_ = wire::version_of(received);
       continue;
     }
     other_version_ = 0;
+    has_other_key_ = false;
     std::visit([&](const auto& content) { take(incoming_.header, content, now_ns); },
                incoming_.content);
   }
@@ -131,6 +140,8 @@ void NetworkDevice::take_in(std::int64_t now_ns) noexcept {
 void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcome,
                          std::int64_t now_ns) noexcept {
   if (welcome.token != token_) return;
+  if (challenge_ != welcome.challenge) last_hello_ns_ = 0;  // Worth another hello at once.
+  challenge_ = welcome.challenge;
   if (header.stream_id == 0) {
     if (!device_) device_ = welcome;
     return;
@@ -140,6 +151,8 @@ void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcom
   if (is_another_) return;
   refusal_.reset();
   stream_id_ = header.stream_id;
+  stream_token_ = token_;
+  seal_.begin_stream(token_, header.stream_id);
   quality_.restart();
   newest_.armed = false;
   newest_.armed_number = 0;
@@ -151,7 +164,10 @@ void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcom
 
 void NetworkDevice::take(const wire::Header& header, const wire::Refusal& refusal,
                          std::int64_t) noexcept {
-  if (refusal.reason == wire::RefusalReason::kUnknownStream) {
+  if (refusal.reason == wire::RefusalReason::kOtherKey) {
+    has_other_key_ = true;
+  } else if (refusal.reason == wire::RefusalReason::kUnknownStream) {
+    if (seal_.has_key()) return;  // Whoever heard us could have asked for it.
     if (header.stream_id != stream_id_ || phase_ == Phase::kClosed) return;
     if (phase_ != Phase::kSeeking) lose(Fault::kLinkLost, Phase::kSeeking);
   } else if (refusal.token == token_) {
@@ -255,9 +271,9 @@ void NetworkDevice::say_hello(bool only_asks, std::int64_t now_ns) noexcept {
   last_hello_ns_ = now_ns;
   const wire::Datagram datagram{
       .header = {.sent_ns = now_ns},
-      .content = wire::Hello{.token = token_, .only_asks = only_asks}};
-  std::array<std::byte, wire::kMaxBytes> bytes;
-  const std::size_t size = wire::encode(datagram, bytes);
+      .content = wire::Hello{.token = token_, .only_asks = only_asks, .challenge = challenge_}};
+  std::array<std::byte, DatagramSeal::kMostBytes> bytes;
+  const std::size_t size = seal_.write(datagram, bytes);
   port_->send(std::span(bytes).first(size), server_);
 }
 
@@ -267,8 +283,8 @@ bool NetworkDevice::send(const wire::Content& content, std::int64_t now_ns) noex
                                            .sent_ns = now_ns,
                                            .echo_ns = peer_sent_ns_},
                                 .content = content};
-  std::array<std::byte, wire::kMaxBytes> bytes;
-  const std::size_t size = wire::encode(datagram, bytes);
+  std::array<std::byte, DatagramSeal::kMostBytes> bytes;
+  const std::size_t size = seal_.write(datagram, bytes);
   return port_->send(std::span(bytes).first(size), server_);
 }
 

@@ -10,6 +10,7 @@
 #include "device/haptic_device.h"
 #include "device/network/datagram.h"
 #include "device/network/datagram_port.h"
+#include "device/network/datagram_seal.h"
 #include "device/network/link_quality.h"
 #include "device/network/remote_hand.h"
 
@@ -36,6 +37,10 @@ class NetworkDevice final : public HapticDevice {
     double patience_s = 2.0;           ///< For the device to answer and the link to be good.
     std::uint64_t token = 1;           ///< Drawn anew for each run of the program.
     std::uint32_t first_sequence = 1;  ///< Of what it sends.
+    /// With it, only a device that has it too is believed; see `DatagramSeal`.
+    std::optional<DeviceKey> key;
+    /// Whether a device that says of itself that nobody can be hurt by it is believed.
+    bool believes_simulated = true;
     LinkQuality::Parameters quality;
   };
 
@@ -53,6 +58,10 @@ class NetworkDevice final : public HapticDevice {
   /// "lumped": what the device is called where it is served; "" before it answered. Real time.
   [[nodiscard]] std::string_view served_name() const noexcept;
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override;
+  /// What it says itself, believed or not. Real time.
+  [[nodiscard]] bool says_simulated() const noexcept {
+    return device_ && device_->capabilities.simulated;
+  }
 
   void open() override;
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
@@ -112,10 +121,13 @@ class NetworkDevice final : public HapticDevice {
   bool is_another_ = false;              ///< It introduced itself as something else since.
   std::optional<wire::RefusalReason> refusal_;
   std::uint16_t other_version_ = 0;
+  bool has_other_key_ = false;
 
   Phase phase_ = Phase::kClosed;
   core::Fault fault_ = core::Fault::kNone;
   std::uint64_t token_;
+  std::uint64_t challenge_ = 0;
+  DatagramSeal seal_;
   LinkQuality quality_;
   wire::State newest_;
   std::uint32_t newest_sequence_ = 0;
@@ -131,6 +143,7 @@ class NetworkDevice final : public HapticDevice {
 
   // Whoever halts needs these as well, from any thread.
   std::atomic<std::uint64_t> stream_id_{0};
+  std::atomic<std::uint64_t> stream_token_{0};
   std::atomic<std::uint32_t> sequence_;
 };
 

@@ -30,6 +30,7 @@ NetworkDevice::NetworkDevice(std::unique_ptr<DatagramPort> port, const Address& 
       server_(server),
       parameters_(parameters),
       token_(parameters.token),
+      seal_(DatagramSeal::Side::kProgram, parameters.key),
       quality_(parameters.quality),
       sequence_(parameters.first_sequence) {
   core::require_positive(parameters.rate_hz, "rate_hz");
@@ -45,7 +46,8 @@ void NetworkDevice::ask() {
   last_hello_ns_ = 0;
   for (std::int64_t now_ns = port_->now_ns(); now_ns < deadline_ns; now_ns = port_->now_ns()) {
     take_in(now_ns);
-    if (device_ || other_version_ != 0) break;
+    // Anybody can say another version, or another key: with a key of ours we wait on.
+    if (device_ || (!seal_.has_key() && (other_version_ != 0 || has_other_key_))) break;
     say_hello(true, now_ns);
     port_->pause(1'000'000);
   }
@@ -94,6 +96,13 @@ std::string NetworkDevice::what_is_wrong() const {
     return place + "datagrams of version " + std::to_string(wire::kVersion) +
            ", found version " + std::to_string(other_version_) +
            "; use the same release of this program on both sides";
+  }
+  if (has_other_key_) {
+    return place + (seal_.has_key()
+                        ? "a device with the same key, found one with another or none; use the "
+                          "same file of `jnd device-key` on both machines"
+                        : "a device that needs no key, found one that has one; name the key "
+                          "after the address, as in HOST:PORT,key=NAME");
   }
   if (is_another_) {
     return place + "the same device as before, found another; start the one that was there, " +

@@ -46,6 +46,21 @@ Address address_of(const SystemAddress& system) noexcept {
   return address;
 }
 
+bool is_same_host(const Address& a, const Address& b) noexcept {
+  const SystemAddress one = system_address(a);
+  const SystemAddress other = system_address(b);
+  if (one.storage.ss_family != other.storage.ss_family) return false;
+  const auto is_same = [](const auto& x, const auto& y) {
+    return std::memcmp(&x, &y, sizeof x) == 0;
+  };
+  if (one.storage.ss_family == AF_INET) {
+    return is_same(reinterpret_cast<const sockaddr_in&>(one.storage).sin_addr,
+                   reinterpret_cast<const sockaddr_in&>(other.storage).sin_addr);
+  }
+  return is_same(reinterpret_cast<const sockaddr_in6&>(one.storage).sin6_addr,
+                 reinterpret_cast<const sockaddr_in6&>(other.storage).sin6_addr);
+}
+
 [[noreturn]] void refuse_endpoint(std::string_view text) {
   throw core::Error("network: expected HOST:PORT with a port from 1 to 65535, found " +
                     std::string(text.substr(0, 200)) +
@@ -91,6 +106,17 @@ Address resolved(const Endpoint& endpoint) {
   std::memcpy(&system.storage, chosen->ai_addr, chosen->ai_addrlen);
   ::freeaddrinfo(found);
   return address_of(system);
+}
+
+bool is_loopback(const Address& address) noexcept {
+  const SystemAddress system = system_address(address);
+  if (system.storage.ss_family == AF_INET) {
+    const auto& v4 = reinterpret_cast<const sockaddr_in&>(system.storage);
+    constexpr std::uint32_t kLoopbackNet = 127;
+    return ntohl(v4.sin_addr.s_addr) >> 24 == kLoopbackNet;
+  }
+  const auto& v6 = reinterpret_cast<const sockaddr_in6&>(system.storage);
+  return system.storage.ss_family == AF_INET6 && IN6_IS_ADDR_LOOPBACK(&v6.sin6_addr);
 }
 
 std::string text_of(const Address& address) {
@@ -158,6 +184,15 @@ std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept
                                     system.get(), &system.size);
     if (size > 0) {
       from = address_of(system);
+      const bool is_accepted =
+          hosts_.empty() || std::any_of(hosts_.begin(), hosts_.end(), [&](const Address& host) {
+            return is_same_host(host, from);
+          });
+      if (!is_accepted) {
+        ++num_not_accepted_;
+        system.size = sizeof system.storage;
+        continue;
+      }
       return static_cast<std::size_t>(size);
     }
     if (size < 0 && errno != EINTR && errno != ECONNREFUSED) return 0;

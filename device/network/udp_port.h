@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "device/network/datagram_port.h"
 
@@ -22,6 +24,9 @@ struct Endpoint {
 /// 127.0.0.1. Throws `core::Error` if the system does not know the host. Not real time.
 [[nodiscard]] Address resolved(const Endpoint& endpoint);
 
+/// Whether it leads to this very machine, and nobody else can listen or speak. Not real time.
+[[nodiscard]] bool is_loopback(const Address& address) noexcept;
+
 /// "127.0.0.1:4700". Not real time.
 [[nodiscard]] std::string text_of(const Address& address);
 
@@ -38,6 +43,11 @@ class UdpPort final : public DatagramPort {
   UdpPort(const UdpPort&) = delete;
   UdpPort& operator=(const UdpPort&) = delete;
 
+  /// From now on only what these hosts send is received, from whichever port; the rest is
+  /// dropped and counted. Not real time.
+  void accept_only_from(std::vector<Address> hosts) { hosts_ = std::move(hosts); }
+  [[nodiscard]] std::int64_t num_not_accepted() const noexcept { return num_not_accepted_; }
+
   /// Where it receives, with the port that it was given. Not real time.
   [[nodiscard]] Address local() const;
 
@@ -49,6 +59,8 @@ class UdpPort final : public DatagramPort {
 
  private:
   int socket_ = -1;
+  std::vector<Address> hosts_;  ///< Empty: any.
+  std::int64_t num_not_accepted_ = 0;
 };
 
 }  // namespace jnd::device

@@ -30,7 +30,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 const std::map<std::string, std::set<std::string>> kLibraryHomes = {
     {"sqlite3", {"core/storage"}},
     {"zstd", {"core/storage"}},
-    {"openssl", {"core/storage"}},
+    {"openssl", {"core/storage", "device/network"}},
     {"boost", {"analysis"}},
     {"hdf5", {"analysis"}},
     {"nlohmann", {"experiments", "analysis", "app"}},

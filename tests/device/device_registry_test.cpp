@@ -44,6 +44,22 @@ TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
   }
 }
 
+TEST(DeviceRegistry, ADeviceOnAnotherMachineNeedsAKey) {
+  for (const char* place : {"network:192.0.2.1:4700", "network:192.0.2.1:4700,simulated",
+                            "network:[2001:db8::1]:4700"}) {
+    try {
+      static_cast<void>(make_device(place, 1000.0));
+      ADD_FAILURE() << place;
+    } catch (const DeviceUnreachable& error) {
+      // Where there is no way to IPv6 at all, that is told first.
+      EXPECT_NE(std::string(place).find('['), std::string::npos) << error.what();
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("expected a key"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(DeviceRegistry, AnArgumentThatIsMissingOrTooMuchIsNamed) {
   EXPECT_THROW(static_cast<void>(device_named("network")), core::Error);
   EXPECT_THROW(static_cast<void>(device_named("lumped:1")), core::Error);

@@ -168,10 +168,14 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                                             : "",
                    view.last_sequence == 0 ? "Nothing stored yet" : "");
   const int attached = __builtin_popcount(view.telemetry.sample.attached_bits);
-  draw_health(ui, x, place,
-              attached == core::kNumContactPoints ? Colour::kGreen : Colour::kAmber, "",
-              std::to_string(attached),
-              " of " + std::to_string(core::kNumContactPoints) + " points attached");
+  if (view.telemetry.asks_to_move) {
+    draw_health(ui, x, place, Colour::kAmber, "The hand is too still · ask it ", "to move", "");
+  } else {
+    draw_health(ui, x, place,
+                attached == core::kNumContactPoints ? Colour::kGreen : Colour::kAmber, "",
+                std::to_string(attached),
+                " of " + std::to_string(core::kNumContactPoints) + " points attached");
+  }
   const ButtonStyle keys{.tone = Tone::kQuiet, .key = {Key::kF1}};
   Rect strip = place;
   strip.take_right(16);

@@ -47,10 +47,12 @@ class DeviceSimulatorTest : public ::testing::Test {
   void SetUp() override { write_file(temporary_.path() / "short.json", kShortStudy); }
 
   /// Starts one at this port and waits until it listens; tells where.
-  std::string start(const std::string& port = "0", const std::string& device = "lumped") {
-    simulator_.emplace(
-        std::vector<std::string>{"device-simulator", "--port", port, "--device", device},
-        options_);
+  std::string start(const std::string& port = "0", const std::string& device = "lumped",
+                    const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"device-simulator", "--port", port, "--device",
+                                          device};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    simulator_.emplace(arguments, options_);
     const std::string line = simulator_->read_line().value_or("");
     const std::string words = "listening on ";
     EXPECT_TRUE(line.starts_with(words)) << line;
@@ -63,9 +65,11 @@ class DeviceSimulatorTest : public ::testing::Test {
     return test_support::run_program(arguments, options_);
   }
   static std::vector<std::string> run_words(const std::string& place) {
-    return {"run",    "short.json", "--study",      "short.study",      "--participant",
-            "P01",    "--headless", "--device",     "network:" + place, "--realtime",
-            "--seed", "7",          "--acknowledge"};
+    return {"run",          "short.json",    "--study",
+            "short.study",  "--participant", "P01",
+            "--headless",   "--device",      "network:" + place + ",simulated",
+            "--realtime",   "--seed",        "7",
+            "--acknowledge"};
   }
   [[nodiscard]] core::StudyStore opened() const {
     return {temporary_.path() / "short.study", core::StudyStore::Mode::kReadOnly};
@@ -80,7 +84,7 @@ TEST_F(DeviceSimulatorTest, ServesTheLoopAndCountsWhatCame) {
   const std::string place = start();
   EXPECT_TRUE(place.starts_with("127.0.0.1:")) << place;
   const ProgramOutcome loop =
-      jnd({"loop", "--device", "network:" + place, "--seconds", "1", "--json"});
+      jnd({"loop", "--device", "network:" + place + ",simulated", "--seconds", "1", "--json"});
   EXPECT_EQ(loop.exit_code, 0) << loop.err;
   EXPECT_GT(document(loop.out)["num_ticks"], 900);
   simulator_->send_signal(SIGTERM);
@@ -91,7 +95,7 @@ TEST_F(DeviceSimulatorTest, ServesTheLoopAndCountsWhatCame) {
 
 TEST_F(DeviceSimulatorTest, EachProgramFindsTheDeviceAsItWasAtTheStart) {
   const std::unique_ptr<device::HapticDevice> device =
-      device::make_device("network:" + start(), 1000.0);
+      device::make_device("network:" + start() + ",simulated", 1000.0);
   core::HapticState state;
   device->open();
   ASSERT_TRUE(device->read(state));
@@ -120,6 +124,61 @@ TEST_F(DeviceSimulatorTest, EndsByItselfWithOneJsonDocument) {
   EXPECT_EQ(json["last_fault"], "none");
   EXPECT_EQ(keys(json["link"]), (std::set<std::string>{"received", "lost", "late", "doubled",
                                                        "reordered", "refused"}));
+}
+
+TEST_F(DeviceSimulatorTest, ItsWordThatNobodyCanBeHurtIsNotEnough) {
+  const std::string place = start();
+  const ProgramOutcome silent =
+      jnd({"loop", "--device", "network:" + place, "--seconds", "0.2"});
+  EXPECT_NE(silent.exit_code, 0);
+  EXPECT_NE(silent.err.find(place + ",simulated"), std::string::npos) << silent.err;
+  EXPECT_EQ(sentence_flaw(silent.err), "");
+  const ProgramOutcome other =
+      jnd({"loop", "--device", "network:" + place + ",quick", "--seconds", "0.2"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_EQ(sentence_flaw(other.err), "");
+}
+
+TEST_F(DeviceSimulatorTest, AKeyIsSharedByBothSides) {
+  options_.environment.emplace_back("XDG_CONFIG_HOME", temporary_.path().string());
+  const ProgramOutcome drawn = jnd({"device-key", "robot", "--json"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_TRUE(std::filesystem::exists(document(drawn.out)["file"].get<std::string>()));
+  const ProgramOutcome again = jnd({"device-key", "robot"});
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_EQ(sentence_flaw(again.err), "");
+  EXPECT_EQ(jnd({"device-key", "../robot"}).exit_code, 2);
+
+  const std::string place = start("0", "lumped", {"--key", "robot"});
+  const auto loop = [&](const std::string& with) {
+    return jnd({"loop", "--device", "network:" + place + with, "--seconds", "0.5", "--json"});
+  };
+  EXPECT_EQ(loop(",simulated,key=robot").exit_code, 0);
+  const ProgramOutcome without = loop(",simulated");
+  EXPECT_NE(without.err.find("key=NAME"), std::string::npos) << without.err;
+  EXPECT_NE(without.exit_code, 0);
+  EXPECT_NE(loop(",simulated,key=unknown").err.find("jnd device-key unknown"),
+            std::string::npos);
+}
+
+TEST_F(DeviceSimulatorTest, AnAddressThatOthersReachNeedsAKey) {
+  const ProgramOutcome open =
+      jnd({"device-simulator", "--port", "0", "--listen", "0.0.0.0", "--seconds", "0.1"});
+  EXPECT_EQ(open.exit_code, 2);
+  EXPECT_NE(open.err.find("--key NAME"), std::string::npos) << open.err;
+  EXPECT_EQ(sentence_flaw(open.err), "");
+}
+
+TEST_F(DeviceSimulatorTest, AHostThatIsNotAllowedIsNotAnswered) {
+  const std::string place = start("0", "lumped", {"--allow", "192.0.2.1"});
+  const ProgramOutcome refused =
+      jnd({"loop", "--device", "network:" + place + ",simulated", "--seconds", "0.2"});
+  EXPECT_NE(refused.err.find("expected a device to answer"), std::string::npos) << refused.err;
+  simulator_->send_signal(SIGTERM);
+  const ProgramOutcome served = simulator_->wait();
+  EXPECT_NE(served.out.find("0 programs connected"), std::string::npos) << served.out;
+  EXPECT_EQ(served.out.find(" 0 from hosts that are not allowed"), std::string::npos)
+      << served.out;
 }
 
 TEST_F(DeviceSimulatorTest, WrongArgumentsAreToldInOneSentence) {

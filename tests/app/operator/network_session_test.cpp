@@ -90,7 +90,7 @@ class NetworkSessionTest : public RealtimeSessionTest {
   /// Up to the first trial, in real time.
   SessionView begin() {
     hand_.emplace(1);
-    device_ = "network:" + hand_->place();
+    device_ = "network:" + hand_->place() + ",simulated";
     open_window();
     open(kTwoTrials);
     session_->request(operate::Begin{});

@@ -114,7 +114,7 @@ TEST(Preflight, LooksAtEverythingAndTellsOfEachLineAsItComes) {
             [](const PreflightLine& line) { return line.status == Status::kWaiting; })));
       });
   EXPECT_EQ(num_waiting, (std::vector<std::size_t>{8, 7, 6, 5, 4, 3, 2, 1, 0}));
-  ASSERT_EQ(lines.size(), 8U);
+  ASSERT_EQ(lines.size(), 9U);
   for (const PreflightLine& line : lines) {
     EXPECT_NE(line.status, Status::kFailed) << line.name << ": " << line.found << line.remedy;
     EXPECT_FALSE(line.found.empty()) << line.name;
@@ -129,7 +129,7 @@ TEST(Preflight, TellsNoForceOfADoubleBlindStudyUntilItIsUnblinded) {
   create_study_folder(made.file(), made.folder());
   const auto stimuli = [&made] {
     WorkControl control;
-    return look_before_session({.folder = made.folder(), .loop_test_s = 0.02}, control, {})[6];
+    return look_before_session({.folder = made.folder(), .loop_test_s = 0.02}, control, {})[7];
   };
   EXPECT_EQ(stimuli().found, "8 of 8 within limits");
   core::StudyStore(made.folder(), core::StudyStore::Mode::kReadWrite).add_unblinding(1, "done");
@@ -142,8 +142,8 @@ TEST(Preflight, WithoutAStudyItFailsButSaysTheRest) {
   const std::vector<PreflightLine> lines = look_before_session(
       {.folder = temporary.path() / "none", .loop_test_s = 0.02}, control, {});
   EXPECT_EQ(lines[0].status, Status::kFailed);
-  EXPECT_EQ(lines[5].status, Status::kOk) << "the device";
-  EXPECT_EQ(lines[6].remedy, "mend the study first");
+  EXPECT_EQ(lines[6].status, Status::kOk) << "the device";
+  EXPECT_EQ(lines[7].remedy, "mend the study first");
 }
 
 TEST(Preflight, RunsBesideTheWindowAndPasses) {
@@ -153,7 +153,7 @@ TEST(Preflight, RunsBesideTheWindowAndPasses) {
   EXPECT_FALSE(preflight.passed());
   preflight.wait();
   EXPECT_TRUE(preflight.passed());
-  EXPECT_EQ(preflight.lines().size(), 8U);
+  EXPECT_EQ(preflight.lines().size(), 9U);
   Preflight unplugged({.folder = made.folder(), .device = "unplugged", .loop_test_s = 0.02});
   unplugged.wait();
   EXPECT_FALSE(unplugged.passed());

@@ -35,8 +35,10 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
                                          .num_joints = 22,
                                          .moves_by_itself = random.with_probability(0.5)}};
   std::copy_n("exoskeleton", 11, welcome.name.begin());
+  welcome.challenge = random.next_bits();
   wire::State state;
   state.measured.device_time_ns = static_cast<std::int64_t>(random.next_bits());
+  state.measured.enabled = random.with_probability(0.5);
   wire::Command command{.arm_number = static_cast<std::uint32_t>(random.next_bits()),
                         .answered_sequence = static_cast<std::uint32_t>(random.next_bits())};
   for (int point = 0; point < core::kNumContactPoints; ++point) {
@@ -64,7 +66,9 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
                           .stroke = true,
                           .plan = {.amplitude_m = random.uniform(0.1, 0.3), .num_strokes = 4},
                           .random = random};
-  return {{header, wire::Hello{.token = random.next_bits(), .only_asks = true}},
+  return {{header, wire::Hello{.token = random.next_bits(),
+                               .only_asks = true,
+                               .challenge = random.next_bits()}},
           {header, welcome},
           {header, wire::Refusal{.token = 1, .reason = wire::RefusalReason::kOtherVersion}},
           {header, state},
@@ -139,14 +143,14 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
   state.measured.acted_n[0].x() = 4.0;
   state.measured.acted_n[4].z() = 5.0;
   const Bytes bytes = encoded({{.stream_id = 0x1122, .sequence = 0x33445566}, state});
-  ASSERT_EQ(bytes.size(), 842u);
+  ASSERT_EQ(bytes.size(), 843u);
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), 4), "JDLK");
   EXPECT_EQ(bytes[4], std::byte{2});
   EXPECT_EQ(bytes[6], std::byte{4});
   EXPECT_EQ(bytes[8], std::byte{0x22});
   EXPECT_EQ(bytes[16], std::byte{0x66});
-  EXPECT_EQ(bytes[20], std::byte{842 & 0xff});
-  EXPECT_EQ(bytes[21], std::byte{842 >> 8});
+  EXPECT_EQ(bytes[20], std::byte{843 & 0xff});
+  EXPECT_EQ(bytes[21], std::byte{843 >> 8});
   EXPECT_EQ(bytes[40], std::byte{8});
   EXPECT_EQ(double_at(bytes, 48), 0.25);
   EXPECT_EQ(double_at(bytes, 280), -1.5);
@@ -159,6 +163,7 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
   EXPECT_EQ(bytes[716], std::byte{12});
   EXPECT_EQ(double_at(bytes, 718), 4.0);
   EXPECT_EQ(double_at(bytes, 830), 5.0);
+  EXPECT_EQ(bytes[838], std::byte{1}) << "the enabling switch is closed";
 }
 
 TEST(Datagram, WhatAnotherProgramWroteAfterTheTablesIsUnderstood) {
@@ -175,6 +180,9 @@ TEST(Datagram, WhatAnotherProgramWroteAfterTheTablesIsUnderstood) {
   const auto welcome = std::get<wire::Welcome>(read("welcome").content);
   EXPECT_EQ(welcome.capabilities.num_joints, 22);
   EXPECT_EQ(std::string(welcome.name.data()), "exoskeleton");
+  EXPECT_EQ(welcome.challenge, 0x0102030405060708u);
+  EXPECT_EQ(std::get<wire::Hello>(read("hello").content).challenge, 77u);
+  EXPECT_FALSE(std::get<wire::State>(read("state_of_an_open_switch").content).measured.enabled);
   const auto state = std::get<wire::State>(read("state_of_a_moving_hand").content);
   EXPECT_EQ(state.measured.device_time_ns, 123456789);
   EXPECT_EQ(state.measured.joint_torque_n_m[21], 0.76);

@@ -43,7 +43,7 @@ TEST_F(DeviceServerTest, NobodyElseGetsAWordIn) {
   EXPECT_EQ(felt_n(), 1.0) << "of a stream that was";
   program.stream_id = stream_id;
   other.stream_id = 0;
-  other.send(wire::Hello{.token = 5});
+  other.hello(5);
   talk(1, 1.0);
   other.take_in();
   EXPECT_EQ(other.refusal, wire::RefusalReason::kBusy);
@@ -58,7 +58,7 @@ TEST_F(DeviceServerTest, AnswersToStrangersCostNoStateAndAreFew) {
     other.stream_id = program.stream_id;
     for (int k = 0; k < 20; ++k) {
       other.command(1.0);
-      other.send(wire::Hello{.token = 5});
+      other.hello(5);
       other.send(wire::Hello{.token = 6, .only_asks = true});
     }
     talk(1, 1.0);
@@ -68,7 +68,7 @@ TEST_F(DeviceServerTest, AnswersToStrangersCostNoStateAndAreFew) {
   }
   EXPECT_EQ(program.num_lost, 0) << "they have no numbers of this stream";
   EXPECT_EQ(felt_n(), 1.0);
-  program.send(wire::Hello{.token = 77});
+  program.hello(77);
   talk(5, 1.0);
   EXPECT_EQ(program.num_lost, 0);
   EXPECT_EQ(felt_n(), 1.0);
@@ -86,7 +86,7 @@ TEST_F(DeviceServerTest, ALostWelcomeIsSaidAgain) {
   connect();
   const std::uint64_t stream_id = program.stream_id;
   program.welcomed.reset();
-  program.send(wire::Hello{.token = 77});
+  program.hello(77);
   step();
   EXPECT_TRUE(program.welcomed);
   EXPECT_EQ(program.stream_id, stream_id);
@@ -96,7 +96,7 @@ TEST_F(DeviceServerTest, ALostWelcomeIsSaidAgain) {
 TEST_F(DeviceServerTest, AProgramThatSaysHelloAnewIsDisarmed) {
   arm();
   talk(5, 1.0);
-  program.send(wire::Hello{.token = 78});
+  program.hello(78);
   step();
   EXPECT_EQ(felt_n(), 0.0);
   EXPECT_EQ(program.state.armed_number, 0u);
@@ -148,7 +148,7 @@ TEST_F(DeviceServerTest, AProgramFindsTheDeviceAsItWasAtTheStart) {
     served.renew_device();
     with.take_in();
   };
-  program.send(wire::Hello{.token = 1});
+  program.hello(1);
   step_served(program);
   program.send(wire::Order{.number = 1, .movement_number = 1, .stroke = true});
   for (int i = 0; i < 300; ++i) {
@@ -161,15 +161,16 @@ TEST_F(DeviceServerTest, AProgramFindsTheDeviceAsItWasAtTheStart) {
   const std::int64_t num_ticks = program.state.contact_sums.num_ticks;
   EXPECT_GT(num_ticks, 290);
 
-  program.send(wire::Hello{.token = 2});
+  program.hello(2);
   step_served(program);
   EXPECT_FALSE(program.state.measured.attached[3]) << "the same session goes on";
   EXPECT_GT(program.state.contact_sums.num_ticks, num_ticks);
 
   // The next one is so quick that the device has not been put in order yet.
   Program next(network, address_number(3), kServer);
+  next.challenge = program.challenge;
   program.send(wire::Goodbye{});
-  next.send(wire::Hello{.token = 3});
+  next.hello(3);
   step_served(next);
   ASSERT_TRUE(next.welcomed);
   step_served(next);
@@ -196,7 +197,7 @@ TEST_F(DeviceServerTest, AnOrderCountsOnceAndAnOlderOneNotAtAll) {
     served.step(network.now_ns);
     program.take_in();
   };
-  program.send(wire::Hello{.token = 1});
+  program.hello(1);
   step_served();
   program.send(wire::Order{.number = 2, .movement_number = 2, .stroke = true});
   step_served();
@@ -241,7 +242,7 @@ TEST_F(DeviceServerTest, PuttingFingersBackDoesNotDisturbTheMovement) {
     served.step(network.now_ns);
     program.take_in();
   };
-  program.send(wire::Hello{.token = 1});
+  program.hello(1);
   give({.number = 1, .movement_number = 1, .stroke = true});
   give({.number = 2, .movement_number = 1, .num_put_back = 1, .stroke = true});
   EXPECT_EQ(program.state.order_number, 2u);

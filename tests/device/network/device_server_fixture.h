@@ -12,8 +12,6 @@
 
 namespace jnd::device {
 
-inline constexpr std::int64_t kMs = 1'000'000;
-
 /// A program that does as the test says, whatever the rules are.
 class Program {
  public:
@@ -27,6 +25,8 @@ class Program {
         .stream_id = stream_id, .sequence = with_sequence, .sent_ns = 5, .echo_ns = echo_ns};
     (void)port_->send(encoded({header, content}), server_);
   }
+  /// With the challenge of the last welcome, as the rules want it.
+  void hello(std::uint64_t token) { send(wire::Hello{.token = token, .challenge = challenge}); }
   void command(double force_n, std::uint32_t arm_number = 1) {
     send(with_force(force_n, arm_number));
   }
@@ -45,6 +45,7 @@ class Program {
       ASSERT_EQ(wire::decode(std::span(bytes).first(size), datagram), wire::Problem::kNone);
       if (const auto* welcome = std::get_if<wire::Welcome>(&datagram.content)) {
         welcomed = *welcome;
+        challenge = welcome->challenge;
         ++num_welcomes;
         stream_id = datagram.header.stream_id;
       } else if (const auto* told = std::get_if<wire::State>(&datagram.content)) {
@@ -64,6 +65,7 @@ class Program {
   }
 
   std::uint64_t stream_id = 0;
+  std::uint64_t challenge = 0;
   std::uint32_t sequence = 0;
   std::uint32_t answered = 0;
   bool answers = true;
@@ -97,7 +99,7 @@ class DeviceServerTest : public ::testing::Test {
     }
   }
   void connect() {
-    program.send(wire::Hello{.token = 77});
+    program.hello(77);
     step();
     ASSERT_TRUE(program.welcomed);
     EXPECT_EQ(program.welcomed->token, 77u);

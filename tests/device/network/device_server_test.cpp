@@ -187,7 +187,7 @@ TEST_F(DeviceServerTest, ADeviceThatCannotBeReadGetsNoForceUntilArmedAnew) {
       program.take_in();
     }
   };
-  program.send(wire::Hello{.token = 1});
+  program.hello(1);
   talk_to(200, 0.0);
   talk_to(40, 1.0);
   EXPECT_EQ(felt_n(), 1.0);
@@ -221,6 +221,28 @@ TEST_F(DeviceServerTest, AHaltOfLongAgoIsNotTakenForANewOne) {
   talk(5, 1.0, 2);
   program.send(wire::Halt{}, halted);
   talk(1, 1.0, 2);
+  EXPECT_EQ(felt_n(), 1.0);
+}
+
+TEST_F(DeviceServerTest, AnOpenSwitchEndsTheForceAndClosingItBringsNone) {
+  arm();
+  talk(5, 1.0);
+  ASSERT_EQ(felt_n(), 1.0);
+  device.state.enabled = false;
+  talk(1, 1.0);
+  EXPECT_EQ(felt_n(), 0.0);
+  EXPECT_FALSE(program.state.armed);
+  EXPECT_EQ(program.state.fault, Fault::kNotEnabled);
+  EXPECT_FALSE(program.state.measured.enabled);
+  talk(200, 0.0, 2);
+  EXPECT_TRUE(program.state.armed) << "a program may get ready";
+  talk(5, 1.0, 2);
+  EXPECT_EQ(felt_n(), 0.0) << "and gets no force";
+  device.state.enabled = true;
+  talk(5, 1.0, 2);
+  EXPECT_EQ(felt_n(), 0.0) << "nor does a force that waits for the switch";
+  talk(200, 0.0, 3);
+  talk(5, 1.0, 3);
   EXPECT_EQ(felt_n(), 1.0);
 }
 

@@ -168,6 +168,7 @@ TEST_F(NetworkDeviceTest, ADeviceThatDoesNotRepeatOurClockIsNamed) {
 }
 
 TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
+  scripted.device_capabilities.simulated = true;
   serve({.watchdog_s = 0.050, .max_answer_age_s = 0.070});
   start();
   EXPECT_EQ(device->capabilities().max_stale_s, 0.050);
@@ -192,6 +193,27 @@ TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
   server_runs = false;
   run(51);
   EXPECT_EQ(fault(), Fault::kLinkLost);
+}
+
+TEST_F(NetworkDeviceTest, ARealDeviceGetsNoPatienceWhateverItAsksFor) {
+  serve({.watchdog_s = 0.050, .max_answer_age_s = 0.070});
+  start();
+  EXPECT_EQ(device->capabilities().max_stale_s, 0.020);
+  server_runs = false;
+  run(22);
+  EXPECT_EQ(fault(), Fault::kLinkLost);
+}
+
+TEST_F(NetworkDeviceTest, WhatADeviceSaysOfItselfIsNotBelievedUntold) {
+  scripted.device_capabilities = {
+      .simulated = true, .tells_acting_force = true, .moves_by_itself = true};
+  serve({});
+  device = make_device({.believes_simulated = false});
+  device->ask();
+  EXPECT_TRUE(device->says_simulated());
+  EXPECT_FALSE(device->capabilities().simulated);
+  EXPECT_EQ(device->capabilities().watchdog_timeout_s, 0.020);
+  EXPECT_EQ(device->simulated_hand(), nullptr);
 }
 
 TEST_F(NetworkDeviceTest, WhereNobodyCanBeHurtTheWatchdogIsPatient) {

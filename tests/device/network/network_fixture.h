@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/media/medium.h"
@@ -15,8 +16,6 @@
 #include "simulated_network.h"
 
 namespace jnd::device {
-
-inline constexpr std::int64_t kMs = 1'000'000;
 
 /// A loop on one side of a network and a device on the other, both at 1 kHz on the network's
 /// own time. The hand strokes through something thick, so that there is always a force to lose.
@@ -35,6 +34,8 @@ class NetworkTest : public ::testing::Test {
   void serve(DeviceServer::Parameters parameters) {
     server = nullptr;
     parameters.first_stream_id = next_stream_id += 1000;
+    parameters.first_challenge = next_stream_id;
+    if (!parameters.key) parameters.key = key;
     server_port = network.port(kServer);
     server = std::make_unique<DeviceServer>(*served, *server_port, parameters);
   }
@@ -42,6 +43,7 @@ class NetworkTest : public ::testing::Test {
   std::unique_ptr<NetworkDevice> make_device(NetworkDevice::Parameters parameters = {},
                                              const Address& own = kProgram) {
     parameters.token = next_token += 1000;
+    if (!parameters.key) parameters.key = key;
     return std::make_unique<NetworkDevice>(network.port(own), kServer, parameters);
   }
 
@@ -183,6 +185,7 @@ class NetworkTest : public ::testing::Test {
   core::LatestValue<core::Telemetry> telemetry_door;
   core::EmergencyStop stop;
   std::unique_ptr<HapticLoop> loop;
+  std::optional<DeviceKey> key;  ///< Of both sides, from the next `serve` and `make_device` on.
   bool loop_runs = true, server_runs = true;
   int num_run = 0;
   std::uint64_t next_stream_id = 0;

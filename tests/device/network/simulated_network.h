@@ -17,6 +17,8 @@ namespace jnd::device {
 
 using Bytes = std::vector<std::byte>;
 
+inline constexpr std::int64_t kMs = 1'000'000;
+
 inline Address address_number(std::uint32_t number) {
   Address address;
   std::memcpy(address.bytes.data(), &number, sizeof number);

@@ -1,0 +1,91 @@
+#include "core/safety/stillness_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace jnd::core {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+constexpr std::array<bool, kNumContactPoints> kAll = {true, true, true, true, true};
+constexpr std::uint8_t kIndex = 1 << 3;
+
+PointVectors at(double x_m) {
+  PointVectors points = zero_vectors();
+  for (Eigen::Vector3d& point : points) point.x() = x_m;
+  return points;
+}
+
+void stand(StillnessWatch& watch, double duration_s, std::uint8_t pushed_bits,
+           double speed_m_per_s = 0.0) {
+  for (int i = 0; i < static_cast<int>(duration_s / kPeriod_s); ++i) {
+    watch.observe(at(0.1), at(speed_m_per_s), kAll, pushed_bits);
+  }
+}
+
+TEST(StillnessWatch, TakesTheForceAwayBeforeItCallsASensorDead) {
+  StillnessWatch watch({}, kPeriod_s);
+  stand(watch, 1.99, kIndex);
+  EXPECT_EQ(watch.authority_ratio(3), 1.0);
+  EXPECT_FALSE(watch.asks_to_move());
+  stand(watch, 1.01, kIndex);
+  EXPECT_NEAR(watch.authority_ratio(3), 0.5, 0.01) << "a second into fading";
+  EXPECT_EQ(watch.authority_ratio(0), 1.0) << "the others keep theirs";
+  EXPECT_TRUE(watch.asks_to_move());
+  stand(watch, 1.5, kIndex);
+  EXPECT_EQ(watch.authority_ratio(3), 0.0);
+  EXPECT_FALSE(watch.is_frozen());
+  stand(watch, 0.6, kIndex);
+  EXPECT_TRUE(watch.is_frozen());
+}
+
+TEST(StillnessWatch, AnyChangeBringsTheForceBack) {
+  StillnessWatch watch({}, kPeriod_s);
+  stand(watch, 4.5, kIndex);
+  ASSERT_EQ(watch.authority_ratio(3), 0.0);
+  for (int i = 1; i <= 501; ++i) {
+    watch.observe(at(0.1 + 1e-7 * i), at(0.0), kAll, kIndex);
+    EXPECT_NEAR(watch.authority_ratio(3), i / 500.0, 0.003) << "slowly";
+    EXPECT_FALSE(watch.asks_to_move());
+  }
+  EXPECT_EQ(watch.authority_ratio(3), 1.0);
+  stand(watch, 1.9, kIndex);
+  EXPECT_EQ(watch.authority_ratio(3), 1.0) << "and all begins anew";
+}
+
+TEST(StillnessWatch, WhoIsNotPushedMayRest) {
+  StillnessWatch watch({}, kPeriod_s);
+  stand(watch, 60.0, 0);
+  EXPECT_FALSE(watch.is_frozen());
+  EXPECT_FALSE(watch.asks_to_move());
+}
+
+TEST(StillnessWatch, APointThatIsNotHeldMayRest) {
+  StillnessWatch watch({}, kPeriod_s);
+  for (int i = 0; i < 10'000; ++i) watch.observe(at(0.1), at(1.0), {}, kIndex);
+  EXPECT_FALSE(watch.is_frozen());
+}
+
+TEST(StillnessWatch, AVelocityWithoutAWayIsFrozenAndNoiseIsNot) {
+  StillnessWatch watch({}, kPeriod_s);
+  stand(watch, 0.95, 0, 0.01);
+  EXPECT_FALSE(watch.is_frozen());
+  stand(watch, 0.1, 0, 0.01);
+  EXPECT_TRUE(watch.is_frozen()) << "a centimetre at 1 cm/s";
+  watch.reset();
+  for (int i = 0; i < 60'000; ++i) {
+    watch.observe(at(0.1), at(i % 2 == 0 ? 0.04 : -0.04), kAll, 0);
+  }
+  EXPECT_FALSE(watch.is_frozen());
+}
+
+TEST(StillnessWatch, ParametersOutOfRangeAreRefused) {
+  EXPECT_THROW(StillnessWatch({.max_still_s = 0.0}, kPeriod_s), Error);
+  EXPECT_THROW(StillnessWatch({.fade_s = -1.0}, kPeriod_s), Error);
+  EXPECT_THROW(StillnessWatch({.max_way_m = 0.0}, kPeriod_s), Error);
+  EXPECT_THROW(StillnessWatch({}, 0.0), Error);
+}
+
+}  // namespace
+}  // namespace jnd::core
