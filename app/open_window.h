@@ -21,6 +21,10 @@ struct WindowRequest {
   bool allow_no_realtime = false;
   std::string language;                       ///< Of the study; "": its first.
   std::map<std::string, std::string> fields;  ///< What the participant brings; may lack.
+  /// "F10", "F11" or "F12": a key, pedal or button of the participant's; "": none. See
+  /// `gui::ParticipantStop`.
+  std::string participant_stop;
+  bool participant_holds = false;  ///< Force only while it is held.
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;
 };

@@ -74,10 +74,18 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   felt.missed_ticks = last.num_missed_ticks - missed_before_;
   summary.missed_ticks = felt.missed_ticks;
   summary.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
+  summary.exposure = exposure_since_last();
   session_.end_presentation(felt.last_tick, summary);
   under_way_ = false;
   measuring_ = false;
   return felt;
+}
+
+/// Of simulated hands only where the study asks: nothing can happen to them.
+std::optional<core::Exposure> Presenter::exposure_since_last() {
+  if (apparatus_.is_simulated() && !session_.limits().limits_exposure()) return std::nullopt;
+  const core::Exposure now = apparatus_.telemetry().exposure;
+  return now - std::exchange(told_, now);
 }
 
 std::string Presenter::missed_reason(const Felt& felt) const {

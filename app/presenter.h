@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/apparatus.h"
@@ -60,6 +61,8 @@ class Presenter {
   [[nodiscard]] double felt_s() const noexcept;
 
  private:
+  [[nodiscard]] std::optional<core::Exposure> exposure_since_last();
+
   [[nodiscard]] const experiments::PresentationState& presentation() const;
 
   Apparatus& apparatus_;
@@ -72,6 +75,7 @@ class Presenter {
   std::int64_t missed_before_ = 0;
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;
+  core::Exposure told_;  ///< In events of this apparatus.
 };
 
 }  // namespace jnd::app

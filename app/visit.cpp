@@ -76,7 +76,8 @@ Visit::Visit(const Parameters& parameters)
                 .stages = stages_of_session(parameters.study,
                                             parameters.store.session(parameters.session).cells),
                 .cell = cell_of_session(parameters),
-                .fields = field_values(parameters.study, cell_of_session(parameters))},
+                .fields = field_values(parameters.study, cell_of_session(parameters)),
+                .limits = parameters.study.session_limits},
                history_, log_, apparatus_.clock()) {}
 
 Apparatus::Parameters Visit::apparatus_parameters() const {

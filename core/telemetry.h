@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/contact_sums.h"
+#include "core/exposure.h"
 #include "core/safety/fault.h"
 #include "core/sample.h"
 
@@ -32,6 +33,7 @@ struct Telemetry {
   /// How often each point came off so far.
   std::array<std::uint32_t, kNumContactPoints> num_detachments{};
   std::uint64_t num_limited_ticks = 0;  ///< So far; a difference over a trial marks it.
+  Exposure exposure;                    ///< Since the loop began, to forces as sent.
   ContactSums contact_sums;             ///< Zeros from a device that does not know them.
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "core/contact_sums.h"
@@ -46,6 +47,15 @@ struct DeviceCapabilities {
   bool moves_by_itself = false;  ///< By a simulated arm: nobody has to be there.
 };
 
+/// How good the way to a device is that is elsewhere.
+struct LinkReport {
+  std::string_view level;  ///< "excellent", "good", "poor" or "unacceptable".
+  bool may_arm = false;    ///< Good enough to bring the force back after a fault.
+  bool may_give_force = false;
+  double lost_ratio = 0.0;    ///< Of the device's datagrams, 0 to 1.
+  double round_trip_s = 0.0;  ///< There and back, with the waiting for both sides' ticks.
+};
+
 /// A device that holds a hand at five points. Everything it takes and gives is in SI units and
 /// in the workspace frame of `core::HapticState`; a device with another frame transforms
 /// inside. Forces are those that act on the hand, not on the device.
@@ -90,6 +100,9 @@ class HapticDevice {
 
   /// The simulated person on it; nullptr: the hand is moved by somebody else.
   [[nodiscard]] virtual SimulatedHand* simulated_hand() noexcept { return nullptr; }
+
+  /// How good the way to it is; none: it is here. Not while another thread reads or writes.
+  [[nodiscard]] virtual std::optional<LinkReport> link() const noexcept { return std::nullopt; }
 
   /// What the hand has been through, where the device knows it: a simulation. Real time.
   [[nodiscard]] virtual core::ContactSums contact_sums() const noexcept { return {}; }

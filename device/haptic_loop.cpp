@@ -430,6 +430,17 @@ void HapticLoop::warm() const noexcept {
   limiter.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n);
 }
 
+/// Force stands while ticks are missed.
+void HapticLoop::add_exposure() noexcept {
+  constexpr double kFeltN = 0.1;
+  double whole_n = 0.0;
+  for (const Eigen::Vector3d& force_n : force_on_hand_n_) whole_n += force_n.norm();
+  if (whole_n == 0.0) return;
+  const double duration_s = period_s_ * static_cast<double>(1 + num_missed_);
+  telemetry_.exposure.force_time_n_s += duration_s * whole_n;
+  if (whole_n >= kFeltN) telemetry_.exposure.under_force_s += duration_s;
+}
+
 void HapticLoop::report() noexcept {
   const core::HapticCommand& command = doors_.commands.value();
   core::Sample& sample = telemetry_.sample;
@@ -459,6 +470,7 @@ void HapticLoop::report() noexcept {
     }
   }
 
+  add_exposure();
   flight_recorder_.record(sample);
   if (core::is_failure(fault_)) flight_recorder_.freeze();
   if (doors_.samples != nullptr && !doors_.samples->try_push(sample)) {

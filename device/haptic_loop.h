@@ -156,6 +156,7 @@ class HapticLoop {
   void take_command() noexcept;
   void compute_force() noexcept;
   void write_device() noexcept;
+  void add_exposure() noexcept;
 
   Parameters parameters_;
   HapticDevice& device_;

@@ -1,10 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <string>
+#include <thread>
 
 #include "app/commands/commands.h"
 #include "app/field_options.h"
@@ -19,6 +23,7 @@
 #include "app/usage_message.h"
 #include "core/error.h"
 #include "device/device_registry.h"
+#include "device/haptic_device.h"
 #include "experiments/session/event.h"
 #include "experiments/study/study_reader.h"
 
@@ -42,6 +47,9 @@ struct RunOptions {
   std::optional<std::int64_t> session;
   std::string language;             ///< "": the study's first.
   std::vector<std::string> fields;  ///< "sex=female"
+  double wait_s = 0.0;              ///< For a device that is elsewhere.
+  std::string participant_stop;     ///< A key; "": none.
+  bool participant_holds = false;
 };
 
 /// "right" or "wrong" with a space before it, where that was told of an answer.
@@ -77,15 +85,44 @@ std::string how_to_go_on(const RunOptions& options, std::int64_t session) {
          " --headless" + (options.realtime ? " --realtime" : "") + "` goes on from there";
 }
 
+/// Lets a device that is elsewhere come back, and its link become good, for as long as `wait_s`
+/// asks for. Says once what it waits for, and again where that changes.
+class DeviceWait {
+ public:
+  explicit DeviceWait(double wait_s)
+      : give_up_(Clock::now() + std::chrono::milliseconds(std::llround(1e3 * wait_s))) {}
+
+  /// Returns after a second; throws what is wrong when the time is over or the program is to
+  /// stop.
+  void over(const device::DeviceUnreachable& problem) {
+    if (Clock::now() >= give_up_ || stop_requested()) throw problem;
+    if (told_ != problem.what()) {
+      told_ = problem.what();
+      const auto left =
+          std::chrono::duration_cast<std::chrono::seconds>(give_up_ - Clock::now());
+      std::fprintf(stderr, "jnd: waiting for the device, for %lld s at most: %s\n",
+                   static_cast<long long>(left.count() + 1), told_.c_str());
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point give_up_;
+  std::string told_;
+};
+
 int run_session(const RunOptions& options, core::StudyStore& store,
                 const experiments::Study& study, const experiments::Laboratory& laboratory,
                 std::int64_t session) {
   stop_on_signals();
   Acknowledgements acknowledgements(options.acknowledge);
   LaboratoryRunResult result;
-  try {
-    ProgressBar bar(study.name);
-    result = run_laboratory(
+  DeviceWait wait(options.wait_s);
+  bool has_begun = false;
+  ProgressBar bar(study.name);
+  const auto run = [&] {
+    return run_laboratory(
         {.study = study,
          .laboratory = laboratory,
          .store = store,
@@ -95,9 +132,24 @@ int run_session(const RunOptions& options, core::StudyStore& store,
          .arm = options.arm,
          .choice = options.choose,
          .language = options.language,
-         .on_event = [&](const core::EventRow& event) { acknowledgements.tell(event); },
+         .on_event =
+             [&](const core::EventRow& event) {
+               has_begun = true;
+               acknowledgements.tell(event);
+             },
          .on_progress = [&](double done) { bar.show(done); },
          .is_cancelled = [&] { return stop_requested() || acknowledgements.unheard(); }});
+  };
+  try {
+    for (bool is_there = false; !is_there;) {
+      try {
+        result = run();
+        is_there = true;
+      } catch (const device::DeviceUnreachable& problem) {
+        if (has_begun) throw;
+        wait.over(problem);
+      }
+    }
   } catch (const core::Error& error) {
     throw core::Error(std::string(error.what()) + "; " + how_to_go_on(options, session));
   }
@@ -176,7 +228,9 @@ int run_run(RunOptions options) {
                         .pilot = options.pilot,
                         .allow_no_realtime = options.allow_no_realtime,
                         .language = options.language,
-                        .fields = fields_or_none(study, options.fields)});
+                        .fields = fields_or_none(study, options.fields),
+                        .participant_stop = options.participant_stop,
+                        .participant_holds = options.participant_holds});
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
@@ -238,8 +292,27 @@ experiments::Laboratory laboratory_of(const RunOptions& options, const core::Ses
   return experiments::parse_laboratory(row.laboratory, options.folder + ": laboratory");
 }
 
+/// Until it tells what it can do.
+void wait_for_device(const RunOptions& options, const core::SessionRow& row) {
+  DeviceWait wait(options.wait_s);
+  stop_on_signals();
+  while (true) {
+    try {
+      (void)device::make_device(row.device, row.rate_hz);
+      return;
+    } catch (const device::DeviceUnreachable& problem) {
+      try {
+        wait.over(problem);
+      } catch (const device::DeviceUnreachable& at_last) {
+        throw EnvironmentError(at_last.what());
+      }
+    }
+  }
+}
+
 int resume_headless(RunOptions options, core::StudyStore& store, const core::SessionRow& row) {
   const experiments::Study study = stored_study(store, row.session);
+  wait_for_device(options, row);
   require_arming(options, row.device, row.rate_hz);
   require_device_starts(row.device, row.rate_hz);
   require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
@@ -263,7 +336,22 @@ int resume(const RunOptions& options) {
   }
   if (options.headless) return resume_headless(options, *store, *row);
   store.reset();  // The window opens it itself.
-  return open_window({.study_folder = options.folder, .resume_session = row->session});
+  return open_window({.study_folder = options.folder,
+                      .participant_stop = options.participant_stop,
+                      .participant_holds = options.participant_holds,
+                      .resume_session = row->session});
+}
+
+void add_participant_stop(CLI::App& command, RunOptions& options) {
+  CLI::Option* key = command.add_option(
+      "--participant-stop", options.participant_stop,
+      "In the window: key, or pedal or button that counts as one, that the participant presses "
+      "to stop");
+  key->check(CLI::IsMember({"F10", "F11", "F12"}));
+  command
+      .add_flag("--participant-holds", options.participant_holds,
+                "Force only while the participant holds it down")
+      ->needs(key);
 }
 
 /// In a window the experimenter arms a real device by a key.
@@ -295,6 +383,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "Run a real device without real-time rights");
   add_headless_options(*command, *options);
+  add_participant_stop(*command, *options);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: thesis, or thesis_exoskeleton "
                       "with that device");
@@ -311,6 +400,14 @@ void add_resume(CLI::App& program, Invocation& invocation) {
       program.add_subcommand("resume", "Go on with a session that was interrupted");
   const auto options = std::make_shared<RunOptions>();
   options->laboratory.clear();
+  options->wait_s = 60.0;
+  command
+      ->add_option(
+          "--wait-s", options->wait_s,
+          "With --headless: how long to wait for a device that is elsewhere to be there "
+          "and for its link to be good")
+      ->check(number_between(0.0, 86'400.0))
+      ->capture_default_str();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -322,6 +419,7 @@ void add_resume(CLI::App& program, Invocation& invocation) {
       ->check(CLI::IsMember({"repeat", "restart", "end"}))
       ->capture_default_str();
   add_headless_options(*command, *options);
+  add_participant_stop(*command, *options);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: the session's own");
   command->add_flag("--realtime", options->realtime, "Paced by the clock");

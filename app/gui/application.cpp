@@ -61,7 +61,11 @@ std::uint64_t seed_of(const core::StudyStore& store) {
 }  // namespace
 
 Application::Application(WindowRequest request, std::function<void()> wake)
-    : request_(std::move(request)), wake_(std::move(wake)) {
+    : request_(std::move(request)),
+      wake_(std::move(wake)),
+      participant_stop_(ParticipantStop::key_named(request_.participant_stop),
+                        request_.participant_holds ? ParticipantStop::Way::kHold
+                                                   : ParticipantStop::Way::kPress) {
   show_start();
   if (request_.resume_session) {
     attempt("The session cannot be resumed",
@@ -124,6 +128,10 @@ void Application::escape() noexcept {
   }
 }
 
+void Application::key_changed(Key key, bool is_down) noexcept {
+  if (participant_stop_.key_changed(key, is_down)) escape();
+}
+
 void Application::mouse_pressed(float x, float y) noexcept {
   if (stop_place_.contains(x, y)) escape();
 }
@@ -171,6 +179,8 @@ void Application::attempt(const char* title, const std::function<void()>& work) 
 
 void Application::draw(Ui& ui) {
   collect_work();
+  // Released by the experimenter while nobody holds the participant's switch.
+  if (participant_stop_.is_let_go() && !doors_.emergency_stop.is_pressed()) escape();
   run_state_.is_covered = shows_keys_ || !message_.empty();
   switch (screen_) {
     case Screen::kStart:

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/participant_stop.h"
 #include "app/gui/ui.h"
 #include "app/gui/views/apparatus_view.h"
 #include "app/gui/views/prepare_view.h"
@@ -64,6 +65,8 @@ class Application {
 
   /// The emergency stop; past everything else.
   void escape() noexcept;
+  /// A key went down or up: it may be the participant's stop. Past everything else as well.
+  void key_changed(Key key, bool is_down) noexcept;
   /// The mouse went down there, logical pixels: the stop does not wait for a frame either.
   void mouse_pressed(float x, float y) noexcept;
   /// The system asks the program to end: a session is left as it is, to be resumed.
@@ -120,6 +123,7 @@ class Application {
   std::function<void()> wake_;
   RecentStudies recent_;
   OperatorDoors doors_;
+  ParticipantStop participant_stop_;
   Screen screen_ = Screen::kStart;
   bool closed_ = false, closing_ = false, leaving_ = false;
   bool shows_participant_ = false;

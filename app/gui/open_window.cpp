@@ -49,6 +49,9 @@ void show(gui::Window& window, const WindowRequest& request) {
   };
   bool second_was_open = false;
   window.on_escape = [&] { application.escape(); };
+  window.on_key_changed = [&](gui::Key key, bool is_down) {
+    application.key_changed(key, is_down);
+  };
   window.on_iteration = [&] {
     application.beat();
     if (stop_requested() && !application.closed()) {

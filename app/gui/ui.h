@@ -160,7 +160,8 @@ class Ui {
   /// 26 high. Returns its width.
   float chip(float x, float y, std::string_view words, Colour colour);
   [[nodiscard]] float chip_width(std::string_view words) const;
-  /// 20 high, of the colour of its letters. Returns its width.
+  static constexpr float kKeyCapHeight = 20;
+  /// Of the colour of its letters. Returns its width.
   float key_cap(float x, float y, const Chord& key, Colour colour = Colour::kSoft);
   [[nodiscard]] float key_cap_width(const Chord& key) const;
 

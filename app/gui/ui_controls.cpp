@@ -14,7 +14,6 @@ namespace {
 constexpr double kRepeatDelayS = 0.4;
 constexpr double kRepeatIntervalS = 0.08;
 constexpr float kKeyCapGap = 9;
-constexpr float kKeyCapHeight = 20;
 
 Font font_of(const ButtonStyle& style) {
   if (style.large) return Font::kAnswer;

@@ -12,7 +12,6 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr float kChipHeight = 26;
-constexpr float kKeyCapHeight = 20;
 
 /// Reads the code point at `position` and moves on to the next.
 unsigned next_code_point(std::string_view text, std::size_t& position) {

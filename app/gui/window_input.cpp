@@ -23,6 +23,9 @@ double pixels_per_unit(GLFWwindow* window) {
 void Window::Implementation::on_key(int key, int scancode, int action, int mods) {
   // Before anything else, and whatever else it means: no frame is waited for.
   if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS && window.on_escape) window.on_escape();
+  if (action != GLFW_REPEAT && window.on_key_changed) {
+    window.on_key_changed(key_of_glfw(key, scancode), action == GLFW_PRESS);
+  }
   something_happened(true);
   // With Alt or the system's own key it is meant for others.
   if (action != GLFW_RELEASE && (mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;

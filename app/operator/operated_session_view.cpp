@@ -462,6 +462,11 @@ SessionView OperatedSession::view() const {
   view.advice =
       limit_advice(parameters_.study.session_limits,
                    num_answers_since_break(session_.stages(), state()), view.elapsed_s);
+  if (const std::string over =
+          exposure_words(parameters_.study.session_limits, state().exposure);
+      !over.empty()) {
+    view.advice = over;
+  }
   const bool has_stage = stage() != nullptr && begun_;
   add_words(view, has_stage ? title_of(static_cast<std::size_t>(state().stage)) : "",
             has_stage ? words(instruction_of(*stage())) : "");

@@ -11,6 +11,7 @@
 #include "app/operator/background_task.h"
 #include "app/stability_limits.h"
 #include "core/safety/emergency_stop.h"
+#include "device/haptic_device.h"
 #include "experiments/session/plan.h"
 
 namespace jnd::app {
@@ -95,8 +96,9 @@ struct LoopTest {
   double rate_hz = 0.0, duration_s = 0.0;
   double lateness_p99_us = 0.0;
   std::int64_t missed_ticks = 0;
-  bool for_a_person = false;  ///< The device can hurt somebody.
-  std::string fault;          ///< In words; "" for none.
+  bool for_a_person = false;                 ///< The device can hurt somebody.
+  std::optional<device::LinkReport> link{};  ///< To a device that is elsewhere.
+  std::string fault;                         ///< In words; "" for none.
 };
 [[nodiscard]] PreflightLine loop_line(const LoopTest& test);
 /// Runs the loop with the device in free space, which is no force. `on_progress` is called with

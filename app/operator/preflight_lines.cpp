@@ -166,6 +166,20 @@ PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
   return line;
 }
 
+/// What loss and delay of the way to the device will cost in a session.
+static void judge_link(const device::LinkReport& link, PreflightLine& line) {
+  line.found += fmt::format("; link {}: {:.1f} % lost, {:.1f} ms there and back", link.level,
+                            100.0 * link.lost_ratio, 1e3 * link.round_trip_s);
+  if (link.may_arm) return;
+  line.status = link.may_give_force ? Status::kWarning : Status::kFailed;
+  line.remedy = link.may_give_force
+                    ? "a force that is there goes on, but the device is not armed over such a "
+                      "link, so every fault holds the session up until it is better; use a "
+                      "cable of its own"
+                    : "no force is given over such a link; use a cable of its own, or look at "
+                      "the device's own program";
+}
+
 PreflightLine loop_line(const LoopTest& test) {
   PreflightLine line{.name = loop_name(test.rate_hz, test.duration_s), .status = Status::kOk};
   if (!test.fault.empty()) {
@@ -182,8 +196,9 @@ PreflightLine loop_line(const LoopTest& test) {
       test.lateness_p99_us < 10.0
           ? fmt::format("{} missed, 99 % within {:.1f} µs", missed, test.lateness_p99_us)
           : fmt::format("{} missed, 99 % within {:.0f} µs", missed, test.lateness_p99_us);
+  if (test.link) judge_link(*test.link, line);
   const bool late = test.lateness_p99_us > 0.2 * 1e6 / test.rate_hz;
-  if (test.missed_ticks == 0 && !late) return line;
+  if (line.status != Status::kOk || (test.missed_ticks == 0 && !late)) return line;
   line.status = test.missed_ticks > 0 && test.for_a_person ? Status::kFailed : Status::kWarning;
   line.remedy = "close other programs, or give the loop a processor of its own";
   return line;
@@ -207,6 +222,7 @@ LoopTest test_loop(const PreflightRequest& request, double rate_hz,
     done = std::min(1.0, elapsed_s / request.loop_test_s);
     if (on_progress) on_progress(done);
   }
+  test.link = device->link();
   run.stop();
   const core::Fault fault = run.telemetry().fault;
   if (core::is_failure(fault)) test.fault = std::string(core::words(fault));

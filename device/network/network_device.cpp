@@ -60,6 +60,17 @@ DeviceCapabilities NetworkDevice::capabilities() const noexcept {
   return can;
 }
 
+std::optional<LinkReport> NetworkDevice::link() const noexcept {
+  const LinkCounts& counts = quality_.counts();
+  const auto sent = static_cast<double>(counts.received + counts.lost);
+  const LinkLevel level = std::min(quality_.level(), newest_.level);
+  return LinkReport{.level = device::name(level),
+                    .may_arm = level >= LinkLevel::kGood,
+                    .may_give_force = level > LinkLevel::kUnacceptable,
+                    .lost_ratio = sent > 0.0 ? static_cast<double>(counts.lost) / sent : 0.0,
+                    .round_trip_s = quality_.round_trip_s()};
+}
+
 SimulatedHand* NetworkDevice::simulated_hand() noexcept {
   const DeviceCapabilities can = capabilities();
   return can.simulated && can.moves_by_itself ? &hand_ : nullptr;

@@ -76,6 +76,8 @@ class NetworkDevice final : public HapticDevice {
     return newest_.contact_sums;
   }
 
+  [[nodiscard]] std::optional<LinkReport> link() const noexcept override;
+
   /// Of the states that come in. Real time.
   [[nodiscard]] const LinkQuality& quality() const noexcept { return quality_; }
 

@@ -167,6 +167,10 @@ struct Writer {
             {"limited_ticks", s.limited_ticks},
             {"finger_lag_s", optional_number(s.finger_lag_s)}};
     if (s.missed_ticks > 0) data["missed_ticks"] = s.missed_ticks;
+    if (s.exposure) {
+      data["force_time_n_s"] = s.exposure->force_time_n_s;
+      data["under_force_s"] = s.exposure->under_force_s;
+    }
   }
   void operator()(const IntensityAdjusted& e) const {
     place(e.trial, e.attempt);
@@ -294,6 +298,10 @@ struct Reader {
     if (data.contains("finger_lag_s")) s.finger_lag_s = optional_number(data, "finger_lag_s");
     if (data.contains("missed_ticks")) {
       s.missed_ticks = whole_number(data.at("missed_ticks"), "missed_ticks");
+    }
+    if (data.contains("force_time_n_s")) {
+      s.exposure = core::Exposure{.force_time_n_s = data.at("force_time_n_s").get<double>(),
+                                  .under_force_s = data.at("under_force_s").get<double>()};
     }
   }
   void operator()(IntensityAdjusted& e) const {

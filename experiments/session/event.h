@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/exposure.h"
 #include "core/storage/study_store.h"
 #include "experiments/procedures/procedure.h"
 
@@ -75,6 +76,9 @@ struct PresentationSummary {
   std::int64_t limited_ticks = 0;
   std::int64_t missed_ticks = 0;       ///< That were due and never ran.
   std::optional<double> finger_lag_s;  ///< By which the fingers trail behind the palm.
+  /// Of the hand since the presentation before, in between as well: of a real device, or where
+  /// the study limits it.
+  std::optional<core::Exposure> exposure{};
 };
 
 struct PresentationEnded {

@@ -9,6 +9,7 @@
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/task.h"
+#include "experiments/session/session_limits.h"
 
 namespace jnd::experiments {
 namespace {
@@ -160,6 +161,12 @@ void Session::start_trial(std::int64_t tick) {
   const std::optional<std::int64_t> trial = state_.current_trial();
   if (!state_.stage_open || !trial || state_.trial(*trial).under_way) {
     cannot("start a trial", "a trial that waits");
+  }
+  if (const std::string over = exposure_words(parameters_.limits, state_.exposure);
+      !over.empty()) {
+    throw core::Error("session " + std::to_string(parameters_.session) +
+                      ": expected less force than the study allows for a session, found " +
+                      over + "; let the person rest, and end the session");
   }
   commit(TrialStarted{*trial, state_.trial(*trial).attempt + 1, tick});
 }

@@ -40,6 +40,7 @@ class Session {
     std::vector<const Stage*> stages;  ///< The participant's own, counterbalance resolved.
     Cell cell{};                       ///< The participant's, for the squares of blocks.
     FieldValues fields{};              ///< What the participant brought; kept with the start.
+    SessionLimits limits{};            ///< Of exposure: no trial begins beyond them.
   };
 
   /// Replays `history`; empty for a new session. The references must outlive the session.
@@ -49,6 +50,7 @@ class Session {
   [[nodiscard]] const SessionState& state() const noexcept { return state_; }
   [[nodiscard]] std::int64_t id() const noexcept { return parameters_.session; }
   [[nodiscard]] std::uint64_t seed() const noexcept { return parameters_.seed; }
+  [[nodiscard]] const SessionLimits& limits() const noexcept { return parameters_.limits; }
   [[nodiscard]] const std::vector<const Stage*>& stages() const noexcept {
     return parameters_.stages;
   }

@@ -1,6 +1,8 @@
 #include "experiments/session/session_limits.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <variant>
 
 #include "experiments/procedures/practice.h"
@@ -54,6 +56,23 @@ std::string limit_advice(const SessionLimits& limits, int num_answers_since_brea
       num_answers_since_break >= *limits.max_trials_without_break) {
     return std::to_string(num_answers_since_break) + " trials without a break, of at most " +
            std::to_string(*limits.max_trials_without_break);
+  }
+  return "";
+}
+
+std::string exposure_words(const SessionLimits& limits, const core::Exposure& exposure) {
+  const auto words = [](double number, const char* format) {
+    std::array<char, 32> text{};
+    (void)std::snprintf(text.data(), text.size(), format, number);
+    return std::string(text.data());
+  };
+  if (limits.max_under_force_s && exposure.under_force_s >= *limits.max_under_force_s) {
+    return words(exposure.under_force_s / 60.0, "%.1f min under force") +
+           words(*limits.max_under_force_s / 60.0, ", of at most %.1f");
+  }
+  if (limits.max_force_time_n_s && exposure.force_time_n_s >= *limits.max_force_time_n_s) {
+    return words(exposure.force_time_n_s, "%.0f N s of force") +
+           words(*limits.max_force_time_n_s, ", of at most %.0f");
   }
   return "";
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/exposure.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/session/session_state.h"
 #include "experiments/study/study.h"
@@ -31,5 +32,10 @@ struct Stretch {
 /// session has taken so far.
 [[nodiscard]] std::string limit_advice(const SessionLimits& limits, int num_answers_since_break,
                                        double elapsed_s);
+
+/// "12.0 min under force, of at most 10.0" of a hand that has been exposed to all that its
+/// study allows; "" before.
+[[nodiscard]] std::string exposure_words(const SessionLimits& limits,
+                                         const core::Exposure& exposure);
 
 }  // namespace jnd::experiments

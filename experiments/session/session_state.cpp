@@ -64,6 +64,7 @@ struct Fold {
     if (trial.presentations.empty()) damaged("a presentation to end");
     trial.presentations.back().last_tick = e.last_tick;
     trial.last_tick = e.last_tick;
+    if (e.summary.exposure) state.exposure += *e.summary.exposure;
     saw_tick(e.last_tick);
   }
   void operator()(const IntensityAdjusted& e) const {

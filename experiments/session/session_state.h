@@ -52,6 +52,7 @@ struct SessionState {
   /// What was told of the last answer, until the next trial begins.
   std::optional<bool> feedback_right;
   std::vector<std::string> notes;
+  core::Exposure exposure;  ///< As far as presentations tell of it.
   std::int64_t last_sequence = 0;
   std::int64_t last_time_ns = 0;
   std::int64_t last_tick = -1;  ///< The last tick that any event speaks of.

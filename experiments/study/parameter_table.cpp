@@ -170,6 +170,22 @@ const ParameterTable& session_limits_table() {
                       "Absent: any number.",
            .required = false,
            .range = {1, 50000}},
+          {.key = "max_force_time_n_s",
+           .kind = ValueKind::kNumber,
+           .meaning =
+               "Force times time that a hand is exposed to, the magnitudes of all points "
+               "summed up. A session that reaches it begins no further trial. Absent: no "
+               "limit.",
+           .required = false,
+           .unit = "N s",
+           .range = {0.0, 1e9, true}},
+          {.key = "max_under_force_s",
+           .kind = ValueKind::kNumber,
+           .meaning = "Time in which the points together give 0.1 N and more. A session that "
+                      "reaches it begins no further trial. Absent: no limit.",
+           .required = false,
+           .unit = "s",
+           .range = {0.0, 28800.0, true}},
       }};
   return kTable;
 }

@@ -208,6 +208,12 @@ struct ParticipantField {
 struct SessionLimits {
   std::optional<double> max_duration_s;         ///< > 0.
   std::optional<int> max_trials_without_break;  ///< >= 1.
+  std::optional<double> max_force_time_n_s;     ///< > 0; see `core::Exposure`.
+  std::optional<double> max_under_force_s;      ///< > 0; likewise.
+
+  [[nodiscard]] bool limits_exposure() const noexcept {
+    return max_force_time_n_s || max_under_force_s;
+  }
 };
 
 /// A study file, checked and with every default filled in.

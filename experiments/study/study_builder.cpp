@@ -349,6 +349,8 @@ Study build_study(const LocatedJson& file, std::string text) {
                                                : Blinding::kNone;
   const ObjectReader limits = in.object("session_limits");
   study.session_limits.max_duration_s = limits.optional_number("max_duration_s");
+  study.session_limits.max_force_time_n_s = limits.optional_number("max_force_time_n_s");
+  study.session_limits.max_under_force_s = limits.optional_number("max_under_force_s");
   if (limits.has("max_trials_without_break")) {
     study.session_limits.max_trials_without_break = limits.integer("max_trials_without_break");
   }

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/storage/integrity.h"
 #include "core/storage/recording.h"
+#include "experiments/session/event.h"
 #include "experiments/study/study_reader.h"
 #include "support/places.h"
 #include "support/sanitizer.h"
@@ -448,6 +449,31 @@ TEST_F(LaboratoryRunTest, AMachineThatNeverKeepsItsTimeEndsTheRun) {
   }
   EXPECT_TRUE(store->trials(1).empty());
   EXPECT_FALSE(store->finished(1));
+}
+
+TEST_F(LaboratoryRunTest, ASessionEndsItsTrialsWhereItsExposureIsReached) {
+  study_.session_limits.max_under_force_s = 8.0;
+  const auto store = store_with_session("exposed");
+  for (int i = 0; i < 2; ++i) {
+    try {
+      (void)run(*store, run_of(*store));
+      ADD_FAILURE() << "it went on";
+    } catch (const core::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("min under force, of at most 0.1"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_FALSE(store->finished(1)) << "it can be ended, or looked at, by a person";
+  double under_force_s = 0.0;
+  for (const core::EventRow& row : store->events(1)) {
+    const experiments::Event event = experiments::event_from_row(row);
+    const auto* ended = std::get_if<experiments::PresentationEnded>(&event.data);
+    if (ended != nullptr) under_force_s += ended->summary.exposure.value().under_force_s;
+  }
+  EXPECT_GE(under_force_s, 8.0);
+  EXPECT_LT(under_force_s, 20.0) << "no more than the trial under way";
+  EXPECT_GE(store->trials(1).size(), 1u) << "what was answered is kept";
 }
 
 }  // namespace

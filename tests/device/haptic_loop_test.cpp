@@ -213,5 +213,24 @@ TEST_F(HapticLoopTest, ATickWithTheSimulatedHandDoesNotAllocate) {
   EXPECT_EQ(hand.simulated_hand()->strokes_finished(), 1);
 }
 
+TEST_F(HapticLoopTest, AddsUpWhatAHandIsExposedTo) {
+  run(10);
+  EXPECT_EQ(telemetry().exposure.force_time_n_s, 0.0) << "free space";
+  command(core::viscous({.viscosity_pa_s = 8.0}));
+  device.move_all({0.2, 0.0, 0.0});
+  run(500);
+  double force_time_n_s = 0.0;
+  int num_felt = 0;
+  for (const core::PointVectors& forces : device.received) {
+    double whole_n = 0.0;
+    for (const Eigen::Vector3d& force : forces) whole_n += force.norm();
+    force_time_n_s += 0.001 * whole_n;
+    if (whole_n >= 0.1) ++num_felt;
+  }
+  ASSERT_GT(force_time_n_s, 0.5);
+  EXPECT_NEAR(telemetry().exposure.force_time_n_s, force_time_n_s, 1e-9);
+  EXPECT_NEAR(telemetry().exposure.under_force_s, 0.001 * num_felt, 1e-9);
+}
+
 }  // namespace
 }  // namespace jnd::device

@@ -230,8 +230,17 @@ TEST_F(DeviceSimulatorTest, ASessionSurvivesTheDevicesDeathAndRestart) {
   EXPECT_FALSE(opened().finished(1));
   EXPECT_EQ(jnd({"verify", "short.study"}).exit_code, 0);
 
+  const ProgramOutcome at_once =
+      jnd({"resume", "short.study", "--headless", "--realtime", "--wait-s", "0"});
+  EXPECT_EQ(at_once.exit_code, 3) << at_once.err;
+  EXPECT_EQ(sentence_flaw(at_once.err), "");
+
+  RunningProgram resuming({"resume", "short.study", "--headless", "--realtime"}, options_);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_FALSE(resuming.has_ended()) << "it waits for the device";
   EXPECT_EQ(start(port_of(place)), place);
-  const ProgramOutcome resumed = jnd({"resume", "short.study", "--headless", "--realtime"});
+  const ProgramOutcome resumed = resuming.wait();
+  EXPECT_NE(resumed.err.find("waiting for the device"), std::string::npos) << resumed.err;
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_TRUE(opened().completed(1));
   EXPECT_EQ(jnd({"verify", "short.study"}).exit_code, 0);

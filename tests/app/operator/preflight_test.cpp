@@ -101,6 +101,30 @@ TEST(Preflight, TheDeviceHasToStartAndToHoldEnoughOfTheHand) {
   EXPECT_EQ(device_line("unobtainable", 1000.0, 1).status, Status::kFailed);
 }
 
+TEST(Preflight, TellsWhatTheLinkToADeviceWillCost) {
+  const auto line = [](const device::LinkReport& link) {
+    return loop_line({.rate_hz = 1000.0,
+                      .duration_s = 2.0,
+                      .lateness_p99_us = 5.0,
+                      .for_a_person = true,
+                      .link = link});
+  };
+  const PreflightLine good = line({.level = "good",
+                                   .may_arm = true,
+                                   .may_give_force = true,
+                                   .lost_ratio = 0.004,
+                                   .round_trip_s = 0.0031});
+  EXPECT_EQ(good.status, Status::kOk);
+  EXPECT_NE(good.found.find("link good: 0.4 % lost, 3.1 ms there and back"), std::string::npos)
+      << good.found;
+  const PreflightLine poor = line({.level = "poor", .may_give_force = true});
+  EXPECT_EQ(poor.status, Status::kWarning);
+  EXPECT_NE(poor.remedy.find("every fault holds the session up"), std::string::npos);
+  const PreflightLine bad = line({.level = "unacceptable"});
+  EXPECT_EQ(bad.status, Status::kFailed);
+  EXPECT_NE(bad.remedy.find("no force"), std::string::npos);
+}
+
 TEST(Preflight, LooksAtEverythingAndTellsOfEachLineAsItComes) {
   const SimulatedStudy made;
   create_study_folder(made.file(), made.folder());
@@ -113,7 +137,7 @@ TEST(Preflight, LooksAtEverythingAndTellsOfEachLineAsItComes) {
             now.begin(), now.end(),
             [](const PreflightLine& line) { return line.status == Status::kWaiting; })));
       });
-  EXPECT_EQ(num_waiting, (std::vector<std::size_t>{8, 7, 6, 5, 4, 3, 2, 1, 0}));
+  EXPECT_EQ(num_waiting, (std::vector<std::size_t>{9, 8, 7, 6, 5, 4, 3, 2, 1, 0}));
   ASSERT_EQ(lines.size(), 9U);
   for (const PreflightLine& line : lines) {
     EXPECT_NE(line.status, Status::kFailed) << line.name << ": " << line.found << line.remedy;

@@ -195,6 +195,23 @@ TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
   EXPECT_EQ(fault(), Fault::kLinkLost);
 }
 
+TEST_F(NetworkDeviceTest, TellsHowGoodItsLinkIs) {
+  start();
+  run(600);
+  const LinkReport good = device->link().value();
+  EXPECT_EQ(good.level, "excellent");
+  EXPECT_TRUE(good.may_arm);
+  EXPECT_EQ(good.lost_ratio, 0.0);
+  EXPECT_GT(good.round_trip_s, 0.0);
+  lose_every(25, kProgram);
+  run(600);
+  const LinkReport poor = device->link().value();
+  EXPECT_EQ(poor.level, "poor");
+  EXPECT_FALSE(poor.may_arm);
+  EXPECT_TRUE(poor.may_give_force);
+  EXPECT_NEAR(poor.lost_ratio, 0.02, 0.01) << "since the connection began";
+}
+
 TEST_F(NetworkDeviceTest, ARealDeviceGetsNoPatienceWhateverItAsksFor) {
   serve({.watchdog_s = 0.050, .max_answer_age_s = 0.070});
   start();

@@ -73,5 +73,16 @@ TEST(SessionLimits, AreToldWhenTheyArePassed) {
   EXPECT_EQ(limit_advice(limits, 0, 3660.0), "61 min so far, of at most 60");
 }
 
+TEST(SessionLimits, ExposureIsOverWhenItIsReached) {
+  const core::Exposure some{.force_time_n_s = 900.0, .under_force_s = 600.0};
+  EXPECT_EQ(exposure_words({}, some), "");
+  EXPECT_EQ(exposure_words({.max_force_time_n_s = 901.0, .max_under_force_s = 601.0}, some),
+            "");
+  EXPECT_EQ(exposure_words({.max_under_force_s = 600.0}, some),
+            "10.0 min under force, of at most 10.0");
+  EXPECT_EQ(exposure_words({.max_force_time_n_s = 900.0}, some),
+            "900 N s of force, of at most 900");
+}
+
 }  // namespace
 }  // namespace jnd::experiments

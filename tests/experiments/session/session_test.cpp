@@ -301,5 +301,31 @@ TEST_F(SessionTest, ReportsALogWithAHole) {
   EXPECT_THROW(session(damaged), core::Error);
 }
 
+TEST_F(SessionTest, AHandThatWasExposedToAllThatIsAllowedBeginsNoTrial) {
+  stages_ = {&comparison_};
+  const auto begun = [this](const std::vector<core::EventRow>& history) {
+    return Session(
+        {.session = 1, .seed = 42, .stages = stages_, .limits = {.max_under_force_s = 10.0}},
+        history, log_, clock_);
+  };
+  Session s = begun({});
+  s.start();
+  s.enter_stage();
+  for (int i = 0; i < 2; ++i) {
+    s.start_trial(s.state().last_tick + 1);
+    present(s, "reference");
+    const std::int64_t tick = s.state().last_tick + 1;
+    s.begin_presentation("test", tick);
+    s.end_presentation(
+        tick + 99, {.exposure = core::Exposure{.force_time_n_s = 15.0, .under_force_s = 5.0}});
+    s.answer(1.0, 1.5, s.state().last_tick);
+  }
+  EXPECT_EQ(s.state().exposure.force_time_n_s, 30.0);
+  EXPECT_THROW(s.start_trial(s.state().last_tick + 1), core::Error);
+  Session again = begun(log_.events);
+  EXPECT_EQ(again.state().exposure.under_force_s, 10.0) << "a new program does not forget";
+  EXPECT_THROW(again.start_trial(again.state().last_tick + 1), core::Error);
+}
+
 }  // namespace
 }  // namespace jnd::experiments
