@@ -45,7 +45,7 @@ bool needs_apostrophe(std::string_view text) {
   const std::size_t first = text.find_first_not_of('\'');
   if (first == std::string_view::npos) return false;
   if (kBeginsFormula.find(text[first]) == std::string_view::npos) return false;
-  return first > 0 || !is_number_text(text);
+  return !is_number_text(text);
 }
 
 }  // namespace
