@@ -1,6 +1,7 @@
 #include "app/study_report.h"
 
 #include "app/inverted_option.h"
+#include "app/noted_export.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/study_data.h"
@@ -35,6 +36,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   analysis::ReportOptions options = analysis::installed_report_tools();
   options.jobs = request.jobs;
   options.on_progress = part(request.on_progress, 0.6, 1.0);
+  const std::string forgotten = noted_export(store, request.out, "report", request.pilot);
   report.outcome = analysis::write_report({.store = store,
                                            .data = data,
                                            .results = report.results,
@@ -43,6 +45,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
                                            .program_version = JND_VERSION,
                                            .pilot = request.pilot},
                                           request.out, options);
+  if (!forgotten.empty()) report.outcome.problems.push_back(forgotten);
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/export/bids_text.h"
+#include "analysis/export/csv_table_writer.h"
 #include "analysis/json_fields.h"
 
 namespace jnd::analysis {
@@ -89,6 +90,7 @@ std::string contents(const fs::path& folder, const BidsDataset& dataset) {
   text += motion_text(dataset) +
           "- `participants.tsv` tells pseudonyms, `sub-*/sub-*_sessions.tsv` the visits.\n";
   if (fs::exists(folder / "phenotype")) text += "- `phenotype/`: questionnaires.\n";
+  text += std::string("- Tables: ") + kTextsOfTables + ".\n";
   text +=
       "- `sourcedata/`: the study file and the study folder, which `jnd` opens, with the log "
       "of "

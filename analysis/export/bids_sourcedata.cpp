@@ -46,7 +46,8 @@ void delete_rows(core::Database& database, const std::vector<core::SessionRow>& 
     database.execute(std::string("DELETE FROM ") + table + " WHERE session NOT IN " +
                      numbers_of(kept));
   }
-  for (const char* table : {"withdrawal", "backup"}) {
+  for (const char* table :
+       {"withdrawal", "withdrawal_step", "backup", "export_session", "export"}) {
     if (has_table(database, table)) database.execute(std::string("DELETE FROM ") + table);
   }
   for (const auto& [name, sql] : all_guards) database.execute(sql);

@@ -8,9 +8,9 @@
 namespace jnd::analysis {
 
 /// Copies the study's database into `folder`/study.sqlite, with the rows of these sessions
-/// alone: no pilot that was not asked for, no tombstone of who withdrew, no folder of a backup;
-/// freed pages are gone. One file that needs no other beside it. The same study gives the same
-/// bytes. Throws `Error`.
+/// alone: no pilot that was not asked for, no tombstone of who withdrew, no folder of a backup
+/// or an export; freed pages are gone. One file that needs no other beside it. The same study
+/// gives the same bytes. Throws `Error`.
 void copy_study_database(const core::StudyStore& store,
                          const std::vector<core::SessionRow>& sessions,
                          const std::filesystem::path& folder);

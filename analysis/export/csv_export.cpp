@@ -197,6 +197,7 @@ class CsvExport {
 
   void write_codebook_table() {
     CsvTableWriter rows = table("codebook.csv", codebook_columns());
+    rows.cell("*.csv").cell("*").cell("").cell(kTextsOfTables).end_row();
     std::vector<std::pair<std::string, const std::vector<CsvColumn>*>> tables = {
         {"sessions.csv", &session_columns()},
         {"participants.csv", &participant_columns_},

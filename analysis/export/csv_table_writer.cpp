@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "core/error.h"
@@ -29,6 +30,24 @@ bool needs_quotes(std::string_view text) {
   });
 }
 
+/// All of the text is one: "-3.2", "+4", "-1e-6".
+bool is_number_text(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+}
+
+/// Whether a spreadsheet would run the text, or an apostrophe that it begins with would be
+/// taken for the one that keeps it from doing so.
+bool needs_apostrophe(std::string_view text) {
+  constexpr std::string_view kBeginsFormula = "=+-@\t\r";
+  const std::size_t first = text.find_first_not_of('\'');
+  if (first == std::string_view::npos) return false;
+  if (kBeginsFormula.find(text[first]) == std::string_view::npos) return false;
+  return !is_number_text(text);
+}
+
 }  // namespace
 
 CsvTableWriter::CsvTableWriter(std::filesystem::path file,
@@ -48,6 +67,11 @@ CsvTableWriter::CsvTableWriter(std::filesystem::path file,
 }
 
 void CsvTableWriter::put_text(std::string_view text) {
+  if (needs_apostrophe(text)) return put_plain_text("'" + std::string(text));
+  put_plain_text(text);
+}
+
+void CsvTableWriter::put_plain_text(std::string_view text) {
   if (style_ == TableStyle::kCsv) {
     return needs_quotes(text) ? put_quoted(text) : put(text);
   }

@@ -19,8 +19,16 @@ enum class TableStyle {
   kBidsWithoutNames  ///< The same without its first line, as BIDS wants of motion.
 };
 
+/// What codebooks say of the texts of `CsvTableWriter`.
+inline constexpr char kTextsOfTables[] =
+    "A text that begins with =, +, -, @, a tab or a carriage return and is no number has an "
+    "apostrophe before it, so that no spreadsheet runs it as a formula; where one of these "
+    "follows apostrophes at the beginning of a text, the first apostrophe is not part of it";
+
 /// Writes one table, independent of the locale: "." decimals, the shortest digits that read
-/// back as the same number. Throws `Error` naming the file if it cannot be written. Not real
+/// back as the same number. A text that a spreadsheet would run as a formula gets an apostrophe
+/// before it, and so does one that has apostrophes there already, so that it is always right to
+/// remove the first. Throws `Error` naming the file if it cannot be written. Not real
 /// time.
 class CsvTableWriter final : public TableWriter {
  public:
@@ -45,6 +53,7 @@ class CsvTableWriter final : public TableWriter {
   void put_count(std::int64_t number) override;
   void put_real(double number) override;
   void put_nothing() override;
+  void put_plain_text(std::string_view text);
   void put(std::string_view text);
   void put_quoted(std::string_view text);
   void flush();

@@ -8,6 +8,7 @@
 #include "analysis/export/hdf5_export.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
+#include "app/noted_export.h"
 #include "app/results_output.h"
 #include "app/session_setup.h"
 #include "app/stop_signals.h"
@@ -85,9 +86,12 @@ int run_export(ExportOptions options) {
     if (!stop_requested()) return;
     throw core::Error(options.out + ": expected time to finish, found a signal to stop");
   };
+  const std::string forgotten =
+      noted_export(store, options.out, options.format, options.data.pilot);
   const Written written = export_as(options, store);
   std::printf("%s: written to %s: %s\n", options.folder.c_str(), options.out.c_str(),
               written.what.c_str());
+  if (!forgotten.empty()) std::fprintf(stderr, "jnd: %s\n", forgotten.c_str());
   for (const std::string& problem : written.problems) {
     std::fprintf(stderr, "jnd: %s\n", problem.c_str());
   }

@@ -5,7 +5,10 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "analysis/export/bids_text.h"
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 #include "core/clock.h"
@@ -18,6 +21,7 @@ struct WithdrawOptions {
   std::string folder;
   std::string participant;
   bool yes = false;
+  bool acknowledge_exports = false;
   bool json = false;
 };
 
@@ -33,6 +37,36 @@ bool confirmed(const WithdrawOptions& options) {
   return typed == options.participant;
 }
 
+nlohmann::json withdrawal_json(const core::WithdrawalReport& report,
+                               const std::string& participant) {
+  std::vector<std::string> backups;
+  for (const auto& backup : report.backups) backups.push_back(backup.string());
+  nlohmann::json exports = nlohmann::json::array();
+  for (const core::ExportNote& one : report.exports) {
+    exports.push_back(
+        {{"place", one.place.string()}, {"kind", one.kind}, {"time_ns", one.time_ns}});
+  }
+  return {{"participant", participant},
+          {"sessions", report.sessions},
+          {"backups", backups},
+          {"remaining", report.remaining},
+          {"exports", std::move(exports)}};
+}
+
+void print_withdrawal(const core::WithdrawalReport& report, const WithdrawOptions& options) {
+  std::printf("%s: %s withdrew; %zu sessions deleted here and in %zu backups\n",
+              options.folder.c_str(), options.participant.c_str(), report.sessions.size(),
+              report.backups.size());
+  for (const std::string& remaining : report.remaining) {
+    std::printf("  not reached: %s\n", remaining.c_str());
+  }
+  for (const core::ExportNote& one : report.exports) {
+    std::printf("  not deleted: %s: %s of %s that holds %s\n", one.place.c_str(),
+                one.kind == "report" ? "a report" : ("an export (" + one.kind + ")").c_str(),
+                analysis::iso_date(one.time_ns).c_str(), options.participant.c_str());
+  }
+}
+
 int run_withdraw(const WithdrawOptions& options) {
   if (!confirmed(options)) {
     throw UsageError("withdraw: expected the pseudonym " + options.participant +
@@ -41,34 +75,35 @@ int run_withdraw(const WithdrawOptions& options) {
   const core::WithdrawalReport report =
       core::withdraw(options.folder, options.participant, core::SystemClock().now_ns());
   if (options.json) {
-    std::vector<std::string> backups;
-    for (const auto& backup : report.backups) backups.push_back(backup.string());
-    const nlohmann::json document = {{"participant", options.participant},
-                                     {"sessions", report.sessions},
-                                     {"backups", backups},
-                                     {"remaining", report.remaining}};
-    std::puts(json_text(document).c_str());
+    std::puts(json_text(withdrawal_json(report, options.participant)).c_str());
   } else {
-    std::printf("%s: %s withdrew; %zu sessions deleted here and in %zu backups\n",
-                options.folder.c_str(), options.participant.c_str(), report.sessions.size(),
-                report.backups.size());
-    for (const std::string& remaining : report.remaining) {
-      std::printf("  not reached: %s\n", remaining.c_str());
-    }
+    print_withdrawal(report, options);
   }
-  if (report.remaining.empty()) return kDone;
-  std::fprintf(stderr,
-               "jnd: a backup could not be reached; attach it and run this again, or if it is "
-               "gone, say so "
-               "with `jnd backup DIR --forget FOLDER`\n");
-  return kHasProblems;
+  if (!report.remaining.empty()) {
+    std::fprintf(
+        stderr,
+        "jnd: a backup could not be reached; attach it and run this again, or if it is "
+        "gone, say so "
+        "with `jnd backup DIR --forget FOLDER`\n");
+  }
+  const bool asks_for_exports = !report.exports.empty() && !options.acknowledge_exports;
+  if (asks_for_exports) {
+    std::fprintf(
+        stderr,
+        "jnd: %s: expected no export or report that holds %s, found %zu, the first in "
+        "%s; delete them (or the person in them) wherever they went and run this again, "
+        "or say with --acknowledge-exports that you know of them\n",
+        options.folder.c_str(), options.participant.c_str(), report.exports.size(),
+        report.exports.front().place.c_str());
+  }
+  return report.remaining.empty() && !asks_for_exports ? kDone : kHasProblems;
 }
 
 }  // namespace
 
 void add_withdraw(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
-      "withdraw", "Deletes a participant for good, also from known backups");
+      "withdraw", "Deletes a participant for good, also from known backups, and names exports");
   const auto options = std::make_shared<WithdrawOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
@@ -77,6 +112,9 @@ void add_withdraw(CLI::App& program, Invocation& invocation) {
       ->required();
   command->add_flag("--yes", options->yes,
                     "Do not ask again on a terminal (elsewhere nothing is asked)");
+  command->add_flag("--acknowledge-exports", options->acknowledge_exports,
+                    "Exports and reports that hold the person and are still there are known: "
+                    "name them, and exit 0");
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback([&invocation, options] {
     invocation.run = [options] { return run_withdraw(*options); };

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "analysis/export/csv_export.h"
 #include "analysis/report/report_words.h"
+#include "app/noted_export.h"
 #include "app/reopened_session.h"
 #include "app/replay_check.h"
 #include "app/session_setup.h"
@@ -56,6 +59,7 @@ ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
   require_unblinded(store);
   control.progress(0.1);
   control.stop_if_cancelled();
+  const std::string forgotten = noted_export(store, target, "csv", /*pilot=*/false);
   analysis::export_csv(store, target,
                        {.keep_going = [&control] { control.stop_if_cancelled(); }});
   std::int64_t answers = 0;
@@ -63,7 +67,9 @@ ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
   control.progress(1.0);
   return {.sentence = fmt::format(
               "{} of {} are written to {}, with a codebook", counted_words(answers, "answer"),
-              counted_words(std::ssize(store.sessions()), "session"), target.string())};
+              counted_words(std::ssize(store.sessions()), "session"), target.string()),
+          .problems = forgotten.empty() ? std::vector<std::string>()
+                                        : std::vector<std::string>{forgotten}};
 }
 
 ActionOutcome verify_study(const fs::path& folder, WorkControl& control) {

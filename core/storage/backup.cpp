@@ -6,6 +6,7 @@
 
 #include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
+#include "core/storage/export_note.h"
 #include "core/storage/files.h"
 #include "core/storage/flight_record.h"
 #include "core/storage/study_format.h"
@@ -18,20 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Durability kDurable = Durability::kEveryCommit;
-
-/// An older study gets its identity before it is copied for the first time.
-void bring_study_up_to_date(const fs::path& folder) {
-  require_study(folder);
-  bool outdated = false;
-  {
-    Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
-    outdated = study_format_of(database) < current_study_format();
-  }
-  if (!outdated) return;
-  const WriterLock lock(folder);
-  Database database(folder / "study.sqlite", Database::Mode::kReadWrite, kDurable);
-  bring_up_to_date(database);
-}
 
 /// Nothing that is there already, but an earlier copy of the same study, is written to.
 void require_own_target(const fs::path& folder, const fs::path& target,
@@ -54,7 +41,7 @@ void require_own_target(const fs::path& folder, const fs::path& target,
   for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
     // What a backup that was interrupted before its first page leaves.
     const fs::path name = entry.path().filename();
-    if (name != "recordings" && name != "writer.lock" && name != kBackupMark) {
+    if (name != "recordings" && name != "writer.lock" && !is_backup_mark(name)) {
       throw Error(place + "of the study, found other files in it; choose another folder");
     }
   }
@@ -104,6 +91,18 @@ void note(Database& study, const fs::path& target, std::int64_t time_ns, bool fo
       .run();
 }
 
+/// The study learns where the copy was exported to, which the copy is about to forget. What it
+/// knows of a place that was written to later stays its last word.
+void take_over_notes(const fs::path& folder, const fs::path& target) {
+  const std::vector<ExportNote> known = noted_exports(folder);
+  for (const ExportNote& one : noted_exports(target)) {
+    const bool newer = std::ranges::any_of(known, [&](const ExportNote& other) {
+      return other.place == one.place && other.time_ns >= one.time_ns;
+    });
+    if (!newer) note_export(folder, one);
+  }
+}
+
 /// The study learns of this copy, and of those that were made from the copy. One on a read-only
 /// disk can be copied all the same.
 void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
@@ -121,6 +120,7 @@ void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t 
   Transaction transaction(study);
   for (const fs::path& one : folders) note(study, one, time_ns, /*forgotten=*/false);
   transaction.commit();
+  if (fs::exists(target / "study.sqlite")) take_over_notes(folder, target);
 } catch (const Error& error) {
   report.remarks.push_back(
       "the study does not know of this backup, so a withdrawal will not "
@@ -191,7 +191,7 @@ void write_study(const Database& snapshot, const fs::path& target) {
   to.checkpoint();
 }
 
-/// Recordings first, then what speaks of them; and reads the copy back.
+/// Recordings first, then what speaks of them.
 void copy_study(const StudyStore& study, Database& snapshot, const fs::path& target,
                 const std::function<void(double)>& on_progress, BackupReport& report) {
   const std::vector<std::int64_t> sessions = sessions_in(snapshot);
@@ -213,7 +213,10 @@ void copy_study(const StudyStore& study, Database& snapshot, const fs::path& tar
   for (const WithdrawalRow& withdrawn : copy.withdrawals()) {
     remove_recording(copy.recording_file(withdrawn.session));
   }
-  report.integrity = verify(copy);
+}
+
+Integrity read_back(const fs::path& target) {
+  return verify(StudyStore(target, StudyStore::Mode::kReadOnly));
 }
 
 }  // namespace
@@ -237,8 +240,10 @@ BackupReport back_up(const fs::path& folder, const fs::path& target, std::int64_
     note_in_study(folder, target, time_ns, report);
     from.copy_to(snapshot);
   }
-  mark_as_backup(target, time_ns);
+  begin_backup(target, time_ns);
   copy_study(study, snapshot, target, on_progress, report);
+  finish_backup(target, time_ns);
+  report.integrity = read_back(target);
   report.on_one_disk = on_one_disk(folder, target);
   return report;
 }
@@ -271,6 +276,7 @@ BackupReport restore(const fs::path& backup, const fs::path& target, std::int64_
   note(snapshot, as_noted(target), time_ns, /*forgotten=*/true);
   BackupReport report;
   copy_study(study, snapshot, target, on_progress, report);
+  report.integrity = read_back(target);
   report.on_one_disk = on_one_disk(backup, target);
   return report;
 }

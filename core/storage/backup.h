@@ -22,9 +22,11 @@ struct BackupReport {
 /// snapshot of study.sqlite first, then of each recording the chunks that are missing, then the
 /// snapshot is written, in one transaction. So no event of the copy speaks of samples that it
 /// does not hold, even while a session goes on, and an earlier copy stays whole if anything
-/// fails. The copy is a study folder like any other, but marked as a copy, so that nothing is
-/// added to it (`backup_mark.h`). It is noted in the study, so that a withdrawal reaches it;
-/// and it is verified.
+/// fails: until the end a mark says that a backup was begun, so that recordings of sessions
+/// which the earlier copy does not know are told from lost ones (`backup_mark.h`). The copy is
+/// a study folder like any other, but marked as a copy, so that nothing is added to it
+/// (`backup_mark.h`). It is noted in the study, so that a withdrawal reaches it; and it is
+/// verified.
 ///
 /// Throws `Error` for a target that holds something else, or anything that the study has not,
 /// and where a disk or a right is missing. Not real time.

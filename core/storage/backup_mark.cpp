@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <ctime>
 #include <fstream>
+#include <string>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/storage/backup.h"
@@ -29,6 +31,31 @@ bool is_marked(const fs::path& folder) {
   return fs::exists(folder / kBackupMark, error);
 }
 
+constexpr const char* kUnfinishedEnding = ".unfinished";
+
+/// There as a whole or not at all, and on disk when this returns.
+void write_mark(const fs::path& file, const std::string& words) {
+  const fs::path unfinished = file.string() + kUnfinishedEnding;
+  make_private_file(unfinished);
+  std::ofstream stream(unfinished, std::ios::trunc);
+  stream << words;
+  stream.close();
+  std::error_code error;
+  if (!stream) error = std::make_error_code(std::errc::no_space_on_device);
+  if (!error) sync_file(unfinished);
+  if (!error) fs::rename(unfinished, file, error);
+  if (error) {
+    throw Error(file.string() + ": expected to write this file, found: " + error.message());
+  }
+  sync_folder(file.parent_path());
+}
+
+std::string words_of_backup(const std::string& date) {
+  return "This folder is a backup of a study of jnd" + date +
+         ".\nSessions are run in the study itself. Where the study is lost, this makes a study "
+         "of the backup:\n\n    jnd restore THIS_FOLDER --to NEW_FOLDER\n";
+}
+
 /// The study that was copied noted this very folder as one of its backups.
 bool lists_itself(const fs::path& folder) {
   std::error_code error;
@@ -43,16 +70,37 @@ bool lists_itself(const fs::path& folder) {
 
 bool is_backup(const fs::path& folder) { return is_marked(folder) || lists_itself(folder); }
 
-void mark_as_backup(const fs::path& folder, std::int64_t time_ns) {
-  const fs::path file = folder / kBackupMark;
-  make_private_file(file);
-  std::ofstream(file, std::ios::trunc)
-      << "This folder is a backup of a study of jnd, last brought up to date on "
-      << day_of(time_ns)
-      << ".\nSessions are run in the study itself. Where the study is lost, this makes a study "
-         "of the backup:\n\n    jnd restore THIS_FOLDER --to NEW_FOLDER\n";
-  sync_file(file);
+void begin_backup(const fs::path& folder, std::int64_t time_ns) {
+  write_mark(
+      folder / kUnfinishedBackupMark,
+      "A backup to this folder was begun on " + day_of(time_ns) +
+          " and is not finished.\nIf no jnd is at work on it, it was interrupted: what was "
+          "here before is whole. Run it again.\n");
+  if (!is_marked(folder)) write_mark(folder / kBackupMark, words_of_backup(""));
+}
+
+void finish_backup(const fs::path& folder, std::int64_t time_ns) {
+  write_mark(folder / kBackupMark,
+             words_of_backup(", last brought up to date on " + day_of(time_ns)));
+  std::error_code error;
+  fs::remove(folder / kUnfinishedBackupMark, error);
+  if (error) {
+    throw Error((folder / kUnfinishedBackupMark).string() +
+                ": expected to remove this file, found: " + error.message());
+  }
   sync_folder(folder);
+}
+
+bool is_unfinished_backup(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / kUnfinishedBackupMark, error);
+}
+
+bool is_backup_mark(const fs::path& name) {
+  const auto is = [&](const std::string& mark) {
+    return name == mark || name == mark + kUnfinishedEnding;
+  };
+  return is(kBackupMark) || is(kUnfinishedBackupMark);
 }
 
 void require_no_backup(const fs::path& folder) {

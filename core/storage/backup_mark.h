@@ -13,12 +13,22 @@ namespace jnd::core {
 
 /// Name of the file that marks a copy.
 inline constexpr const char* kBackupMark = "backup.txt";
+/// Name of the file that is there while a copy is written to, and after that was interrupted.
+inline constexpr const char* kUnfinishedBackupMark = "backup-unfinished.txt";
 
 /// The folder is a copy that `back_up` made. False for a folder without a study. Not real time.
 [[nodiscard]] bool is_backup(const std::filesystem::path& folder);
 
-/// Marks a folder as a copy; on disk when this returns. Throws `Error`. Not real time.
-void mark_as_backup(const std::filesystem::path& folder, std::int64_t time_ns);
+/// Before a copy is written to: from now on it is marked as a copy, one that is being brought
+/// up to date. On disk when this returns. Throws `Error`. Not real time.
+void begin_backup(const std::filesystem::path& folder, std::int64_t time_ns);
+/// It is up to date: the mark has its date, and nothing says any more that a backup was begun.
+void finish_backup(const std::filesystem::path& folder, std::int64_t time_ns);
+/// A backup was begun and not finished: what is in the folder is the earlier copy, whole, with
+/// some of what is newer beside it, or the newer one. Not real time.
+[[nodiscard]] bool is_unfinished_backup(const std::filesystem::path& folder);
+/// Whether a file of this name is one of the marks.
+[[nodiscard]] bool is_backup_mark(const std::filesystem::path& name);
 
 /// Throws `Error`, which says how to go on, for a folder that is a copy. Not real time.
 void require_no_backup(const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/storage/backup_mark.h"
 #include "core/storage/flight_record.h"
 #include "core/storage/recorded_ticks.h"
 #include "core/storage/recording.h"
@@ -214,6 +215,27 @@ Integrity verify(const StudyStore& store) {
     }
   });
   check(0, [&] {
+    for (const UnfinishedWithdrawal& one : store.unfinished_withdrawals()) {
+      integrity.problems.push_back(
+          {0, one.erased
+                  ? "expected the withdrawal of " + one.participant +
+                        " to be finished, found that it has not reached every backup that is "
+                        "known; attach "
+                        "them, or forget those that are gone, and repeat `jnd withdraw`"
+                  : "study.sqlite: expected the withdrawal of " + one.participant +
+                        " to be finished, found it interrupted, so that the file may still "
+                        "hold what was deleted; repeat `jnd withdraw`"});
+    }
+  });
+  const bool is_backup_begun = is_unfinished_backup(store.folder());
+  if (is_backup_begun) {
+    integrity.remarks.push_back(
+        {0,
+         "a backup to this folder was begun and is not finished; what was here before is "
+         "whole, repeat `jnd backup`"});
+  }
+  check(0, [&] {
+    if (is_backup_begun) return;  // Of sessions that this copy does not know yet.
     for (const std::filesystem::path& orphan : recordings_without_session(store)) {
       integrity.problems.push_back(
           {0, orphan.string() + ": expected a session of this recording, found none; was "

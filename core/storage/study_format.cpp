@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/storage/study_schema.h"
+#include "core/storage/writer_lock.h"
 
 namespace jnd::core {
 namespace {
@@ -55,6 +56,21 @@ void bring_up_to_date(Database& database) {
     database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
     step.commit();
   }
+}
+
+void bring_study_up_to_date(const std::filesystem::path& folder) {
+  require_study(folder);
+  bool outdated = false;
+  {
+    Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
+                      Durability::kEveryCommit);
+    outdated = study_format_of(database) < current_study_format();
+  }
+  if (!outdated) return;
+  const WriterLock lock(folder);
+  Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
+                    Durability::kEveryCommit);
+  bring_up_to_date(database);
 }
 
 }  // namespace jnd::core

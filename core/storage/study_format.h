@@ -24,4 +24,8 @@ void require_study(const std::filesystem::path& folder);
 /// Carries out the steps that are missing.
 void bring_up_to_date(Database& database);
 
+/// The same for the study in a folder, which is written to only where a step is missing. Throws
+/// `Error`, also where another program writes to it.
+void bring_study_up_to_date(const std::filesystem::path& folder);
+
 }  // namespace jnd::core

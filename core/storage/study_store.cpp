@@ -357,6 +357,19 @@ std::vector<WithdrawalRow> StudyStore::withdrawals() const {
   return all;
 }
 
+std::vector<UnfinishedWithdrawal> StudyStore::unfinished_withdrawals() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 "SELECT participant, state FROM withdrawal_step AS w WHERE state <> 'finished'"
+                 " AND step = (SELECT MAX(step) FROM withdrawal_step"
+                 " WHERE participant = w.participant) ORDER BY participant");
+  std::vector<UnfinishedWithdrawal> all;
+  while (rows.step()) {
+    all.push_back({.participant = rows.text(0), .erased = rows.text(1) == "erased"});
+  }
+  return all;
+}
+
 std::vector<std::string> StudyStore::database_damage() const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database, "PRAGMA integrity_check");

@@ -124,6 +124,12 @@ struct WithdrawalRow {
   std::int64_t time_ns = 0;
 };
 
+/// A withdrawal that was interrupted, or has not reached every backup.
+struct UnfinishedWithdrawal {
+  std::string participant;
+  bool erased = false;  ///< Nothing of the person is left in this folder.
+};
+
 /// What a session has come to, as a line of a list.
 struct SessionOverview {
   std::int64_t session = 0;
@@ -211,6 +217,7 @@ class StudyStore {
   /// The same in every backup of a study, and in no other study.
   [[nodiscard]] std::string study_id() const;
   [[nodiscard]] std::vector<WithdrawalRow> withdrawals() const;
+  [[nodiscard]] std::vector<UnfinishedWithdrawal> unfinished_withdrawals() const;
   /// What SQLite's own check finds wrong with the database; empty for a sound one.
   [[nodiscard]] std::vector<std::string> database_damage() const;
 

@@ -36,6 +36,29 @@ std::vector<std::pair<std::string, std::string>> guards(Database& database) {
   return all;
 }
 
+// How far a withdrawal has come, as it is stored.
+constexpr const char* kBegun = "begun";        ///< The rows are gone, their bytes may be there.
+constexpr const char* kErased = "erased";      ///< Nothing is left in this folder,
+constexpr const char* kFinished = "finished";  ///< nor in any backup that is known.
+
+std::string state_of(Database& database, const std::string& participant) {
+  Statement row(database,
+                "SELECT state FROM withdrawal_step WHERE participant = ? ORDER BY step DESC");
+  row.bind(participant);
+  return row.step() ? row.text(0) : "";
+}
+
+void note_state(Database& database, const std::string& participant, const char* state,
+                std::int64_t time_ns) {
+  if (state_of(database, participant) == state) return;
+  Statement(database,
+            "INSERT INTO withdrawal_step (participant, state, time_ns) VALUES (?, ?, ?)")
+      .bind(participant)
+      .bind(std::string(state))
+      .bind(time_ns)
+      .run();
+}
+
 void leave_tombstone(Database& database, std::int64_t session, std::int64_t time_ns) {
   Statement(database,
             "INSERT INTO withdrawal SELECT session, participant, ?,"
@@ -47,10 +70,12 @@ void leave_tombstone(Database& database, std::int64_t session, std::int64_t time
       .run();
 }
 
-/// All rows of the sessions in one transaction, or none of them.
-void delete_rows(Database& database, const std::vector<std::int64_t>& sessions,
-                 std::int64_t time_ns) {
+/// All rows of the sessions in one transaction, or none of them; with them goes the note that
+/// what they were may still be read in the file.
+void delete_rows(Database& database, const std::string& participant,
+                 const std::vector<std::int64_t>& sessions, std::int64_t time_ns) {
   Transaction transaction(database);
+  note_state(database, participant, kBegun, time_ns);
   const auto all_guards = guards(database);
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
   for (const std::int64_t session : sessions) {
@@ -66,9 +91,24 @@ void delete_rows(Database& database, const std::vector<std::int64_t>& sessions,
   transaction.commit();
 }
 
+/// Recordings of these sessions that the folder has no session of: an interrupted backup leaves
+/// them.
+void remove_unknown_recordings(const StudyStore& store,
+                               const std::vector<std::int64_t>& sessions) {
+  std::vector<std::int64_t> known;
+  for (const SessionRow& row : store.sessions()) known.push_back(row.session);
+  for (const std::int64_t session : sessions) {
+    if (std::ranges::find(known, session) == known.end()) {
+      remove_recording(store.recording_file(session));
+    }
+  }
+}
+
 /// Deletes what one folder holds of the participant. Returns the sessions that it ever had.
+/// `sessions`: those that the study had, where the folder is a copy of it.
 std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& participant,
-                                   std::int64_t time_ns) {
+                                   std::int64_t time_ns,
+                                   const std::vector<std::int64_t>& sessions = {}) {
   require_study(folder);
   const WriterLock lock(folder);
   Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
@@ -77,16 +117,40 @@ std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& pa
   // Freed pages are overwritten with zeros; VACUUM and the emptied log leave no old ones.
   database.execute("PRAGMA secure_delete = ON");
   const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
-  if (!there.empty()) delete_rows(database, there, time_ns);
+  if (!there.empty()) delete_rows(database, participant, there, time_ns);
   std::vector<std::int64_t> gone = sessions_in(database, "withdrawal", participant);
-  if (gone.empty()) return gone;
   {
     const StudyStore store(folder, StudyStore::Mode::kReadOnly);
     for (const std::int64_t session : gone) remove_recording(store.recording_file(session));
+    remove_unknown_recordings(store, sessions);
   }
+  if (gone.empty()) return gone;
   database.execute("VACUUM");
   database.checkpoint();
+  if (state_of(database, participant) != kFinished) {
+    note_state(database, participant, kErased, time_ns);
+  }
   return gone;
+}
+
+void finish_in(const fs::path& folder, const std::string& participant, std::int64_t time_ns) {
+  const WriterLock lock(folder);
+  Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
+                    Durability::kEveryCommit);
+  note_state(database, participant, kFinished, time_ns);
+}
+
+/// What the backup knows and the study does not, in its place among what the study knows.
+void add_notes(std::vector<ExportNote>& notes, const std::vector<ExportNote>& further) {
+  for (const ExportNote& note : further) {
+    const bool known = std::ranges::any_of(notes, [&](const ExportNote& one) {
+      return one.place == note.place && one.time_ns == note.time_ns && one.kind == note.kind;
+    });
+    if (known) continue;
+    const auto later = std::ranges::find_if(
+        notes, [&](const ExportNote& one) { return one.time_ns > note.time_ns; });
+    notes.insert(later, note);
+  }
 }
 
 std::string id_of(const fs::path& folder) {
@@ -104,6 +168,7 @@ WithdrawalReport withdraw(const fs::path& folder, const std::string& participant
                 ": expected a participant of this study, found no session of " + participant);
   }
   const std::string study_id = id_of(folder);
+  std::vector<ExportNote> notes = noted_exports(folder);
   // A backup may have been backed up itself, and know of copies that the study does not.
   std::vector<fs::path> folders = known_backups(folder);
   for (std::size_t next = 0; next < folders.size(); ++next) {
@@ -119,12 +184,17 @@ WithdrawalReport withdraw(const fs::path& folder, const std::string& participant
           folders.push_back(further);
         }
       }
-      (void)erase_in(backup, participant, time_ns);
+      add_notes(notes, noted_exports(backup));
+      if (!erase_in(backup, participant, time_ns, report.sessions).empty()) {
+        finish_in(backup, participant, time_ns);
+      }
       report.backups.push_back(backup);
     } catch (const std::exception& failure) {
       report.remaining.emplace_back(failure.what());
     }
   }
+  if (report.remaining.empty()) finish_in(folder, participant, time_ns);
+  report.exports = exports_still_there(notes, report.sessions);
   return report;
 }
 

@@ -301,6 +301,24 @@ TEST_F(BidsExportTest, ParticipantsHaveTheAgeGenderAndHandednessThatWereAsked) {
             "Which hand?, as answered in the stage about_you");
 }
 
+TEST_F(BidsExportTest, NoAnswerIsAFormulaToASpreadsheetAndTheReadmeSaysHow) {
+  HandMadeStudy study(R"({"name": "asked", "participant_fields": [
+      {"name": "hand", "question": {"en": "Hand?"}, "options": [{"value": "-left"}]}],
+    "stages": [{"kind": "questionnaire", "name": "about_you", "items": [
+        {"name": "remark", "kind": "text", "question": {"en": "What else?"}},
+        {"name": "shift", "kind": "number", "question": {"en": "Shift?"}}]}]})");
+  study.add("P01");
+  study.say("participant", "hand", "-left");
+  study.say("about_you", "remark", "\t=1+1");
+  study.say("about_you", "shift", "-3.2");
+  export_bids(study.store(), out(""), {}, "");
+  EXPECT_EQ(value(cells(out("participants.tsv")), 1, "hand"), "'-left");
+  const auto form = cells(out("phenotype/aboutyou.tsv"));
+  EXPECT_EQ(value(form, 1, "remark"), "' =1+1");
+  EXPECT_EQ(value(form, 1, "shift"), "-3.2");
+  EXPECT_NE(bytes(out("README.md")).find("apostrophe"), std::string::npos);
+}
+
 TEST_F(BidsExportTest, ParticipantsHaveTheFieldsOfTheStudyBeforeWhatAFormAsked) {
   HandMadeStudy study(R"({"name": "asked", "participant_fields": [
       {"name": "sex", "question": {"de": "Geschlecht?", "en": "Sex?"}, "options": [

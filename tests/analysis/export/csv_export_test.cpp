@@ -83,6 +83,7 @@ TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
     EXPECT_NE(cell(codebook, row, "meaning"), "") << row;
   }
   EXPECT_EQ(told.size(), codebook.num_rows()) << "each once";
+  EXPECT_EQ(told.erase("*.csv:*"), 1U) << "what is said of all tables";
   std::set<std::string> there;
   std::vector<std::string> names(std::begin(kTables), std::end(kTables));
   names.insert(names.end(), std::begin(kMadeTables), std::end(kMadeTables));
@@ -294,6 +295,42 @@ TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
   EXPECT_EQ(table("recordings/0001.csv").num_rows(), 4U);
   EXPECT_EQ(bytes(out() / "recordings/gaps.csv"),
             "session,participant,simulated,first_tick,last_tick,missed_ticks\n1,P01,0,2,4,0\n");
+}
+
+/// Whatever somebody typed, in the study file or while it ran.
+TEST_F(CsvExportTest, NoCellThatSomebodyTypedIsAFormula) {
+  HandMadeStudy study(R"json({"name": "typed", "participant_fields": [{"name": "group",
+      "options": [{"value": "=GROUP()"}]}],
+      "stages": [{"kind": "questionnaire", "name": "asked", "items": [
+      {"name": "remark", "kind": "text", "question": {"en": "=QUESTION()?"}},
+      {"name": "shift", "kind": "number", "unit": "@unit", "minimum": -9, "maximum": 9,
+       "question": {"en": "Shift?"}}]}]})json");
+  study.add("P01");
+  study.say("participant", "group", "=GROUP()");
+  study.say("asked", "remark", "=cmd|' /C calc'!A0");
+  study.say("asked", "shift", "-3.2");
+  study.say("checked", "note", "@mail");
+  export_csv(study.store(), out(), {});
+  std::size_t num_texts = 0;
+  for (const char* name :
+       {"sessions.csv", "trials.csv", "presentations.csv", "events.csv", "answers.csv",
+        "participants.csv", "questionnaires.csv", "codebook.csv"}) {
+    const CsvTable of = table(name);
+    for (std::size_t row = 0; row < of.num_rows(); ++row) {
+      for (std::size_t column = 0; column < of.columns().size(); ++column) {
+        const std::string& text = of.cell(row, column);
+        if (text.starts_with("'")) ++num_texts;
+        if (text.empty() || text == "-3.2") continue;
+        EXPECT_EQ(std::string("=+-@").find(text[0]), std::string::npos) << name << ": " << text;
+      }
+    }
+  }
+  // Of answers three; of participants the field; of questionnaires question, unit and answer.
+  EXPECT_EQ(num_texts, 3U + 1U + 3U);
+  EXPECT_NE(bytes(out() / "answers.csv").find(",'=cmd|' /C calc'!A0\n"), std::string::npos)
+      << bytes(out() / "answers.csv");
+  EXPECT_NE(bytes(out() / "answers.csv").find(",-3.2\n"), std::string::npos);
+  EXPECT_NE(bytes(out() / "codebook.csv").find("apostrophe"), std::string::npos);
 }
 
 TEST_F(CsvExportTest, WhatFailsHalfWayLeavesNothing) {

@@ -96,5 +96,33 @@ TEST_F(CsvTableWriterTest, WritesTabsAndWhatThereIsNotAsBidsWantsIt) {
   EXPECT_EQ(written(), "a\t0.5\n");
 }
 
+TEST_F(CsvTableWriterTest, NoTextIsAFormulaToASpreadsheetAndNumbersStayAsTheyAre) {
+  CsvTableWriter table(file_, {{"text", "", ""}});
+  for (const char* text : {"=1+1", "+49 30 1", "-",    "- no", "-3,2",  "@sum",
+                           "\tx",  "\rx",      "'=1",  "''-2", "'-2",   "=HYPERLINK(\"x\")",
+                           "-inf", "-0x10",    "-3.2", "+4",   "-1e-6", "+.5",
+                           "'tis", "'",        "a=b",  " =1",  "'n'"}) {
+    table.cell(text).end_row();
+  }
+  table.cell(-3.2).end_row();
+  table.cell(std::int64_t{-3}).end_row();
+  table.fixed_cell(-0.5, 1).end_row();
+  table.finish();
+  EXPECT_EQ(written(),
+            "text\n'=1+1\n'+49 30 1\n'-\n'- no\n\"'-3,2\"\n'@sum\n'\tx\n\"'\rx\"\n''=1\n'"
+            "''-2\n''-2\n\"'=HYPERLINK(\"\"x\"\")\"\n'-inf\n'-0x10\n-3.2\n+4\n-1e-6\n+.5\n"
+            "'tis\n'\na=b\n =1\n'n'\n-3.2\n-3\n-0.5\n");
+}
+
+TEST_F(CsvTableWriterTest, NoTextOfABidsTableIsAFormulaEither) {
+  const std::vector<CsvColumn> columns = {{"text", "", ""}};
+  CsvTableWriter table(file_, columns, TableStyle::kBids);
+  for (const char* text : {"=1+1", "\t=1+1", "\r=1", "-3.2", "-x", "n/a"}) {
+    table.cell(text).end_row();
+  }
+  table.finish();
+  EXPECT_EQ(written(), "text\n'=1+1\n' =1+1\n' =1\n-3.2\n'-x\nn/a\n");
+}
+
 }  // namespace
 }  // namespace jnd::analysis

@@ -9,6 +9,7 @@
 #include "app/study_report.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
+#include "core/storage/export_note.h"
 
 namespace jnd::app {
 namespace {
@@ -31,6 +32,18 @@ TEST_F(ExportActionsTest, TablesAreWrittenWithACodebook) {
   EXPECT_TRUE(fs::exists(target() / "trials.csv"));
   EXPECT_TRUE(fs::exists(target() / "codebook.csv"));
   EXPECT_EQ(control_.ratio(), 1.0);
+}
+
+TEST_F(ExportActionsTest, TheStudyRemembersWhereItWasWrittenTo) {
+  study_.simulate(1);
+  EXPECT_TRUE(export_tables(study_.folder(), target(), control_).problems.empty());
+  (void)write_report(study_.folder(), study_.temporary() / "report", control_);
+  const std::vector<core::ExportNote> notes = core::noted_exports(study_.folder());
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0].place, fs::canonical(target()));
+  EXPECT_EQ(notes[0].kind, "csv");
+  EXPECT_EQ(notes[0].sessions, std::vector<std::int64_t>{1});
+  EXPECT_EQ(notes[1].kind, "report");
 }
 
 TEST_F(ExportActionsTest, NothingIsEverOverwritten) {

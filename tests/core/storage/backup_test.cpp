@@ -120,6 +120,38 @@ TEST_F(BackupTest, AnEarlierCopyStaysWholeWhenALaterOneFails) {
   EXPECT_TRUE(verify(store).complete);
 }
 
+TEST_F(BackupTest, AnInterruptedOneIsToldAndTheEarlierCopyIsWhole) {
+  (void)back_up_now();
+  kept_.add_session("P02");
+  begin_backup(copy(), ++time_ns_);
+  fs::copy_file(kept_.recording(2), copy() / "recordings" / "0002.sqlite");
+  {
+    const StudyStore store(copy(), StudyStore::Mode::kReadOnly);
+    const Integrity between = verify(store);
+    EXPECT_TRUE(between.complete) << between.problems[0].message;
+    ASSERT_EQ(between.remarks.size(), 1U);
+    EXPECT_NE(between.remarks[0].message.find("repeat `jnd backup`"), std::string::npos);
+  }
+  const BackupReport report = back_up_now();
+  EXPECT_TRUE(report.integrity.complete);
+  EXPECT_TRUE(report.integrity.remarks.empty());
+  // Without such a mark the recording of no session is a problem.
+  fs::copy_file(kept_.recording(2), copy() / "recordings" / "0009.sqlite");
+  EXPECT_FALSE(verify(StudyStore(copy(), StudyStore::Mode::kReadOnly)).complete);
+}
+
+TEST_F(BackupTest, TheMarkHasTheDateOfTheCopyThatWasFinished) {
+  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+  (void)back_up(kept_.folder(), copy(), kDay_ns);
+  EXPECT_NE(bytes_of(copy() / kBackupMark).find("1970-01-02"), std::string::npos);
+  begin_backup(copy(), 2 * kDay_ns);
+  EXPECT_NE(bytes_of(copy() / kBackupMark).find("1970-01-02"), std::string::npos);
+  EXPECT_TRUE(is_unfinished_backup(copy()));
+  finish_backup(copy(), 2 * kDay_ns);
+  EXPECT_NE(bytes_of(copy() / kBackupMark).find("1970-01-03"), std::string::npos);
+  EXPECT_FALSE(is_unfinished_backup(copy()));
+}
+
 TEST_F(BackupTest, SaysWhenTheCopyIsNotWhole) {
   fs::remove(kept_.recording(1));
   const BackupReport report = back_up_now();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/storage/backup.h"
+#include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
@@ -151,6 +152,48 @@ TEST_F(WithdrawalTest, AnInterruptedOneIsFoundByVerifyAndFinishedByTheNextCall) 
   (void)withdraw(kept_.folder(), "P01", 6);
   EXPECT_FALSE(fs::exists(kept_.recording(1)));
   EXPECT_TRUE(verified(kept_.folder()).complete);
+}
+
+TEST_F(WithdrawalTest, WhileABackupIsOutOfReachVerifySaysThatItIsNotFinished) {
+  (void)back_up(kept_.folder(), kept_.beside("away"), 2);
+  fs::rename(kept_.beside("away"), kept_.beside("unplugged"));
+  (void)withdraw(kept_.folder(), "P01", 5);
+  const Integrity between = verified(kept_.folder());
+  ASSERT_EQ(between.problems.size(), 1U);
+  EXPECT_NE(between.problems[0].message.find("withdrawal of P01"), std::string::npos);
+  EXPECT_NE(between.problems[0].message.find("backup"), std::string::npos);
+  fs::rename(kept_.beside("unplugged"), kept_.beside("away"));
+  (void)withdraw(kept_.folder(), "P01", 6);
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+  EXPECT_TRUE(verified(kept_.beside("away")).complete);
+}
+
+TEST_F(WithdrawalTest, WhileItsBytesMayBeInTheFileVerifySaysSo) {
+  {
+    Database reader(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,
+                    Durability::kEveryCommit);
+    reader.execute("BEGIN");
+    Statement row(reader, "SELECT * FROM event");
+    ASSERT_TRUE(row.step());
+    EXPECT_THROW((void)withdraw(kept_.folder(), "P01", 5), Error);
+  }
+  const Integrity between = verified(kept_.folder());
+  ASSERT_EQ(between.problems.size(), 1U);
+  EXPECT_NE(between.problems[0].message.find("repeat `jnd withdraw`"), std::string::npos);
+  (void)withdraw(kept_.folder(), "P01", 6);
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+}
+
+/// The copy has the recording already, and not yet the session that it is of.
+TEST_F(WithdrawalTest, ReachesWhatAnInterruptedBackupLeft) {
+  (void)back_up(kept_.folder(), kept_.beside("copy"), 1);
+  kept_.add_session("P03");
+  begin_backup(kept_.beside("copy"), 2);
+  const fs::path left = kept_.beside("copy") / "recordings" / "0003.sqlite";
+  fs::copy_file(kept_.recording(3), left);
+  EXPECT_TRUE(withdraw(kept_.folder(), "P03", 5).remaining.empty());
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(kept_.beside("copy") / "recordings" / "0002.sqlite"));
 }
 
 TEST_F(WithdrawalTest, SomebodyUnknownIsAnErrorAndChangesNothing) {
