@@ -152,18 +152,20 @@ class ProcessWorld {
     return space.capacity - space.free;
   }
 
-  /// From one of the first calls of each thread on: once, or for ever.
+  /// From one of the first calls of a thread for the study on: once, or for ever.
   void fail_calls(const std::string& calls, const std::string& error) {
     met_ = "its calls of " + calls + " failed";
     if (!can_follow_system_calls()) return;
     const std::string when =
-        std::to_string(1 + random_.below(40)) + (random_.with_probability(0.5) ? "+" : "");
-    const std::string inject = "inject=" + calls + ":error=" + error + ":when=" + when;
-    take(test_support::run_program(
-        next_words(), options({"strace", "-f", "-qq", "-o", "/dev/null", "-P", study(), "-P",
-                               (study() / "study.sqlite").string(), "-P",
-                               (study() / "study.sqlite-wal").string(), "-P",
-                               (study() / "recordings" / "1.sqlite").string(), "-e", inject})));
+        std::to_string(1 + random_.below(400)) + (random_.with_probability(0.5) ? "+" : "");
+    std::vector<std::string> wrapper = {"strace", "-f", "-qq", "-o", "/dev/null"};
+    for (const char* file : {"", "study.sqlite", "study.sqlite-wal", "recordings/0001.sqlite",
+                             "recordings/0001.sqlite-wal"}) {
+      wrapper.insert(wrapper.end(), {"-P", (study() / file).string()});
+    }
+    wrapper.insert(wrapper.end(),
+                   {"-e", "inject=" + calls + ":error=" + error + ":when=" + when});
+    take(test_support::run_program(next_words(), options(wrapper)));
   }
 
   [[nodiscard]] test_support::ProgramOptions options(
