@@ -22,6 +22,8 @@ constexpr int kQuietNetwork_ms = 2;        ///< A command's way, in the ticks of
 constexpr int kDisturbedNetwork_ms = 45;   ///< No force answers to a state older than 40 ms.
 constexpr int kDisturbanceLasts_ms = 120;  ///< What was on the way may come as late.
 
+constexpr const char* kBrokenMedium = "the medium was no number";
+
 double total_of_norms_n(const core::PointVectors& forces_n) {
   double total_n = 0.0;
   for (const Eigen::Vector3d& force_n : forces_n) total_n += force_n.norm();
@@ -76,7 +78,13 @@ void Oracle::stop_pressed() {
   revoke("the stop was pressed", Way::kLoop);
 }
 
-void Oracle::medium_sent(bool is_broken) { medium_is_broken_ = is_broken; }
+/// One that is replaced before the loop has looked never was.
+void Oracle::medium_sent(bool is_broken) {
+  medium_is_broken_ = is_broken;
+  if (is_broken) return;
+  std::erase_if(revocations_,
+                [](const Revocation& known) { return known.cause == kBrokenMedium; });
+}
 
 void Oracle::loop_ticked() {
   dead_ms_ = 0;
@@ -215,7 +223,7 @@ void Oracle::judge_silences() {
   if (dead_ms_ > link_ms) revoke_at_once("the loop was dead");
   if (cut_ms_ > link_ms) revoke_at_once("the device was unplugged");
   if (num_silent_ticks_ > kHeartbeatIsLost_ms) revoke("the window was silent", Way::kLoop);
-  if (medium_is_broken_) revoke("the medium was no number", Way::kLoop);
+  if (medium_is_broken_) revoke(kBrokenMedium, Way::kLoop);
 }
 
 void Oracle::judge_force() {
