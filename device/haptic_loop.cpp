@@ -126,6 +126,10 @@ void HapticLoop::obey_emergency_stop() noexcept {
   if (num_presses != known_stop_presses_ || doors_.emergency_stop.is_pressed()) {
     latch(Fault::kEmergencyStop);
   }
+  // Asked for before it was pressed, if only just: refused, also where it is released already.
+  if (num_presses != known_stop_presses_) {
+    rearm_requested_.store(false, std::memory_order_relaxed);
+  }
   known_stop_presses_ = num_presses;
 }
 

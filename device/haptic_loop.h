@@ -99,8 +99,12 @@ class HapticLoop {
   /// Asks for the force, faded in from zero, for the first time or after a fault. Takes effect
   /// in the next tick, unless the emergency stop is still pressed. If the device may not be
   /// armed now, that is a fault anew: the request is refused, not kept, for nobody expects the
-  /// force minutes later. Any thread. Real time.
-  void rearm() noexcept { rearm_requested_.store(true, std::memory_order_release); }
+  /// force minutes later. So it is while the emergency stop is pressed, and where it is pressed
+  /// before the tick. Any thread. Real time.
+  void rearm() noexcept {
+    if (doors_.emergency_stop.is_pressed()) return;
+    rearm_requested_.store(true, std::memory_order_release);
+  }
 
   /// Of the next tick, by whoever drives the loop in real time: the monotonic clock now, and
   /// how many ticks were due since the last one and never ran. Its number leaves those out, so
@@ -115,11 +119,17 @@ class HapticLoop {
 
   /// The machine slept between two ticks: the next one latches a fault. As `stalled`. Real
   /// time.
-  void suspended() noexcept { suspended_ = true; }
+  void suspended() noexcept {
+    suspended_ = true;
+    stall_is_told_ = false;
+  }
 
   /// Time was lost between two ticks, more than a hand should have been left to itself: the
   /// next one latches a fault. By whoever calls `tick`. Real time.
-  void stalled() noexcept { stalled_ = true; }
+  void stalled() noexcept {
+    stalled_ = true;
+    stall_is_told_ = false;
+  }
 
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
 
@@ -165,7 +175,7 @@ class HapticLoop {
   bool has_joints_;
   bool stalled_ = false;
   bool suspended_ = false;
-  bool stall_is_told_ = false;  ///< One of the two was latched.
+  bool stall_is_told_ = false;  ///< One of the two was latched, and none came since.
   bool is_first_armed_tick_ = false;
   std::int64_t monotonic_ns_ = 0;
   std::int64_t num_missed_ = 0;  ///< Since the last tick.

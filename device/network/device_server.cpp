@@ -326,14 +326,22 @@ void DeviceServer::apply_force() noexcept {
   was_enabled_ = is_enabled;
   if (armed_ && is_enabled) {
     force_on_hand_n = client_->command.force_on_hand_n;
+    // Who asks for none gets none at once: a stop is not slowed down by the slew.
+    if (is_without_force(client_->command)) limiter_.rearm();
     (void)limiter_.limit(state_.measured.attached, state_.measured.tip_velocity_m_per_s,
                          force_on_hand_n);
     if (limiter_.fault() != Fault::kNone) disarm(limiter_.fault());
   }
   written_n_ = force_on_hand_n;
-  if (!device_.write(force_on_hand_n)) {
-    disarm(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
+  if (device_.write(force_on_hand_n)) {
+    num_failed_writes_ = 0;
+    return;
   }
+  disarm(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
+  // The last force would stand; as often as the loop does it at a device of its own.
+  constexpr int kNumHalts = 10;
+  if (num_failed_writes_ < kNumHalts) device_.halt();
+  num_failed_writes_ = std::min(num_failed_writes_ + 1, kNumHalts);
 }
 
 void DeviceServer::tell_client(std::int64_t now_ns) noexcept {

@@ -126,8 +126,9 @@ class DeviceServer {
   std::uint64_t next_stream_id_;
   std::uint32_t sequence_;
   bool armed_ = false;
-  bool was_enabled_ = false;  ///< The device, in the step before.
-  bool was_used_ = false;     ///< A program has left the device since it was opened.
+  bool was_enabled_ = false;   ///< The device, in the step before.
+  int num_failed_writes_ = 0;  ///< In a row.
+  bool was_used_ = false;      ///< A program has left the device since it was opened.
   std::optional<std::int64_t> last_step_ns_;
   // One answer of each kind a step: nobody is to be flooded through us.
   bool welcomed_in_step_ = false, refused_in_step_ = false;

@@ -108,6 +108,25 @@ TEST_F(LoopArmingTest, AStopPressedAndReleasedBetweenTwoTicksLatches) {
   EXPECT_EQ(max_received_n(from), 0.0);
 }
 
+TEST_F(LoopArmingTest, WhoAskedBeforeAStopHasToAskAgain) {
+  run(10);
+  loop->rearm();
+  stop.press();
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  run(1000);
+  EXPECT_EQ(max_received_n(0), 0.0) << "pressed and released before anybody looked";
+  stop.press();
+  run(10);
+  loop->rearm();
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  run(1000);
+  EXPECT_EQ(max_received_n(0), 0.0)
+      << "asked for while it was pressed, just before its release";
+  loop->rearm();
+  run(1000);
+  EXPECT_GT(max_received_n(0), 0.5);
+}
+
 TEST_F(LoopArmingTest, AMachineThatSleptIsAFault) {
   loop->rearm();
   run(1000);
@@ -137,6 +156,17 @@ TEST_F(LoopArmingTest, WhoAsksWhileTheLoopStandsStillIsRefused) {
   };
   stand_still(false);
   stand_still(true);
+}
+
+TEST_F(LoopArmingTest, WhoAsksWhileItStandsStillAgainIsRefusedToo) {
+  loop->stalled();
+  run(10);
+  loop->rearm();
+  loop->stalled();
+  const std::size_t from = device.received.size();
+  run(600);
+  EXPECT_EQ(telemetry().fault, Fault::kWatchdog);
+  EXPECT_EQ(max_received_n(from), 0.0) << "that it had stood still once before is no news";
 }
 
 TEST_F(LoopArmingTest, ADeviceThatWasHaltedGetsItsZerosFirst) {

@@ -3,6 +3,8 @@
 # time. Usage: delete_each_guard.sh BUILD_FOLDER [PART OF "FILE: NAME" OF A GUARD]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/guards/guard_list.sh
+source "$here/guard_list.sh"
 root=$(cd "$here/../.." && pwd)
 work=${1:?expected a folder to build in}
 wanted=${2:-}
@@ -10,9 +12,7 @@ mkdir -p "$work"
 work=$(cd "$work" && pwd)
 tree=$work/tree
 
-rm -rf "$tree"
-mkdir -p "$tree"
-(cd "$root" && git ls-files -z | xargs -0 cp --parents -t "$tree")
+copy_tree "$root" "$tree"
 cmake -S "$tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DJND_WINDOW=OFF -DJND_WARNINGS_AS_ERRORS=OFF >"$work/log"
 build() { cmake --build "$work/build" --target core_test device_test >"$work/log" 2>&1; }
 # A guard that is gone may let a test wait for ever.
@@ -33,8 +33,7 @@ try() {
   local file=$1 name=$2
   [[ "$file: $name" == *"$wanted"* ]] || return 0
   num_guards=$((num_guards + 1))
-  if ! FROM=$3 TO=$4 perl -0777 -pi -e \
-      '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/; END { exit !$n }' "$tree/$file"; then
+  if ! delete_guard "$tree/$file" "$3" "$4"; then
     echo "$file: $name: expected the guard of guards.txt, found other code; bring the list up to date"
     num_missed=$((num_missed + 1))
   elif ! build; then
@@ -58,15 +57,6 @@ try() {
   cp "$root/$file" "$tree/$file"
 }
 
-file='' name='' from='' to=''
-flush() { [[ -z $file ]] || try "$file" "$name" "${from%$'\n'}" "${to%$'\n'}"; }
-while IFS= read -r line; do
-  case $line in
-    '@ '*) flush; line=${line#@ }; file=${line%%: *}; name=${line#*: }; from='' to='' ;;
-    -*) from+=${line#-}$'\n' ;;
-    +*) to+=${line#+}$'\n' ;;
-  esac
-done <"$here/guards.txt"
-flush
+each_guard "$here/guards.txt" try
 echo "$((num_guards - num_missed)) of $num_guards guards are seen by a test"
 [[ $num_missed -eq 0 ]]

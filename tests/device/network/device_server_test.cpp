@@ -143,6 +143,30 @@ TEST_F(DeviceServerTest, ForcesAreLimitedAgain) {
   EXPECT_EQ(felt_n(), 0.0) << "off the hand";
 }
 
+TEST_F(DeviceServerTest, WhoAsksForNoForceAnyMoreGetsNoneAtOnce) {
+  arm();
+  talk(20, 9.0);
+  ASSERT_EQ(felt_n(), 9.0);
+  talk(1, 0.0);
+  EXPECT_EQ(felt_n(), 0.0) << "a stop is not slowed down by the slew";
+  talk(1, 9.0);
+  EXPECT_EQ(felt_n(), 2.0) << "and what comes back begins at zero";
+}
+
+TEST_F(DeviceServerTest, ADeviceThatTakesNoWritesIsHaltedAndDoesNotKeepItsLastForce) {
+  arm();
+  talk(20, 5.0);
+  ASSERT_EQ(felt_n(), 5.0);
+  FaultInjectingDevice faulty(device,
+                              {{.num_ticks = 3, .injection = Injection::kWriteFailure}});
+  faulty.open();
+  const auto other_port = network.port(address_number(3));
+  DeviceServer other(faulty, *other_port, {});
+  other.step(network.now_ns);
+  EXPECT_TRUE(device.halted);
+  EXPECT_EQ(device.standing_n, core::zero_vectors());
+}
+
 TEST_F(DeviceServerTest, ATooFastHandEndsTheForce) {
   arm();
   talk(10, 1.0);

@@ -1,0 +1,9 @@
+#include "chaos/worlds.h"
+
+// In place of process_world.cpp, for a campaign without storage and without the program.
+
+namespace jnd::chaos {
+
+Outcome played_by_processes(const Schedule&) { return {.was_played = false}; }
+
+}  // namespace jnd::chaos

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+
+#include "chaos/oracle.h"
+#include "chaos/schedule.h"
+#include "device/haptic_loop.h"
+#include "device/watchdog.h"
+
+namespace jnd::chaos {
+
+/// The program as far as it reaches the device: loop, watchdog, window and the people before
+/// it, driven by a schedule millisecond by millisecond. Whoever owns it lets the device live.
+class ProgramInVirtualTime {
+ public:
+  /// Both have to outlive this.
+  ProgramInVirtualTime(const Schedule& schedule, Oracle& oracle)
+      : schedule_(schedule), oracle_(oracle) {}
+
+  /// Begins with this device, as a new process: disarmed. What people had pressed stays
+  /// pressed, as the session's start has it.
+  void start(device::HapticDevice& device);
+  void kill();
+  [[nodiscard]] bool runs() const noexcept { return loop_ != nullptr; }
+
+  /// What people do in this millisecond, and what the window and the watchdog do.
+  void pass_millisecond(int now_ms);
+  /// The loop's tick of this millisecond, unless the schedule says that there is none.
+  void tick_if_due(int now_ms);
+  /// Within a tick, after the device was read: acts that come just then.
+  void press_stop_within_tick(int now_ms);
+  /// The loop's thread sees how long its tick took.
+  [[nodiscard]] bool is_within_tick() const noexcept { return is_within_tick_; }
+
+ private:
+  struct Doors {
+    core::LatestValue<core::HapticCommand> commands;
+    core::LatestValue<core::Telemetry> telemetry;
+    core::Heartbeat heartbeat;
+    core::WatchdogState watchdog;
+  };
+
+  void act(const Event& event);
+  void send_medium(double viscosity_pa_s, bool is_broken);
+  [[nodiscard]] bool is_on(Trouble what, int now_ms) const {
+    return schedule_.on(what, now_ms) != nullptr;
+  }
+
+  const Schedule& schedule_;
+  Oracle& oracle_;
+  core::EmergencyStop stop_;
+  std::unique_ptr<Doors> doors_;
+  std::unique_ptr<device::HapticLoop> loop_;
+  std::unique_ptr<device::Watchdog> watchdog_;
+  std::uint64_t sequence_ = 0;
+  int last_tick_ms_ = 0;
+  bool is_within_tick_ = false;
+};
+
+}  // namespace jnd::chaos

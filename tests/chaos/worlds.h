@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "chaos/schedule.h"
+
+namespace jnd::chaos {
+
+/// What became of a schedule.
+struct Outcome {
+  std::string violation;  ///< Empty: none.
+  int num_milliseconds_with_force = 0;
+  double most_given_j = 0.0;
+  bool was_played = true;  ///< False: what it needs is not there.
+};
+
+/// In virtual time, all of it in this thread.
+[[nodiscard]] Outcome played_directly(const Schedule& schedule);
+[[nodiscard]] Outcome played_over_a_network(const Schedule& schedule);
+
+/// The real program, in real time. Not played where none was built.
+[[nodiscard]] Outcome played_by_processes(const Schedule& schedule);
+
+}  // namespace jnd::chaos
