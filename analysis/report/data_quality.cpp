@@ -166,6 +166,10 @@ std::vector<SessionQuality> session_quality(const core::StudyStore& store,
     count_events(store, quality);
     check_limit(store, quality);
     check_recording(store, quality);
+    for (const core::AdverseEventRow& row : store.adverse_events()) {
+      if (row.session != session.session) continue;
+      quality.remarks.push_back("adverse event: " + row.text);
+    }
     all.push_back(std::move(quality));
   }
   return all;

@@ -29,6 +29,7 @@ void add_exclude(CLI::App& program, Invocation& invocation);
 void add_unblind(CLI::App& program, Invocation& invocation);
 void add_backup(CLI::App& program, Invocation& invocation);
 void add_restore(CLI::App& program, Invocation& invocation);
+void add_adverse_event(CLI::App& program, Invocation& invocation);
 void add_withdraw(CLI::App& program, Invocation& invocation);
 void add_verify(CLI::App& program, Invocation& invocation);
 void add_export(CLI::App& program, Invocation& invocation);

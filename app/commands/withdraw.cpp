@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "app/commands/commands.h"
 #include "app/json_text.h"
 #include "core/clock.h"
+#include "core/storage/study_store.h"
 #include "core/storage/withdrawal.h"
 
 namespace jnd::app {
@@ -53,12 +55,24 @@ nlohmann::json withdrawal_json(const core::WithdrawalReport& report,
           {"exports", std::move(exports)}};
 }
 
+/// They outlast the person's data.
+std::size_t num_adverse_events(const WithdrawOptions& options) {
+  const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
+  const std::vector<core::AdverseEventRow> all = store.adverse_events();
+  return static_cast<std::size_t>(
+      std::ranges::count(all, options.participant, &core::AdverseEventRow::participant));
+}
+
 void print_withdrawal(const core::WithdrawalReport& report, const WithdrawOptions& options) {
   std::printf("%s: %s withdrew; %zu sessions deleted here and in %zu backups\n",
               options.folder.c_str(), options.participant.c_str(), report.sessions.size(),
               report.backups.size());
   for (const std::string& remaining : report.remaining) {
     std::printf("  not reached: %s\n", remaining.c_str());
+  }
+  if (const std::size_t kept = num_adverse_events(options); kept > 0) {
+    std::printf("  kept: %zu adverse events, as `jnd adverse-event %s` lists them\n", kept,
+                options.folder.c_str());
   }
   for (const core::ExportNote& one : report.exports) {
     std::printf("  not deleted: %s: %s of %s that holds %s\n", one.place.c_str(),

@@ -129,6 +129,7 @@ class OperatedSession {
   bool left_ = false;
   core::Fault known_fault_ = core::Fault::kNone;
   std::uint64_t known_num_faults_ = 0;  ///< When `rearm` was asked for.
+  int num_own_faults_ = 0;              ///< That ended a force, of the device or this machine.
   bool rearming_ = false;
   bool was_paused_before_fault_ = false;
   AttachmentWatch attachment_;

@@ -6,6 +6,7 @@
 
 #include "app/operator/operated_session.h"
 #include "app/operator/trial_intervals.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "experiments/session/stimulus.h"
@@ -17,6 +18,7 @@ using namespace experiments;
 namespace {
 
 constexpr double kTouchingM = -0.005;  ///< Of the surface, for a solid.
+constexpr int kMostFaults = 3;         ///< In one sitting; after them somebody has to look.
 
 [[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
 
@@ -162,6 +164,15 @@ struct OperatedSession::Act {
     my.session_.note(note.text);
   }
 
+  /// At any time, before the first stimulus and after the last.
+  void operator()(const operate::ReportAdverseEvent& report) const {
+    if (report.text.find_first_not_of(" \t\n") == std::string::npos) {
+      refuse("expected what happened, found no words");
+    }
+    my.parameters_.store.add_adverse_event(my.row_.session, core::SystemClock().now_ns(),
+                                           report.text);
+  }
+
   void operator()(const operate::Pause& pause) const {
     require_running();
     my.abandon_presentation();
@@ -203,6 +214,11 @@ struct OperatedSession::Act {
     if (my.known_fault_ == core::Fault::kNone) refuse("there is nothing to arm");
     if (my.parameters_.doors.emergency_stop.is_pressed()) {
       refuse("the emergency stop is pressed: release it first");
+    }
+    if (my.num_own_faults_ >= kMostFaults) {
+      refuse(
+          "three faults of the device or this machine in one sitting are enough: leave the "
+          "session, find out why, and resume it");
     }
     my.known_num_faults_ = my.visit_.apparatus().telemetry().num_faults;
     my.visit_.apparatus().rearm();

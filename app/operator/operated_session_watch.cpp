@@ -11,6 +11,13 @@ void OperatedSession::watch_apparatus() {
   watch_for_loose_points();
 }
 
+/// With the device or this machine: not a person who stopped, a switch that was opened, or a
+/// link that has to become good first.
+static bool says_something_is_wrong(core::Fault fault) noexcept {
+  return core::is_failure(fault) && fault != core::Fault::kEmergencyStop &&
+         fault != core::Fault::kNotEnabled && fault != core::Fault::kLinkLost;
+}
+
 /// A fault is stored as soon as it is seen; the attempt it hit counts for nothing. The next one
 /// may latch before anybody has seen that the last was over.
 void OperatedSession::watch_for_faults() {
@@ -18,7 +25,10 @@ void OperatedSession::watch_for_faults() {
   if (now.fault == core::Fault::kNone) return arming_succeeded();
   const bool latched_anew = rearming_ && now.num_faults != known_num_faults_;
   if ((now.fault == known_fault_ && !latched_anew) || !failure_.empty()) return;
-  if (known_fault_ == core::Fault::kNone) was_paused_before_fault_ = state().paused;
+  if (known_fault_ == core::Fault::kNone) {
+    was_paused_before_fault_ = state().paused;
+    if (says_something_is_wrong(now.fault)) ++num_own_faults_;
+  }
   known_fault_ = now.fault;
   rearming_ = false;
   abandon_presentation();

@@ -70,6 +70,10 @@ struct Correct {
 struct AddNote {
   std::string text;
 };
+/// Kept for good, also if the person withdraws.
+struct ReportAdverseEvent {
+  std::string text;
+};
 struct Pause {
   std::string reason;
 };
@@ -102,7 +106,8 @@ using OperatorRequest =
     std::variant<operate::Begin, operate::AnswerItem, operate::FeelMedium,
                  operate::FinishMedium, operate::FinishStage, operate::Present, operate::Answer,
                  operate::Adjust, operate::Undo, operate::Correct, operate::AddNote,
-                 operate::Pause, operate::GoOn, operate::GoOnWithout, operate::ReleaseStop,
-                 operate::Rearm, operate::EndEarly, operate::Leave>;
+                 operate::ReportAdverseEvent, operate::Pause, operate::GoOn,
+                 operate::GoOnWithout, operate::ReleaseStop, operate::Rearm, operate::EndEarly,
+                 operate::Leave>;
 
 }  // namespace jnd::app

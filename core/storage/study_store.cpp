@@ -339,6 +339,35 @@ void StudyStore::add_unblinding(std::int64_t time_ns, const std::string& reason)
       .run();
 }
 
+void StudyStore::add_adverse_event(std::int64_t session, std::int64_t time_ns,
+                                   const std::string& text) {
+  const std::string participant = this->session(session).participant;
+  const std::lock_guard guard(implementation_->mutex);
+  Statement(
+      implementation_->database,
+      "INSERT INTO adverse_event (session, participant, time_ns, text) VALUES (?, ?, ?, ?)")
+      .bind(session)
+      .bind(participant)
+      .bind(time_ns)
+      .bind(text)
+      .run();
+}
+
+std::vector<AdverseEventRow> StudyStore::adverse_events() const {
+  const std::lock_guard guard(implementation_->mutex);
+  std::vector<AdverseEventRow> all;
+  Statement rows(implementation_->database,
+                 "SELECT session, participant, time_ns, text FROM adverse_event"
+                 " ORDER BY adverse_event");
+  while (rows.step()) {
+    all.push_back({.session = rows.integer(0),
+                   .participant = rows.text(1),
+                   .time_ns = rows.integer(2),
+                   .text = rows.text(3)});
+  }
+  return all;
+}
+
 std::string StudyStore::study_id() const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database, "SELECT study_id FROM study_identity");

@@ -130,6 +130,15 @@ struct UnfinishedWithdrawal {
   bool erased = false;  ///< Nothing of the person is left in this folder.
 };
 
+/// Something that must not happen to a participant, and did: pain, a fright, an injury. Kept
+/// for good, also after a withdrawal.
+struct AdverseEventRow {
+  std::int64_t session = 0;
+  std::string participant;
+  std::int64_t time_ns = 0;
+  std::string text;
+};
+
 /// What a session has come to, as a line of a list.
 struct SessionOverview {
   std::int64_t session = 0;
@@ -214,6 +223,10 @@ class StudyStore {
   /// Whether somebody asked to see what a double-blind study hides.
   [[nodiscard]] bool unblinded() const;
   void add_unblinding(std::int64_t time_ns, const std::string& reason);
+  /// On disk when it returns. Throws `Error` for a session that is not there.
+  void add_adverse_event(std::int64_t session, std::int64_t time_ns, const std::string& text);
+  /// In the order in which they were reported.
+  [[nodiscard]] std::vector<AdverseEventRow> adverse_events() const;
   /// The same in every backup of a study, and in no other study.
   [[nodiscard]] std::string study_id() const;
   [[nodiscard]] std::vector<WithdrawalRow> withdrawals() const;

@@ -1,4 +1,4 @@
--- Layout 6: where the study was exported to, and how far a withdrawal has come.
+-- Layout 6: where the study was exported to, how far a withdrawal has come, and adverse events.
 
 -- Folders that an export or a report was written to: what a withdrawal cannot reach, but names.
 -- The last row of a place counts, for nothing is written to a place that holds anything.
@@ -24,6 +24,15 @@ CREATE TABLE withdrawal_step (
   time_ns INTEGER NOT NULL
 );
 
+-- What happened to a participant that must not happen. Kept for good, also after a withdrawal.
+CREATE TABLE adverse_event (
+  adverse_event INTEGER PRIMARY KEY,
+  session INTEGER NOT NULL,
+  participant TEXT NOT NULL,
+  time_ns INTEGER NOT NULL,
+  text TEXT NOT NULL
+);
+
 CREATE TRIGGER export_is_final BEFORE UPDATE ON export
   BEGIN SELECT RAISE(ABORT, 'exports are never changed'); END;
 CREATE TRIGGER export_stays BEFORE DELETE ON export
@@ -36,3 +45,7 @@ CREATE TRIGGER withdrawal_step_is_final BEFORE UPDATE ON withdrawal_step
   BEGIN SELECT RAISE(ABORT, 'withdrawals are never changed'); END;
 CREATE TRIGGER withdrawal_step_stays BEFORE DELETE ON withdrawal_step
   BEGIN SELECT RAISE(ABORT, 'withdrawals are never deleted'); END;
+CREATE TRIGGER adverse_event_is_final BEFORE UPDATE ON adverse_event
+  BEGIN SELECT RAISE(ABORT, 'adverse events are never changed'); END;
+CREATE TRIGGER adverse_event_stays BEFORE DELETE ON adverse_event
+  BEGIN SELECT RAISE(ABORT, 'adverse events are never deleted'); END;

@@ -71,7 +71,8 @@ class NetworkWorld {
     if (server_ != nullptr) return;
     server_port_ = network_.port(kServer);
     server_ = std::make_unique<DeviceServer>(
-        hand_, *server_port_, DeviceServer::Parameters{.first_stream_id = random_.next_bits()});
+        hand_, *server_port_,
+        DeviceServer::Parameters{.first_stream_id = random_.next_bits(), .key = key_});
     oracle_.server_restarted();
   }
 
@@ -81,7 +82,7 @@ class NetworkWorld {
     try {
       device_ = std::make_unique<NetworkDevice>(
           network_.port(device::address_number(++last_address_)), kServer,
-          NetworkDevice::Parameters{.token = random_.next_bits()});
+          NetworkDevice::Parameters{.token = random_.next_bits(), .key = key_});
       device_->open();
       program_.start(*device_);
     } catch (const device::DeviceUnreachable&) {
@@ -140,6 +141,9 @@ class NetworkWorld {
 
   const Schedule& schedule_;
   core::RandomStream random_;
+  /// Every other schedule seals what it says.
+  std::optional<device::DeviceKey> key_ =
+      schedule_.seed % 2 == 0 ? std::nullopt : std::optional(device::DeviceKey{});
   SimulatedNetwork network_;
   Oracle oracle_;
   HandDevice hand_;

@@ -31,7 +31,10 @@ DialogWords words_of(Dialog dialog) {
               "The old answer stays in the log; what was felt is not touched.", "reason",
               "Correct", true};
     case Dialog::kNote:
-      return {"Write a note", "It is stored with the time, now.", "note", "Store", true};
+      return {"Write a note",
+              "It is stored with the time, now. An adverse event, such as pain or a fright, is "
+              "kept for good, also if the person withdraws.",
+              "note", "Store", true};
     case Dialog::kPause:
       return {"Pause the session",
               "The hand goes to free space; a trial under way is run again afterwards.",
@@ -142,11 +145,19 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   const Rect cancel_place = row.take_right(ui.button_width("Cancel", cancel), 12);
   const bool done = ui.button("dialog_do", verb_place, words.verb, verb) || (entered && ready);
   const bool cancelled = ui.button("dialog_cancel", cancel_place, "Cancel", cancel);
+  bool adverse = false;
+  if (state.dialog == Dialog::kNote) {
+    constexpr const char* kAdverse = "Store as adverse event";
+    const ButtonStyle style{.enabled = ready};
+    adverse = ui.button("dialog_adverse_event", row.take_left(ui.button_width(kAdverse, style)),
+                        kAdverse, style);
+  }
   ui.end_dialog();
+  if (adverse) result.requests.emplace_back(operate::ReportAdverseEvent{state.reason});
   // Enter without what is needed: the field keeps the keyboard.
   state.dialog_is_new = entered && !done;
   if (done) request(view, state, result);
-  if (done || cancelled) state.dialog = Dialog::kNone;
+  if (done || adverse || cancelled) state.dialog = Dialog::kNone;
 }
 
 }  // namespace jnd::app::gui

@@ -280,6 +280,12 @@ TEST_F(OperatedSessionTest, APauseDiscardsTheAttemptAndGoingOnRunsTheTrialAgain)
   EXPECT_EQ(view().trial->trial, trial);
   act(operate::AddNote{"coughed"});
   EXPECT_EQ(view().notes, std::vector<std::string>{"coughed"});
+  act(operate::ReportAdverseEvent{"a pinched finger"});
+  ASSERT_EQ(store_->adverse_events().size(), 1u);
+  EXPECT_EQ(store_->adverse_events()[0].text, "a pinched finger");
+  EXPECT_EQ(store_->adverse_events()[0].session, session_number_);
+  EXPECT_EQ(act(operate::ReportAdverseEvent{" "}).refusal,
+            "expected what happened, found no words");
 }
 
 TEST_F(OperatedSessionTest, WhoLeavesFindsTheSessionAgainAndRepeatsTheTrial) {

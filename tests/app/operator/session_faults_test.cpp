@@ -71,6 +71,26 @@ TEST_F(SessionFaultsTest, AStopWithoutAPauseGoesOnByItselfAlsoASecondTime) {
   }
 }
 
+TEST_F(SessionFaultsTest, AfterThreeFaultsSomebodyHasToLook) {
+  open();
+  run_to_block("comparison");
+  std::vector<device::ScheduledFault> faults;
+  for (const std::int64_t at_tick : {1000, 3000, 5000}) {
+    faults.push_back({.first_tick = at_tick, .injection = device::Injection::kReadFailure});
+  }
+  reopen(faults);
+  act(operate::Begin{"repeat"});
+  for (int fault = 1; fault <= 3; ++fault) {
+    for (int i = 0; i < 200 && view().step != Step::kFault; ++i) pass(0.05);
+    ASSERT_EQ(view().step, Step::kFault) << fault;
+    if (fault < 3) {
+      EXPECT_NE(rearm().step, Step::kFault) << fault;
+    }
+  }
+  EXPECT_NE(act(operate::Rearm{}).refusal.find("three faults"), std::string::npos);
+  EXPECT_EQ(view().step, Step::kFault);
+}
+
 TEST_F(SessionFaultsTest, NothingGoesOnByItselfWithALooseFinger) {
   const std::int64_t trial =
       go_on_with(device::Injection::kDetachedPoint, 1.5, 3.0).trial->trial;

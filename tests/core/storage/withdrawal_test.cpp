@@ -49,6 +49,29 @@ TEST_F(WithdrawalTest, NothingOfThePersonIsLeftButTheTombstone) {
   EXPECT_TRUE(verified(kept_.folder()).complete);
 }
 
+TEST_F(WithdrawalTest, AdverseEventsStayForGood) {
+  {
+    StudyStore store(kept_.folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
+    store.add_adverse_event(1, 7, "a pinched finger");
+    store.add_adverse_event(2, 8, "a fright");
+    EXPECT_THROW(store.add_adverse_event(99, 9, "nobody"), Error);
+  }
+  (void)withdraw(kept_.folder(), "P01", 5);
+  const StudyStore store(kept_.folder(), StudyStore::Mode::kReadOnly);
+  const std::vector<AdverseEventRow> all = store.adverse_events();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].session, 1);
+  EXPECT_EQ(all[0].participant, "P01");
+  EXPECT_EQ(all[0].time_ns, 7);
+  EXPECT_EQ(all[0].text, "a pinched finger");
+  EXPECT_EQ(all[1].text, "a fright");
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+  Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadWrite,
+                    Durability::kAtClose);
+  EXPECT_THROW(Statement(database, "DELETE FROM adverse_event").run(), Error);
+  EXPECT_THROW(Statement(database, "UPDATE adverse_event SET text = ''").run(), Error);
+}
+
 TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards) {
   (void)withdraw(kept_.folder(), "P02", 5);
   EXPECT_EQ(kept_.add_session("P03"), 3);
