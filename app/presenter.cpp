@@ -104,6 +104,11 @@ void Presenter::abandon() {
   if (metered) (void)apparatus_.finish_strokes();
 }
 
+void Presenter::tell_exposure() {
+  const std::optional<core::Exposure> exposure = exposure_since_last();
+  if (exposure && exposure->force_time_n_s > 0.0) session_.exposed(*exposure);
+}
+
 double Presenter::felt_s() const noexcept {
   if (!under_way_) return 0.0;
   return static_cast<double>(apparatus_.next_tick() - switched_tick_) / needs_.rate_hz;

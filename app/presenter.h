@@ -55,6 +55,10 @@ class Presenter {
   /// It counts for nothing: a fault, a pause. The event of the attempt's end is the caller's,
   /// and so is free space, first: this waits for the disk.
   void abandon();
+  /// Stores what the hand was exposed to since the last presentation that was ended, or since
+  /// this: after what was given up, and after a medium that was explored. Where the session is
+  /// neither begun nor over.
+  void tell_exposure();
 
   [[nodiscard]] bool under_way() const noexcept { return under_way_; }
   /// Since the medium was switched.

@@ -46,6 +46,7 @@ void TrialPlayer::begin_anew(const std::string& reason) {
   apparatus_.render(core::free_space());
   apparatus_.go_home();
   session_.discard_attempt(reason);
+  presenter_.tell_exposure();
   if (++num_missed_in_a_row_ < kMostInARow) return;
   throw core::Error(
       "haptic loop: expected a machine that keeps its time, found three attempts "
@@ -71,6 +72,7 @@ void TrialPlayer::put_fingers_back(std::uint8_t loose_bits) {
   const std::string reason = came_off_reason(loose_bits);
   if (trial && session_.state().trial(*trial).under_way) session_.discard_attempt(reason);
   session_.pause(reason);
+  presenter_.tell_exposure();
   apparatus_.put_fingers_back();
   double waited_s = 0.0;
   while (attachment_.loose_bits(apparatus_.telemetry()) != 0) {
@@ -98,6 +100,7 @@ void TrialPlayer::explore(const Exploration& exploration) {
 
 void TrialPlayer::feel(const Exploration& exploration) {
   stop_if_cancelled(run_);
+  session_.require_exposure_left();
   attachment_.begin(apparatus_.telemetry());
   const std::int64_t first_tick = apparatus_.next_tick();
   apparatus_.render(amounts_of(exploration.setting));
@@ -109,6 +112,7 @@ void TrialPlayer::feel(const Exploration& exploration) {
   stop_if_loose();
   session_.explored(exploration.setting.medium, exploration.setting.intensity, first_tick,
                     apparatus_.next_tick() - 1);
+  presenter_.tell_exposure();
 }
 
 /// Free space, hand at rest at home.

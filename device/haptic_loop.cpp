@@ -243,7 +243,9 @@ Fault HapticLoop::read_device() noexcept {
   }
   Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
   has_last_state_ = true;
-  if (found == Fault::kNone && watches_stillness_) found = watch_stillness();
+  // A measurement that stands in for one that is missing says nothing of the hand.
+  const bool is_new = state_.device_time_ns != last_state_.device_time_ns;
+  if (found == Fault::kNone && watches_stillness_ && is_new) found = watch_stillness();
   if (!state_.enabled) found = Fault::kNotEnabled;
   watch_attachment();
   attached_bits_ = 0;

@@ -347,7 +347,7 @@ void add_participant_stop(CLI::App& command, RunOptions& options) {
       "--participant-stop", options.participant_stop,
       "In the window: key, or pedal or button that counts as one, that the participant presses "
       "to stop");
-  key->check(CLI::IsMember({"F10", "F11", "F12"}));
+  key->check(CLI::IsMember({"F10", "F11", "F12"}))->excludes("--headless");
   command
       .add_flag("--participant-holds", options.participant_holds,
                 "Force only while the participant holds it down")

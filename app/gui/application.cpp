@@ -132,6 +132,14 @@ void Application::key_changed(Key key, bool is_down) noexcept {
   if (participant_stop_.key_changed(key, is_down)) escape();
 }
 
+/// Released by the experimenter while nobody holds the participant's switch.
+void Application::keep_stopped() noexcept {
+  if (worker_ != nullptr && participant_stop_.is_let_go() &&
+      !doors_.emergency_stop.is_pressed()) {
+    escape();
+  }
+}
+
 void Application::mouse_pressed(float x, float y) noexcept {
   if (stop_place_.contains(x, y)) escape();
 }
@@ -179,8 +187,7 @@ void Application::attempt(const char* title, const std::function<void()>& work) 
 
 void Application::draw(Ui& ui) {
   collect_work();
-  // Released by the experimenter while nobody holds the participant's switch.
-  if (participant_stop_.is_let_go() && !doors_.emergency_stop.is_pressed()) escape();
+  keep_stopped();
   run_state_.is_covered = shows_keys_ || !message_.empty();
   switch (screen_) {
     case Screen::kStart:

@@ -71,13 +71,18 @@ class Application {
   void mouse_pressed(float x, float y) noexcept;
   /// The system asks the program to end: a session is left as it is, to be resumed.
   void end_soon();
-  void beat() noexcept { doors_.heartbeat.beat(); }
+  void beat() noexcept {
+    keep_stopped();
+    doors_.heartbeat.beat();
+  }
   /// Of the mouse, logical pixels, whenever it moves.
   void cursor(float x, float y) noexcept;
   /// The close button: asks first where a session goes on.
   void ask_to_close();
 
  private:
+  void keep_stopped() noexcept;
+
   enum class Screen { kStart, kPrepare, kSession, kSessions, kResults, kStudy };
 
   void draw_start(Ui& ui);

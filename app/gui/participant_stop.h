@@ -9,7 +9,8 @@ namespace jnd::app::gui {
 
 /// A stop in the participant's other hand or under a foot: a key, or a pedal or button that
 /// counts as one. Pressed it stops, or, where the laboratory wants it, force is there only as
-/// long as it is held: a dead-man switch. A window that loses the keyboard lets go of it.
+/// long as it is held: a dead-man switch. A window that loses the focus lets go of it; where
+/// another program takes the keyboard for itself, as screen lockers do, nothing of it is seen.
 class ParticipantStop {
  public:
   enum class Way {

@@ -173,6 +173,7 @@ void OperatedSession::abandon_presentation() {
   visit_.apparatus().go_home();
   feeling_.reset();
   presenter_.abandon();
+  if (begun_ && !state().ended && failure_.empty()) presenter_.tell_exposure();
 }
 
 void OperatedSession::end_feeling(bool counts) {
@@ -181,8 +182,10 @@ void OperatedSession::end_feeling(bool counts) {
   feeling_.reset();
   visit_.apparatus().render(core::free_space());
   visit_.apparatus().go_home();
-  if (!counts) return;
-  session_.explored(felt.setting.medium, felt.setting.intensity, felt.first_tick, last_tick);
+  if (counts) {
+    session_.explored(felt.setting.medium, felt.setting.intensity, felt.first_tick, last_tick);
+  }
+  presenter_.tell_exposure();
 }
 
 /// What follows of itself: the next stage, the next trial's rest, the end.

@@ -67,6 +67,7 @@ struct OperatedSession::Act {
     require_running();
     const std::optional<Exploration> medium = my.next_medium();
     if (my.step() != Step::kMedium || !medium) refuse("no medium waits to be felt");
+    my.session_.require_exposure_left();
     begin_feeling();
     my.feeling_ =
         Feeling{.first_tick = my.visit_.apparatus().next_tick(), .setting = medium->setting};

@@ -13,7 +13,9 @@ StillnessWatch::StillnessWatch(const Parameters& parameters, double period_s)
   require_positive(parameters.confirm_s, "confirm_s");
   require_positive(parameters.return_s, "return_s");
   require_positive(parameters.max_way_m, "max_way_m");
+  require_positive(parameters.memory_s, "memory_s");
   require_positive(period_s, "period_s");
+  kept_ratio_ = std::max(0.0, 1.0 - period_s / parameters.memory_s);
 }
 
 void StillnessWatch::observe(const PointVectors& tip_position_m,
@@ -32,9 +34,10 @@ void StillnessWatch::observe(const PointVectors& tip_position_m,
     point.last_position_m = tip_position_m[i];
     const bool is_pushed = (pushed_bits >> i & 1) != 0;
     point.still_s = stands_still && is_pushed ? point.still_s + period_s_ : 0.0;
-    point.way_m = stands_still
-                      ? Eigen::Vector3d(point.way_m + period_s_ * tip_velocity_m_per_s[i])
-                      : Eigen::Vector3d::Zero();
+    point.way_m =
+        stands_still
+            ? Eigen::Vector3d(kept_ratio_ * point.way_m + period_s_ * tip_velocity_m_per_s[i])
+            : Eigen::Vector3d::Zero();
     is_frozen_ |= point.way_m.norm() > parameters_.max_way_m;
     if (point.still_s > parameters_.max_still_s) {
       asks_to_move_ = true;

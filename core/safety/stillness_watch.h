@@ -15,8 +15,8 @@ namespace jnd::core {
 /// force back over `return_s`. Friction and coarse sensors make true stillness common, so a
 /// point is called frozen only after `confirm_s` without any force and without any change. A
 /// point whose position stands still while its own velocity carried it `max_way_m` away is
-/// frozen at once; noise of a velocity around zero adds up to nothing. Real time except the
-/// constructor.
+/// frozen at once; that way is forgotten with a time constant of `memory_s`, so that noise and
+/// bias below their ratio, 1 cm/s, never add up. Real time except the constructor.
 class StillnessWatch {
  public:
   struct Parameters {
@@ -25,6 +25,7 @@ class StillnessWatch {
     double confirm_s = 1.0;    ///< > 0, finite.
     double return_s = 0.5;     ///< > 0, finite.
     double max_way_m = 0.01;   ///< > 0, finite.
+    double memory_s = 1.0;     ///< > 0, finite; of that way.
   };
 
   /// Throws `Error` naming the field; a tick lasts `period_s`. Not real time.
@@ -61,6 +62,7 @@ class StillnessWatch {
 
   Parameters parameters_;
   double period_s_;
+  double kept_ratio_ = 0.0;  ///< Of the way, from tick to tick.
   bool asks_to_move_ = false;
   bool is_frozen_ = false;
   std::array<Point, kNumContactPoints> points_;

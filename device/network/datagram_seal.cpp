@@ -16,6 +16,7 @@ std::span<const std::byte> bytes_of(std::string_view label) noexcept {
 
 void DatagramSeal::begin_stream(std::uint64_t token, std::uint64_t stream_id) noexcept {
   if (!key_) return;
+  has_stream_ = true;
   std::array<std::byte, 16> numbers{};
   wire::ByteWriter writer(numbers);
   writer.number(token);
@@ -49,6 +50,7 @@ wire::Problem DatagramSeal::read(std::span<const std::byte> bytes,
   if (told == 0) return wire::decode(bytes, datagram);
   if (told == bytes.size()) return wire::Problem::kOtherKey;
   if (told + kBytes != bytes.size()) return wire::Problem::kWrongSize;
+  if (wire::is_of_stream(bytes) && !has_stream_) return wire::Problem::kOtherKey;
   const HmacCode code =
       code_of(bytes.first(told), side_ == Side::kProgram ? Side::kDevice : Side::kProgram);
   if (!is_same_code(std::span(code).first(kBytes), bytes.subspan(told))) {

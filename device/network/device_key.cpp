@@ -117,7 +117,14 @@ DeviceKey read_device_key(const fs::path& file) {
                       "` and copy the file to the other machine");
   }
   struct stat status {};
-  if (::fstat(open.descriptor(), &status) == 0 && (status.st_mode & 077) != 0) {
+  const bool is_known = ::fstat(open.descriptor(), &status) == 0;
+  if (!is_known || status.st_uid != ::geteuid()) {
+    throw core::Error(
+        file.string() +
+        ": expected a key of one's own, found a file of somebody else; make a new "
+        "one on both machines");
+  }
+  if ((status.st_mode & 077) != 0) {
     throw core::Error(file.string() +
                       ": expected a key that its owner alone may read, found that others may; "
                       "make a new one if anybody has, and run chmod 600 on the file");

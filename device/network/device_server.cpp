@@ -91,7 +91,7 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
 
 void DeviceServer::step(std::int64_t now_ns) noexcept {
   ++counts_.num_steps;
-  welcomed_in_step_ = false;
+  num_welcomed_in_step_ = 0;
   refused_in_step_ = false;
   take_in(now_ns);
   if (client_) quality_.end_tick();
@@ -136,7 +136,7 @@ void DeviceServer::take_in(std::int64_t now_ns) noexcept {
       continue;
     }
     if (const auto* hello = std::get_if<wire::Hello>(&incoming_.content)) {
-      if (!welcomed_in_step_) take(*hello, from, now_ns);
+      take(*hello, from, now_ns);
     } else if (client_ && from == client_->address &&
                incoming_.header.stream_id == client_->stream_id) {
       take_from_client(incoming_.header, incoming_.content, now_ns);
@@ -171,15 +171,19 @@ void DeviceServer::take(const wire::Hello& hello, const Address& from,
   const bool is_known = client_ && from == client_->address;
   if (client_ && !is_known && !hello.only_asks) {
     ++counts_.num_turned_away;
+    // Refused, it must not be worth anything later.
+    if (hello.challenge == welcome_.challenge) ++welcome_.challenge;
     return refuse(from, 0, {.token = hello.token, .reason = wire::RefusalReason::kBusy},
                   now_ns);
   }
-  welcomed_in_step_ = true;
-  welcome_.token = hello.token;
   // The same hello again: our answer was lost.
   const bool is_again = is_known && hello.token == client_->token;
   // One from long ago, which somebody has kept, opens nothing.
   const bool opens = !hello.only_asks && (is_again || hello.challenge == welcome_.challenge);
+  // What opens nothing new can be said again by anybody: it must not take the place of others.
+  constexpr int kMostWelcomes = 8;
+  if ((!opens || is_again) && ++num_welcomed_in_step_ > kMostWelcomes) return;
+  welcome_.token = hello.token;
   if (!opens) return send(from, 0, welcome_, now_ns);
   if (!is_again) {
     end_session();
@@ -277,7 +281,7 @@ void DeviceServer::arm_or_disarm() noexcept {
   if (!client_->is_recent || command.arm_number == state_.armed_number) return;
   // It asks for another arming, so it means no force of the one before.
   armed_ = false;
-  if (quality_.is_broken()) quality_.restart();
+  if (quality_.is_broken()) quality_.judge_anew();
   if (!is_without_force(command) || !quality_.is_settled() || !answers_in_time() ||
       !state_.is_measured) {
     return;

@@ -130,8 +130,9 @@ class DeviceServer {
   int num_failed_writes_ = 0;  ///< In a row.
   bool was_used_ = false;      ///< A program has left the device since it was opened.
   std::optional<std::int64_t> last_step_ns_;
-  // One answer of each kind a step: nobody is to be flooded through us.
-  bool welcomed_in_step_ = false, refused_in_step_ = false;
+  // Few answers a step: nobody is to be flooded through us.
+  int num_welcomed_in_step_ = 0;
+  bool refused_in_step_ = false;
   wire::State state_;
   wire::Datagram incoming_;
 };

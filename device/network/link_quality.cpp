@@ -49,6 +49,15 @@ void LinkQuality::restart() noexcept {
   round_trip_ns_ = 0.0;
 }
 
+void LinkQuality::judge_anew() noexcept {
+  const bool had_newest = has_newest_;
+  restart();
+  if (!had_newest) return;
+  has_newest_ = true;
+  num_expected_ = 1;
+  mark(newest_, true);
+}
+
 bool LinkQuality::is_marked(std::uint32_t sequence) const noexcept {
   const std::uint32_t place = sequence % kWindow;
   return (came_[place / 64] >> (place % 64) & 1) != 0;

@@ -52,9 +52,12 @@ class LinkQuality {
 
   explicit LinkQuality(const Parameters& parameters) noexcept : parameters_(parameters) {}
 
-  /// Another stream of datagrams, or the same after a pause: all is to be shown anew. The
+  /// Another stream of datagrams, whose numbers begin anew: all is to be shown anew. The
   /// counts go on, and so does our clock, of which no echo counts twice.
   void restart() noexcept;
+  /// Likewise in the middle of a stream, whose numbers count on: what came before stays known,
+  /// so that nothing old counts as new.
+  void judge_anew() noexcept;
   [[nodiscard]] Verdict received(std::uint32_t sequence) noexcept;
   void refused() noexcept { ++counts_.refused; }
   /// What the other side says it has seen last of our clock, 0: nothing. It measures a round

@@ -243,7 +243,7 @@ void NetworkDevice::judge(std::int64_t now_ns) noexcept {
     phase_ = Phase::kSeeking;
     ++token_;
   } else if (quality_.is_broken()) {
-    quality_.restart();
+    quality_.judge_anew();
   } else if (has_disarmed()) {
     ++arm_number_;
   } else if (is_armed() && newest_.is_measured && quality_.is_settled() && !is_silent(now_ns) &&
@@ -258,7 +258,7 @@ void NetworkDevice::lose(Fault fault, Phase phase) noexcept {
   fault_ = fault == Fault::kHeartbeatLost ? Fault::kLinkLost : fault;
   phase_ = phase;
   ++arm_number_;
-  quality_.restart();
+  quality_.judge_anew();
   if (phase == Phase::kSeeking) ++token_;
 }
 

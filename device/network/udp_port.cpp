@@ -165,12 +165,13 @@ Address UdpPort::local() const {
 
 bool UdpPort::send(std::span<const std::byte> datagram, const Address& to) noexcept {
   SystemAddress system = system_address(to);
-  // A connected socket tells with the next call that nobody was there for the datagram before.
+  // A connected socket tells with the next call what anybody says of the datagram before: that
+  // nobody was there, or that there is no way. It says nothing of this one.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const ssize_t sent = ::sendto(socket_, datagram.data(), datagram.size(),
                                   MSG_DONTWAIT | MSG_NOSIGNAL, system.get(), system.size);
     if (sent >= 0) return sent == static_cast<ssize_t>(datagram.size());
-    if (errno != ECONNREFUSED) return false;
+    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) return false;
   }
   return false;
 }
@@ -178,7 +179,7 @@ bool UdpPort::send(std::span<const std::byte> datagram, const Address& to) noexc
 std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept {
   SystemAddress system;
   // An empty datagram is as good as none, but must not hide what comes behind it; nor must the
-  // word that nobody was there.
+  // word of anybody that one of ours did not arrive.
   for (int attempt = 0; attempt < 16; ++attempt) {
     const ssize_t size = ::recvfrom(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT,
                                     system.get(), &system.size);
@@ -195,7 +196,7 @@ std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept
       }
       return static_cast<std::size_t>(size);
     }
-    if (size < 0 && errno != EINTR && errno != ECONNREFUSED) return 0;
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return 0;
     system.size = sizeof system.storage;
   }
   return 0;

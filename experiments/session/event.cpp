@@ -23,7 +23,18 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "trial_included",     "note_added",           "paused",
     "continued",          "fault_raised",         "session_resumed",
     "loop_started",       "loop_measured",        "unblinded",
-    "arming_changed",     "session_completed",    "session_ended_early"};
+    "arming_changed",     "exposure_told",        "session_completed",
+    "session_ended_early"};
+
+json exposure_json(const core::Exposure& exposure) {
+  return {{"force_time_n_s", exposure.force_time_n_s},
+          {"under_force_s", exposure.under_force_s}};
+}
+
+core::Exposure exposure_from_json(const json& data) {
+  return {.force_time_n_s = data.at("force_time_n_s").get<double>(),
+          .under_force_s = data.at("under_force_s").get<double>()};
+}
 
 /// Of the layout of `data`, for every kind.
 constexpr int kVersion = 1;
@@ -167,10 +178,7 @@ struct Writer {
             {"limited_ticks", s.limited_ticks},
             {"finger_lag_s", optional_number(s.finger_lag_s)}};
     if (s.missed_ticks > 0) data["missed_ticks"] = s.missed_ticks;
-    if (s.exposure) {
-      data["force_time_n_s"] = s.exposure->force_time_n_s;
-      data["under_force_s"] = s.exposure->under_force_s;
-    }
+    if (s.exposure) data.update(exposure_json(*s.exposure));
   }
   void operator()(const IntensityAdjusted& e) const {
     place(e.trial, e.attempt);
@@ -231,6 +239,7 @@ struct Writer {
   void operator()(const ArmingChanged& e) const {
     data = {{"state", e.state}, {"cause", e.cause}};
   }
+  void operator()(const ExposureTold& e) const { data = exposure_json(e.exposure); }
   void operator()(const SessionCompleted&) const {}
   void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
@@ -300,8 +309,7 @@ struct Reader {
       s.missed_ticks = whole_number(data.at("missed_ticks"), "missed_ticks");
     }
     if (data.contains("force_time_n_s")) {
-      s.exposure = core::Exposure{.force_time_n_s = data.at("force_time_n_s").get<double>(),
-                                  .under_force_s = data.at("under_force_s").get<double>()};
+      s.exposure = exposure_from_json(data);
     }
   }
   void operator()(IntensityAdjusted& e) const {
@@ -372,6 +380,7 @@ struct Reader {
     data.at("state").get_to(e.state);
     data.at("cause").get_to(e.cause);
   }
+  void operator()(ExposureTold& e) const { e.exposure = exposure_from_json(data); }
   void operator()(SessionCompleted&) const {}
   void operator()(SessionEndedEarly& e) const { data.at("reason").get_to(e.reason); }
 

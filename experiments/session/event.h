@@ -151,6 +151,12 @@ struct ArmingChanged {
   std::string cause;  ///< Who or what: "armed by the experimenter", a fault's name.
 };
 
+/// What a hand was exposed to outside of presentations that were ended: while a medium was
+/// explored, or in an attempt that was given up.
+struct ExposureTold {
+  core::Exposure exposure;
+};
+
 /// The session goes on after its program ended without ending the session.
 struct SessionResumed {
   std::string choice;                                     ///< "repeat", "restart" or "end".
@@ -196,7 +202,7 @@ using EventData =
                  IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
                  FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
-                 ArmingChanged, SessionCompleted, SessionEndedEarly>;
+                 ArmingChanged, ExposureTold, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -162,12 +162,7 @@ void Session::start_trial(std::int64_t tick) {
   if (!state_.stage_open || !trial || state_.trial(*trial).under_way) {
     cannot("start a trial", "a trial that waits");
   }
-  if (const std::string over = exposure_words(parameters_.limits, state_.exposure);
-      !over.empty()) {
-    throw core::Error("session " + std::to_string(parameters_.session) +
-                      ": expected less force than the study allows for a session, found " +
-                      over + "; let the person rest, and end the session");
-  }
+  require_exposure_left();
   commit(TrialStarted{*trial, state_.trial(*trial).attempt + 1, tick});
 }
 
@@ -442,6 +437,17 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
 }
 
 void Session::loop_started(const LoopStarted& given) { commit(given); }
+
+void Session::exposed(const core::Exposure& exposure) { commit(ExposureTold{exposure}); }
+
+void Session::require_exposure_left() const {
+  if (const std::string over = exposure_words(parameters_.limits, state_.exposure);
+      !over.empty()) {
+    throw core::Error("session " + std::to_string(parameters_.session) +
+                      ": expected less force than the study allows for a session, found " +
+                      over + "; let the person rest, and end the session");
+  }
+}
 
 void Session::arming_changed(const std::string& arming, const std::string& cause) {
   commit(ArmingChanged{arming, cause});

@@ -110,6 +110,9 @@ class Session {
               std::int64_t lost_last_tick);
   void loop_started(const LoopStarted& given);
   void arming_changed(const std::string& arming, const std::string& cause);
+  void exposed(const core::Exposure& exposure);
+  /// Throws `Error` where the hand was exposed to all that the study allows.
+  void require_exposure_left() const;
   void loop_measured(const LoopMeasured& timing);
   void unblind(const std::string& reason);
   /// After the last stage.

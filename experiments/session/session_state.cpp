@@ -114,6 +114,7 @@ struct Fold {
   void operator()(const LoopMeasured&) const {}
   void operator()(const Unblinded&) const {}
   void operator()(const ArmingChanged&) const {}
+  void operator()(const ExposureTold& e) const { state.exposure += e.exposure; }
   void operator()(const SessionCompleted&) const {
     state.ended = true;
     state.completed = true;

@@ -470,6 +470,8 @@ TEST_F(LaboratoryRunTest, ASessionEndsItsTrialsWhereItsExposureIsReached) {
     const experiments::Event event = experiments::event_from_row(row);
     const auto* ended = std::get_if<experiments::PresentationEnded>(&event.data);
     if (ended != nullptr) under_force_s += ended->summary.exposure.value().under_force_s;
+    const auto* told = std::get_if<experiments::ExposureTold>(&event.data);
+    if (told != nullptr) under_force_s += told->exposure.under_force_s;
   }
   EXPECT_GE(under_force_s, 8.0);
   EXPECT_LT(under_force_s, 20.0) << "no more than the trial under way";

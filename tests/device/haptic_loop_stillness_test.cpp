@@ -75,9 +75,9 @@ TEST_F(HapticLoopStillness, ASlowMotionWithoutAWayIsAFault) {
     for (Eigen::Vector3d& tip : device.state.tip_position_m) tip.x() -= 0.001 * 0.02;
   };
   device.move_all({0.02, 0.0, 0.0});
-  run(490);
+  run(640);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
-  run(100);
+  run(80);
   EXPECT_EQ(telemetry().fault, Fault::kPositionFrozen);
 }
 

@@ -63,8 +63,8 @@ TEST_F(DeviceServerTest, AnswersToStrangersCostNoStateAndAreFew) {
     }
     talk(1, 1.0);
     other.take_in();
-    EXPECT_EQ(other.num_welcomes + other.num_refusals - num_answers, 2)
-        << "one of each kind a step";
+    EXPECT_EQ(other.num_welcomes + other.num_refusals - num_answers, 8 + 1)
+        << "eight welcomes and a refusal a step";
   }
   EXPECT_EQ(program.num_lost, 0) << "they have no numbers of this stream";
   EXPECT_EQ(felt_n(), 1.0);

@@ -155,5 +155,17 @@ TEST(LinkQuality, ATickThatFindsNothingNewIsLate) {
   EXPECT_EQ(quality.counts().late, 1);
 }
 
+TEST(LinkQuality, JudgedAnewItStillKnowsWhatItHasSeen) {
+  LinkQuality quality({});
+  for (std::uint32_t i = 1; i <= 100; ++i) (void)quality.received(i);
+  quality.judge_anew();
+  EXPECT_EQ(quality.level(), LinkLevel::kUnacceptable) << "all is to be shown anew";
+  EXPECT_EQ(quality.received(100), LinkQuality::Verdict::kRepeated);
+  EXPECT_NE(quality.received(3), LinkQuality::Verdict::kNewest) << "an old one";
+  EXPECT_EQ(quality.received(101), LinkQuality::Verdict::kNewest);
+  quality.restart();
+  EXPECT_EQ(quality.received(3), LinkQuality::Verdict::kNewest) << "of another stream";
+}
+
 }  // namespace
 }  // namespace jnd::device

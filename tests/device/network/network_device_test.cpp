@@ -195,6 +195,18 @@ TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
   EXPECT_EQ(fault(), Fault::kLinkLost);
 }
 
+TEST_F(NetworkDeviceTest, AMovingHandWhoseStatesAreMissingIsNotFrozen) {
+  for (const double speed_m_per_s : {0.5, 0.7, 1.0}) {
+    start();
+    scripted.move_all({speed_m_per_s, 0.0, 0.0});
+    run(50);
+    lose_next(15, kProgram);
+    run(30);
+    EXPECT_NE(fault(), Fault::kPositionFrozen) << speed_m_per_s;
+    network.on_send = nullptr;
+  }
+}
+
 TEST_F(NetworkDeviceTest, TellsHowGoodItsLinkIs) {
   start();
   run(600);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "device/network/datagram_seal.h"
@@ -196,6 +197,76 @@ TEST_F(SealedNetworkTest, WhatIsSaidAgainDuringASessionEndsNothing) {
     if (i % 50 == 0) expect_undisturbed("what was said before");
   }
   expect_undisturbed("what was said before");
+}
+
+/// After a fault both sides judge the link anew; what was said before is not new then.
+TEST_F(SealedNetworkTest, OldStatesDoNotHoldUpTheWayBackFromAFault) {
+  std::vector<SimulatedNetwork::Sent> said;
+  network.on_send = [&](const SimulatedNetwork::Sent& sent) {
+    network.post(sent);
+    if (sent.to == kProgram && said.size() < 300) said.push_back(sent);
+  };
+  start();
+  run(200);
+  scripted.state.enabled = false;
+  run(20);
+  scripted.state.enabled = true;
+  EXPECT_EQ(fault(), Fault::kNotEnabled);
+  for (int i = 0; i < 1500; ++i) {
+    network.post(said[100 + static_cast<std::size_t>(i) % 200]);
+    if (i == 700) loop->rearm();
+    run(1);
+  }
+  EXPECT_EQ(fault(), Fault::kNone);
+  EXPECT_GT(total_now_n(), 0.5);
+}
+
+TEST_F(SealedNetworkTest, AHelloThatWasRefusedIsWorthNothingLater) {
+  start();
+  SimulatedNetwork::Sent kept;
+  network.on_send = [&](const SimulatedNetwork::Sent& sent) {
+    network.post(sent);
+    if (sent.from == kOtherProgram) kept = sent;
+  };
+  const auto second = make_device({.patience_s = 0.2}, kOtherProgram);
+  second->ask();
+  EXPECT_NE(why_not([&] { second->open(); }).find("another program uses it"),
+            std::string::npos);
+  network.on_send = nullptr;
+  run(600);
+  loop->rearm();
+  run(700);
+  ASSERT_EQ(fault(), Fault::kNone);
+  kept.from = kProgram;
+  network.post(kept);
+  run(100);
+  EXPECT_EQ(fault(), Fault::kNone);
+  EXPECT_GT(total_now_n(), 0.5);
+}
+
+TEST_F(SealedNetworkTest, OldHellosDoNotKeepOthersOut) {
+  std::vector<SimulatedNetwork::Sent> hellos;
+  network.on_send = [&](const SimulatedNetwork::Sent& sent) {
+    network.post(sent);
+    if (sent.to == kServer && hellos.size() < 2) hellos.push_back(sent);
+  };
+  start();
+  loop = nullptr;
+  device = nullptr;
+  run(1100);
+  network.on_send = nullptr;
+  network.on_millisecond = [this, old = hellos.back()] {
+    SimulatedNetwork::Sent again = old;
+    again.from = kOtherProgram;
+    network.post(again);
+    server->step(network.now_ns);
+  };
+  EXPECT_EQ(why_not([this] {
+              const auto next = make_device();
+              next->ask();
+              next->open();
+            }),
+            "no error");
 }
 
 /// Whatever the device answers to a stranger, the stranger passes on to the program.

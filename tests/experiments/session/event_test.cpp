@@ -50,6 +50,7 @@ std::vector<EventData> one_of_each() {
                        .tick_cost = {{512, 9}}},
           Unblinded{"why"},
           ArmingChanged{"armed", "by the experimenter"},
+          ExposureTold{{.force_time_n_s = 12.5, .under_force_s = 3.25}},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }
