@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <ctime>
 
 namespace jnd::app {
 namespace {
@@ -58,8 +59,7 @@ SleepInhibitor::SleepInhibitor() noexcept {
   constexpr int kPatience_ms = 1000;
   pollfd answer{.fd = out[0], .events = POLLIN, .revents = 0};
   char letter = 'j';
-  // The pipe takes a letter whether or not anybody will ever read it, and so raises no signal
-  // here: its other end is the child's, or was just closed.
+  // Where the child ended at once nobody reads: that is an error here, and no signal.
   struct sigaction ignored {
   }, before{};
   ignored.sa_handler = SIG_IGN;
@@ -70,10 +70,17 @@ SleepInhibitor::SleepInhibitor() noexcept {
   ::close(out[0]);
 }
 
+/// The end of its input ends it; what does not heed that is told to end.
 SleepInhibitor::~SleepInhibitor() {
   if (input_ >= 0) ::close(input_);
   if (child_ <= 0) return;
-  ::kill(child_, SIGTERM);
+  constexpr int kMostWaits = 100;
+  constexpr timespec kWait{.tv_sec = 0, .tv_nsec = 10'000'000};
+  for (int i = 0; i < kMostWaits; ++i) {
+    if (::waitpid(child_, nullptr, WNOHANG) != 0) return;
+    ::nanosleep(&kWait, nullptr);
+  }
+  ::kill(-child_, SIGKILL);
   while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }
