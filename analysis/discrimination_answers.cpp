@@ -1,6 +1,9 @@
 #include "analysis/discrimination_answers.h"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 namespace jnd::analysis {
 namespace {
@@ -11,8 +14,10 @@ void add_answer(AnswerCount& count, double intensity, bool yes) {
   ++count.num_trials;
 }
 
-void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
+void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial,
+               std::vector<core::TrialRow>& trials) {
   if (!trial.intensity || !trial.response || !trial.reference_intensity) return;
+  trials.push_back(trial);
   const bool yes = *trial.response > 0.5;
   answers.reference = *trial.reference_intensity;
   add_answer(answers.levels[*trial.intensity], *trial.intensity, yes);
@@ -22,10 +27,26 @@ void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial) {
   cell.order = order;
   std::optional<bool> first;
   if (trial.test_interval) first = *trial.test_interval == 1;
-  answers.in_order.push_back({.intensity = *trial.intensity,
-                              .num_yes = yes ? 1.0 : 0.0,
-                              .trial = static_cast<double>(trial.trial),
-                              .test_first = first});
+  answers.in_order.push_back(
+      {.intensity = *trial.intensity, .num_yes = yes ? 1.0 : 0.0, .test_first = first});
+}
+
+/// A trial that was put off has a number from before its time: within a session numbers go by
+/// the order in which the trials were run. `trials`: those of `in_order`.
+void number_by_time(std::vector<OrderedAnswers>& in_order,
+                    const std::vector<core::TrialRow>& trials) {
+  std::vector<std::size_t> by_time(in_order.size());
+  std::iota(by_time.begin(), by_time.end(), std::size_t{0});
+  std::vector<std::size_t> by_number = by_time;
+  std::ranges::sort(by_time, {}, [&](std::size_t i) {
+    return std::tuple(trials[i].session, trials[i].first_tick, trials[i].trial);
+  });
+  std::ranges::sort(by_number, {}, [&](std::size_t i) {
+    return std::pair(trials[i].session, trials[i].trial);
+  });
+  for (std::size_t i = 0; i < in_order.size(); ++i) {
+    in_order[by_time[i]].trial = static_cast<double>(trials[by_number[i]].trial);
+  }
 }
 
 }  // namespace
@@ -42,12 +63,14 @@ std::vector<DiscriminationAnswers> discrimination_answers(
   std::vector<DiscriminationAnswers> all;
   for (const ParticipantData& participant : data.participants) {
     DiscriminationAnswers answers{.participant = participant.participant};
+    std::vector<core::TrialRow> trials;
     for (const core::TrialRow& trial : participant.trials_in(block.block)) {
-      add_trial(answers, trial);
+      add_trial(answers, trial, trials);
     }
     for (const core::TrialRow& trial : participant.excluded_trials) {
-      if (with_excluded && trial.block == block.block) add_trial(answers, trial);
+      if (with_excluded && trial.block == block.block) add_trial(answers, trial, trials);
     }
+    number_by_time(answers.in_order, trials);
     if (answers.levels.empty()) {
       name_without_answers(excluded, participant, block.block);
     } else {

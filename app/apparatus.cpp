@@ -88,6 +88,7 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
                                                const device::DeviceCapabilities& device) {
   device::HapticLoop::Parameters loop;
   loop.starts_armed = device.simulated;
+  loop.shadows_guards = parameters.shadow_guards;
   loop.heartbeat_timeout_s = device.heartbeat_timeout_s;
   loop.force_map = parameters.force_map.get();
   loop.rate_hz = parameters.rate_hz;
@@ -368,6 +369,10 @@ void Apparatus::run_for(double duration_s) {
 void Apparatus::rearm() { implementation_->loop.rearm(); }
 
 void Apparatus::disarm() { implementation_->loop.disarm(); }
+
+bool Apparatus::shadows_guards() const noexcept {
+  return implementation_->parameters.shadow_guards;
+}
 
 bool Apparatus::is_simulated() const noexcept {
   return implementation_->device->capabilities().simulated;

@@ -44,6 +44,8 @@ class Apparatus {
     /// A real device is armed at once, as somebody asked for who is beside it. A simulated one
     /// starts armed.
     bool arm = false;
+    /// Guards of the loop only count what they would have done; see `device::HapticLoop`.
+    bool shadow_guards = false;
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.
     std::optional<std::filesystem::path> recording;
     core::Durability durability = core::Durability::kEveryCommit;
@@ -95,6 +97,7 @@ class Apparatus {
   [[nodiscard]] std::int64_t next_tick() const noexcept;
   [[nodiscard]] const core::Telemetry& telemetry() const noexcept;
   [[nodiscard]] bool is_simulated() const noexcept;
+  [[nodiscard]] bool shadows_guards() const noexcept;
   /// The laboratory's own lumped hand, and no device with mechanics of its own.
   [[nodiscard]] bool is_laboratory_hand() const noexcept;
   /// That the device declares: the first of the hand's.

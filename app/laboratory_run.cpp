@@ -33,6 +33,7 @@ class SimulatedVisit {
                               .realtime = run.realtime,
                               .allow_no_realtime = run.allow_no_realtime,
                               .arm = run.arm,
+                              .shadow_guards = run.shadow_guards,
                               .durability = run.durability,
                               .injected_faults = run.injected_faults},
                 .laboratory = &run.laboratory,
@@ -45,6 +46,9 @@ class SimulatedVisit {
     result.realtime = visit_.apparatus().realtime();
     try {
       visit_.begin(run_.choice, run_.language);
+      if (run_.shadow_guards && !session_.state().ended) {
+        session_.note("the guards of the loop only count what they would have done");
+      }
       visit_.keep_arming(kArmedBy);
       while (!session_.state().ended && session_.current_stage() != nullptr) {
         if (!session_.state().stage_open) session_.enter_stage();
@@ -74,6 +78,7 @@ class SimulatedVisit {
       throw;
     }
     result.num_ticks = visit_.apparatus().next_tick();
+    result.guards = visit_.apparatus().telemetry().guards;
     return result;
   }
 

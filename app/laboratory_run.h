@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/safety/guard.h"
 #include "core/storage/study_store.h"
 #include "device/fault_injection.h"
 #include "experiments/participants/laboratory.h"
@@ -24,6 +25,7 @@ struct LaboratoryRun {
   std::vector<device::ScheduledFault> injected_faults = {};  ///< For tests and rehearsals.
   bool allow_no_realtime = false;  ///< A real device also without real-time rights.
   bool arm = false;                ///< A real device: somebody beside it asked for force.
+  bool shadow_guards = false;      ///< Guards only count what they would have done.
   core::Durability durability = core::Durability::kEveryCommit;
   /// How an interrupted session goes on: "repeat", "restart" or "end".
   std::string choice = "repeat";
@@ -40,6 +42,7 @@ struct LaboratoryRunResult {
   std::string realtime;  ///< "simulated", or what the real-time thread was given.
   /// What the answers of a block say against it, "BLOCK: ..."; see `Procedure::caution`.
   std::vector<std::string> cautions;
+  core::GuardCounts guards;  ///< What the loop's guards have noticed.
 };
 
 /// Joins device, loop, session and storage for one session: every presentation in closed loop,

@@ -76,6 +76,7 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   summary.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
   summary.exposure = exposure_since_last();
   session_.end_presentation(felt.last_tick, summary);
+  tell_guards();
   under_way_ = false;
   measuring_ = false;
   return felt;
@@ -107,6 +108,20 @@ void Presenter::abandon() {
 void Presenter::tell_exposure() {
   const std::optional<core::Exposure> exposure = exposure_since_last();
   if (exposure && exposure->force_time_n_s > 0.0) session_.exposed(*exposure);
+  tell_guards();
+}
+
+/// Of a simulated hand in its own time only where somebody wants to know what guards would do.
+void Presenter::tell_guards() {
+  if (apparatus_.realtime_thread() == nullptr && !apparatus_.shadows_guards()) return;
+  const core::GuardCounts now = apparatus_.telemetry().guards;
+  const core::GuardCounts told = std::exchange(told_guards_, now);
+  for (std::size_t i = 0; i < core::kGuards.size(); ++i) {
+    const GuardNoticed noticed{.guard = std::string(core::name(core::kGuards[i])),
+                               .num_warnings = now.num_warnings[i] - told.num_warnings[i],
+                               .num_shadowed = now.num_shadowed[i] - told.num_shadowed[i]};
+    if (noticed.num_warnings + noticed.num_shadowed > 0) session_.guard_noticed(noticed);
+  }
 }
 
 double Presenter::felt_s() const noexcept {

@@ -56,8 +56,8 @@ class Presenter {
   /// and so is free space, first: this waits for the disk.
   void abandon();
   /// Stores what the hand was exposed to since the last presentation that was ended, or since
-  /// this: after what was given up, and after a medium that was explored. Where the session is
-  /// neither begun nor over.
+  /// this: after what was given up, and after a medium that was explored; and what guards have
+  /// noticed. Not where the session is not begun yet, or over.
   void tell_exposure();
 
   [[nodiscard]] bool under_way() const noexcept { return under_way_; }
@@ -66,6 +66,7 @@ class Presenter {
 
  private:
   [[nodiscard]] std::optional<core::Exposure> exposure_since_last();
+  void tell_guards();
 
   [[nodiscard]] const experiments::PresentationState& presentation() const;
 
@@ -79,7 +80,8 @@ class Presenter {
   std::int64_t missed_before_ = 0;
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;
-  core::Exposure told_;  ///< In events of this apparatus.
+  core::Exposure told_;            ///< In events of this apparatus.
+  core::GuardCounts told_guards_;  ///< Likewise.
 };
 
 }  // namespace jnd::app

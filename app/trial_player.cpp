@@ -39,13 +39,13 @@ struct TrialPlayer::Missed {
   std::string reason;
 };
 
-/// Free space again, and the trial anew. A machine that cannot keep up does not get better by
+/// Free space again, and the trial later. A machine that cannot keep up does not get better by
 /// asking once more and once more.
 void TrialPlayer::begin_anew(const std::string& reason) {
   constexpr int kMostInARow = 3;
   apparatus_.render(core::free_space());
   apparatus_.go_home();
-  session_.discard_attempt(reason);
+  session_.put_off_attempt(reason);
   presenter_.tell_exposure();
   if (++num_missed_in_a_row_ < kMostInARow) return;
   throw core::Error(
@@ -70,7 +70,7 @@ void TrialPlayer::put_fingers_back(std::uint8_t loose_bits) {
   presenter_.abandon();
   const std::optional<std::int64_t> trial = session_.state().current_trial();
   const std::string reason = came_off_reason(loose_bits);
-  if (trial && session_.state().trial(*trial).under_way) session_.discard_attempt(reason);
+  if (trial && session_.state().trial(*trial).under_way) session_.put_off_attempt(reason);
   session_.pause(reason);
   presenter_.tell_exposure();
   apparatus_.put_fingers_back();
@@ -291,10 +291,10 @@ void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
   if (form.order_is_drawn) return compare_intervals(block, form.answer);
   if (form.answer == AnswerKind::kYesNo && !form.has_reference) return detect(block);
   if (form.answer == AnswerKind::kYesNo) return compare(block);
-  estimate(block, trial, form);
+  estimate(block, form);
 }
 
-void TrialPlayer::estimate(const Block& block, std::int64_t trial, const TrialForm& form) {
+void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
   double sum_ln = 0.0, standard_ln = 0.0;
   int looks = 0;
   Felt felt;
@@ -305,8 +305,8 @@ void TrialPlayer::estimate(const Block& block, std::int64_t trial, const TrialFo
     ++looks;
   } while (participant_.perceiver(block).looks_again(moment(block)));
   std::optional<double> previous;
-  if (trial > 1) {
-    const TrialState& before = session_.state().trial(trial - 1);
+  if (const auto last = session_.state().last_answered_trial()) {
+    const TrialState& before = session_.state().trial(*last);
     if (before.stage == session_.state().stage) previous = before.response;
   }
   const Perceiver& perceiver = participant_.perceiver(block);

@@ -34,8 +34,8 @@ class TrialPlayer {
   /// A medium outside of any trial.
   void explore(const experiments::Exploration& exploration);
   /// The session's current trial, to its answer; or to where a finger came off, which is put
-  /// back, or the loop missed more ticks than the study allows: then it is still the current
-  /// one. Throws `core::Error` where that is so three times in a row.
+  /// back, or the loop missed more ticks than the study allows: then it comes again later, see
+  /// `Session::put_off_attempt`. Throws `core::Error` where that is so three times in a row.
   void run_trial(const experiments::Block& block);
 
  private:
@@ -65,8 +65,7 @@ class TrialPlayer {
   Felt present(const experiments::Block& block, const std::string& interval);
   [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
   [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;
-  void estimate(const experiments::Block& block, std::int64_t trial,
-                const experiments::TrialForm& form);
+  void estimate(const experiments::Block& block, const experiments::TrialForm& form);
   void detect(const experiments::Block& block);
   void compare(const experiments::Block& block);
   void compare_intervals(const experiments::Block& block, experiments::AnswerKind asked);

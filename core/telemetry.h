@@ -7,6 +7,7 @@
 #include "core/contact_sums.h"
 #include "core/exposure.h"
 #include "core/safety/fault.h"
+#include "core/safety/guard.h"
 #include "core/sample.h"
 
 namespace jnd::core {
@@ -21,8 +22,9 @@ struct Telemetry {
   Fault fault = Fault::kNone;
   Arming arming = Arming::kDisarmed;
   bool limited = false;  ///< The limiter changed the force in this tick.
-  /// A hand stands so still that its force is being taken away until it moves.
-  bool asks_to_move = false;
+  /// A guard is close to its fault, or takes a force away until the hand moves.
+  Fault warning = Fault::kNone;
+  GuardCounts guards;             ///< So far.
   bool ramp_finished = true;      ///< The medium in force is the commanded one.
   double authority_ratio = 1;     ///< 1 normally; below while the force fades out or back in.
   PlainVector hand_position_m{};  ///< Mean of the tips that the device declares.

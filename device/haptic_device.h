@@ -60,6 +60,10 @@ struct LinkReport {
 /// in the workspace frame of `core::HapticState`; a device with another frame transforms
 /// inside. Forces are those that act on the hand, not on the device.
 ///
+/// Zero force is none on the hand, not none in the motors: a device that has weight of its own
+/// holds it while forces fade, while it is halted and while it is faulted, and after `close`
+/// its brakes do. A device that let go would fall on the hand.
+///
 /// Used by one thread at a time. A real device zeroes its force by itself when writes stop.
 class HapticDevice {
  public:

@@ -56,25 +56,36 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       heartbeat_(doors.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
-      port_energy_(parameters.port_energy, period_s_),
-      oscillation_(parameters.oscillation, period_s_),
-      velocity_check_(parameters.velocity_check),
       num_points_(std::clamp(device.capabilities().num_contact_points, 1, kNumContactPoints)),
       whole_hand_ratio_(1.0 / core::declared_share_ratio(num_points_)),
-      watches_port_(device.capabilities().tells_acting_force &&
-                    (parameters.watches_port || !device.capabilities().simulated)),
+      watches_port_(
+          device.capabilities().simulated
+              ? parameters.shadows_guards ||
+                    (parameters.watches_port && device.capabilities().tells_acting_force)
+              : device.capabilities().tells_acting_force),
+      acts_at_once_(watches_port_ && !device.capabilities().tells_acting_force),
       may_be_armed_(device.capabilities().simulated || watches_port_),
-      stillness_({.max_still_s = device.capabilities().max_still_s}, period_s_),
-      watches_stillness_(!device.capabilities().simulated),
+      guards_({.port_energy = parameters.port_energy,
+               .oscillation = parameters.oscillation,
+               .velocity_check = parameters.velocity_check,
+               .stillness = {.max_still_s = device.capabilities().max_still_s},
+               .workspace = parameters.workspace,
+               .warn_margin_m = parameters.warn_margin_m,
+               .watches_port = watches_port_,
+               .watches_stillness = !device.capabilities().simulated,
+               .shadows = parameters.shadows_guards,
+               .shadows_energy = device.capabilities().simulated,
+               .longest_s = longest_s()},
+              period_s_),
       flight_recorder_(static_cast<std::size_t>(
           std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
   core::require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
   core::require_positive(parameters.heartbeat_timeout_s, "heartbeat_timeout_s");
   core::require_positive(parameters.fade_out_s, "fade_out_s");
+  core::require_positive(parameters.guard_fade_s, "guard_fade_s");
   core::require_positive(parameters.rearm_s, "rearm_s");
   core::require_positive(parameters.reattach_s, "reattach_s");
   core::require_not_negative(parameters.max_stale_s, "max_stale_s");
-  core::require_bounded(parameters.workspace);
   core::require_positive(parameters.max_jump_m, "max_jump_m");
   core::require_positive(parameters.flight_recorder_s, "flight_recorder_s");
   point_authority_ratio_.fill(1.0);
@@ -92,11 +103,11 @@ void HapticLoop::render() noexcept {
   rearm_if_requested();
   disarm_if_requested();  // After it: who asks for both gets no force.
   obey_watchdog();
-  if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost);
+  if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost, parameters_.fade_out_s);
   advance_authority();
 
   const Fault found = read_device();
-  if (found != Fault::kNone) latch(found);
+  if (found != Fault::kNone) latch_found(found);
   take_command();
   compute_force();
   // Held up between the read and here: what was computed is too old to be sent.
@@ -156,7 +167,7 @@ static bool is_of_no_matter_yet(Fault fault) noexcept {
          fault == Fault::kOutsideWorkspace || fault == Fault::kStaleSample;
 }
 
-void HapticLoop::latch(Fault fault) noexcept {
+void HapticLoop::latch(Fault fault, double fading_s) noexcept {
   // The first fault is the one to tell, but the fading of a lost heartbeat must not soften what
   // comes on top of it.
   if (fault_ == Fault::kNotArmed && is_of_no_matter_yet(fault)) return;
@@ -165,7 +176,13 @@ void HapticLoop::latch(Fault fault) noexcept {
     fault_ = fault;
     ++telemetry_.num_faults;
   }
-  if (fault_ != Fault::kHeartbeatLost) authority_ratio_ = 0.0;
+  fading_s_ = std::min(fading_s_, fading_s);
+  if (fading_s_ == 0.0) authority_ratio_ = 0.0;
+}
+
+/// In this tick, by the loop itself.
+void HapticLoop::latch_found(Fault fault) noexcept {
+  latch(fault, core::fades(fault) ? parameters_.guard_fade_s : 0.0);
 }
 
 void HapticLoop::disarm_if_requested() noexcept {
@@ -188,6 +205,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   // Asked for before anybody knew that the loop had stood still: refused.
   if (stands_still() && !stall_is_told_) return;
   fault_ = Fault::kNone;
+  fading_s_ = std::numeric_limits<double>::infinity();
   authority_ratio_ = 0.0;
   if (!may_be_armed_) return latch(Fault::kActingForceUnknown);
   if (!device_.may_arm()) {
@@ -195,13 +213,12 @@ void HapticLoop::rearm_if_requested() noexcept {
   }
   limiter_.rearm();
   passivity_.reset();
-  port_energy_.reset();
-  oscillation_.reset();
-  velocity_check_.reset();
-  stillness_.reset();
+  guards_.reset();
   solids_.release();
   has_last_state_ = false;
   num_stale_ticks_ = 0;
+  num_stuck_ticks_ = 0;
+  stuck_way_m_.fill(0.0);
   stalled_ = false;
   suspended_ = false;
   stall_is_told_ = false;
@@ -219,7 +236,7 @@ void HapticLoop::advance_authority() noexcept {
   if (fault_ == Fault::kNone) {
     authority_ratio_ = std::min(1.0, authority_ratio_ + period_s_ / parameters_.rearm_s);
   } else {
-    authority_ratio_ = std::max(0.0, authority_ratio_ - period_s_ / parameters_.fade_out_s);
+    authority_ratio_ = std::max(0.0, authority_ratio_ - period_s_ / fading_s_);
   }
 }
 
@@ -227,7 +244,9 @@ Fault HapticLoop::read_device() noexcept {
   last_state_ = state_;
   if (!device_.read(state_)) {
     state_ = last_state_;
-    return device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceReadFailed;
+    // Whatever the device calls it: here there is nothing left to fade.
+    latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceReadFailed);
+    return Fault::kNone;
   }
   // Whatever a device says of points that it does not have.
   for (int i = num_points_; i < kNumContactPoints; ++i) {
@@ -236,6 +255,7 @@ Fault HapticLoop::read_device() noexcept {
     state_.tip_velocity_m_per_s[i].setZero();
     state_.acted_n[i].setZero();
   }
+  if (acts_at_once_) state_.acted_n = force_on_hand_n_;
   if (!is_finite(state_, has_joints_, watches_port_)) {
     // Recordings and telemetry get the last state that was one.
     state_ = last_state_;
@@ -245,25 +265,16 @@ Fault HapticLoop::read_device() noexcept {
   has_last_state_ = true;
   // A measurement that stands in for one that is missing says nothing of the hand.
   const bool is_new = state_.device_time_ns != last_state_.device_time_ns;
-  if (found == Fault::kNone && watches_stillness_ && is_new) found = watch_stillness();
+  if (found == Fault::kNone && is_new) found = guards_.observe_stillness(state_, contact_);
   if (!state_.enabled) found = Fault::kNotEnabled;
   watch_attachment();
   attached_bits_ = 0;
   for (int i = 0; i < kNumContactPoints; ++i) {
-    if (!state_.attached[i]) continue;
-    attached_bits_ = static_cast<std::uint8_t>(attached_bits_ | 1 << i);
-    if (found == Fault::kNone && !parameters_.workspace.contains(state_.tip_position_m[i])) {
-      found = Fault::kOutsideWorkspace;
-    }
+    const int held = state_.attached[i] ? 1 : 0;
+    attached_bits_ = static_cast<std::uint8_t>(attached_bits_ | held << i);
   }
-  return found;
-}
-
-/// A sensor that died while the hand rested on something.
-Fault HapticLoop::watch_stillness() noexcept {
-  stillness_.observe(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached,
-                     pushed_bits_);
-  return stillness_.is_frozen() ? Fault::kPositionFrozen : Fault::kNone;
+  const Fault place = guards_.observe_place(state_);
+  return found != Fault::kNone ? found : place;
 }
 
 /// A magnet that chatters must not knock: a point that is held again gets its force slowly.
@@ -293,51 +304,65 @@ Fault HapticLoop::check_against_last() noexcept {
                                 static_cast<std::uint64_t>(last_state_.device_time_ns));
   const double elapsed_s = 1e-9 * static_cast<double>(elapsed_ns);
   const double max_m = max_distance_m(elapsed_s);
-  bool moves_without_getting_anywhere = false;
   bool jumped = false;
   for (int i = 0; i < kNumContactPoints; ++i) {
     const double squared_m2 =
         (state_.tip_position_m[i] - last_state_.tip_position_m[i]).squaredNorm();
     if (!state_.attached[i]) continue;
     jumped |= last_state_.attached[i] && squared_m2 > max_m * max_m;
-    constexpr double kMovingM2PerS2 = 0.05 * 0.05;
-    moves_without_getting_anywhere |=
-        squared_m2 == 0.0 && state_.tip_velocity_m_per_s[i].squaredNorm() > kMovingM2PerS2;
   }
   if (jumped) return Fault::kPositionJump;
-  if (watches_port_ && elapsed_s > 0.0) {
-    const Fault found = watch_port(elapsed_s);
-    if (found != Fault::kNone) return found;
-  }
-  // Time that stands still, or a point that moves without getting anywhere.
-  const bool stale = elapsed_s <= 0.0 || moves_without_getting_anywhere;
-  num_stale_ticks_ = stale ? num_stale_ticks_ + 1 : 0;
-  num_missed_while_stale_ = stale ? num_missed_while_stale_ + num_missed_ : 0;
-  if (num_stale_ticks_ <= max_stale_ticks_) return Fault::kNone;
+  const Fault port =
+      elapsed_s > 0.0 ? guards_.observe_port(state_, contact_, elapsed_s) : Fault::kNone;
+  const bool time_stands = elapsed_s <= 0.0;
+  num_stale_ticks_ = time_stands ? num_stale_ticks_ + 1 : 0;
+  const bool is_stuck = moves_without_getting_anywhere(elapsed_s);
+  num_missed_while_stale_ =
+      time_stands || num_stuck_ticks_ > 0 ? num_missed_while_stale_ + num_missed_ : 0;
+  // What ends the force at once must not wait behind what lets it fade.
+  if (port != Fault::kNone && !core::fades(port)) return port;
+  if (!is_stuck && num_stale_ticks_ <= max_stale_ticks_) return port;
   // A loop that cannot keep its own time cannot tell what the device keeps.
   return num_missed_while_stale_ > 0 ? Fault::kHostTooSlow : Fault::kStaleSample;
 }
 
-/// Where device and hand meet, in measurements alone: of force and way of the same time, and of
-/// the velocity that the forces are made of.
-Fault HapticLoop::watch_port(double elapsed_s) noexcept {
-  port_energy_.observe(state_.tip_position_m, state_.acted_n, state_.attached, storing_bits_);
-  if (port_energy_.is_exceeded()) return Fault::kEnergyGiven;
-  // A clock that leaps says nothing of speed.
-  if (elapsed_s > longest_s()) {
-    velocity_check_.reset();
-    return Fault::kNone;
+/// Positions that stand still for more ticks than a measurement may stand in, while the
+/// velocity goes further than that of a filter that has not heard yet that the hand stopped,
+/// and than steps of encoders are.
+bool HapticLoop::moves_without_getting_anywhere(double elapsed_s) noexcept {
+  constexpr double kMovingMPerS = 0.05;
+  constexpr double kStuckWayM = 0.003;
+  // A measurement that stands in for one that is missing says nothing new.
+  if (elapsed_s <= 0.0) {
+    num_stuck_ticks_ += num_stuck_ticks_ > 0 ? 1 : 0;
+    return false;
   }
-  velocity_check_.observe(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached,
-                          elapsed_s);
-  return velocity_check_.is_contradicted() ? Fault::kVelocityContradicts : Fault::kNone;
+  double most_way_m = 0.0;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    const double speed_m_per_s = state_.tip_velocity_m_per_s[i].norm();
+    const bool is_stuck = state_.attached[i] && last_state_.attached[i] &&
+                          speed_m_per_s > kMovingMPerS &&
+                          state_.tip_position_m[i] == last_state_.tip_position_m[i];
+    stuck_way_m_[i] =
+        is_stuck ? stuck_way_m_[i] + std::min(elapsed_s, longest_s()) * speed_m_per_s : 0.0;
+    most_way_m = std::max(most_way_m, stuck_way_m_[i]);
+  }
+  num_stuck_ticks_ = most_way_m > 0.0 ? num_stuck_ticks_ + 1 : 0;
+  return num_stuck_ticks_ > max_stale_ticks_ && most_way_m > kStuckWayM;
 }
 
-void HapticLoop::watch_oscillation() noexcept {
-  Eigen::Vector3d whole_n = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& force_n : force_on_hand_n_) whole_n += force_n;
-  oscillation_.observe(whole_n);
-  if (oscillation_.is_found()) latch(Fault::kForceOscillates);
+/// Points around which this command puts something that stores: they did not enter it, nor were
+/// they in anything that stores, which gives back no more than it got if it hardens.
+std::uint8_t HapticLoop::surrounded_bits(const core::HapticCommand& command) const noexcept {
+  std::uint8_t bits = 0;
+  if (!command_is_finite_) return bits;
+  if (command.medium.buoyancy_n == 0.0 && !command.medium.plane().is_there()) return bits;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    const bool inside = state_.attached[i] && (contact_.storing_bits >> i & 1) == 0 &&
+                        command.immersion.contains(state_.tip_position_m[i]);
+    bits = static_cast<std::uint8_t>(bits | (inside ? 1 : 0) << i);
+  }
+  return bits;
 }
 
 void HapticLoop::take_command() noexcept {
@@ -350,9 +375,8 @@ void HapticLoop::take_command() noexcept {
                                                    : command.medium.times(whole_hand_ratio_),
                   command.ramp_s);
     }
-    // What the program changes itself is no swing of the loop.
-    oscillation_.reset();
-    port_energy_.grant_credit();
+    guards_.medium_changed();
+    passivity_.grant_credit(surrounded_bits(command));
   }
   if (!command_is_finite_) latch(Fault::kNonFiniteForce);
 }
@@ -377,13 +401,13 @@ void HapticLoop::compute_force() noexcept {
     const int inside = command.immersion.contains(state_.tip_position_m[i]) ? 1 : 0;
     immersed_bits_ = static_cast<std::uint8_t>(immersed_bits_ | inside << i);
   }
-  storing_bits_ = medium.buoyancy_n != 0.0 ? immersed_bits_ : std::uint8_t{0};
+  contact_.storing_bits = medium.buoyancy_n != 0.0 ? immersed_bits_ : std::uint8_t{0};
   for (int i = 0; is_solid && i < kNumContactPoints; ++i) {
     const int touches = solid_force_n_[i].isZero(0.0) ? 0 : 1;
-    storing_bits_ = static_cast<std::uint8_t>(storing_bits_ | touches << i);
+    contact_.storing_bits = static_cast<std::uint8_t>(contact_.storing_bits | touches << i);
   }
   limited_ = false;
-  pushed_bits_ = 0;
+  contact_.pushed_bits = 0;
   if (authority_ratio_ == 0.0) {
     // Limiter and passivity start from here when the loop is armed again.
     force_on_hand_n_ = core::zero_vectors();
@@ -398,18 +422,20 @@ void HapticLoop::compute_force() noexcept {
   for (int i = 0; i < kNumContactPoints; ++i) {
     // Friction holds a hand against less.
     constexpr double kPushN = 1.0;
-    const bool is_pushed =
-        (storing_bits_ >> i & 1) != 0 && force_on_hand_n_[i].squaredNorm() >= kPushN * kPushN;
-    pushed_bits_ = static_cast<std::uint8_t>(pushed_bits_ | (is_pushed ? 1 : 0) << i);
+    const bool is_pushed = (contact_.storing_bits >> i & 1) != 0 &&
+                           force_on_hand_n_[i].squaredNorm() >= kPushN * kPushN;
+    contact_.pushed_bits =
+        static_cast<std::uint8_t>(contact_.pushed_bits | (is_pushed ? 1 : 0) << i);
     const double ratio =
-        authority_ratio_ * point_authority_ratio_[i] * stillness_.authority_ratio(i);
+        authority_ratio_ * point_authority_ratio_[i] * guards_.authority_ratio(i);
     if (ratio < 1.0) force_on_hand_n_[i] *= ratio;
   }
   passivity_.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n_);
   limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_) ||
-             stillness_.asks_to_move();
+             guards_.asks_to_move();
   passivity_.sent(force_on_hand_n_);
-  if (watches_port_) watch_oscillation();
+  const Fault swings = guards_.observe_force(force_on_hand_n_);
+  if (swings != Fault::kNone) latch_found(swings);
   if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
 }
 
@@ -477,6 +503,7 @@ void HapticLoop::report() noexcept {
   }
 
   add_exposure();
+  guards_.end_tick(fault_ == Fault::kNone);
   flight_recorder_.record(sample);
   if (core::is_failure(fault_)) flight_recorder_.freeze();
   if (doors_.samples != nullptr && !doors_.samples->try_push(sample)) {
@@ -490,7 +517,8 @@ void HapticLoop::report() noexcept {
   telemetry_.fault = fault_;
   telemetry_.arming = arming();
   telemetry_.limited = limited_;
-  telemetry_.asks_to_move = stillness_.asks_to_move();
+  telemetry_.warning = guards_.warning();
+  telemetry_.guards = guards_.counts();
   telemetry_.ramp_finished = ramp_.finished();
   telemetry_.authority_ratio = authority_ratio_;
   telemetry_.hand_position_m = plain(position_sum / num_points_);

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include "core/doors/flight_recorder.h"
 #include "core/doors/latest_value.h"
@@ -12,12 +13,9 @@
 #include "core/media/solid_surfaces.h"
 #include "core/safety/emergency_stop.h"
 #include "core/safety/force_limiter.h"
-#include "core/safety/force_oscillation.h"
+#include "core/safety/guards.h"
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
-#include "core/safety/port_energy.h"
-#include "core/safety/stillness_watch.h"
-#include "core/safety/velocity_check.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
 #include "core/telemetry.h"
@@ -32,8 +30,9 @@ namespace jnd::device {
 ///
 /// It knows no wall clock: a real-time thread drives it by absolute time, a simulation and a
 /// test as fast as they like. Whatever is wrong with the device, the force or the rest of the
-/// program becomes a latched fault and zero force, at once; only a lost heartbeat fades out.
-/// After a fault it goes on reading and writing zeros, so that everything stays recorded.
+/// program becomes a latched fault and zero force, at once; after a lost heartbeat and a
+/// guard's fault the force fades out (`core::fades`). After a fault it goes on reading and
+/// writing zeros, so that everything stays recorded.
 class HapticLoop {
  public:
   struct Parameters {
@@ -49,6 +48,8 @@ class HapticLoop {
     core::VelocityCheck::Parameters velocity_check;
     double heartbeat_timeout_s = 0.250;  ///< > 0.
     double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
+    double guard_fade_s = 0.030;         ///< Likewise after a guard's fault, > 0.
+    double warn_margin_m = 0.020;        ///< To the edge of the workspace, >= 0.
     double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
     double reattach_s = 0.200;           ///< Likewise of a point that is held again, > 0.
     /// For how long the last measurement may stand in, >= 0; the device may ask for longer.
@@ -60,6 +61,10 @@ class HapticLoop {
     /// Of a simulated device, whether energy, oscillation and velocity are watched where it
     /// tells of its force; a real one always is. Who measures the loop itself does without.
     bool watches_port = true;
+    /// Guards (`core::kGuards`) only count what they would have done: to see what they would do
+    /// to a study. Energy that a real device gives stays a fault. The port of a simulated
+    /// device is then watched as well where it does not tell its force, which acts at once.
+    bool shadows_guards = false;
     double max_jump_m = 0.005;       ///< Of a point between ticks beyond its top speed, > 0.
     double flight_recorder_s = 1.0;  ///< > 0.
     std::int64_t first_tick = 0;  ///< Number of the first sample: a resumed recording goes on.
@@ -144,7 +149,8 @@ class HapticLoop {
   }
 
  private:
-  void latch(core::Fault fault) noexcept;
+  void latch(core::Fault fault, double fading_s = 0.0) noexcept;
+  void latch_found(core::Fault fault) noexcept;
   void obey_emergency_stop() noexcept;
   void obey_watchdog() noexcept;
   [[nodiscard]] bool stands_still() const noexcept;
@@ -159,10 +165,9 @@ class HapticLoop {
   void watch_attachment() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
-  [[nodiscard]] core::Fault watch_port(double elapsed_s) noexcept;
-  [[nodiscard]] core::Fault watch_stillness() noexcept;
-  void watch_oscillation() noexcept;
+  [[nodiscard]] bool moves_without_getting_anywhere(double elapsed_s) noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
+  [[nodiscard]] std::uint8_t surrounded_bits(const core::HapticCommand& command) const noexcept;
   void take_command() noexcept;
   void compute_force() noexcept;
   void write_device() noexcept;
@@ -183,21 +188,20 @@ class HapticLoop {
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
-  core::PortEnergy port_energy_;
-  core::ForceOscillation oscillation_;
-  core::VelocityCheck velocity_check_;
   int num_points_;           ///< That the device declares, the first ones.
   double whole_hand_ratio_;  ///< Of a force that only those points carry; 1 for all five.
   bool watches_port_;
+  bool acts_at_once_;  ///< What was sent last is taken for the force that acted.
   bool may_be_armed_;
-  core::StillnessWatch stillness_;
-  bool watches_stillness_;
+  core::Guards guards_;
   core::FlightRecorder flight_recorder_;
   std::atomic<bool> rearm_requested_{false};
   std::atomic<bool> disarm_requested_{false};
   std::uint64_t known_stop_presses_ = 0;
 
   core::Fault fault_ = core::Fault::kNone;
+  /// Of the force, the shortest of all faults since it was armed.
+  double fading_s_ = std::numeric_limits<double>::infinity();
   double authority_ratio_ = 1.0;
   std::array<double, core::kNumContactPoints> point_authority_ratio_;  ///< 0: not held.
   core::MediumRamp ramp_;
@@ -209,10 +213,12 @@ class HapticLoop {
   bool has_last_state_ = false;
   std::int64_t num_stale_ticks_ = 0;
   std::int64_t num_missed_while_stale_ = 0;
+  std::int64_t num_stuck_ticks_ = 0;
+  /// That each point says it has moved while its position stood still.
+  std::array<double, core::kNumContactPoints> stuck_way_m_{};
   std::uint8_t attached_bits_ = 0;
   std::uint8_t immersed_bits_ = 0;
-  std::uint8_t storing_bits_ = 0;  ///< Points that a surface holds, or that float.
-  std::uint8_t pushed_bits_ = 0;   ///< And with more than friction could hold them against.
+  core::Guards::Contact contact_;
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "analysis/json_fields.h"
 #include "core/error.h"
@@ -74,6 +75,7 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
   std::int64_t first_ns = 0;
   std::int64_t last_ns = 0;
   bool any = false;
+  std::map<std::string, std::pair<std::int64_t, std::int64_t>> guards;  // Warned, shadowed.
   for (const core::EventRow& event : store.events(quality.session.session)) {
     // Acts on a session long after it do not make it longer.
     const bool is_afterwards = event.kind == "trial_excluded" ||
@@ -103,12 +105,26 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
       ++quality.num_faults;
       remark("fault: " + string_at(object_in(event.data), "fault"));
     }
+    if (event.kind == "guard_noticed") {
+      const json noticed = object_in(event.data);
+      auto& [num_warnings, num_shadowed] = guards[string_at(noticed, "guard")];
+      num_warnings += noticed.value("num_warnings", std::int64_t{0});
+      num_shadowed += noticed.value("num_shadowed", std::int64_t{0});
+    }
     if (event.kind == "note_added") remark("note: " + string_at(object_in(event.data), "text"));
     if (event.kind == "session_ended_early") {
       quality.ended_early = string_at(object_in(event.data), "reason");
       if (quality.ended_early.empty()) quality.ended_early = "no reason given";
       remark("ended early: " + quality.ended_early);
     }
+  }
+  for (const auto& [guard, counts] : guards) {
+    std::string words =
+        "guard " + guard + ": warned " + std::to_string(counts.first) + " times";
+    if (counts.second > 0) {
+      words += ", only counted " + std::to_string(counts.second) + " faults (shadow mode)";
+    }
+    quality.remarks.push_back(words);
   }
   quality.duration_s = 1e-9 * static_cast<double>(last_ns - first_ns);
   quality.timing = timing.whole();

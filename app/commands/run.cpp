@@ -22,6 +22,7 @@
 #include "app/stop_signals.h"
 #include "app/usage_message.h"
 #include "core/error.h"
+#include "core/safety/guard.h"
 #include "device/device_registry.h"
 #include "device/haptic_device.h"
 #include "experiments/session/event.h"
@@ -40,6 +41,7 @@ struct RunOptions {
   bool allow_no_realtime = false;
   bool headless = false;
   bool arm = false;
+  bool shadow_guards = false;
   std::string laboratory;  ///< "": of `run` the default of the device, of `resume` as it was.
   bool realtime = false;
   bool acknowledge = false;
@@ -112,6 +114,16 @@ class DeviceWait {
   std::string told_;
 };
 
+/// What each guard would have done to the session.
+void tell_guards(const core::GuardCounts& guards) {
+  for (std::size_t i = 0; i < core::kGuards.size(); ++i) {
+    std::fprintf(stderr,
+                 "jnd: guard %s: would have ended the force %u times, warned %u times\n",
+                 std::string(core::name(core::kGuards[i])).c_str(), guards.num_shadowed[i],
+                 guards.num_warnings[i]);
+  }
+}
+
 int run_session(const RunOptions& options, core::StudyStore& store,
                 const experiments::Study& study, const experiments::Laboratory& laboratory,
                 std::int64_t session) {
@@ -130,6 +142,7 @@ int run_session(const RunOptions& options, core::StudyStore& store,
          .realtime = options.realtime,
          .allow_no_realtime = options.allow_no_realtime,
          .arm = options.arm,
+         .shadow_guards = options.shadow_guards,
          .choice = options.choose,
          .language = options.language,
          .on_event =
@@ -158,6 +171,7 @@ int run_session(const RunOptions& options, core::StudyStore& store,
   for (const std::string& caution : result.cautions) {
     std::fprintf(stderr, "jnd: CAUTION, %s\n", caution.c_str());
   }
+  if (options.shadow_guards) tell_guards(result.guards);
   if (!result.ended) {
     std::fprintf(stderr, "jnd: %s%s\n",
                  acknowledgements.unheard() ? unheard.c_str()
@@ -359,6 +373,9 @@ void add_headless_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--headless", options.headless, "Without a window, participant simulated");
   command.add_flag("--arm", options.arm,
                    "With --headless: a real device may give force, and somebody is beside it");
+  command.add_flag("--shadow-guards", options.shadow_guards,
+                   "With --headless: guards of the loop only count what they would have done; "
+                   "energy that a real device gives stays a fault");
 }
 
 }  // namespace

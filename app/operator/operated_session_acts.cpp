@@ -300,15 +300,15 @@ struct OperatedSession::Act {
     if (was_first) my.first_felt_s_ = felt.duration_s;
   }
 
-  /// What was felt while the loop was held up for too long counts for nothing: the trial begins
-  /// anew. An answer that was given to it is kept in the reason.
+  /// What was felt while the loop was held up for too long counts for nothing: the trial comes
+  /// again later. An answer that was given to it is kept in the reason.
   void require_ticks(const Presenter::Felt& felt, const std::string& answer = "") const {
     const std::string reason = my.presenter_.missed_reason(felt);
     if (reason.empty()) return;
     my.visit_.apparatus().render(core::free_space());
-    my.session_.discard_attempt(reason + answer);
+    my.session_.put_off_attempt(reason + answer);
     my.resting_for_trial_ = 0;
-    refuse("that did not count, and the trial begins anew (" + reason +
+    refuse("that did not count, and the trial comes again later (" + reason +
            "): close what burdens this machine");
   }
 };

@@ -227,11 +227,13 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
                  .is_solid = block()->is_solid(),
                  .order_is_drawn = form.order_is_drawn};
   view.num_in_block = 0;
-  for (std::size_t i = 0; i < state().trials.size(); ++i) {
-    if (state().trials[i].stage != trial.stage) continue;
+  view.in_block = 1;
+  for (const TrialState& other : state().trials) {
+    if (other.stage != trial.stage) continue;
     ++view.num_in_block;
-    view.num_repetitions = std::max(view.num_repetitions, state().trials[i].planned.repetition);
-    if (static_cast<std::int64_t>(i) + 1 == number) view.in_block = view.num_in_block;
+    view.num_repetitions = std::max(view.num_repetitions, other.planned.repetition);
+    // By what was answered: a trial that was put off comes later than its number.
+    if (other.response || other.is_void) ++view.in_block;
   }
   if (length_is_expected(*block()) || block()->practice) {
     view.num_is_expected = true;

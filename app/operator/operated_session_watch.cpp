@@ -36,7 +36,7 @@ void OperatedSession::watch_for_faults() {
   if (!begun_ || state().ended || !core::is_failure(now.fault)) return;
   visit_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
-    session_.discard_attempt(std::string("fault: ") + std::string(name(now.fault)));
+    session_.put_off_attempt(std::string("fault: ") + std::string(name(now.fault)));
   }
   visit_.keep_timing();
 }
@@ -65,7 +65,7 @@ void OperatedSession::watch_for_loose_points() {
   abandon_presentation();
   const std::string reason = came_off_reason(came_off);
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
-    session_.discard_attempt(reason);
+    session_.put_off_attempt(reason);
   }
   session_.pause(reason);
   paused_for_bits_ = came_off;

@@ -71,11 +71,12 @@ class Interruption {
         stages_of_session(study_, row.cells), study_.languages.front(), hides_levels_);
     const auto stage = static_cast<std::size_t>(state.stage);
     session.stage = stage < titles.size() ? titles[stage] : "";
-    if (const auto current = state.current_trial()) {
-      for (std::size_t i = 0; i < state.trials.size(); ++i) {
-        if (state.trials[i].stage != state.stage) continue;
+    if (state.current_trial()) {
+      session.trial = 1;
+      for (const experiments::TrialState& trial : state.trials) {
+        if (trial.stage != state.stage) continue;
         ++session.num_trials;
-        if (static_cast<std::int64_t>(i) < *current) session.trial = session.num_trials;
+        if (trial.response || trial.is_void) ++session.trial;
       }
       expect_trials(*stages_of_session(study_, row.cells).at(stage), session);
     }

@@ -31,6 +31,9 @@ void ForceOscillation::observe(const Eigen::Vector3d& force_n) noexcept {
       const auto place = static_cast<std::size_t>(axis.next);
       // The turn that came `max_turns` before this one.
       is_found_ |= tick_ - axis.turns[place] <= window_ticks_;
+      const int most = axis.next + max_turns_ - 3 * max_turns_ / 4;
+      const std::int64_t then_tick = axis.turns[static_cast<std::size_t>(most % max_turns_)];
+      if (tick_ - then_tick <= window_ticks_) near_until_tick_ = then_tick + window_ticks_;
       axis.turns[place] = tick_;
       axis.next = (axis.next + 1) % max_turns_;
     }
@@ -39,6 +42,7 @@ void ForceOscillation::observe(const Eigen::Vector3d& force_n) noexcept {
 
 void ForceOscillation::reset() noexcept {
   is_found_ = false;
+  near_until_tick_ = tick_ - 1;
   for (Axis& axis : axes_) {
     axis = Axis();
     axis.turns.fill(tick_ - window_ticks_ - 1);

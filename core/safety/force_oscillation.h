@@ -29,6 +29,9 @@ class ForceOscillation {
   void observe(const Eigen::Vector3d& force_n) noexcept;
 
   [[nodiscard]] bool is_found() const noexcept { return is_found_; }
+  /// Some axis turned more than three quarters as often within the last window: faster than
+  /// tremor.
+  [[nodiscard]] bool is_near() const noexcept { return tick_ <= near_until_tick_; }
 
   /// Forgets all: what comes next starts from zero force.
   void reset() noexcept;
@@ -45,6 +48,7 @@ class ForceOscillation {
   std::int64_t window_ticks_;
   int max_turns_;
   std::int64_t tick_ = 0;
+  std::int64_t near_until_tick_ = -1;
   bool is_found_ = false;
   std::array<Axis, 3> axes_;
 };

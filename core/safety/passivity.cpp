@@ -41,6 +41,12 @@ bool PassivityController::control(const PointVectors& tip_position_m,
   return changed;
 }
 
+void PassivityController::grant_credit(std::uint8_t storing_bits) noexcept {
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    if ((storing_bits >> i & 1) != 0) credit_j_[i] = max_credit_j_;
+  }
+}
+
 void PassivityController::reset() noexcept {
   has_last_ = false;
   credit_j_.fill(0.0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "core/hand.h"
 
@@ -33,6 +34,12 @@ class PassivityController {
 
   /// Tells what was sent in the end, after every limit.
   void sent(const PointVectors& force_on_hand_n) noexcept { last_force_n_ = force_on_hand_n; }
+
+  /// A medium that stores has been put around the hand, which has put nothing into it: each
+  /// point of `storing_bits` may give back the whole credit once, as a float lifts a hand that
+  /// it was put around. Without that the controller takes each push away along a velocity that
+  /// near rest is noise, which is a buzz.
+  void grant_credit(std::uint8_t storing_bits) noexcept;
 
   /// Energy put into the medium at this point and not yet given back, in joules.
   [[nodiscard]] double credit_j(ContactPoint point) const noexcept {

@@ -20,6 +20,7 @@ PortEnergy::PortEnergy(const Parameters& parameters, double period_s)
 void PortEnergy::observe(const PointVectors& tip_position_m, const PointVectors& acted_n,
                          const std::array<bool, kNumContactPoints>& attached,
                          std::uint8_t storing_bits) noexcept {
+  is_near_ = false;
   for (int i = 0; has_last_ && i < kNumContactPoints; ++i) {
     double work_j = acted_n[i].dot(tip_position_m[i] - last_position_m_[i]);
     if (!std::isfinite(work_j) || !attached[i] || !was_held_[i]) continue;
@@ -34,6 +35,7 @@ void PortEnergy::observe(const PointVectors& tip_position_m, const PointVectors&
     }
     given_j = std::max(std::max(given_j, least_j) + work_j, least_j);
     is_exceeded_ |= given_j > max_given_j_;
+    is_near_ |= given_j > 0.5 * max_given_j_;
   }
   last_position_m_ = tip_position_m;
   was_held_ = attached;
@@ -46,9 +48,15 @@ void PortEnergy::grant_credit() noexcept {
   }
 }
 
+void PortEnergy::forgive() noexcept {
+  is_exceeded_ = false;
+  for (double& given_j : given_j_) given_j = std::min(given_j, 0.0);
+}
+
 void PortEnergy::reset() noexcept {
   has_last_ = false;
   is_exceeded_ = false;
+  is_near_ = false;
   given_j_.fill(0.0);
   granted_j_.fill(0.0);
 }

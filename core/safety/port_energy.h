@@ -44,9 +44,14 @@ class PortEnergy {
   void grant_credit() noexcept;
 
   [[nodiscard]] bool is_exceeded() const noexcept { return is_exceeded_; }
+  /// Some point is now more than half way there.
+  [[nodiscard]] bool is_near() const noexcept { return is_near_; }
   /// What this point has given beyond its credit and is not forgotten yet, in joules; below 0:
   /// its credit.
   [[nodiscard]] double given_j(int point) const noexcept { return given_j_[point]; }
+
+  /// Forgets what was given beyond the credit, which stays.
+  void forgive() noexcept;
 
   /// Forgets all, as before the first measurement.
   void reset() noexcept;
@@ -57,6 +62,7 @@ class PortEnergy {
   double max_credit_j_;
   bool has_last_ = false;
   bool is_exceeded_ = false;
+  bool is_near_ = false;
   std::array<bool, kNumContactPoints> was_held_{};
   std::array<double, kNumContactPoints> given_j_{};
   std::array<double, kNumContactPoints> granted_j_{};

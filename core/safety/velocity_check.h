@@ -29,6 +29,8 @@ class VelocityCheck {
                const std::array<bool, kNumContactPoints>& attached, double elapsed_s) noexcept;
 
   [[nodiscard]] bool is_contradicted() const noexcept { return is_contradicted_; }
+  /// Some point is now more than half way there.
+  [[nodiscard]] bool is_near() const noexcept { return is_near_; }
 
   /// Forgets all, as before the first measurement.
   void reset() noexcept;
@@ -37,6 +39,7 @@ class VelocityCheck {
   Parameters parameters_;
   bool has_last_ = false;
   bool is_contradicted_ = false;
+  bool is_near_ = false;
   std::array<bool, kNumContactPoints> was_held_{};
   PointVectors last_position_m_ = zero_vectors();
   PointVectors error_m_ = zero_vectors();

@@ -19,6 +19,13 @@ struct Workspace {
     return std::abs(point_m.x()) <= half_width_x_m && std::abs(point_m.y()) <= half_width_y_m &&
            std::abs(point_m.z()) <= half_width_z_m;
   }
+  /// Whether it is within the space and no nearer to its edge than this; NaN: no. Real time.
+  [[nodiscard]] bool contains_well(const Eigen::Vector3d& point_m,
+                                   double margin_m) const noexcept {
+    return std::abs(point_m.x()) <= half_width_x_m - margin_m &&
+           std::abs(point_m.y()) <= half_width_y_m - margin_m &&
+           std::abs(point_m.z()) <= half_width_z_m - margin_m;
+  }
 };
 
 /// Throws `Error` naming the field. Not real time.

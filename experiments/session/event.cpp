@@ -23,8 +23,8 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "trial_included",     "note_added",           "paused",
     "continued",          "fault_raised",         "session_resumed",
     "loop_started",       "loop_measured",        "unblinded",
-    "arming_changed",     "exposure_told",        "session_completed",
-    "session_ended_early"};
+    "arming_changed",     "exposure_told",        "guard_noticed",
+    "session_completed",  "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -204,6 +204,7 @@ struct Writer {
   void operator()(const AttemptDiscarded& e) const {
     place(e.trial, e.attempt);
     data = {{"reason", e.reason}};
+    if (e.again_after != 0) data["again_after"] = e.again_after;
   }
   void operator()(const TrialExcluded& e) const {
     row.trial = e.trial;
@@ -240,6 +241,10 @@ struct Writer {
     data = {{"state", e.state}, {"cause", e.cause}};
   }
   void operator()(const ExposureTold& e) const { data = exposure_json(e.exposure); }
+  void operator()(const GuardNoticed& e) const {
+    data = {
+        {"guard", e.guard}, {"num_warnings", e.num_warnings}, {"num_shadowed", e.num_shadowed}};
+  }
   void operator()(const SessionCompleted&) const {}
   void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
@@ -340,6 +345,7 @@ struct Reader {
   void operator()(AttemptDiscarded& e) const {
     place(e);
     data.at("reason").get_to(e.reason);
+    e.again_after = data.value("again_after", std::int64_t{0});
   }
   void operator()(TrialExcluded& e) const {
     e.trial = column(row.trial, "trial");
@@ -381,6 +387,11 @@ struct Reader {
     data.at("cause").get_to(e.cause);
   }
   void operator()(ExposureTold& e) const { e.exposure = exposure_from_json(data); }
+  void operator()(GuardNoticed& e) const {
+    data.at("guard").get_to(e.guard);
+    data.at("num_warnings").get_to(e.num_warnings);
+    data.at("num_shadowed").get_to(e.num_shadowed);
+  }
   void operator()(SessionCompleted&) const {}
   void operator()(SessionEndedEarly& e) const { data.at("reason").get_to(e.reason); }
 

@@ -121,6 +121,7 @@ struct AnswerCorrected {
 struct AttemptDiscarded {
   std::int64_t trial = 0, attempt = 1;
   std::string reason;
+  std::int64_t again_after = 0;  ///< The trial after which it comes again; 0: it is the next.
 };
 
 struct TrialExcluded {
@@ -191,18 +192,24 @@ struct Unblinded {
 /// Every stage was run.
 struct SessionCompleted {};
 
+/// What a guard of the loop has noticed since it was told last: how often it warned, and how
+/// often, in shadow mode, it would have been a fault.
+struct GuardNoticed {
+  std::string guard;  ///< Its fault: "force_oscillates".
+  std::int64_t num_warnings = 0, num_shadowed = 0;
+};
+
 /// Ended before its last stage; not resumable.
 struct SessionEndedEarly {
   std::string reason;
 };
 
-using EventData =
-    std::variant<SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished,
-                 TrialsDrawn, TrialStarted, PresentationStarted, PresentationEnded,
-                 IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
-                 AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
-                 FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
-                 ArmingChanged, ExposureTold, SessionCompleted, SessionEndedEarly>;
+using EventData = std::variant<
+    SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished, TrialsDrawn,
+    TrialStarted, PresentationStarted, PresentationEnded, IntensityAdjusted, TrialAnswered,
+    AnswerUndone, AnswerCorrected, AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded,
+    Paused, Continued, FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
+    ArmingChanged, ExposureTold, GuardNoticed, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -342,6 +342,20 @@ void Session::discard_attempt(const std::string& reason) {
   commit(AttemptDiscarded{number, state_.trial(number).attempt, reason});
 }
 
+void Session::put_off_attempt(const std::string& reason) {
+  const std::int64_t number = open_trial("put a trial off");
+  const TrialState& trial = state_.trial(number);
+  const std::vector<std::int64_t> later = state_.trials_after_current();
+  if (later.empty() || procedure_named(current_block().procedure).adapts()) {
+    return discard_attempt(reason);
+  }
+  core::RandomStream stream(parameters_.seed, "put off", {number, trial.attempt});
+  // Behind one that was put off itself: where that one stands.
+  const std::int64_t chosen = later[stream.below(later.size())];
+  const std::int64_t after = state_.trial(chosen).again_after;
+  commit(AttemptDiscarded{number, trial.attempt, reason, after == 0 ? chosen : after});
+}
+
 void Session::require_undo() const {
   const std::optional<std::int64_t> last = state_.last_answered_trial();
   if (!last || state_.trial(*last).stage != state_.stage) {
@@ -439,6 +453,8 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
 void Session::loop_started(const LoopStarted& given) { commit(given); }
 
 void Session::exposed(const core::Exposure& exposure) { commit(ExposureTold{exposure}); }
+
+void Session::guard_noticed(const GuardNoticed& noticed) { commit(noticed); }
 
 void Session::require_exposure_left() const {
   if (const std::string over = exposure_words(parameters_.limits, state_.exposure);

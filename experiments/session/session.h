@@ -88,7 +88,12 @@ class Session {
   /// The answer as it was given: percent, 1 and 0, or the interval that was chosen; in
   /// production the set intensity is the answer and `value` is ignored.
   void answer(double value, double response_time_s, std::int64_t last_tick);
+  /// Gives the attempt under way up; its trial is the next one again.
   void discard_attempt(const std::string& reason);
+  /// Gives it up for what the apparatus or the machine did. Its trial comes again at a later
+  /// place of the block, drawn evenly from all that are left, so that nobody feels a stimulus
+  /// right after half of it; at once where answers decide what comes next, or nothing is left.
+  void put_off_attempt(const std::string& reason);
 
   /// Throws as `undo` would where there is nothing to be taken back.
   void require_undo() const;
@@ -111,6 +116,7 @@ class Session {
   void loop_started(const LoopStarted& given);
   void arming_changed(const std::string& arming, const std::string& cause);
   void exposed(const core::Exposure& exposure);
+  void guard_noticed(const GuardNoticed& noticed);
   /// Throws `Error` where the hand was exposed to all that the study allows.
   void require_exposure_left() const;
   void loop_measured(const LoopMeasured& timing);

@@ -97,8 +97,12 @@ struct Fold {
     trial.answer_sequence = event.sequence;
   }
   void operator()(const AttemptDiscarded& e) const {
-    of(e.trial).under_way = false;
-    of(e.trial).response.reset();
+    TrialState& trial = of(e.trial);
+    trial.under_way = false;
+    trial.response.reset();
+    if (e.again_after == 0) return;
+    (void)of(e.again_after);
+    trial.again_after = e.again_after;
   }
   void operator()(const TrialExcluded& e) const { of(e.trial).excluded = true; }
   void operator()(const TrialIncluded& e) const { of(e.trial).excluded = false; }
@@ -114,6 +118,7 @@ struct Fold {
   void operator()(const LoopMeasured&) const {}
   void operator()(const Unblinded&) const {}
   void operator()(const ArmingChanged&) const {}
+  void operator()(const GuardNoticed&) const {}
   void operator()(const ExposureTold& e) const { state.exposure += e.exposure; }
   void operator()(const SessionCompleted&) const {
     state.ended = true;
@@ -135,15 +140,41 @@ struct Fold {
   }
 };
 
+bool waits(const SessionState& state, std::int64_t number) {
+  const TrialState& trial = state.trial(number);
+  return trial.stage == state.stage && !trial.response && !trial.is_void;
+}
+
+/// Put off behind a trial comes after it, and before the one that follows it by number.
+bool comes_before(const SessionState& state, std::int64_t left, std::int64_t right) {
+  const auto place = [&state](std::int64_t number) {
+    const std::int64_t after = state.trial(number).again_after;
+    return std::pair(after == 0 ? number : after, after == 0 ? std::int64_t{0} : number);
+  };
+  return place(left) < place(right);
+}
+
 }  // namespace
 
 std::optional<std::int64_t> SessionState::current_trial() const {
+  std::optional<std::int64_t> first;
   for (std::size_t index = 0; index < trials.size(); ++index) {
-    if (trials[index].stage == stage && !trials[index].response && !trials[index].is_void) {
-      return static_cast<std::int64_t>(index) + 1;
-    }
+    const auto number = static_cast<std::int64_t>(index) + 1;
+    if (waits(*this, number) && (!first || comes_before(*this, number, *first))) first = number;
   }
-  return std::nullopt;
+  return first;
+}
+
+std::vector<std::int64_t> SessionState::trials_after_current() const {
+  std::vector<std::int64_t> waiting;
+  for (std::int64_t number = 1; number <= std::ssize(trials); ++number) {
+    if (waits(*this, number)) waiting.push_back(number);
+  }
+  std::ranges::sort(waiting, [this](std::int64_t left, std::int64_t right) {
+    return comes_before(*this, left, right);
+  });
+  if (!waiting.empty()) waiting.erase(waiting.begin());
+  return waiting;
 }
 
 std::optional<std::int64_t> SessionState::last_answered_trial() const {

@@ -26,6 +26,7 @@ struct TrialState {
   bool is_void = false;             ///< Drawn for an answer that was taken back; never run.
   std::int64_t attempt = 0;         ///< 0 before the first start.
   bool under_way = false;           ///< Started and neither answered nor discarded.
+  std::int64_t again_after = 0;     ///< Put off: run after this trial; 0: in its own place.
   std::int64_t first_tick = 0, last_tick = 0;
   std::vector<PresentationState> presentations;  ///< Of this attempt.
   double set_intensity = 0.0;                    ///< Production: where the steps have come to.
@@ -60,9 +61,11 @@ struct SessionState {
   [[nodiscard]] const TrialState& trial(std::int64_t number) const {
     return trials.at(number - 1);
   }
-  /// The trial to be run in this stage: the first without an answer that is not void. None when
-  /// all have one.
+  /// The trial to be run in this stage: the first without an answer that is not void, those
+  /// that were put off in their later place. None when all have one.
   [[nodiscard]] std::optional<std::int64_t> current_trial() const;
+  /// Those of the stage that wait behind the current one, in the order in which they come.
+  [[nodiscard]] std::vector<std::int64_t> trials_after_current() const;
   /// The last answered trial, in any stage.
   [[nodiscard]] std::optional<std::int64_t> last_answered_trial() const;
   /// The trials of a stage with their answers, in the order they were drawn.

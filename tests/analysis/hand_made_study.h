@@ -86,9 +86,11 @@ class HandMadeStudy {
     return trial_;
   }
   /// An event that is of no row, of a trial or of none.
-  void happen(const char* kind, std::optional<std::int64_t> trial = {}) {
+  void happen(const char* kind, std::optional<std::int64_t> trial = {},
+              const std::string& data = "") {
     core::Commit happened = event(kind);
     happened.event.trial = trial;
+    if (!data.empty()) happened.event.data = data;
     store_.append(happened);
   }
   void exclude(std::int64_t trial) {

@@ -14,11 +14,13 @@ constexpr double kMostStep_n = 2.0;  ///< In a millisecond.
 constexpr double kRounding = 1e-6;
 
 // SAFETY.md, in ticks of a millisecond.
-constexpr int kLoopIsDead_ms = 22;         ///< 20 ms and one look of the watchdog.
-constexpr int kHeartbeatIsLost_ms = 351;   ///< 250 ms, the fading of 100 ms, and a tick.
-constexpr int kStaleReadings = 5;          ///< That may stand in.
-constexpr int kStaleReadingsByNet = 20;    ///< Likewise across a network.
-constexpr int kQuietNetwork_ms = 2;        ///< A command's way, in the ticks of both sides.
+constexpr int kLoopIsDead_ms = 22;        ///< 20 ms and one look of the watchdog.
+constexpr int kHeartbeatIsLost_ms = 351;  ///< 250 ms, the fading of 100 ms, and a tick.
+constexpr int kStaleReadings = 5;         ///< That may stand in.
+constexpr int kStaleReadingsByNet = 20;   ///< Likewise across a network.
+constexpr double kStuckWay_m = 0.004;  ///< By its velocity, of a point that stands still: 3 mm,
+                                       ///< and one for what the network swallows.
+constexpr int kQuietNetwork_ms = 2;    ///< A command's way, in the ticks of both sides.
 constexpr int kDisturbedNetwork_ms = 45;   ///< No force answers to a state older than 40 ms.
 constexpr int kDisturbanceLasts_ms = 120;  ///< What was on the way may come as late.
 
@@ -39,18 +41,6 @@ bool is_a_number(const core::HapticState& state) {
   return finite;
 }
 
-/// Moving, as it says itself, and yet where it was.
-bool moves_without_getting_anywhere(const core::HapticState& last,
-                                    const core::HapticState& state) {
-  for (int i = 0; i < core::kNumContactPoints; ++i) {
-    if (state.attached[i] && state.tip_position_m[i] == last.tip_position_m[i] &&
-        state.tip_velocity_m_per_s[i].norm() > 0.05) {
-      return true;
-    }
-  }
-  return false;
-}
-
 std::string in_text(double number) {
   std::ostringstream text;
   text << number;
@@ -67,6 +57,8 @@ void Oracle::armed() {
   may_have_force_ = true;
   revocations_.clear();
   num_stale_readings_ = 0;
+  num_stuck_readings_ = 0;
+  stuck_way_m_.fill(0.0);
   last_reading_.reset();
   given_j_ = 0.0;
 }
@@ -134,11 +126,27 @@ void Oracle::handed_out(const core::HapticState& state) {
 }
 
 void Oracle::judge_staleness(const core::HapticState& state) {
-  const bool is_stale = state.device_time_ns <= last_reading_->device_time_ns ||
-                        moves_without_getting_anywhere(*last_reading_, state);
+  const bool is_stale = state.device_time_ns <= last_reading_->device_time_ns;
   num_stale_readings_ = is_stale ? num_stale_readings_ + 1 : 0;
   const int most = is_networked() ? kStaleReadingsByNet : kStaleReadings;
   if (num_stale_readings_ > most) revoke("measurements stood still", Way::kLoop);
+  if (is_stale) return;
+  // Moving, as it says itself, and yet where it was.
+  bool any_stands = false;
+  double most_way_m = 0.0;
+  for (std::size_t i = 0; i < stuck_way_m_.size(); ++i) {
+    const bool stands = state.attached[i] && last_reading_->attached[i] &&
+                        state.tip_velocity_m_per_s[i].norm() > 0.05 &&
+                        state.tip_position_m[i] == last_reading_->tip_position_m[i];
+    stuck_way_m_[i] =
+        stands ? stuck_way_m_[i] + 0.001 * state.tip_velocity_m_per_s[i].norm() : 0.0;
+    any_stands |= stands;
+    most_way_m = std::max(most_way_m, stuck_way_m_[i]);
+  }
+  num_stuck_readings_ = any_stands ? num_stuck_readings_ + 1 : 0;
+  if (num_stuck_readings_ > most && most_way_m > kStuckWay_m) {
+    revoke("positions stood still", Way::kLoop);
+  }
 }
 
 /// Of a point that was held before and is held still. A lossy network may show none of it.

@@ -96,6 +96,8 @@ class Oracle {
   std::optional<core::HapticState> last_reading_;
   std::array<bool, core::kNumContactPoints> attached_ = core::kAllAttached;
   int num_stale_readings_ = 0;
+  int num_stuck_readings_ = 0;
+  std::array<double, core::kNumContactPoints> stuck_way_m_{};
   core::PointVectors standing_n_ = core::zero_vectors();
   double given_j_ = 0.0;
   double most_given_j_ = 0.0;

@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Absence{"Unplugged", Injection::kReadFailure, Fault::kDeviceReadFailed, 0},
         Absence{"NotWritten", Injection::kWriteFailure, Fault::kDeviceWriteFailed, 0},
-        Absence{"Frozen", Injection::kFrozenSample, Fault::kStaleSample, 5},
+        Absence{"Frozen", Injection::kFrozenSample, Fault::kStaleSample, 36},
         Absence{"TimeStandsStill", Injection::kStaleTime, Fault::kStaleSample, 5}),
     [](const auto& info_of_it) { return std::string(info_of_it.param.name); });
 

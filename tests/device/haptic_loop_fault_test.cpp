@@ -268,7 +268,7 @@ TEST_F(HapticLoopTest, OneFingerThatFreezesAmongMovingOnesIsSeen) {
     ++ticks;
   }
   EXPECT_EQ(telemetry().fault, Fault::kStaleSample);
-  EXPECT_LE(ticks, 8);
+  EXPECT_LE(ticks, 17) << "3 mm at 0.2 m/s";
 }
 
 TEST_F(HapticLoopTest, AnArmingWhileTheStopIsPressedChangesNothing) {
@@ -297,6 +297,22 @@ TEST_F(HapticLoopTest, EveryFaultIsCounted) {
     loop->rearm();
     run(1);
   }
+}
+
+TEST_F(HapticLoopTest, AFilteredVelocityAfterAHandHasStoppedIsNotStale) {
+  // 0.5 m/s behind a filter of 40 Hz goes on for 2 mm; a coarse encoder repeats its positions.
+  command(core::viscous({.viscosity_pa_s = 8.0}));
+  device.move_all({0.5, 0.0, 0.0});
+  run(200);
+  const core::PointVectors stopped_m = device.state.tip_position_m;
+  double speed_m_per_s = 0.5;
+  for (int tick = 0; tick < 100; ++tick) {
+    speed_m_per_s *= std::exp(-2.0 * 3.14159265 * 40.0 * 0.001);
+    device.state.tip_velocity_m_per_s.fill({speed_m_per_s, 0.0, 0.0});
+    device.state.tip_position_m = stopped_m;
+    run(1);
+  }
+  EXPECT_EQ(telemetry().fault, Fault::kNone);
 }
 
 TEST_F(HapticLoopTest, ADeviceTimeThatRunsBackIsStale) {
@@ -372,7 +388,7 @@ INSTANTIATE_TEST_SUITE_P(
             "ReadFailure", {100, 5, Injection::kReadFailure}, Fault::kDeviceReadFailed, 0},
         FaultCase{
             "WriteFailure", {100, 5, Injection::kWriteFailure}, Fault::kDeviceWriteFailed, 0},
-        FaultCase{"FrozenSample", {100, 50, Injection::kFrozenSample}, Fault::kStaleSample, 5},
+        FaultCase{"FrozenSample", {100, 50, Injection::kFrozenSample}, Fault::kStaleSample, 7},
         FaultCase{"StaleTime", {100, 50, Injection::kStaleTime}, Fault::kStaleSample, 5},
         FaultCase{"PositionJump",
                   {100, 50, Injection::kPositionJump, core::ContactPoint::kIndex, 0.05},

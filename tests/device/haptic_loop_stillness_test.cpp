@@ -30,10 +30,10 @@ TEST_F(HapticLoopStillness, APositionThatFreezesInAPlaneLosesItsForceAndIsAFault
   const double first_n = pressed_n();
   run(1900);
   EXPECT_EQ(pressed_n(), first_n);
-  EXPECT_FALSE(telemetry().asks_to_move);
+  EXPECT_EQ(telemetry().warning, Fault::kNone);
   run(1100);
   EXPECT_LT(pressed_n(), 0.6 * first_n) << "first less force";
-  EXPECT_TRUE(telemetry().asks_to_move);
+  EXPECT_EQ(telemetry().warning, Fault::kPositionFrozen);
   EXPECT_TRUE(telemetry().limited) << "the trial is marked";
   EXPECT_EQ(telemetry().fault, Fault::kNone);
   run(2200);

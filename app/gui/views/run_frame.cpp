@@ -168,8 +168,9 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                                             : "",
                    view.last_sequence == 0 ? "Nothing stored yet" : "");
   const int attached = __builtin_popcount(view.telemetry.sample.attached_bits);
-  if (view.telemetry.asks_to_move) {
-    draw_health(ui, x, place, Colour::kAmber, "The hand is too still · ask it ", "to move", "");
+  if (view.telemetry.warning != core::Fault::kNone) {
+    draw_health(ui, x, place, Colour::kAmber, "",
+                std::string(core::warning_words(view.telemetry.warning)), "");
   } else {
     draw_health(ui, x, place,
                 attached == core::kNumContactPoints ? Colour::kGreen : Colour::kAmber, "",

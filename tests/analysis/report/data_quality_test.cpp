@@ -25,5 +25,22 @@ TEST(DataQuality, SaysWhoTookLongerThanTheStudyAllows) {
   EXPECT_TRUE(remarks_after(R"({"name": "by_hand"})", 4680.0).empty());
 }
 
+TEST(DataQuality, SaysWhatGuardsNoticed) {
+  HandMadeStudy study(R"({"name": "by_hand"})");
+  const std::int64_t session = study.add("P01");
+  study.estimate(1.0, 100.0);
+  study.happen("guard_noticed", {},
+               R"({"guard": "energy_given", "num_shadowed": 0, "num_warnings": 2})");
+  study.happen("guard_noticed", {},
+               R"({"guard": "force_oscillates", "num_shadowed": 1, "num_warnings": 1})");
+  study.happen("guard_noticed", {},
+               R"({"guard": "energy_given", "num_shadowed": 0, "num_warnings": 3})");
+  EXPECT_EQ(
+      session_quality(study.store(), {study.store().session(session)}).at(0).remarks,
+      (std::vector<std::string>{"guard energy_given: warned 5 times",
+                                "guard force_oscillates: warned 1 times, only counted 1 faults "
+                                "(shadow mode)"}));
+}
+
 }  // namespace
 }  // namespace jnd::analysis

@@ -37,7 +37,7 @@ TEST_F(RealtimeSessionTest, AnAnswerToWhatWasNotFeltInTimeIsKeptAndDoesNotCount)
   session_->request(operate::Answer{trial, 100.0});
   const SessionView refused =
       until([](const SessionView& now) { return now.num_refusals > 0; });
-  EXPECT_NE(refused.refusal.find("the trial begins anew"), std::string::npos)
+  EXPECT_NE(refused.refusal.find("the trial comes again later"), std::string::npos)
       << refused.refusal;
   EXPECT_TRUE(store_->trials(session_number_).empty());
   const core::EventRow last = store_->events(session_number_).back();

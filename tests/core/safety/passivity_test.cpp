@@ -117,6 +117,38 @@ TEST(PassivityController, LetsAPassiveSurfaceReturnWhatItStored) {
   EXPECT_LT(softened_n, 0.05);
 }
 
+TEST(PassivityController, DoesNotBuzzWithTheNoiseOfAVelocityAtRest) {
+  // A float that was put around a hand, which has put nothing in yet, and whose measured
+  // velocity is mostly noise. Taking the push away along that velocity sent 3 N to and fro.
+  PassivityController passivity = controller();
+  RandomStream random(1, "noise");
+  passivity.grant_credit(0b01111);
+  for (int tick = 0; tick < 2000; ++tick) {
+    const Eigen::Vector3d velocity(random.normal(0.0, 0.01), random.normal(0.0, 0.01),
+                                   random.normal(0.0, 0.01));
+    PointVectors force = five_of({0.0, 0.0, 8.0});
+    passivity.control(five_of(Eigen::Vector3d::Zero()), five_of(velocity), force);
+    passivity.sent(force);
+    EXPECT_EQ(force[0], Eigen::Vector3d(0.0, 0.0, 8.0));
+  }
+  EXPECT_EQ(passivity.credit_j(ContactPoint::kIndex), 1.0);
+  EXPECT_EQ(passivity.credit_j(ContactPoint::kMiddle), 0.0) << "what does not store gets none";
+}
+
+TEST(PassivityController, WhatWasGrantedIsGivenOnce) {
+  PassivityController passivity({.max_credit_j = 0.1}, kPeriodS);
+  passivity.grant_credit(0b11111);
+  double x = 0.0, given_j = 0.0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    PointVectors force = five_of({10.0, 0.0, 0.0});
+    passivity.control(five_of({x, 0.0, 0.0}), five_of({0.5, 0.0, 0.0}), force);
+    passivity.sent(force);
+    x += 0.0005;
+    given_j += 0.0005 * force[0].x();
+  }
+  EXPECT_NEAR(given_j, 0.1, 1e-9);
+}
+
 TEST(PassivityController, LongDragDoesNotPayForAnEndlessPush) {
   PassivityController passivity({.max_credit_j = 0.1}, kPeriodS);
   double x = 0.0;

@@ -330,6 +330,23 @@ TEST(ExoskeletonDevice, AHaltLastsUntilZerosAreWritten) {
   }
 }
 
+TEST(ExoskeletonDevice, ItsWeightIsHeldWhileForcesEndAndWhileItIsHalted) {
+  Laboratory laboratory;
+  laboratory.exoskeleton.open();
+  laboratory.feel(core::viscous({.viscosity_pa_s = 8.0}));
+  for (int i = 0; i < 500; ++i) laboratory.tick();
+  const double height_m = laboratory.state.end_effector_position_m.z();
+  laboratory.stop.press();
+  for (int i = 0; i < 1000; ++i) laboratory.tick();
+  EXPECT_NEAR(laboratory.state.end_effector_position_m.z(), height_m, 0.005) << "stopped";
+  laboratory.exoskeleton.halt();
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(laboratory.exoskeleton.write(at_every_point({0.0, 0.0, 1.0})));
+  }
+  ASSERT_TRUE(laboratory.exoskeleton.read(laboratory.state));
+  EXPECT_NEAR(laboratory.state.end_effector_position_m.z(), height_m, 0.005) << "halted";
+}
+
 TEST(ExoskeletonDevice, WhatWasOnItsWayBeforeAFaultDoesNotComeAfterIt) {
   ExoskeletonDevice exoskeleton(Parameters{.extra_delay_s = 0.003});
   exoskeleton.open();

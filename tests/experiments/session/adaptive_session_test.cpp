@@ -57,6 +57,14 @@ class AdaptiveSessionTest : public ::testing::Test {
   core::SimulatedClock clock_;
 };
 
+TEST_F(AdaptiveSessionTest, ATrialThatCannotWaitForOthersIsRunAgainAtOnce) {
+  Session s = begun();
+  const std::int64_t trial = *s.state().current_trial();
+  s.start_trial(0);
+  s.put_off_attempt("came off: index");
+  EXPECT_EQ(s.state().current_trial(), trial);
+}
+
 TEST_F(AdaptiveSessionTest, TheNextTrialIsDrawnWhenTheOneBeforeIsAnswered) {
   Session s = begun();
   EXPECT_EQ(s.state().trials.size(), 1U);

@@ -32,7 +32,7 @@ std::vector<EventData> one_of_each() {
           TrialAnswered{4, 2, 1.0, 2.5, 41},
           AnswerUndone{4, 2, 17, "why"},
           AnswerCorrected{4, 2, 17, 0.0, "why"},
-          AttemptDiscarded{4, 2, "why"},
+          AttemptDiscarded{4, 2, "why", 7},
           TrialExcluded{4, "why"},
           TrialIncluded{4, "why"},
           NoteAdded{"a note with \"quotes\" and \xc3\xbc"},
@@ -51,6 +51,7 @@ std::vector<EventData> one_of_each() {
           Unblinded{"why"},
           ArmingChanged{"armed", "by the experimenter"},
           ExposureTold{{.force_time_n_s = 12.5, .under_force_s = 3.25}},
+          GuardNoticed{"force_oscillates", 3, 1},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/error.h"
 #include "experiments/session/event.h"
@@ -192,6 +194,83 @@ TEST_F(SessionTest, UndoReachesBackThroughTheTrialUnderWayButNotIntoAnotherBlock
   EXPECT_EQ(s.state().trial(3).response, 0.0);
   ASSERT_TRUE(log_.commits.back().trial.has_value());
   EXPECT_EQ(log_.commits.back().trial->block, "group_d");
+}
+
+/// Puts the first trial of the block off and answers the others; the numbers in their order.
+std::vector<std::int64_t> order_with_first_put_off(Session& s) {
+  std::vector<std::int64_t> order;
+  s.start_trial(s.state().last_tick + 1);
+  s.put_off_attempt("came off: index");
+  while (s.state().current_trial()) {
+    order.push_back(*s.state().current_trial());
+    s.start_trial(s.state().last_tick + 1);
+    const std::int64_t tick = s.state().last_tick + 1;
+    for (const char* interval : {"reference", "test"}) {
+      s.begin_presentation(interval, tick);
+      s.end_presentation(tick + 99, {});
+    }
+    s.answer(1.0, 1.5, s.state().last_tick);
+  }
+  return order;
+}
+
+TEST_F(SessionTest, APutOffTrialComesAgainAtAnyLaterPlaceAlike) {
+  stages_ = {&comparison_};
+  std::vector<int> counts(7, 0);  // Of eight trials.
+  constexpr int kNumSessions = 700;
+  for (std::uint64_t seed = 1; seed <= kNumSessions; ++seed) {
+    log_ = {};
+    Session s({.session = 1, .seed = seed, .stages = stages_}, {}, log_, clock_);
+    s.start();
+    s.enter_stage();
+    std::vector<std::int64_t> order = order_with_first_put_off(s);
+    const auto again = std::ranges::find(order, 1);
+    ASSERT_NE(again, order.end());
+    ASSERT_GT(again, order.begin()) << "not at once";
+    ++counts[static_cast<std::size_t>(again - order.begin() - 1)];
+    order.erase(again);
+    ASSERT_EQ(order, (std::vector<std::int64_t>{2, 3, 4, 5, 6, 7, 8})) << "the others stay";
+  }
+  double chi_squared = 0.0;
+  for (const int count : counts) chi_squared += (count - 100.0) * (count - 100.0) / 100.0;
+  EXPECT_LT(chi_squared, 22.5) << "of 6 degrees of freedom, p = 0.001";
+}
+
+TEST_F(SessionTest, ResumedAtAnyEventAPutOffTrialKeepsItsPlace) {
+  stages_ = {&comparison_};
+  Session s = session();
+  s.start();
+  s.enter_stage();
+  const std::vector<std::int64_t> order = order_with_first_put_off(s);
+  const std::vector<core::EventRow> all = log_.events;
+  const auto discarded = std::ranges::find(all, "attempt_discarded", &core::EventRow::kind);
+  for (auto end = discarded + 1; end != all.end(); ++end) {
+    Session again = session({all.begin(), end});
+    const std::size_t num_answered = again.state().answered_in(0).size();
+    ASSERT_EQ(again.state().current_trial(), order[num_answered]);
+  }
+}
+
+TEST_F(SessionTest, ATrialIsPutOffAgainAndItsAnswerTakenBackLikeAnyOther) {
+  stages_ = {&comparison_};
+  Session s = session();
+  s.start();
+  s.enter_stage();
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    while (*s.state().current_trial() != 1) run_trial(s, 1.0);
+    s.start_trial(s.state().last_tick + 1);
+    const std::vector<std::int64_t> later = s.state().trials_after_current();
+    s.put_off_attempt("fault: stale_sample");
+    // The last one has no later place.
+    EXPECT_EQ(*s.state().current_trial(), later.empty() ? 1 : later.front());
+  }
+  while (*s.state().current_trial() != 1) run_trial(s, 1.0);
+  run_trial(s, 0.0);
+  s.undo("misheard");
+  EXPECT_EQ(s.state().current_trial(), 1);
+  run_trial(s, 1.0);
+  while (s.state().current_trial()) run_trial(s, 1.0);
+  EXPECT_EQ(s.state().answered_in(0).size(), 8);
 }
 
 TEST_F(SessionTest, StepsLeaveTheStartingRangeUpwardsAndStopAtZero) {
