@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <functional>
 #include <memory>
@@ -136,6 +137,18 @@ class OperatedSessionTest : public ::testing::Test {
     act(operate::Present{trial, "test"});
     pass(1.0);
     act(operate::Answer{trial, value});
+  }
+
+  /// A trial that was put off is not the next one; answered with the rest of its block, it is
+  /// there once, as its second attempt.
+  void expect_it_comes_later(std::int64_t put_off) {
+    EXPECT_NE(view().trial->trial, put_off) << "not right after half of it was felt";
+    while (view().step == Step::kReady) answer_trial(view(), 1.0);
+    const std::vector<core::TrialRow> rows = store_->trials(session_number_);
+    const auto found = std::ranges::find(rows, put_off, &core::TrialRow::trial);
+    ASSERT_NE(found, rows.end());
+    EXPECT_EQ(found->attempt, 2);
+    EXPECT_EQ(std::ranges::count(rows, put_off, &core::TrialRow::trial), 1);
   }
 
   std::string study_stage_name(std::int64_t stage) const {

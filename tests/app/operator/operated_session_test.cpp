@@ -264,9 +264,7 @@ TEST_F(OperatedSessionTest, TheEmergencyStopPausesAndTheTrialIsRunAgainAfterArmi
   now = view();
   EXPECT_FALSE(doors_.emergency_stop.is_pressed());
   EXPECT_EQ(now.step, Step::kReady);
-  EXPECT_EQ(now.trial->trial, trial);
-  answer_trial(now, 1.0);
-  EXPECT_EQ(store_->trials(session_number_).back().attempt, 2);
+  expect_it_comes_later(trial);
 }
 
 TEST_F(OperatedSessionTest, APauseDiscardsTheAttemptAndGoingOnRunsTheTrialAgain) {
