@@ -170,7 +170,8 @@ void cover_groups(int num_sets, std::uint64_t seed) {
       "person's w = 0.7 (hard), and of group E, w = 0.22 (easy: 99.9 %%). Truth of\na median "
       "person's value: that w. Truth of a pooled curve's: what endlessly many people would "
       "give it, which is\nlarger the more they differ. Bias: of the geometric mean. Cautions: "
-      "the share of sets whose levels are said to be too\nhard; lapse rate: coverage of its "
+      "the share of sets that carry one (levels that are too\nhard, answers that scatter); "
+      "lapse rate: coverage of its "
       "interval. Weibull noise is no form that a fit has: w is half the distance in ln "
       "between 15.87 and 84.13 %%, as every curve\nthat is even in ln has it; by (x84.13 - "
       "pse) / pse it is another number, 17 %% less in ln, which such a fit does not tell.\n\n",
