@@ -235,8 +235,9 @@ void print(const Tally& tally, const std::vector<Stimulus>& stimuli, std::int64_
   std::printf(
       "# How often guards disturb healthy people\n\n"
       "Written by `./dev false-faults %lld`; seed %llu. %lld simulated people, an hour each, "
-      "%.1f hours\nin all, on devices that nothing is wrong with: 0.6 to 2.5 kg, stiction up "
-      "to 0.8 N, positions in steps of 1 to 200 um,\nvelocities filtered at 30 to 200 Hz, "
+      "%.1f hours\nin all, on devices that nothing is wrong with: 0.6 to 2.5 kg, stiction "
+      "of 0.1 to 0.8 N, positions in steps of 1 to 100 um,\nvelocities filtered at 40 to 200 "
+      "Hz, "
       "tremor of 8 to 12 Hz and up to 0.5 mm, fingers that slide\nin their holders, "
       "measurements jittered by up to 0.2 ms of which 1 %% are lost, forces up to 2 ms "
       "late.\nThe loop watches over them as over a real hand.\n\n",
