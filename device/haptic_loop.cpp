@@ -50,9 +50,9 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
       doors_(doors),
       period_s_(core::period_s_at(parameters.rate_hz)),
       has_joints_(device.capabilities().num_joints > 0),
-      max_stale_ticks_(
-          ticks(std::max(parameters.max_stale_s, device.capabilities().max_stale_s),
-                parameters.rate_hz)),
+      staleness_(ticks(std::max(parameters.max_stale_s, device.capabilities().max_stale_s),
+                       parameters.rate_hz),
+                 period_s_),
       heartbeat_(doors.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
@@ -75,7 +75,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
                .watches_stillness = !device.capabilities().simulated,
                .shadows = parameters.shadows_guards,
                .shadows_energy = device.capabilities().simulated,
-               .longest_s = longest_s()},
+               .longest_s = staleness_.longest_s()},
               period_s_),
       flight_recorder_(static_cast<std::size_t>(
           std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
@@ -216,9 +216,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   guards_.reset();
   solids_.release();
   has_last_state_ = false;
-  num_stale_ticks_ = 0;
-  num_stuck_ticks_ = 0;
-  stuck_way_m_.fill(0.0);
+  staleness_.reset();
   stalled_ = false;
   suspended_ = false;
   stall_is_told_ = false;
@@ -293,8 +291,8 @@ void HapticLoop::watch_attachment() noexcept {
 /// Time that is said to have passed widens what a hand may have moved, but no further than a
 /// measurement may stand in: a clock that leaps excuses no leap of the hand.
 double HapticLoop::max_distance_m(double elapsed_s) const noexcept {
-  return parameters_.max_jump_m +
-         parameters_.limits.max_speed_m_per_s * std::clamp(elapsed_s, period_s_, longest_s());
+  return parameters_.max_jump_m + parameters_.limits.max_speed_m_per_s *
+                                      std::clamp(elapsed_s, period_s_, staleness_.longest_s());
 }
 
 Fault HapticLoop::check_against_last() noexcept {
@@ -314,41 +312,11 @@ Fault HapticLoop::check_against_last() noexcept {
   if (jumped) return Fault::kPositionJump;
   const Fault port =
       elapsed_s > 0.0 ? guards_.observe_port(state_, contact_, elapsed_s) : Fault::kNone;
-  const bool time_stands = elapsed_s <= 0.0;
-  num_stale_ticks_ = time_stands ? num_stale_ticks_ + 1 : 0;
-  const bool is_stuck = moves_without_getting_anywhere(elapsed_s);
-  num_missed_while_stale_ =
-      time_stands || num_stuck_ticks_ > 0 ? num_missed_while_stale_ + num_missed_ : 0;
+  staleness_.observe(state_, last_state_, elapsed_s, num_missed_);
   // What ends the force at once must not wait behind what lets it fade.
   if (port != Fault::kNone && !core::fades(port)) return port;
-  if (!is_stuck && num_stale_ticks_ <= max_stale_ticks_) return port;
-  // A loop that cannot keep its own time cannot tell what the device keeps.
-  return num_missed_while_stale_ > 0 ? Fault::kHostTooSlow : Fault::kStaleSample;
-}
-
-/// Positions that stand still for more ticks than a measurement may stand in, while the
-/// velocity goes further than that of a filter that has not heard yet that the hand stopped,
-/// and than steps of encoders are.
-bool HapticLoop::moves_without_getting_anywhere(double elapsed_s) noexcept {
-  constexpr double kMovingMPerS = 0.05;
-  constexpr double kStuckWayM = 0.003;
-  // A measurement that stands in for one that is missing says nothing new.
-  if (elapsed_s <= 0.0) {
-    num_stuck_ticks_ += num_stuck_ticks_ > 0 ? 1 : 0;
-    return false;
-  }
-  double most_way_m = 0.0;
-  for (int i = 0; i < kNumContactPoints; ++i) {
-    const double speed_m_per_s = state_.tip_velocity_m_per_s[i].norm();
-    const bool is_stuck = state_.attached[i] && last_state_.attached[i] &&
-                          speed_m_per_s > kMovingMPerS &&
-                          state_.tip_position_m[i] == last_state_.tip_position_m[i];
-    stuck_way_m_[i] =
-        is_stuck ? stuck_way_m_[i] + std::min(elapsed_s, longest_s()) * speed_m_per_s : 0.0;
-    most_way_m = std::max(most_way_m, stuck_way_m_[i]);
-  }
-  num_stuck_ticks_ = most_way_m > 0.0 ? num_stuck_ticks_ + 1 : 0;
-  return num_stuck_ticks_ > max_stale_ticks_ && most_way_m > kStuckWayM;
+  if (!staleness_.is_stale()) return port;
+  return staleness_.may_be_the_loops() ? Fault::kHostTooSlow : Fault::kStaleSample;
 }
 
 /// Points around which this command puts something that stores: they did not enter it, nor were

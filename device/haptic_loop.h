@@ -16,6 +16,7 @@
 #include "core/safety/guards.h"
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
+#include "core/safety/staleness.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
 #include "core/telemetry.h"
@@ -154,10 +155,6 @@ class HapticLoop {
   void obey_emergency_stop() noexcept;
   void obey_watchdog() noexcept;
   [[nodiscard]] bool stands_still() const noexcept;
-  /// For which a measurement may stand in.
-  [[nodiscard]] double longest_s() const noexcept {
-    return static_cast<double>(max_stale_ticks_ + 1) * period_s_;
-  }
   void rearm_if_requested() noexcept;
   void disarm_if_requested() noexcept;
   [[nodiscard]] core::Arming arming() const noexcept;
@@ -165,7 +162,6 @@ class HapticLoop {
   void watch_attachment() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
-  [[nodiscard]] bool moves_without_getting_anywhere(double elapsed_s) noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
   [[nodiscard]] std::uint8_t surrounded_bits(const core::HapticCommand& command) const noexcept;
   void take_command() noexcept;
@@ -184,7 +180,7 @@ class HapticLoop {
   bool is_first_armed_tick_ = false;
   std::int64_t monotonic_ns_ = 0;
   std::int64_t num_missed_ = 0;  ///< Since the last tick.
-  std::int64_t max_stale_ticks_;
+  core::Staleness staleness_;
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
@@ -211,11 +207,6 @@ class HapticLoop {
   core::HapticState state_;
   core::HapticState last_state_;
   bool has_last_state_ = false;
-  std::int64_t num_stale_ticks_ = 0;
-  std::int64_t num_missed_while_stale_ = 0;
-  std::int64_t num_stuck_ticks_ = 0;
-  /// That each point says it has moved while its position stood still.
-  std::array<double, core::kNumContactPoints> stuck_way_m_{};
   std::uint8_t attached_bits_ = 0;
   std::uint8_t immersed_bits_ = 0;
   core::Guards::Contact contact_;
