@@ -370,12 +370,15 @@ void add_participant_stop(CLI::App& command, RunOptions& options) {
 
 /// In a window the experimenter arms a real device by a key.
 void add_headless_options(CLI::App& command, RunOptions& options) {
-  command.add_flag("--headless", options.headless, "Without a window, participant simulated");
+  CLI::Option* headless = command.add_flag("--headless", options.headless,
+                                           "Without a window, participant simulated");
   command.add_flag("--arm", options.arm,
                    "With --headless: a real device may give force, and somebody is beside it");
-  command.add_flag("--shadow-guards", options.shadow_guards,
-                   "With --headless: guards of the loop only count what they would have done; "
-                   "energy that a real device gives stays a fault");
+  command
+      .add_flag("--shadow-guards", options.shadow_guards,
+                "With --headless: guards of the loop only count what they would have done; "
+                "energy that a real device gives stays a fault")
+      ->needs(headless);
 }
 
 }  // namespace

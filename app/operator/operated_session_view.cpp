@@ -341,6 +341,7 @@ void OperatedSession::describe_loop(SessionView& view) const {
   const Apparatus& apparatus = visit_.apparatus();
   view.telemetry = apparatus.telemetry();
   view.max_total_force_n = apparatus.max_total_force_n();
+  view.num_contact_points = apparatus.num_contact_points();
   view.loop.rate_hz = parameters_.study.device.rate_hz;
   view.loop.num_dropped_samples = view.telemetry.num_dropped_samples;
   view.stop_pressed = parameters_.doors.emergency_stop.is_pressed();

@@ -174,6 +174,7 @@ struct SessionView {
 
   core::Telemetry telemetry;
   double max_total_force_n = 0.0;
+  int num_contact_points = 5;  ///< That the device declares.
   SurroundingsView surroundings;
   LoopView loop;
   std::int64_t trials_on_disk = 0;  ///< Answers, that is.

@@ -173,9 +173,9 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                 std::string(core::warning_words(view.telemetry.warning)), "");
   } else {
     draw_health(ui, x, place,
-                attached == core::kNumContactPoints ? Colour::kGreen : Colour::kAmber, "",
+                attached == view.num_contact_points ? Colour::kGreen : Colour::kAmber, "",
                 std::to_string(attached),
-                " of " + std::to_string(core::kNumContactPoints) + " points attached");
+                " of " + std::to_string(view.num_contact_points) + " points attached");
   }
   const ButtonStyle keys{.tone = Tone::kQuiet, .key = {Key::kF1}};
   Rect strip = place;

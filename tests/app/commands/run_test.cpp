@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 
@@ -12,7 +13,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace run_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -273,6 +274,15 @@ TEST_F(RunCommandTest, ASessionThatAnOlderProgramBeganGoesOnAsItWouldHave) {
   EXPECT_EQ(jnd({"verify", "old.study"}).exit_code, 0);
 }
 
+TEST_F(RunCommandTest, GuardsAreShadowedOnlyWithoutAWindow) {
+  const ProgramOutcome outcome = jnd(
+      {"run", "tiny.json", "--study", "s.study", "--participant", "P01", "--shadow-guards"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("--headless"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(temporary_.path() / "s.study"));
+}
+
 TEST_F(RunCommandTest, NothingToResumeIsOneSentenceAndNoError) {
   ASSERT_EQ(jnd(run_words("a.study")).exit_code, 0);
   const std::string before = tables_text(opened("a.study"), 1);
@@ -313,5 +323,5 @@ TEST_F(RunCommandTest, ItsFilesAreForTheirOwnerAlone) {
   }
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace jnd::app

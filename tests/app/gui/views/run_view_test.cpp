@@ -8,7 +8,7 @@
 #include "app/gui/views/participant_view.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace run_view_test {
 
 using experiments::AnswerKind;
 
@@ -481,6 +481,20 @@ TEST_F(RunView, AnswersThatAreHiddenStayHidden) {
   EXPECT_FALSE(ui_.drawn().shows("Pa s"));
 }
 
+TEST_F(RunView, HeldPointsAreCountedAmongThoseOfTheDeviceUntilAGuardWarns) {
+  SessionView view = comparison();
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows(" of 5 points attached"));
+  view.num_contact_points = 1;
+  view.telemetry.sample.attached_bits = 1;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows(" of 1 points attached"));
+  view.telemetry.warning = core::Fault::kOutsideWorkspace;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("The hand is near the edge of its space"));
+  EXPECT_FALSE(ui_.drawn().shows("points attached"));
+}
+
 TEST_F(RunView, APilotIsMarked) {
   SessionView view = comparison();
   view.pilot = true;
@@ -545,5 +559,5 @@ INSTANTIATE_TEST_SUITE_P(Screens, RunViewFits,
                                            std::pair{1920.0f, 1080.0f},
                                            std::pair{1024.0f, 700.0f}));
 
-}  // namespace
+}  // namespace run_view_test
 }  // namespace jnd::app::gui
