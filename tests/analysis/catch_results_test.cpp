@@ -8,7 +8,7 @@
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace catch_results_test {
 
 /// Answers of one participant to trials of a block whose reference is 8 Pa s.
 void answer(HandMadeStudy& study, core::TrialRow row, int num_yes, int num_trials) {
@@ -106,5 +106,5 @@ TEST(CatchResults, TheyMoveNoCurveAndAreAbsentWhereThereAreNone) {
   EXPECT_EQ(section(b, "honey_catch_trials"), nullptr);
 }
 
-}  // namespace
+}  // namespace catch_results_test
 }  // namespace jnd::analysis

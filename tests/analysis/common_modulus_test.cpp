@@ -6,7 +6,7 @@
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace common_modulus_test {
 
 std::string protocol(const std::string& keys) {
   return R"({"name": "by_hand", "stages": [{"kind": "block", "name": "estimation", )" + keys +
@@ -107,5 +107,5 @@ TEST(CommonModulus, WithoutACommonStimulusNumbersStandAsTheyWereSaid) {
   EXPECT_EQ(*data.participants.front().trials.front().response, 10.0);
 }
 
-}  // namespace
+}  // namespace common_modulus_test
 }  // namespace jnd::analysis

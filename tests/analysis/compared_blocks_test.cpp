@@ -12,7 +12,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace compared_blocks_test {
 
 BlockDesign block(const std::string& name, const std::string& procedure = "constant_stimuli",
                   const std::string& quantity = "viscosity_pa_s") {
@@ -137,5 +137,5 @@ TEST(ComparedBlocks, SaysOfBothFamiliesWhatTheirPValuesAre) {
   EXPECT_EQ(std::string(kPairsFamily).find("exploratory"), 0U);
 }
 
-}  // namespace
+}  // namespace compared_blocks_test
 }  // namespace jnd::analysis

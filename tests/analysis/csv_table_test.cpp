@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace csv_table_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -164,5 +164,5 @@ TEST(CsvReader, ShowsTheFirstTwentyProblemsAndCountsTheRest) {
   EXPECT_THAT(message, testing::EndsWith("... and 5 more"));
 }
 
-}  // namespace
+}  // namespace csv_table_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include "core/psychometric_function.h"
 
 namespace jnd::analysis {
-namespace {
+namespace discrimination_group_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
@@ -256,5 +256,5 @@ TEST(DiscriminationGroup, ChangesOverTheTrialsAreOneFamilyOfTheStudy) {
               std::min(1.0, *least * static_cast<double>(p_values.size())), 1e-12);
 }
 
-}  // namespace
+}  // namespace discrimination_group_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace discrimination_own_values_test {
 
 constexpr double kReferencePaS = 1.853;
 constexpr std::array kLevelsPaS = {1.093, 1.237, 1.646, 1.7495, 2.203, 2.553, 3.185, 3.883};
@@ -94,5 +94,5 @@ TEST_F(DiscriminationOwnValues, AreTheSameEveryTime) {
             *own(results(), "SOUND", "group_d.goodness_p").value);
 }
 
-}  // namespace
+}  // namespace discrimination_own_values_test
 }  // namespace jnd::analysis

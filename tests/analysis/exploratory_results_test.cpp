@@ -8,7 +8,7 @@
 #include "analysis/test_families.h"
 
 namespace jnd::analysis {
-namespace {
+namespace exploratory_results_test {
 
 /// As results_of makes them: with the adjustment.
 ResultsSection adjusted(const StudyData& data, const std::vector<ResultsSection>& sections) {
@@ -219,5 +219,5 @@ TEST(ExploratoryResults, AStudyWithNothingOfThisHasNone) {
   EXPECT_TRUE(section.comparisons.empty());
 }
 
-}  // namespace
+}  // namespace exploratory_results_test
 }  // namespace jnd::analysis

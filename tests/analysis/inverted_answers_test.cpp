@@ -7,7 +7,7 @@
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
-namespace {
+namespace inverted_answers_test {
 
 const ResultsSection& section(const StudyResults& results, const std::string& name) {
   return *std::ranges::find(results.sections, name, &ResultsSection::name);
@@ -240,5 +240,5 @@ TEST(InvertedAnswers, AMeanOfOwnExponentsIsNotOfWhoHasNone) {
   EXPECT_FALSE(has(of.find("estimation.individual_a_mean")->cautions, "P04"));
 }
 
-}  // namespace
+}  // namespace inverted_answers_test
 }  // namespace jnd::analysis

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace json_fields_test {
 
 using nlohmann::json;
 
@@ -31,5 +31,5 @@ TEST(JsonFields, WhatIsNoObjectIsAnEmptyOne) {
   }
 }
 
-}  // namespace
+}  // namespace json_fields_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace magnitude_reference_test {
 
 using nlohmann::json;
 
@@ -149,5 +149,5 @@ TEST(MagnitudeReference, IntervalsOverParticipantsHoldTheEstimateAndAreTheSameEv
   }
 }
 
-}  // namespace
+}  // namespace magnitude_reference_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace magnitude_results_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 100, .seed = 1};
 const BlockDesign kEstimation = {"estimation", "magnitude_estimation", "scale", 9};
@@ -404,5 +404,5 @@ TEST(MagnitudeResults, WhatIsTheSameByConstructionAndWhatAPointAtZeroAddsIsSaid)
       std::string::npos);
 }
 
-}  // namespace
+}  // namespace magnitude_results_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace matching_results_test {
 
 constexpr char kToWater[] = R"({"name": "by_hand", "stages": [{"kind": "counterbalance",
   "arms": [{"name": "one", "stages": [{"kind": "block", "name": "match",
@@ -126,5 +126,5 @@ TEST(MatchingResults, AMatchIsNoComparisonWithAReference) {
   EXPECT_EQ(data.blocks.front().protocol.standard_quantity, "scale");
 }
 
-}  // namespace
+}  // namespace matching_results_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
-namespace {
+namespace own_fractions_test {
 
 const ResultsSection& section(const StudyResults& results, const std::string& name) {
   return *std::ranges::find(results.sections, name, &ResultsSection::name);
@@ -189,5 +189,5 @@ TEST(OwnFractions, ByLeastSquaresAtTheReferenceAreThoseThatAreMadeByHand) {
   EXPECT_TRUE(fractions.people[0].is_beyond_stimuli()) << "0.62 of a largest stimulus of 0.5";
 }
 
-}  // namespace
+}  // namespace own_fractions_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace predictive_comparison_test {
 
 using Kind = PublishedStatistic::Kind;
 using Summary = PublishedStatistic::Summary;
@@ -151,5 +151,5 @@ TEST(PredictiveStudies, AGroupTooSmallForAStudyIsAnError) {
   EXPECT_THROW(PredictiveStudies(people(2, 12), 0, 10), core::Error);
 }
 
-}  // namespace
+}  // namespace predictive_comparison_test
 }  // namespace jnd::analysis

@@ -5,7 +5,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace predictive_people_test {
 
 PredictivePeople some_people() {
   PredictivePeople people{.key = {.study = "honey",
@@ -64,5 +64,5 @@ TEST(PredictivePeople, ATextThatHoldsNoneIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace predictive_people_test
 }  // namespace jnd::analysis

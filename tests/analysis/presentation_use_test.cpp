@@ -6,7 +6,7 @@
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace presentation_use_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
@@ -109,5 +109,5 @@ TEST(MovementResults, WhoHasNoWholeStrokeIsSaidToHaveNoneOfHowMany) {
   EXPECT_EQ(section.excluded[1].reason, "stroke_width_m: no presentation of a stimulus");
 }
 
-}  // namespace
+}  // namespace presentation_use_test
 }  // namespace jnd::analysis

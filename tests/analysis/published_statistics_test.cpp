@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace jnd::analysis {
-namespace {
+namespace published_statistics_test {
 
 using Kind = PublishedStatistic::Kind;
 using Summary = PublishedStatistic::Summary;
@@ -136,5 +136,5 @@ TEST_F(PublishedStatisticsTest, OnlyThoseDrawnCount) {
   EXPECT_EQ(statistics.averaged(mean, {0, 2}), (std::vector<double>{1.0, 6.0}));
 }
 
-}  // namespace
+}  // namespace published_statistics_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
-namespace {
+namespace published_test {
 
 class PublishedTest : public ::testing::Test {
  protected:
@@ -119,5 +119,5 @@ TEST_F(PublishedTest, TheShippedValuesAreThoseOfTheThesis) {
   EXPECT_NE(discrimination.citation.find("Schmidt"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace published_test
 }  // namespace jnd::analysis

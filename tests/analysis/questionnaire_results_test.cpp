@@ -9,7 +9,7 @@
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
-namespace {
+namespace questionnaire_results_test {
 
 constexpr char kProtocol[] = R"json({"name": "asked", "stages": [
   {"kind": "checklist", "name": "before", "items": [{"text": {"en": "Ready?"}}]},
@@ -275,5 +275,5 @@ TEST(QuestionnaireResults, AStudyWithoutQuestionsHasNoSuchSection) {
   EXPECT_EQ(std::ranges::count(results.sections, "questionnaires", &ResultsSection::name), 0);
 }
 
-}  // namespace
+}  // namespace questionnaire_results_test
 }  // namespace jnd::analysis

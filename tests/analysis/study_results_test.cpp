@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace study_results_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
 
@@ -583,5 +583,5 @@ TEST(StudyResults, TheSameSeedGivesTheSameIntervals) {
   EXPECT_TRUE(interval().low);
 }
 
-}  // namespace
+}  // namespace study_results_test
 }  // namespace jnd::analysis

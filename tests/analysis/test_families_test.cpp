@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace test_families_test {
 
 NamedComparison test_of(const std::string& family, std::optional<double> p_value) {
   NamedComparison named{.name = "a test", .family = family};
@@ -23,5 +23,5 @@ TEST(TestFamilies, EachFamilyIsAdjustedOverAllSections) {
   EXPECT_FALSE(sections[1].comparisons[1].p_value_holm) << "no test, no chance";
 }
 
-}  // namespace
+}  // namespace test_families_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace threshold_results_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
 
@@ -312,5 +312,5 @@ TEST(IntervalResults, AnOrderEffectMovesThePseAndNotTheSlope) {
       << "half of all answers, at levels that differ";
 }
 
-}  // namespace
+}  // namespace threshold_results_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
-namespace {
+namespace trial_losses_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 50};
 
@@ -188,5 +188,5 @@ TEST(TrialLosses, WhatARuleMadeOfThemHasNothingToSayWithoutThem) {
   EXPECT_NE(found->reason.find("its rule saw these trials"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace trial_losses_test
 }  // namespace jnd::analysis

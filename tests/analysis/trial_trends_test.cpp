@@ -12,7 +12,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace trial_trends_test {
 
 using nlohmann::json;
 
@@ -141,5 +141,5 @@ TEST(TrialTrends, WhereAnswersLeadToTheLevelsThereAreNoTestsAndWhyIsSaid) {
   }
 }
 
-}  // namespace
+}  // namespace trial_trends_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
-namespace {
+namespace adaptive_runs_test {
 
 using analysis::AdaptiveRun;
 using experiments::Block;
@@ -169,5 +169,5 @@ TEST(AdaptiveRuns, AnswersThatDoNotFollowTheRuleAreAProblemNamed) {
   EXPECT_EQ(run_of(staircase_block(), {}).problem, "no answers");
 }
 
-}  // namespace
+}  // namespace adaptive_runs_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace answer_simulator_physics_test {
 
 using namespace experiments;
 
@@ -152,5 +152,5 @@ TEST(AnswerSimulatorPhysics, TheSamePersonsEstimateAndProduceAlikeWithAndWithout
   }
 }
 
-}  // namespace
+}  // namespace answer_simulator_physics_test
 }  // namespace jnd::app

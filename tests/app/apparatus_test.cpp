@@ -15,7 +15,7 @@
 #include "support/places.h"
 
 namespace jnd::app {
-namespace {
+namespace apparatus_test {
 
 experiments::Laboratory thesis_laboratory() {
   return experiments::read_laboratory(test_support::source_folder() / "data" / "laboratories" /
@@ -267,5 +267,5 @@ TEST_F(ApparatusTest, WatchingSimulatedStrokesChangesNone) {
   EXPECT_EQ(run(false), run(true));
 }
 
-}  // namespace
+}  // namespace apparatus_test
 }  // namespace jnd::app

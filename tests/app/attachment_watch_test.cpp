@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::app {
-namespace {
+namespace attachment_watch_test {
 
 core::Telemetry holding(std::uint8_t attached_bits) {
   core::Telemetry now;
@@ -68,5 +68,5 @@ TEST(AttachmentWatch, SaysInWordsWhichPointsItMeans) {
   EXPECT_EQ(came_off_reason(0b10001), "came off: palm_inner, middle");
 }
 
-}  // namespace
+}  // namespace attachment_watch_test
 }  // namespace jnd::app

@@ -6,7 +6,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
-namespace {
+namespace block_words_test {
 
 experiments::Study study_with(const std::string& keys) {
   return experiments::read_study_text(
@@ -54,5 +54,5 @@ TEST(BlockWords, WhereTheDesignDecidesTheNumberIsNoGuess) {
   EXPECT_EQ(outline_of(study).stages[0].what, "2 stimuli, 3 times: 6 trials");
 }
 
-}  // namespace
+}  // namespace block_words_test
 }  // namespace jnd::app

@@ -13,7 +13,7 @@
 #include "device/simulated_hand.h"
 
 namespace jnd::app {
-namespace {
+namespace device_run_test {
 
 using namespace std::chrono_literals;
 
@@ -127,5 +127,5 @@ TEST(DeviceRun, TheEndHaltsAndClosesOnce) {
   EXPECT_EQ(device.num_closed, 1);
 }
 
-}  // namespace
+}  // namespace device_run_test
 }  // namespace jnd::app

@@ -20,7 +20,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace laboratory_run_test {
 
 namespace fs = std::filesystem;
 
@@ -478,5 +478,5 @@ TEST_F(LaboratoryRunTest, ASessionEndsItsTrialsWhereItsExposureIsReached) {
   EXPECT_GE(store->trials(1).size(), 1u) << "what was answered is kept";
 }
 
-}  // namespace
+}  // namespace laboratory_run_test
 }  // namespace jnd::app

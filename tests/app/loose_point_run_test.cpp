@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace loose_point_run_test {
 
 /// Simulated participants whose index finger comes off.
 class LoosePointRunTest : public ::testing::Test {
@@ -83,5 +83,5 @@ TEST_F(LoosePointRunTest, AFingerThatDoesNotHoldAgainEndsTheRunAndLeavesTheSessi
   EXPECT_EQ(store_.events(1).back().kind, "paused");
 }
 
-}  // namespace
+}  // namespace loose_point_run_test
 }  // namespace jnd::app

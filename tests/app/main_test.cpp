@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace main_test {
 
 using test_support::ProgramOutcome;
 using test_support::run_program;
@@ -128,5 +128,5 @@ TEST_F(MainTest, ALocaleWithDecimalCommasChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace main_test
 }  // namespace jnd::app

@@ -12,7 +12,7 @@
 #include "support/places.h"
 
 namespace jnd::app {
-namespace {
+namespace matching_run_test {
 
 using namespace experiments;
 
@@ -141,5 +141,5 @@ TEST_F(MatchingAtTheWindow, NothingMatchesWhileTheStandardIsFelt) {
   EXPECT_TRUE(store_->trials(session_number_).empty());
 }
 
-}  // namespace
+}  // namespace matching_run_test
 }  // namespace jnd::app

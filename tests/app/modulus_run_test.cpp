@@ -8,7 +8,7 @@
 #include "support/places.h"
 
 namespace jnd::app {
-namespace {
+namespace modulus_run_test {
 
 using namespace experiments;
 
@@ -114,5 +114,5 @@ TEST_F(ModulusAtTheWindow, ResumedItGoesOnWithTheSameStandards) {
   EXPECT_EQ(view().step, Step::kPaused);
 }
 
-}  // namespace
+}  // namespace modulus_run_test
 }  // namespace jnd::app

@@ -5,7 +5,7 @@
 #include "app/command.h"
 
 namespace jnd::app {
-namespace {
+namespace participant_list_test {
 
 TEST(ParticipantList, ReadsNumbersRangesAndSteps) {
   using Sizes = std::vector<int>;
@@ -34,5 +34,5 @@ TEST(ParticipantList, RefusesWhatIsNoneInOneSentence) {
   }
 }
 
-}  // namespace
+}  // namespace participant_list_test
 }  // namespace jnd::app

@@ -9,7 +9,7 @@
 #include "device/exoskeleton/kinematics.h"
 
 namespace jnd::app {
-namespace {
+namespace person_bench_test {
 
 using device::FingerPose;
 
@@ -99,5 +99,5 @@ TEST_F(PersonBenchTest, ADeviceThatSaysNothingIsAnError) {
   EXPECT_THROW((void)person.torques_under(FingerPose::k0, 1.0), core::Error);
 }
 
-}  // namespace
+}  // namespace person_bench_test
 }  // namespace jnd::app

@@ -9,7 +9,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app {
-namespace {
+namespace plan_statistics_test {
 
 using experiments::Study;
 
@@ -110,5 +110,5 @@ TEST(PlanStatistics, ABlockTakesNoLessThanItsStimuliAreFelt) {
               spread_of(patient.durations_s).mean - 4.0 * (30.0 - length.felt_s.mean), 1e-9);
 }
 
-}  // namespace
+}  // namespace plan_statistics_test
 }  // namespace jnd::app

@@ -11,7 +11,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::app {
-namespace {
+namespace predictive_studies_test {
 
 namespace fs = std::filesystem;
 
@@ -69,5 +69,5 @@ TEST(PredictiveStudies, ShippedPeopleAreWhoThisProgramSimulates) {
   }
 }
 
-}  // namespace
+}  // namespace predictive_studies_test
 }  // namespace jnd::app

@@ -18,7 +18,7 @@
 #include "support/places.h"
 
 namespace jnd::app {
-namespace {
+namespace presenter_test {
 
 /// Keeps nothing, and takes its time over the beginning of a presentation.
 class SlowLog final : public experiments::EventLog {
@@ -101,5 +101,5 @@ TEST_F(PresenterTest, APresentationThatEndsInFreeSpaceCountsToTheTickBefore) {
   EXPECT_FALSE(presenter_->under_way());
 }
 
-}  // namespace
+}  // namespace presenter_test
 }  // namespace jnd::app

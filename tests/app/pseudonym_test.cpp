@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::app {
-namespace {
+namespace pseudonym_test {
 
 TEST(Pseudonym, IsLettersDigitsAndThreeSigns) {
   EXPECT_TRUE(is_pseudonym("P01"));
@@ -29,5 +29,5 @@ TEST(Pseudonym, LookalikesDifferInCaseSignsOrZerosAlone) {
   EXPECT_EQ(lookalike("P0", {"P"}), "");
 }
 
-}  // namespace
+}  // namespace pseudonym_test
 }  // namespace jnd::app

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 namespace jnd::app {
-namespace {
+namespace results_output_test {
 
 analysis::StudyResults some_results() {
   analysis::StudyResults results{
@@ -287,5 +287,5 @@ TEST(ResultsOutput, AnEndThatIsNoStatementIsPrintedAsOpenAndKeptInJson) {
   EXPECT_EQ(results_json(results)["sections"][0]["participants"][0]["ci95"][1], 402367.0);
 }
 
-}  // namespace
+}  // namespace results_output_test
 }  // namespace jnd::app

@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace session_setup_test {
 
 namespace fs = std::filesystem;
 
@@ -114,5 +114,5 @@ TEST(RequireDevice, IsWrongUsageForAnUnknownOne) {
   EXPECT_THROW(require_device("unobtainable"), UsageError);
 }
 
-}  // namespace
+}  // namespace session_setup_test
 }  // namespace jnd::app

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace share_test {
 
 namespace fs = std::filesystem;
 
@@ -45,5 +45,5 @@ TEST(Share, AFolderInTheEnvironmentComesBeforeTheRest) {
   EXPECT_NE(share_folder(), temporary.path());
 }
 
-}  // namespace
+}  // namespace share_test
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace sleep_inhibitor_test {
 
 namespace fs = std::filesystem;
 
@@ -55,5 +55,5 @@ TEST_F(SleepInhibitorTest, WhereThereIsNoneNothingIsHeld) {
   EXPECT_FALSE(inhibitor.is_held());
 }
 
-}  // namespace
+}  // namespace sleep_inhibitor_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::app {
-namespace {
+namespace solid_run_test {
 
 using namespace experiments;
 
@@ -143,5 +143,5 @@ TEST_F(SolidAtTheWindow, ASurfaceIsPresentedNotAFluid) {
   EXPECT_EQ(store_->trials(session_number_).front().attempt, 2);
 }
 
-}  // namespace
+}  // namespace solid_run_test
 }  // namespace jnd::app

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace stability_limits_test {
 
 using device::Contact;
 using device::StabilityLimit;
@@ -211,5 +211,5 @@ TEST(StabilityLimits, ThePreflightFailsForAnUnstableStimulusAndRemarksOnALooseFi
   EXPECT_EQ(remark.found, "1 of 1 within limits, 1 stable on the hand alone");
 }
 
-}  // namespace
+}  // namespace stability_limits_test
 }  // namespace jnd::app

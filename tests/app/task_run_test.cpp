@@ -19,7 +19,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace task_run_test {
 
 /// A simulated session of every task, with the device in the loop.
 class TaskRunTest : public ::testing::Test {
@@ -214,5 +214,5 @@ TEST_F(TaskRunTest, PracticeOfEverySessionIsKeptAlsoWhereItWasBrokenOff) {
   EXPECT_FALSE(data.practice[1].criterion_met);
 }
 
-}  // namespace
+}  // namespace task_run_test
 }  // namespace jnd::app

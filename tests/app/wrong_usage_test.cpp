@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace wrong_usage_test {
 
 using test_support::ProgramOutcome;
 
@@ -194,5 +194,5 @@ TEST_F(WrongUsageTest, ParticipantsAreNoPaths) {
   }
 }
 
-}  // namespace
+}  // namespace wrong_usage_test
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 
 #include "support/places.h"
 
-namespace {
+namespace include_rules_test {
 
 namespace fs = std::filesystem;
 
@@ -125,4 +125,4 @@ TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   EXPECT_EQ(found, allowed);
 }
 
-}  // namespace
+}  // namespace include_rules_test

@@ -11,7 +11,7 @@
 #include "core/safety/fault.h"
 #include "support/places.h"
 
-namespace {
+namespace safety_case_test {
 
 namespace fs = std::filesystem;
 
@@ -79,4 +79,4 @@ TEST(SafetyCase, EveryFaultIsAHazard) {
   }
 }
 
-}  // namespace
+}  // namespace safety_case_test

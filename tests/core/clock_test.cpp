@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::core {
-namespace {
+namespace clock_test {
 
 TEST(SimulatedClock, StandsStillUntilItIsMoved) {
   SimulatedClock clock;
@@ -19,5 +19,5 @@ TEST(SystemClock, CountsNanosecondsSince1970) {
   EXPECT_LT(SystemClock().now_ns(), 4'100'000'000'000'000'000LL);
 }
 
-}  // namespace
+}  // namespace clock_test
 }  // namespace jnd::core

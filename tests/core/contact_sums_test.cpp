@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::core {
-namespace {
+namespace contact_sums_test {
 
 TEST(ContactSums, TheirDifferenceIsWhatHappenedInBetween) {
   const ContactSums from{
@@ -21,5 +21,5 @@ TEST(ContactSums, AHandThatNeverMovedWasGivenNoDamping) {
   EXPECT_EQ(ContactSums{}.delivered_damping_n_s_per_m(), 0.0);
 }
 
-}  // namespace
+}  // namespace contact_sums_test
 }  // namespace jnd::core

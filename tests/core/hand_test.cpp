@@ -11,7 +11,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace hand_test {
 
 PointVectors five_of(const Eigen::Vector3d& vector) {
   return {vector, vector, vector, vector, vector};
@@ -103,5 +103,5 @@ TEST(HandMotion, IsSafeToCallOnTheHapticThread) {
   EXPECT_GT(motion.speed_m_per_s, 0.0);
 }
 
-}  // namespace
+}  // namespace hand_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace jnd::core {
-namespace {
+namespace parallel_test {
 
 TEST(Parallel, DoesEachOnceForAnyNumberOfJobs) {
   for (const int jobs : {1, 2, 7, 100}) {
@@ -56,5 +56,5 @@ TEST(Parallel, OfTwoThatFailTheLowerIsTold) {
   }
 }
 
-}  // namespace
+}  // namespace parallel_test
 }  // namespace jnd::core

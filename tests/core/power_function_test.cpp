@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace jnd::core {
-namespace {
+namespace power_function_test {
 
 TEST(PowerFunction, GivesThePublishedMagnitudeOfWater) {
   // Thesis, fig. 8: S = 0.6663 I^0.6386; worked by hand at I = 4.
@@ -27,5 +27,5 @@ TEST(PowerFunction, ItsInverseLeadsBack) {
   }
 }
 
-}  // namespace
+}  // namespace power_function_test
 }  // namespace jnd::core

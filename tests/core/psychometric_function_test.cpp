@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace jnd::core {
-namespace {
+namespace psychometric_function_test {
 
 TEST(PsychometricFunction, IsAt84Point13PercentOneWeberFractionAboveItsCentre) {
   // Bergmann Tiest et al. (2013): f(p (1 + w)) = Phi(1).
@@ -66,5 +66,5 @@ TEST(StandardNormal, TheQuantileInvertsTheDistributionInBothTails) {
   EXPECT_TRUE(std::isnan(standard_normal_quantile(1.1)));
 }
 
-}  // namespace
+}  // namespace psychometric_function_test
 }  // namespace jnd::core

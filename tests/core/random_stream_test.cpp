@@ -10,7 +10,7 @@
 #include <set>
 
 namespace jnd::core {
-namespace {
+namespace random_stream_test {
 
 /// SplitMix64 as published by Vigna.
 struct SplitMix64 {
@@ -132,5 +132,5 @@ TEST(RandomStream, AProbabilityOfZeroOrOneIsCertain) {
   EXPECT_NEAR(hits, 3000, 200);
 }
 
-}  // namespace
+}  // namespace random_stream_test
 }  // namespace jnd::core

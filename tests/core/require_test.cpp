@@ -6,7 +6,7 @@
 #include <string>
 
 namespace jnd::core {
-namespace {
+namespace require_test {
 
 std::string message_for(double value) {
   try {
@@ -36,5 +36,5 @@ TEST(Require, NumbersThatAreNotFiniteAreNeitherPositiveNorNotNegative) {
   EXPECT_NO_THROW(require_positive(1e-300, "rate_hz"));
 }
 
-}  // namespace
+}  // namespace require_test
 }  // namespace jnd::core

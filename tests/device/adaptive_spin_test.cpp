@@ -7,7 +7,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::device {
-namespace {
+namespace adaptive_spin_test {
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
 
@@ -62,5 +62,5 @@ TEST(AdaptiveSpin, NeverTakesMoreThanItsMostNorThanHalfOfThePeriod) {
   EXPECT_EQ(none.length_ns(), 0);
 }
 
-}  // namespace
+}  // namespace adaptive_spin_test
 }  // namespace jnd::device

@@ -8,7 +8,7 @@
 #include "device/exoskeleton/kinematics.h"
 
 namespace jnd::device {
-namespace {
+namespace characterization_test {
 
 /// A finger that answers as it is told.
 class ToldBench final : public FingerBench {
@@ -150,5 +150,5 @@ TEST(FreeSpaceRegression, AHandThatHardlyMovesSaysNothing) {
   EXPECT_EQ(regression.num_samples(), 0);
 }
 
-}  // namespace
+}  // namespace characterization_test
 }  // namespace jnd::device

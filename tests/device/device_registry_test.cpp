@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::device {
-namespace {
+namespace device_registry_test {
 
 TEST(DeviceRegistry, EveryDeviceIsMadeUnderItsOwnName) {
   std::set<std::string> names;
@@ -66,5 +66,5 @@ TEST(DeviceRegistry, AnArgumentThatIsMissingOrTooMuchIsNamed) {
   EXPECT_THROW(static_cast<void>(make_device("network:nowhere", 1000.0)), core::Error);
 }
 
-}  // namespace
+}  // namespace device_registry_test
 }  // namespace jnd::device

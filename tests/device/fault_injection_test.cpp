@@ -8,7 +8,7 @@
 #include "scripted_device.h"
 
 namespace jnd::device {
-namespace {
+namespace fault_injection_test {
 
 core::HapticState read_from(FaultInjectingDevice& device) {
   core::HapticState state;
@@ -87,5 +87,5 @@ TEST(FaultInjection, AnOpeningFailsAsOftenAsItWasTold) {
   EXPECT_EQ(read_from(device).tip_position_m[0], inner.state.tip_position_m[0]);
 }
 
-}  // namespace
+}  // namespace fault_injection_test
 }  // namespace jnd::device

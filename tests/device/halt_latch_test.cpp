@@ -8,7 +8,7 @@
 #include "device/device_registry.h"
 
 namespace jnd::device {
-namespace {
+namespace halt_latch_test {
 
 core::PointVectors pushed(double force_n) {
   core::PointVectors all = core::zero_vectors();
@@ -53,5 +53,5 @@ TEST_P(HaltedDevice, FeelsNothingUntilZerosAreWritten) {
 INSTANTIATE_TEST_SUITE_P(Simulated, HaltedDevice,
                          ::testing::Values("lumped", "mouse", "exoskeleton"));
 
-}  // namespace
+}  // namespace halt_latch_test
 }  // namespace jnd::device

@@ -6,7 +6,7 @@
 #include "haptic_loop_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_arming_test {
 
 using core::Arming;
 using core::Fault;
@@ -196,5 +196,5 @@ TEST_F(LoopArmingTest, AnOldMeasurementIsTheMachinesFaultWhereTicksWereMissed) {
   }
 }
 
-}  // namespace
+}  // namespace haptic_loop_arming_test
 }  // namespace jnd::device

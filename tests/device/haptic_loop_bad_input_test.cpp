@@ -11,7 +11,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_bad_input_test {
 
 using core::Fault;
 
@@ -281,5 +281,5 @@ TEST(HapticLoopBadInput, AMagnetThatChattersDoesNotKnock) {
   EXPECT_EQ(scene.telemetry_door.value().num_detachments[1], 0U);
 }
 
-}  // namespace
+}  // namespace haptic_loop_bad_input_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "haptic_loop_scene.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_contact_test {
 
 using core::Fault;
 
@@ -197,5 +197,5 @@ INSTANTIATE_TEST_SUITE_P(
         Absence{"TimeStandsStill", Injection::kStaleTime, Fault::kStaleSample, 5}),
     [](const auto& info_of_it) { return std::string(info_of_it.param.name); });
 
-}  // namespace
+}  // namespace haptic_loop_contact_test
 }  // namespace jnd::device

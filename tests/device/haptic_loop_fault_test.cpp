@@ -9,7 +9,7 @@
 #include "haptic_loop_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_fault_test {
 
 using core::Fault;
 
@@ -400,5 +400,5 @@ INSTANTIATE_TEST_SUITE_P(
                   0}),
     [](const auto& fault_case) { return std::string(fault_case.param.name); });
 
-}  // namespace
+}  // namespace haptic_loop_fault_test
 }  // namespace jnd::device

@@ -4,7 +4,7 @@
 #include "haptic_loop_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_guards_test {
 
 using core::Fault;
 
@@ -120,5 +120,5 @@ TEST_F(HapticLoopGuards, InShadowTheyCountNothingBeforeThereMayBeForce) {
   EXPECT_EQ(warnings(Fault::kOutsideWorkspace), 0U);
 }
 
-}  // namespace
+}  // namespace haptic_loop_guards_test
 }  // namespace jnd::device

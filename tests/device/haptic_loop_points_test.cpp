@@ -5,7 +5,7 @@
 #include "device/scripted_device.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_points_test {
 
 /// The whole force that a device with so many points is sent, of which so many hold the hand,
 /// in a movement of 0.1 m/s.
@@ -69,5 +69,5 @@ TEST(HapticLoopPoints, WhatADeviceSaysOfPointsThatItDoesNotHaveIsNothing) {
   EXPECT_NEAR((total_n(thick, 2, 5) - total_n(thick, 2, 2)).norm(), 0.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace haptic_loop_points_test
 }  // namespace jnd::device

@@ -11,7 +11,7 @@
 #include "device/scripted_device.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_port_test {
 
 using core::Fault;
 
@@ -278,5 +278,5 @@ TEST(HapticLoopPort, AForceThatIsNoNumberBlindsNobody) {
   EXPECT_EQ(after_arming(device), Fault::kNonFiniteState);
 }
 
-}  // namespace
+}  // namespace haptic_loop_port_test
 }  // namespace jnd::device

@@ -10,7 +10,7 @@
 #include "haptic_loop_scene.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_property_test {
 
 using core::Fault;
 using core::RandomStream;
@@ -224,5 +224,5 @@ TEST(HapticLoopProperty, WithoutThePassivityControllerTheSameSurfaceGivesOutMore
   EXPECT_GT(device.top_received_j, 2.0 * at_first_j) << "or the test above proves nothing";
 }
 
-}  // namespace
+}  // namespace haptic_loop_property_test
 }  // namespace jnd::device

@@ -11,7 +11,7 @@
 #include "scripted_device.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_stall_test {
 
 class LoopThatLostTime : public ::testing::Test {
  protected:
@@ -93,5 +93,5 @@ TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatBeganTooLate) {
   EXPECT_EQ(last_force_n(), 0.0);
 }
 
-}  // namespace
+}  // namespace haptic_loop_stall_test
 }  // namespace jnd::device

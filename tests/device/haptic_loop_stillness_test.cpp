@@ -4,7 +4,7 @@
 #include "haptic_loop_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_stillness_test {
 
 using core::Fault;
 
@@ -111,5 +111,5 @@ TEST_F(HapticLoopStillness, AnOpenSwitchIsNoFaultBeforeSomebodyAsksForForce) {
   EXPECT_EQ(telemetry().num_faults, 0u);
 }
 
-}  // namespace
+}  // namespace haptic_loop_stillness_test
 }  // namespace jnd::device

@@ -11,7 +11,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_test {
 
 using core::Fault;
 
@@ -232,5 +232,5 @@ TEST_F(HapticLoopTest, AddsUpWhatAHandIsExposedTo) {
   EXPECT_NEAR(telemetry().exposure.under_force_s, 0.001 * num_felt, 1e-9);
 }
 
-}  // namespace
+}  // namespace haptic_loop_test
 }  // namespace jnd::device

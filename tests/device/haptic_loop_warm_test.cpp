@@ -5,7 +5,7 @@
 #include "scripted_device.h"
 
 namespace jnd::device {
-namespace {
+namespace haptic_loop_warm_test {
 
 /// A hundred ticks of a moving hand in a viscous fluid; what the device received.
 std::vector<core::PointVectors> forces(bool warmed) {
@@ -29,5 +29,5 @@ TEST(HapticLoop, WarmingTheCacheChangesNothing) {
   EXPECT_EQ(forces(true), plain);
 }
 
-}  // namespace
+}  // namespace haptic_loop_warm_test
 }  // namespace jnd::device

@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace loop_timing_test {
 
 TEST(DurationHistogram, HasNothingToSayBeforeTheFirstDuration) {
   const DurationHistogram histogram;
@@ -125,5 +125,5 @@ TEST(LoopTiming, IsSafeToUseOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace loop_timing_test
 }  // namespace jnd::device

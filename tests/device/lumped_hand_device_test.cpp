@@ -12,7 +12,7 @@
 #include "device/haptic_loop.h"
 
 namespace jnd::device {
-namespace {
+namespace lumped_hand_device_test {
 
 core::PointVectors no_force() { return core::zero_vectors(); }
 
@@ -250,5 +250,5 @@ TEST(LumpedHandDevice, NamesTheParameterItRejects) {
                core::Error);
 }
 
-}  // namespace
+}  // namespace lumped_hand_device_test
 }  // namespace jnd::device

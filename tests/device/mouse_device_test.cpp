@@ -17,7 +17,7 @@
 #include "device/realtime_thread.h"
 
 namespace jnd::device {
-namespace {
+namespace mouse_device_test {
 
 /// Where the person's mouse is at each time.
 using Way = std::function<double(double time_s)>;
@@ -323,5 +323,5 @@ TEST(MouseDevice, NamesTheParameterItRejects) {
   EXPECT_THROW(MouseDevice(Parameters{.mass_kg = 1e-5}), core::Error);
 }
 
-}  // namespace
+}  // namespace mouse_device_test
 }  // namespace jnd::device

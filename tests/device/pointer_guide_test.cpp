@@ -10,7 +10,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::device {
-namespace {
+namespace pointer_guide_test {
 
 constexpr double kPeriodS = 0.001;
 
@@ -144,5 +144,5 @@ TEST(PointerGuide, NamesTheParameterItRejects) {
   EXPECT_THROW(PointerGuide({}, 0.0), core::Error);
 }
 
-}  // namespace
+}  // namespace pointer_guide_test
 }  // namespace jnd::device

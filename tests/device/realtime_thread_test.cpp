@@ -21,7 +21,7 @@
 #include "scripted_device.h"
 
 namespace jnd::device {
-namespace {
+namespace realtime_thread_test {
 
 /// Ticks at whatever the machine gives, which a test must not depend on.
 constexpr RealtimeThread::Parameters kModest = {
@@ -326,5 +326,5 @@ TEST(StartHaptics, WithoutRealTimeTheMotorsOfARealDeviceStayOff) {
   EXPECT_EQ(thread.timing().num_ticks(), 0);
 }
 
-}  // namespace
+}  // namespace realtime_thread_test
 }  // namespace jnd::device

@@ -17,7 +17,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace realtime_tick_test {
 
 using test_support::AllocationCounter;
 using test_support::LockCounter;
@@ -340,5 +340,5 @@ TEST(RealtimeThread, BetweenTicksItNeitherAllocatesNorLocksNorMissesAPage) {
   EXPECT_EQ(device.num_page_faults, 0);
 }
 
-}  // namespace
+}  // namespace realtime_tick_test
 }  // namespace jnd::device

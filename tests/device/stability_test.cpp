@@ -11,7 +11,7 @@
 #include "device/drawn_mass.h"
 
 namespace jnd::device {
-namespace {
+namespace stability_test {
 
 constexpr double kRate_hz = 1000.0;
 constexpr double kPeriod_s = 1.0 / kRate_hz;
@@ -207,5 +207,5 @@ TEST(StabilityLadder, OneThatLeadsNowhereIsRefused) {
                core::Error);
 }
 
-}  // namespace
+}  // namespace stability_test
 }  // namespace jnd::device

@@ -11,7 +11,7 @@
 #include "core/error.h"
 
 namespace jnd::device {
-namespace {
+namespace stroking_arm_test {
 
 constexpr double kPeriodS = 0.001;
 
@@ -205,5 +205,5 @@ TEST(StrokingArm, NamesTheFieldOfAPlanItRejects) {
   EXPECT_THROW(StrokingArm({.home_s = 0.0}, kPeriodS), core::Error);
 }
 
-}  // namespace
+}  // namespace stroking_arm_test
 }  // namespace jnd::device

@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::device {
-namespace {
+namespace watchdog_test {
 
 constexpr std::int64_t kMs = 1'000'000;
 
@@ -118,5 +118,5 @@ TEST(WatchdogThread, HaltsTheDeviceOfALoopThatIsGone) {
   EXPECT_GE(state.num_bites(), 2u);
 }
 
-}  // namespace
+}  // namespace watchdog_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "device/watchdog.h"
 
 namespace jnd::device {
-namespace {
+namespace watched_loop_test {
 
 /// A loop that a watchdog of simulated time looks after; the device records what it got.
 class WatchedLoopTest : public ::testing::TestWithParam<int> {
@@ -108,5 +108,5 @@ TEST_P(WatchedLoopTest, ALoopThatDiesLeavesNoForce) {
 
 INSTANTIATE_TEST_SUITE_P(Points, WatchedLoopTest, ::testing::Values(1, 3, 5));
 
-}  // namespace
+}  // namespace watched_loop_test
 }  // namespace jnd::device

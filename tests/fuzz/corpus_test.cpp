@@ -21,7 +21,7 @@ int datagram_fuzz_input(const std::uint8_t* data, std::size_t size);
 int force_map_fuzz_input(const std::uint8_t* data, std::size_t size);
 }
 
-namespace {
+namespace corpus_test {
 
 namespace fs = std::filesystem;
 using Input = int (*)(const std::uint8_t*, std::size_t);
@@ -74,4 +74,4 @@ TEST(FuzzCorpus, LaboratoriesAreReadOrRefusedWithASentence) {
   expect_sound(laboratory_fuzz_input, "data/laboratories");
 }
 
-}  // namespace
+}  // namespace corpus_test

@@ -14,7 +14,7 @@
 #include "core/storage/recording.h"
 
 namespace jnd::analysis {
-namespace {
+namespace bids_export_test {
 
 namespace fs = std::filesystem;
 
@@ -407,5 +407,5 @@ TEST_F(BidsExportTest, RefusesAStudyOfPilotsAloneAndLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(temporary_.path()));
 }
 
-}  // namespace
+}  // namespace bids_export_test
 }  // namespace jnd::analysis

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace bids_text_test {
 
 using Labels = std::map<std::string, std::string>;
 
@@ -25,5 +25,5 @@ TEST(BidsText, TimesAreUtcWithMicroseconds) {
   EXPECT_EQ(iso_date(1'709'210'096'123'456'789), "2024-02-29");
 }
 
-}  // namespace
+}  // namespace bids_text_test
 }  // namespace jnd::analysis

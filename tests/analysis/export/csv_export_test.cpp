@@ -17,7 +17,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace csv_export_test {
 
 namespace fs = std::filesystem;
 
@@ -409,5 +409,5 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   EXPECT_EQ(told, std::set<std::string>(samples.columns().begin(), samples.columns().end()));
 }
 
-}  // namespace
+}  // namespace csv_export_test
 }  // namespace jnd::analysis

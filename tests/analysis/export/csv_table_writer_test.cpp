@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
-namespace {
+namespace csv_table_writer_test {
 
 class CsvTableWriterTest : public ::testing::Test {
  protected:
@@ -124,5 +124,5 @@ TEST_F(CsvTableWriterTest, NoTextOfABidsTableIsAFormulaEither) {
   EXPECT_EQ(written(), "text\n'=1+1\n' =1+1\n' =1\n-3.2\n'-x\nn/a\n");
 }
 
-}  // namespace
+}  // namespace csv_table_writer_test
 }  // namespace jnd::analysis

@@ -14,7 +14,7 @@
 #include "core/storage/recording.h"
 
 namespace jnd::analysis {
-namespace {
+namespace hdf5_export_test {
 
 namespace fs = std::filesystem;
 
@@ -242,5 +242,5 @@ TEST_F(Hdf5ExportTest, WhatFailsHalfWayLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(temporary_.path()));
 }
 
-}  // namespace
+}  // namespace hdf5_export_test
 }  // namespace jnd::analysis

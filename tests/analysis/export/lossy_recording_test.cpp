@@ -14,7 +14,7 @@
 #include "core/storage/recording.h"
 
 namespace jnd::analysis {
-namespace {
+namespace lossy_recording_test {
 
 namespace fs = std::filesystem;
 
@@ -147,5 +147,5 @@ TEST_P(LossyRecordingTest, WhoeverStopsItLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(temporary_.path()));
 }
 
-}  // namespace
+}  // namespace lossy_recording_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
-namespace {
+namespace unfinished_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -125,5 +125,5 @@ TEST_F(UnfinishedFolderTest, OverwritesNothingAlsoIfItCameMeanwhile) {
   EXPECT_TRUE(fs::exists(out_ / "precious"));
 }
 
-}  // namespace
+}  // namespace unfinished_folder_test
 }  // namespace jnd::analysis

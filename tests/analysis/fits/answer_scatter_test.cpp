@@ -6,7 +6,7 @@
 #include <random>
 
 namespace jnd::analysis {
-namespace {
+namespace answer_scatter_test {
 
 /// 8 of 10 and 2 of 10 at one level: chi-squared of the two by two table, 7.2.
 TEST(RowScatter, IsPearsonsChiSquaredOfRowsThatAskTheSame) {
@@ -109,5 +109,5 @@ TEST(MisfitPValue, FindsLittleInTrueAnswers) {
   EXPECT_LT(found, kSets * 30 / 1000);
 }
 
-}  // namespace
+}  // namespace answer_scatter_test
 }  // namespace jnd::analysis

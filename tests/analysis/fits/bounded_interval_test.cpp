@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace bounded_interval_test {
 
 void expect_ends(const Interval& shown, std::optional<double> low, std::optional<double> high) {
   EXPECT_EQ(shown.low, low);
@@ -30,5 +30,5 @@ TEST(BoundedInterval, AFactorHasItsUnitAndEveryEndIsTold) {
               std::nullopt);
 }
 
-}  // namespace
+}  // namespace bounded_interval_test
 }  // namespace jnd::analysis

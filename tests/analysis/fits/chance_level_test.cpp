@@ -8,7 +8,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace chance_level_test {
 
 /// Answers to the levels, each with the probability of the curve.
 template <typename Curve>
@@ -125,5 +125,5 @@ TEST(ChanceLevel, TheWarningNamesTheOption) {
   EXPECT_NE(chance_warning(0.5).find("--guess"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace chance_level_test
 }  // namespace jnd::analysis

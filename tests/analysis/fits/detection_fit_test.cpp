@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace detection_fit_test {
 
 std::vector<AnswerCount> without_catch() {
   return {{0.1, 1, 20}, {0.2, 6, 20}, {0.4, 13, 20}, {0.8, 19, 20}};
@@ -77,5 +77,5 @@ TEST(SignalDetection, RatesOfZeroAndOneHaveASensitivity) {
   EXPECT_THROW((void)signal_detection({11, 10, 0, 5}), core::Error);
 }
 
-}  // namespace
+}  // namespace detection_fit_test
 }  // namespace jnd::analysis

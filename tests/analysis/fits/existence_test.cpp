@@ -14,7 +14,7 @@
 // not their limits, not their search.
 
 namespace jnd::analysis {
-namespace {
+namespace existence_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -207,5 +207,5 @@ TEST(Existence, APowerFitIsOkJustWhereAFineScanHasAnInteriorOptimum) {
   EXPECT_GT(num_degenerate, 80);
 }
 
-}  // namespace
+}  // namespace existence_test
 }  // namespace jnd::analysis

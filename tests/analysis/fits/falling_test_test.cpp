@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace falling_test_test {
 
 using Rows = std::vector<AnswerCount>;
 
@@ -102,5 +102,5 @@ TEST(FallingTest, BeyondTwoHundredTrialsTheNormalDistributionIsClose) {
   EXPECT_TRUE(std::isfinite(p));
 }
 
-}  // namespace
+}  // namespace falling_test_test
 }  // namespace jnd::analysis

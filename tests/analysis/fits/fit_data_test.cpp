@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace fit_data_test {
 
 std::string refusal(const std::string& text) {
   try {
@@ -100,5 +100,5 @@ TEST(FitData, ATableWithoutRowsIsOneEmptyGroup) {
   EXPECT_TRUE(groups[0].rows.empty());
 }
 
-}  // namespace
+}  // namespace fit_data_test
 }  // namespace jnd::analysis

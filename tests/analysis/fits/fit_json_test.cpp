@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 namespace jnd::analysis {
-namespace {
+namespace fit_json_test {
 
 TEST(FitJson, HoldsTheKeysOfTheContractWhetherThereIsAFitOrNot) {
   for (const std::int64_t num_yes : {4, 5}) {  // 5 of 5 is separated.
@@ -59,5 +59,5 @@ TEST(FitJson, OnlyThePairedTestHasAnEffectSize) {
   }
 }
 
-}  // namespace
+}  // namespace fit_json_test
 }  // namespace jnd::analysis

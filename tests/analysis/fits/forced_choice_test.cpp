@@ -20,7 +20,7 @@
 // lapses of the upper end alone.
 
 namespace jnd::analysis {
-namespace {
+namespace forced_choice_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -365,5 +365,5 @@ TEST(ForcedChoice, TheChanceIsWarnedOfOnlyWhereTheTaskIsNotKnown) {
   EXPECT_TRUE(warnings(0.5, false).empty());
 }
 
-}  // namespace
+}  // namespace forced_choice_test
 }  // namespace jnd::analysis

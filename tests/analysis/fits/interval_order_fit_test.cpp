@@ -10,7 +10,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace interval_order_fit_test {
 
 /// Answers of somebody who favours the first interval.
 std::vector<AnswerCount> biased_answers() {
@@ -177,5 +177,5 @@ TEST(IntervalOrderFit, TakesTheWeberCurveByMaximumLikelihoodAlone) {
   EXPECT_THROW((void)fit_psychometric(biased_answers(), options), core::Error);
 }
 
-}  // namespace
+}  // namespace interval_order_fit_test
 }  // namespace jnd::analysis

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace normal_tail_test {
 
 TEST(NormalTail, AgreesWithPublishedValuesFarOutInTheTail) {
   // scipy.stats.norm.logcdf.
@@ -43,5 +43,5 @@ TEST(NormalTail, TheTailsMirrorEachOther) {
   }
 }
 
-}  // namespace
+}  // namespace normal_tail_test
 }  // namespace jnd::analysis

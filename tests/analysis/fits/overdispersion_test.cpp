@@ -13,7 +13,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace overdispersion_test {
 
 using nlohmann::json;
 using testing::Contains;
@@ -242,5 +242,5 @@ TEST(Overdispersion, EndsOfThePriorAreOpenWhereMoreThanTheTailLiesBeyond) {
   }
 }
 
-}  // namespace
+}  // namespace overdispersion_test
 }  // namespace jnd::analysis

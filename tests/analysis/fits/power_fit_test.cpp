@@ -9,7 +9,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace power_fit_test {
 
 using testing::HasSubstr;
 
@@ -233,5 +233,5 @@ TEST(PowerFit, AMagnitudeBelowZeroIsNotTakenSilently) {
   EXPECT_TRUE(fit_power({{0, 0}, {2, 2}, {4, 4}}).warnings.empty());
 }
 
-}  // namespace
+}  // namespace power_fit_test
 }  // namespace jnd::analysis

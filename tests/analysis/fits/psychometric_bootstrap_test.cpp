@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_bootstrap_test {
 
 const std::vector<AnswerCount> kData = {{0.6, 1, 12}, {0.8, 3, 12}, {0.9, 5, 12},
                                         {1.1, 8, 12}, {1.3, 9, 12}, {1.6, 12, 12}};
@@ -51,5 +51,5 @@ TEST(PsychometricBootstrap, NoneIsDrawnUnlessAsked) {
   EXPECT_EQ(fit(kData, 0, 1).bootstrap.method, "");
 }
 
-}  // namespace
+}  // namespace psychometric_bootstrap_test
 }  // namespace jnd::analysis

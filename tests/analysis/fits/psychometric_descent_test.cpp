@@ -9,7 +9,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_descent_test {
 
 constexpr auto kLikelihood = PsychometricMethod::kMaximumLikelihood;
 constexpr auto kLeastSquares = PsychometricMethod::kLeastSquares;
@@ -72,5 +72,5 @@ TEST(PsychometricDescent, BothSolversFindTheSameFitsInDataOfEveryKindAndPrintNot
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-}  // namespace
+}  // namespace psychometric_descent_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_effects_test {
 
 std::vector<PsychometricEffect> effects_of(const std::vector<OrderedAnswers>& answers,
                                            double reference) {
@@ -162,5 +162,5 @@ TEST(TrialTrend, APerfectOrSilentObserverHasNone) {
   EXPECT_FALSE(trial_trend({}, 1.0).drift);
 }
 
-}  // namespace
+}  // namespace psychometric_effects_test
 }  // namespace jnd::analysis

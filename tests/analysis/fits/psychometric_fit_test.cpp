@@ -14,7 +14,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_fit_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -412,5 +412,5 @@ TEST(PsychometricFit, WithAFixedPseTooFewLevelsAreToldOfSlopeAndLapseAlone) {
             "too few rows: slope and lapse rate cannot be told apart with so few levels");
 }
 
-}  // namespace
+}  // namespace psychometric_fit_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_goodness_test {
 
 const std::vector<AnswerCount> kGood = {{0.6, 1, 12}, {0.8, 3, 12}, {0.9, 5, 12},
                                         {1.1, 8, 12}, {1.3, 9, 12}, {1.6, 12, 12}};
@@ -89,5 +89,5 @@ TEST(PsychometricGoodness, ResidualsNameTheIntensitiesAsTheyWereGiven) {
   }
 }
 
-}  // namespace
+}  // namespace psychometric_goodness_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_interval_test {
 
 constexpr auto kLikelihood = PsychometricMethod::kMaximumLikelihood;
 constexpr auto kLeastSquares = PsychometricMethod::kLeastSquares;
@@ -192,5 +192,5 @@ TEST(PsychometricInterval, NothingIsReportedPastTheRangeOfNumbers) {
   EXPECT_GT(num_ok, 4);
 }
 
-}  // namespace
+}  // namespace psychometric_interval_test
 }  // namespace jnd::analysis

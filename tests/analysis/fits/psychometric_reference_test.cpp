@@ -11,7 +11,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_reference_test {
 
 using nlohmann::json;
 
@@ -175,5 +175,5 @@ TEST(PsychometricReference, TheGaussianPosteriorOfTheWeberFractionIsThatOfSpread
   EXPECT_NEAR(*found.weber_fraction_ci95.high, quantile(0.975), 2e-3 * quantile(0.975));
 }
 
-}  // namespace
+}  // namespace psychometric_reference_test
 }  // namespace jnd::analysis

@@ -12,7 +12,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::analysis {
-namespace {
+namespace psychometric_search_test {
 
 constexpr auto kLikelihood = PsychometricMethod::kMaximumLikelihood;
 constexpr auto kLeastSquares = PsychometricMethod::kLeastSquares;
@@ -101,5 +101,5 @@ TEST(PsychometricSearch, NoCurveOfADenseGridIsBetterThanTheOptimumOrTheLimit) {
   EXPECT_GT(num_limits, 100);
 }
 
-}  // namespace
+}  // namespace psychometric_search_test
 }  // namespace jnd::analysis

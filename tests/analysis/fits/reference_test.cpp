@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace reference_test {
 
 using nlohmann::json;
 
@@ -96,5 +96,5 @@ TEST(Reference, HoldsSixtyDataSetsAndMoreAndNamesWhatComputedThem) {
   EXPECT_TRUE(document.at("versions").contains("scipy"));
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace same_different_fit_test {
 
 /// Ten thousand answers at each quotient, as often "different" as the model has it.
 std::vector<AnswerCount> exact_answers(double criterion_ln, double spread_ln) {
@@ -59,5 +59,5 @@ TEST(SameDifferentFit, DegenerateAnswersSayWhy) {
   EXPECT_THROW((void)fit_same_different({{8.0, 10, 9}}, 8.0), core::Error);
 }
 
-}  // namespace
+}  // namespace same_different_fit_test
 }  // namespace jnd::analysis

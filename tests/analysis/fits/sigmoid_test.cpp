@@ -7,7 +7,7 @@
 #include "core/psychometric_function.h"
 
 namespace jnd::analysis {
-namespace {
+namespace sigmoid_test {
 
 constexpr Sigmoid kBoth[] = {Sigmoid::kNormal, Sigmoid::kWeibull};
 
@@ -67,5 +67,5 @@ TEST(Sigmoid, TheQuantileUndoesIt) {
   }
 }
 
-}  // namespace
+}  // namespace sigmoid_test
 }  // namespace jnd::analysis

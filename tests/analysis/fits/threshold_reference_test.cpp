@@ -12,7 +12,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace threshold_reference_test {
 
 using nlohmann::json;
 
@@ -119,5 +119,5 @@ TEST(ThresholdReference, GeometricMeansAgreeWithScipy) {
   }
 }
 
-}  // namespace
+}  // namespace threshold_reference_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace comparison_test {
 
 using testing::HasSubstr;
 
@@ -139,5 +139,5 @@ TEST(Comparison, RefusesColumnsThatDoNotPair) {
   EXPECT_THROW((void)pooled_t_test({1, -1, 3}, {1, 1, 3}), core::Error);
 }
 
-}  // namespace
+}  // namespace comparison_test
 }  // namespace jnd::analysis

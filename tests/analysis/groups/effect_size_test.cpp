@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace jnd::analysis {
-namespace {
+namespace effect_size_test {
 
 TEST(EffectSize, HedgesFactorIsTheExactOneAndTendsToOne) {
   // gamma(1) / (sqrt(1) gamma(1/2)) at two degrees of freedom.
@@ -88,5 +88,5 @@ TEST(EffectSize, FishersIntervalIsOpenWhereTheRanksAgreeWholly) {
   EXPECT_NEAR(*fisher_interval(0.0, 0.5).high, std::tanh(0.979981992270027), 1e-12);
 }
 
-}  // namespace
+}  // namespace effect_size_test
 }  // namespace jnd::analysis

@@ -9,7 +9,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace falling_ranks_test {
 
 TEST(FallingRanks, ThePValueIsTheShareOfPairingsThatFallAsMuch) {
   // Of the 24 orders of four values one falls throughout, and three more change a neighbour.
@@ -46,5 +46,5 @@ TEST(FallingRanks, AmongAnswersAtRandomOneInAHundredIsFound) {
   EXPECT_LE(num_found, 0.0115 * kNumPeople);
 }
 
-}  // namespace
+}  // namespace falling_ranks_test
 }  // namespace jnd::analysis

@@ -11,7 +11,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace group_reference_test {
 
 using nlohmann::json;
 
@@ -102,5 +102,5 @@ TEST(GroupReference, HolmsAdjustmentAgrees) {
   }
 }
 
-}  // namespace
+}  // namespace group_reference_test
 }  // namespace jnd::analysis

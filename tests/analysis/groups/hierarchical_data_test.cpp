@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace hierarchical_data_test {
 
 std::vector<ParticipantAnswers> answers_of(const std::string& text,
                                            std::optional<double> reference = std::nullopt) {
@@ -54,5 +54,5 @@ TEST(HierarchicalData, AReferenceThatIsNoneIsRefusedAtItsLine) {
   }
 }
 
-}  // namespace
+}  // namespace hierarchical_data_test
 }  // namespace jnd::analysis

@@ -13,7 +13,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::analysis {
-namespace {
+namespace hierarchical_fit_test {
 
 constexpr HierarchicalOptions kWithoutLapses = {.lapses = HierarchicalLapses::kNone};
 constexpr HierarchicalOptions kAtReference = {.pse = HierarchicalPse::kReference,
@@ -690,5 +690,5 @@ TEST(HierarchicalFit, AnswersOfAnotherShapeHaveACaution) {
   EXPECT_TRUE(fit_hierarchical(right, {}).conditions.front().cautions.empty());
 }
 
-}  // namespace
+}  // namespace hierarchical_fit_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace hierarchical_quadrature_test {
 
 TEST(HierarchicalQuadrature, ThreeNodesAreThoseOfTheTables) {
   const GaussHermiteGrid grid = gauss_hermite_grid(3, 1);
@@ -47,5 +47,5 @@ TEST(HierarchicalQuadrature, MoreDimensionsOrNodesThanItKnowsAreRefused) {
   EXPECT_THROW((void)gauss_hermite_grid(5, 6), core::Error);
 }
 
-}  // namespace
+}  // namespace hierarchical_quadrature_test
 }  // namespace jnd::analysis

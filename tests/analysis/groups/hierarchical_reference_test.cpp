@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace hierarchical_reference_test {
 
 using nlohmann::json;
 
@@ -208,5 +208,5 @@ TEST(HierarchicalReference, TheUsualNumberOfNodesIsNearTheIntegral) {
   }
 }
 
-}  // namespace
+}  // namespace hierarchical_reference_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace multiplicity_test {
 
 TEST(HolmAdjusted, IsWorkedByHandAndKeepsTheOrderGiven) {
   // Ascending 0.01, 0.02, 0.04 times 3, 2, 1, never falling: 0.03, 0.04, 0.04.
@@ -40,5 +40,5 @@ TEST(HolmAdjusted, RefusesWhatIsNoProbability) {
   EXPECT_THROW((void)holm_adjusted({std::nan("")}), core::Error);
 }
 
-}  // namespace
+}  // namespace multiplicity_test
 }  // namespace jnd::analysis

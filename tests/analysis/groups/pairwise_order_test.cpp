@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace pairwise_order_test {
 
 TEST(PairwiseOrder, AgreesWithSortingEveryPair) {
   const std::vector<double> a = {-3.5, -1.0, -0.0, 0.0, 0.1, 2.0, 2.0, 1e-300, 7.25, 1e12};
@@ -46,5 +46,5 @@ TEST(PairwiseOrder, CountsAMillionValuesWithoutTheirPairs) {
   EXPECT_NEAR(walsh_average_at(many, pairs / 2), 0.5 * 999'999.0, 1.0);
 }
 
-}  // namespace
+}  // namespace pairwise_order_test
 }  // namespace jnd::analysis

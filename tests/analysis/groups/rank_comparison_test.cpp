@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace rank_comparison_test {
 
 using testing::HasSubstr;
 
@@ -160,5 +160,5 @@ TEST(OneSample, IsThePairedTestAgainstZeros) {
   EXPECT_THAT(one_sample_t_test({2.0, 2.0}).reason, HasSubstr("alike"));
 }
 
-}  // namespace
+}  // namespace rank_comparison_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace rank_distributions_test {
 
 using Numbers = std::vector<std::int64_t>;
 
@@ -111,5 +111,5 @@ TEST(RankDistributions, RefuseMoreThanTheyCanCount) {
   EXPECT_THROW((void)rank_product_distribution(untied_ranks(3), untied_ranks(4)), core::Error);
 }
 
-}  // namespace
+}  // namespace rank_distributions_test
 }  // namespace jnd::analysis

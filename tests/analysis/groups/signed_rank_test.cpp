@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace signed_rank_test {
 
 TEST(SignedRank, DistributionOfThreeIsCountedByHand) {
   // Sums of subsets of {1, 2, 3}: 0, 1, 2, 3, 3, 4, 5, 6.
@@ -94,5 +94,5 @@ TEST(SignedRank, WithoutADifferenceThereIsNoMedian) {
   EXPECT_FALSE(ranks.median.has_value());
 }
 
-}  // namespace
+}  // namespace signed_rank_test
 }  // namespace jnd::analysis

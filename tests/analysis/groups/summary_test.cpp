@@ -10,7 +10,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace summary_test {
 
 TEST(Summary, IsWorkedByHand) {
   const Summary summary = summary_of({4, 1, 3, 2});
@@ -125,5 +125,5 @@ TEST(ResampleParticipants, CountsResamplesThatAreUndefinedAndGivesUpAtHalf) {
                core::Error);
 }
 
-}  // namespace
+}  // namespace summary_test
 }  // namespace jnd::analysis

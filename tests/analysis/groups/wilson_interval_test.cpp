@@ -5,7 +5,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace wilson_interval_test {
 
 TEST(WilsonInterval, IsTheOneWorkedByHand) {
   // z = 1.959964: p = 0.8, n = 10: (0.8 + 0.192073) / 1.384146 -+ 1.416010 sqrt(0.016 +
@@ -31,5 +31,5 @@ TEST(WilsonInterval, SaysNothingWithoutTrialsAndRefusesImpossibleCounts) {
   EXPECT_THROW((void)wilson_interval(-1, 2), core::Error);
 }
 
-}  // namespace
+}  // namespace wilson_interval_test
 }  // namespace jnd::analysis

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace within_slope_test {
 
 TEST(WithinSlope, IsBlindToWhatDiffersBetweenGroups) {
   // 2 x in each group, one of them 100 higher and further right.
@@ -28,5 +28,5 @@ TEST(WithinSlope, IsAbsentWhereXIsAlikeWithinEveryGroup) {
       within_slope({{{1, 1.0}, 3.0, 1.0}, {{1, 1.0}, 3.0, 2.0}, {{1, 2.0}, 4.0, 9.0}}));
 }
 
-}  // namespace
+}  // namespace within_slope_test
 }  // namespace jnd::analysis

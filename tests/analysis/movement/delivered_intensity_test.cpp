@@ -8,7 +8,7 @@
 #include "analysis/study_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace delivered_intensity_test {
 
 core::TrialRow comparison(std::int64_t trial, double intensity, bool thicker) {
   return {.session = 1,
@@ -137,5 +137,5 @@ TEST(DeliveredIntensity, ADeviceThatDeliversTheSameShareOfEverythingChangesNoWeb
   EXPECT_NEAR(*weber_fraction(delivered.data), *weber_fraction(data), 1e-9);
 }
 
-}  // namespace
+}  // namespace delivered_intensity_test
 }  // namespace jnd::analysis

@@ -9,7 +9,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::analysis {
-namespace {
+namespace finger_lag_test {
 
 constexpr double kTickS = 0.001;
 constexpr double kOmega = 2.0 * std::numbers::pi * 0.7;
@@ -80,5 +80,5 @@ TEST(FingerLag, TakesNoMemory) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace finger_lag_test
 }  // namespace jnd::analysis

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace jnd::analysis {
-namespace {
+namespace force_by_speed_test {
 
 core::Sample moving(double speed_m_per_s, double across_ratio) {
   core::Sample sample;
@@ -88,5 +88,5 @@ TEST(ForceSums, WithoutMotionThereIsNoDampingAndWithoutTicksNothing) {
   EXPECT_TRUE(std::isfinite(*rest.delivered().delivered_n));
 }
 
-}  // namespace
+}  // namespace force_by_speed_test
 }  // namespace jnd::analysis

@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace movement_analysis_test {
 
 TEST(MovementAnalysis, MeasuresEveryPresentationTrialAndCondition) {
   RecordedStudy study;
@@ -224,5 +224,5 @@ TEST(MovementAnalysis, NamesTheOptionItRejects) {
   EXPECT_THROW((void)analyse_movement(study.store(), {.jobs = 0}), core::Error);
 }
 
-}  // namespace
+}  // namespace movement_analysis_test
 }  // namespace jnd::analysis

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace normalised_stroke_test {
 
 void push(StrokeBuffer& buffer, std::int64_t tick, double x_m) {
   core::Sample sample{.tick = tick};
@@ -60,5 +60,5 @@ TEST(StrokeBuffer, FindsTheMiddleOfAHalfStrokeFromEitherEnd) {
   EXPECT_FALSE(buffer.passes_middle(there, 9, 14).has_value()) << "not held";
 }
 
-}  // namespace
+}  // namespace normalised_stroke_test
 }  // namespace jnd::analysis

@@ -14,7 +14,7 @@
 #include "support/places.h"
 
 namespace jnd::analysis {
-namespace {
+namespace presentation_meter_test {
 
 using nlohmann::json;
 
@@ -317,5 +317,5 @@ TEST(MovementSums, ThatAreAddedUpAreThoseOfAllTogether) {
   EXPECT_EQ(*apart.mean_height_m(), *once.movement.mean_height_m);
 }
 
-}  // namespace
+}  // namespace presentation_meter_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "analysis/movement/recorded_study.h"
 
 namespace jnd::analysis {
-namespace {
+namespace recorded_results_test {
 
 ParticipantMovement person(const std::string& name, double body_height_m, double width_m,
                            double duration_s) {
@@ -112,5 +112,5 @@ TEST(RecordedResults, OfNoRecordingAreEmptyButForTheReasons) {
   EXPECT_EQ(section.excluded.size(), 1U);
 }
 
-}  // namespace
+}  // namespace recorded_results_test
 }  // namespace jnd::analysis

@@ -11,7 +11,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
-namespace {
+namespace recorded_strokes_test {
 
 constexpr double kTickS = 0.001;
 
@@ -195,5 +195,5 @@ TEST(HalfStrokeFinder, NamesTheParameterItRejects) {
   EXPECT_THROW(HalfStrokeFinder({.shortest_pause_s = HUGE_VAL}), core::Error);
 }
 
-}  // namespace
+}  // namespace recorded_strokes_test
 }  // namespace jnd::analysis

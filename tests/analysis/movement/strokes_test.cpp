@@ -10,7 +10,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::analysis {
-namespace {
+namespace strokes_test {
 
 constexpr double kTickS = 0.001;
 
@@ -193,5 +193,5 @@ TEST(StrokeMeter, NamesTheParameterItRejects) {
   EXPECT_THROW(StrokeMeter({.hysteresis_m = std::nan("")}), core::Error);
 }
 
-}  // namespace
+}  // namespace strokes_test
 }  // namespace jnd::analysis

@@ -10,7 +10,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::analysis {
-namespace {
+namespace power_run_test {
 
 PlannedAnswers answers(double weber_fraction, double pse, core::RandomStream& random) {
   PlannedAnswers one;
@@ -155,5 +155,5 @@ TEST(PowerRun, WhereNobodyGetsBothBlocksTheTestIsUnpaired) {
   EXPECT_NEAR(*run[1].tests[0].p_value, *expected.p_value, 1e-9);
 }
 
-}  // namespace
+}  // namespace power_run_test
 }  // namespace jnd::analysis

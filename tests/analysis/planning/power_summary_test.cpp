@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace power_summary_test {
 
 PlannedAnalysis small() {
   return {.blocks = {{.name = "a", .reference = 1.0, .true_value = 0.3},
@@ -146,5 +146,5 @@ TEST(PowerSummary, WhereNothingDiffersTheShareIsTheRateOfFalsePositives) {
   EXPECT_FALSE(nothing_differs(alike));
 }
 
-}  // namespace
+}  // namespace power_summary_test
 }  // namespace jnd::analysis

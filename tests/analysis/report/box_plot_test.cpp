@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace box_plot_test {
 
 // R 4.2: quantile(c(1,2,3,4,5,6,7,8,40), c(.25,.5,.75)) is 3, 5, 7; boxplot.stats gives the
 // whiskers 1 and 8.
@@ -30,5 +30,5 @@ TEST(BoxPlot, TablesLeaveOutEmptyGroupsAndKeepEveryValue) {
   EXPECT_EQ(box_values_table("v", groups).rows.size(), 2U);
 }
 
-}  // namespace
+}  // namespace box_plot_test
 }  // namespace jnd::analysis

@@ -5,7 +5,7 @@
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
-namespace {
+namespace data_quality_test {
 
 std::vector<std::string> remarks_after(const std::string& protocol, double duration_s) {
   HandMadeStudy study(protocol);
@@ -42,5 +42,5 @@ TEST(DataQuality, SaysWhatGuardsNoticed) {
                                 "(shadow mode)"}));
 }
 
-}  // namespace
+}  // namespace data_quality_test
 }  // namespace jnd::analysis

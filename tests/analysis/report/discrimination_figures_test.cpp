@@ -8,7 +8,7 @@
 #include "analysis/report/report_words.h"
 
 namespace jnd::analysis {
-namespace {
+namespace discrimination_figures_test {
 
 /// Two people who compared with 8 Pa s at so many levels, chosen by this procedure.
 std::vector<Figure> figures_of(const std::string& procedure, int num_levels) {
@@ -148,5 +148,5 @@ TEST(DiscriminationFigures, PanelsOfPeopleAreTitledWithTheFractionOfThePrimaryPs
   EXPECT_NE(panels.caption.find("free, as the primary value has it"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace discrimination_figures_test
 }  // namespace jnd::analysis

@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
-namespace {
+namespace figure_files_test {
 
 namespace fs = std::filesystem;
 
@@ -116,5 +116,5 @@ TEST_F(DrawnFigureTest, AFigureThatCannotBeDrawnDoesNotKeepTheOthers) {
   EXPECT_TRUE(fs::exists(temporary.path() / "small.pdf"));
 }
 
-}  // namespace
+}  // namespace figure_files_test
 }  // namespace jnd::analysis

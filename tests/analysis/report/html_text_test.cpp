@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace html_text_test {
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -73,5 +73,5 @@ TEST(HtmlText, ADocumentNeedsNothingFromElsewhereAndMarksEveryPage) {
   EXPECT_FALSE(has(html_document("t", "", ""), "@top-right"));
 }
 
-}  // namespace
+}  // namespace html_text_test
 }  // namespace jnd::analysis

@@ -4,7 +4,7 @@
 #include "analysis/report/figures.h"
 
 namespace jnd::analysis {
-namespace {
+namespace matching_figures_test {
 
 constexpr char kViscous[] = R"({"name": "by_hand", "stages": [{"kind": "block",
   "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [2, 8]}]})";
@@ -83,5 +83,5 @@ TEST(MatchingFigures, OfOneStandardHaveNoFunctionAndOfNoMatchesThereIsNone) {
   EXPECT_TRUE(figures_of(without).empty());
 }
 
-}  // namespace
+}  // namespace matching_figures_test
 }  // namespace jnd::analysis

@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace method_words_test {
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -68,5 +68,5 @@ TEST(MethodWords, EveryCitationHasItsWork) {
   EXPECT_THROW((void)literature_of({"Nobody 1900"}), core::Error);
 }
 
-}  // namespace
+}  // namespace method_words_test
 }  // namespace jnd::analysis

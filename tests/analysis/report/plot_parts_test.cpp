@@ -5,7 +5,7 @@
 #include <algorithm>
 
 namespace jnd::analysis {
-namespace {
+namespace plot_parts_test {
 
 TEST(LogTics, AreRoundNumbersWithinAndNoFewerThanThree) {
   EXPECT_EQ(log_tics("y", {2.4, 7.9}), "  set ytics (3.0, 5.0, 7.0)\n");
@@ -29,5 +29,5 @@ TEST(LogTics, OfARangeThatIsNoneAreLeftToGnuplot) {
   EXPECT_EQ(log_tics("y", {2.0, 2.0}), "  set ytics autofreq\n");
 }
 
-}  // namespace
+}  // namespace plot_parts_test
 }  // namespace jnd::analysis

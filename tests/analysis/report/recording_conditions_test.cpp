@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::analysis {
-namespace {
+namespace recording_conditions_test {
 
 std::string title_of(const std::string& medium, double intensity) {
   const StudyData data;
@@ -26,5 +26,5 @@ TEST(RecordingConditions, EveryMediumThatWasExploredHasItsUnit) {
   EXPECT_EQ(title_of("free_space", 0.0), "free space");
 }
 
-}  // namespace
+}  // namespace recording_conditions_test
 }  // namespace jnd::analysis

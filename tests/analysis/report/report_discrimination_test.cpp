@@ -3,7 +3,7 @@
 #include "analysis/report/report_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace report_discrimination_test {
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -57,5 +57,5 @@ TEST(ReportDiscrimination, OtherSectionsHaveNoSuchTable) {
   EXPECT_TRUE(html.text().empty());
 }
 
-}  // namespace
+}  // namespace report_discrimination_test
 }  // namespace jnd::analysis

@@ -6,7 +6,7 @@
 #include "analysis/report/report_results.h"
 
 namespace jnd::analysis {
-namespace {
+namespace report_movement_test {
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -109,5 +109,5 @@ TEST(ReportMovement, ASelectionIsCalledOne) {
   EXPECT_EQ(person_selection_words(explored()), " (one of 2 with recordings)");
 }
 
-}  // namespace
+}  // namespace report_movement_test
 }  // namespace jnd::analysis

@@ -14,7 +14,7 @@
 #include "core/error.h"
 
 namespace jnd::analysis {
-namespace {
+namespace report_test {
 
 namespace fs = std::filesystem;
 
@@ -504,5 +504,5 @@ TEST_F(ReportTest, AParticipantWithAMissingBlockDoesNotSpoilTheOthers) {
   EXPECT_TRUE(has(html, "<code>combined.k</code>"));
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace jnd::analysis

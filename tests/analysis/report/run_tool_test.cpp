@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
-namespace {
+namespace run_tool_test {
 
 namespace fs = std::filesystem;
 
@@ -73,5 +73,5 @@ TEST(FindTool, TakesTheFirstOfTheNamesThatIsAProgram) {
   EXPECT_TRUE(none.empty());
 }
 
-}  // namespace
+}  // namespace run_tool_test
 }  // namespace jnd::analysis

@@ -8,7 +8,7 @@
 #include "analysis/report/threshold_methods.h"
 
 namespace jnd::analysis {
-namespace {
+namespace threshold_report_test {
 
 const char* const kProtocol = R"json({"name": "by_hand", "stages": [
   {"kind": "block", "name": "felt", "task": "yes_no"}]})json";
@@ -138,5 +138,5 @@ TEST_F(ThresholdReportTest, MethodsTellWhatTheStudyHasAndNothingElse) {
   }
 }
 
-}  // namespace
+}  // namespace threshold_report_test
 }  // namespace jnd::analysis

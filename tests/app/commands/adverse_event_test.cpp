@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace adverse_event_test {
 
 using test_support::ProgramOutcome;
 
@@ -57,5 +57,5 @@ TEST_F(AdverseEventTest, NeedsASessionThatIsThere) {
   EXPECT_EQ(sentence_flaw(nobody.err), "");
 }
 
-}  // namespace
+}  // namespace adverse_event_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace apparatus_commands_test {
 
 using test_support::ProgramOutcome;
 using test_support::run_program;
@@ -198,5 +198,5 @@ TEST(ApparatusCommands, ADeviceThatDoesNotStartIsToldAndNothingIsStoredForIt) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
+}  // namespace apparatus_commands_test
 }  // namespace jnd::app

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace backup_test {
 
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
@@ -128,5 +128,5 @@ TEST_F(BackupCommandTest, WithdrawSaysWhichBackupItCouldNotReach) {
   EXPECT_NE(out.err.find("attach it"), std::string::npos) << out.err;
 }
 
-}  // namespace
+}  // namespace backup_test
 }  // namespace jnd::app

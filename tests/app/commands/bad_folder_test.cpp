@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace bad_folder_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -290,5 +290,5 @@ TEST_F(BadFolderTest, AnInterruptedStudyOnAReadOnlyDiskCanStillBeVerified) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
 }
 
-}  // namespace
+}  // namespace bad_folder_test
 }  // namespace jnd::app

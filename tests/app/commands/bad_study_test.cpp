@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace bad_study_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -222,5 +222,5 @@ TEST_F(BadStudyTest, ResumeSaysNothingOfAFileThatIsAsItWasOrGone) {
   }
 }
 
-}  // namespace
+}  // namespace bad_study_test
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace characterize_test {
 
 using test_support::ProgramOutcome;
 using test_support::run_program;
@@ -70,5 +70,5 @@ TEST(CharacterizeCommand, IsStoppedByCtrlC) {
   EXPECT_EQ(outcome.out, "");
 }
 
-}  // namespace
+}  // namespace characterize_test
 }  // namespace jnd::app

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace compare_test {
 
 using test_support::ProgramOutcome;
 
@@ -152,5 +152,5 @@ TEST(CompareCommand, AnEmptyCellEndsAColumnOfItsGroupAlone) {
   EXPECT_NE(missing.err.find("who"), std::string::npos) << missing.err;
 }
 
-}  // namespace
+}  // namespace compare_test
 }  // namespace jnd::app

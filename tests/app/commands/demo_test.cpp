@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace demo_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -47,5 +47,5 @@ TEST(DemoCommand, RunsBothStudiesAndOverwritesNothing) {
   EXPECT_NE(again.err.find("nothing is ever overwritten"), std::string::npos) << again.err;
 }
 
-}  // namespace
+}  // namespace demo_test
 }  // namespace jnd::app

@@ -20,7 +20,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace device_simulator_command_test {
 
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
@@ -246,5 +246,5 @@ TEST_F(DeviceSimulatorTest, ASessionSurvivesTheDevicesDeathAndRestart) {
   EXPECT_EQ(jnd({"verify", "short.study"}).exit_code, 0);
 }
 
-}  // namespace
+}  // namespace device_simulator_command_test
 }  // namespace jnd::app

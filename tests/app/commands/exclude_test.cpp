@@ -7,7 +7,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace exclude_test {
 
 using test_support::ProgramOutcome;
 
@@ -78,5 +78,5 @@ TEST_F(ExcludeCommandTest, SaysWhatIsMissingInTheCommand) {
   EXPECT_NE(nobody.err.find("a session of P09, found none"), std::string::npos) << nobody.err;
 }
 
-}  // namespace
+}  // namespace exclude_test
 }  // namespace jnd::app

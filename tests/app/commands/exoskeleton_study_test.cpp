@@ -15,7 +15,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace exoskeleton_study_test {
 
 namespace fs = std::filesystem;
 
@@ -61,5 +61,5 @@ TEST(ExoskeletonStudy, TheThickFluidIsSlowerThePalmLeadsAndTheFingersFollow) {
   EXPECT_GT(values.at("finger_lag_s.group_e"), 0.002);
 }
 
-}  // namespace
+}  // namespace exoskeleton_study_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace export_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -274,5 +274,5 @@ TEST(ExportCommand, TheOfficialValidatorFindsNoErrorInABidsDataSet) {
   }
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 // the place, what was expected and what was found, and the exit code of the contract.
 
 namespace jnd::app {
-namespace {
+namespace fit_bad_input_test {
 
 struct Case {
   std::string name;
@@ -271,5 +271,5 @@ TEST(FitBadInput, AByteOrderMarkAndLineEndsOfWindowsAreNothingWrong) {
   EXPECT_EQ(document(outcome.out)["num_levels"], 2);
 }
 
-}  // namespace
+}  // namespace fit_bad_input_test
 }  // namespace jnd::app

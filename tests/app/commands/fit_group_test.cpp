@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace fit_group_test {
 
 using test_support::ProgramOutcome;
 
@@ -273,5 +273,5 @@ TEST_F(FitGroupCommandTest, WeberTellsGoodnessPosteriorAndCorrectedBootstrap) {
   EXPECT_TRUE(json["warnings"].is_array());
 }
 
-}  // namespace
+}  // namespace fit_group_test
 }  // namespace jnd::app

@@ -6,7 +6,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace fit_test {
 
 using test_support::ProgramOutcome;
 
@@ -388,5 +388,5 @@ TEST_F(FitCommandTest, HelpShowsListsAsTheyAreTakenAndWhatALapseRateIs) {
   EXPECT_EQ(between.find("..."), std::string::npos) << between;
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace jnd::app

@@ -6,7 +6,7 @@
 #include "support/program.h"
 
 namespace jnd::app {
-namespace {
+namespace force_test {
 
 nlohmann::json force(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "force");
@@ -124,5 +124,5 @@ TEST(ForceCommand, RefusesAnOptionThatTheLawHasNoUseFor) {
   EXPECT_EQ(test_support::run_program({"force", "lift", "--viscosity-pa-s", "2"}).exit_code, 2);
 }
 
-}  // namespace
+}  // namespace force_test
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace full_disk_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -96,5 +96,5 @@ TEST_F(FullDiskTest, WhatElseWritesSaysSoInOneSentence) {
   EXPECT_FALSE(fs::exists(path("disk/mine.json"))) << "half a study is none";
 }
 
-}  // namespace
+}  // namespace full_disk_test
 }  // namespace jnd::app

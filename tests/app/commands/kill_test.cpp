@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace kill_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -230,5 +230,5 @@ TEST_F(KillTest, AnEndedSessionStaysEndedWhereverItWasKilled) {
   }
 }
 
-}  // namespace
+}  // namespace kill_test
 }  // namespace jnd::app

@@ -15,7 +15,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace killed_call_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -229,5 +229,5 @@ TEST_F(KilledCall, AFirstBackupIsMendedByItsRepetitionWhereverItWasKilled) {
   });
 }
 
-}  // namespace
+}  // namespace killed_call_test
 }  // namespace jnd::app

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace noted_export_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -148,5 +148,5 @@ TEST_F(NotedExportTest, AnOlderStudyIsBroughtUpToDateToRememberAndGivesTheSameTa
   }
 }
 
-}  // namespace
+}  // namespace noted_export_test
 }  // namespace jnd::app

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace participant_fields_test {
 
 using test_support::ProgramOutcome;
 
@@ -116,5 +116,5 @@ TEST_F(ParticipantFieldsTest, APlanForetellsWhatSimulatedParticipantsBring) {
   }
 }
 
-}  // namespace
+}  // namespace participant_fields_test
 }  // namespace jnd::app

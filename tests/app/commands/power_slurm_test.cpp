@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace power_slurm_test {
 
 namespace fs = std::filesystem;
 
@@ -56,5 +56,5 @@ TEST(PowerSlurm, AJobArrayAndItsMergeGiveTheBytesOfOneProcess) {
   }
 }
 
-}  // namespace
+}  // namespace power_slurm_test
 }  // namespace jnd::app

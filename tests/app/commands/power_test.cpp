@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace power_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -285,5 +285,5 @@ TEST_F(PowerCommandTest, TheResultsFolderIsNewOrEmpty) {
   EXPECT_EQ(sentence_flaw(outcome.err, {"nothing is overwritten"}), "");
 }
 
-}  // namespace
+}  // namespace power_test
 }  // namespace jnd::app

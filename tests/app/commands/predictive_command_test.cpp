@@ -17,7 +17,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace predictive_command_test {
 
 namespace fs = std::filesystem;
 
@@ -113,5 +113,5 @@ TEST_F(PredictiveCommandTest, ANumberThatIsNoneIsRefusedBeforeAnythingIsSimulate
   }
 }
 
-}  // namespace
+}  // namespace predictive_command_test
 }  // namespace jnd::app

@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace report_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -172,5 +172,5 @@ TEST_F(ReportCommandTest, AParticipantWhoWithdrewIsInNoFileOfIt) {
   }
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace results_movement_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -94,5 +94,5 @@ TEST_F(ResultsMovementTest, FitsOnWhatWasDeliveredTakeTheLimiterOutOfTheWeberFra
             0.8 * value(commanded, "group_e.weber_fraction"));
 }
 
-}  // namespace
+}  // namespace results_movement_test
 }  // namespace jnd::app

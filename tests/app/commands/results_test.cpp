@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace results_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -246,5 +246,5 @@ TEST_F(ResultsCommandTest, AChangedLaboratoryIsNotPassedOffAsTheShippedOne) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace results_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace shipped_studies_run_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -84,5 +84,5 @@ TEST_P(ShippedStudyTest, IsCheckedPlannedSimulatedVerifiedAndAnalysed) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedStudyTest, ::testing::ValuesIn(shipped_names()),
                          [](const auto& one) { return one.param; });
 
-}  // namespace
+}  // namespace shipped_studies_run_test
 }  // namespace jnd::app

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace simulate_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -95,5 +95,5 @@ TEST_F(SimulateCommandTest, ForeignDatabasesAreLeftAlone) {
             "not a database, but precious");
 }
 
-}  // namespace
+}  // namespace simulate_test
 }  // namespace jnd::app

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace stability_test {
 
 using test_support::ProgramOutcome;
 
@@ -113,5 +113,5 @@ TEST_F(StabilityCommandTest, AStimulusBeyondTheMapIsAProblemOfThePlan) {
       << outcome.out;
 }
 
-}  // namespace
+}  // namespace stability_test
 }  // namespace jnd::app

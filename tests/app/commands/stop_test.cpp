@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace stop_test {
 
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
@@ -296,5 +296,5 @@ TEST_F(StopTest, ManySimulatedSessionsStopTooAndSayWhatIsOpen) {
   EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 0);
 }
 
-}  // namespace
+}  // namespace stop_test
 }  // namespace jnd::app

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace study_files_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -419,5 +419,5 @@ TEST_F(StudyFileCommandsTest, TheOrdersOfADoubleBlindStudyAreRefusedUntilItIsUnb
       << "says who, without the folder";
 }
 
-}  // namespace
+}  // namespace study_files_test
 }  // namespace jnd::app

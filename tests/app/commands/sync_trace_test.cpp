@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace sync_trace_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -147,5 +147,5 @@ TEST_F(SyncTrace, TheNamesOfNewFilesAndFoldersAreOnDiskBeforeTheFirstAcknowledge
   }
 }
 
-}  // namespace
+}  // namespace sync_trace_test
 }  // namespace jnd::app

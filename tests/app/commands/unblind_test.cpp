@@ -7,7 +7,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace unblind_test {
 
 using test_support::ProgramOutcome;
 
@@ -74,5 +74,5 @@ TEST_F(UnblindCommandTest, AStudyThatIsNotBlindHasNothingToUnblind) {
   EXPECT_NE(out.err.find("expected a double-blind study"), std::string::npos) << out.err;
 }
 
-}  // namespace
+}  // namespace unblind_test
 }  // namespace jnd::app

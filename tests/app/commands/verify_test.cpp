@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace verify_test {
 
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
@@ -136,5 +136,5 @@ TEST_F(VerifyCommandTest, ChangesNothing) {
   EXPECT_EQ(read_file(in_study("recordings/0001.sqlite")), recording);
 }
 
-}  // namespace
+}  // namespace verify_test
 }  // namespace jnd::app

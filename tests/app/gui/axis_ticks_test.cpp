@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace jnd::app::gui {
-namespace {
+namespace axis_ticks_test {
 
 using Labels = std::vector<std::string>;
 
@@ -141,5 +141,5 @@ TEST(ShortNumber, HasThreeDigitsOrAllOfAWholeNumber) {
   EXPECT_EQ(short_number(kNan), "–");
 }
 
-}  // namespace
+}  // namespace axis_ticks_test
 }  // namespace jnd::app::gui

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace frame_times_test {
 
 void draw_one(FrameTimes& times, const char* view) {
   times.begin_frame();
@@ -63,5 +63,5 @@ TEST(FrameTimes, AFileThatCannotBeWrittenIsRefusedInASentence) {
   }
 }
 
-}  // namespace
+}  // namespace frame_times_test
 }  // namespace jnd::app::gui

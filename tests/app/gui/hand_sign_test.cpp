@@ -9,7 +9,7 @@
 #include "app/gui/headless_ui.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace hand_sign_test {
 
 constexpr HandSign kSigns[] = {HandSign::kFist,    HandSign::kOneFinger, HandSign::kTwoFingers,
                                HandSign::kReady,   HandSign::kRaise,     HandSign::kLower,
@@ -52,5 +52,5 @@ TEST(HandSign, NoneIsNothing) {
   EXPECT_FALSE(ui.drawn().shows("hand sign"));
 }
 
-}  // namespace
+}  // namespace hand_sign_test
 }  // namespace jnd::app::gui

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace jnd::app::gui {
-namespace {
+namespace input_queue_test {
 
 using Action = KeyEvent::Action;
 
@@ -210,5 +210,5 @@ TEST(Chord, ShiftHeldByChanceStillMeansTheLetterButNotBesideControl) {
   EXPECT_FALSE(answers({}, {}));
 }
 
-}  // namespace
+}  // namespace input_queue_test
 }  // namespace jnd::app::gui

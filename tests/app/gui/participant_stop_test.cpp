@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::app::gui {
-namespace {
+namespace participant_stop_test {
 
 using Way = ParticipantStop::Way;
 
@@ -33,5 +33,5 @@ TEST(ParticipantStop, WhereThereIsNoneNothingStops) {
   EXPECT_EQ(ParticipantStop::key_named("F11"), Key::kF11);
 }
 
-}  // namespace
+}  // namespace participant_stop_test
 }  // namespace jnd::app::gui

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace picture_test {
 
 namespace fs = std::filesystem;
 
@@ -81,5 +81,5 @@ TEST(Picture, APartIsCutOutAsFarAsItLiesInside) {
   EXPECT_EQ(cut_out(picture, 20, 20, 5, 5).width, 0);
 }
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace jnd::app::gui

@@ -9,7 +9,7 @@
 #include "app/gui/headless_ui.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace plot_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Rect kPlace = {100, 100, 500, 300};
@@ -232,5 +232,5 @@ TEST(Plot, BelowADialogItSaysNothing) {
   EXPECT_FALSE(ui.drawn().shows(" at "));
 }
 
-}  // namespace
+}  // namespace plot_test
 }  // namespace jnd::app::gui

@@ -13,7 +13,7 @@
 #include "device/exoskeleton/geometry.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace robot_scene_test {
 
 using Eigen::Vector3d;
 
@@ -224,5 +224,5 @@ TEST(SceneColours, AreThoseOfTheThemeInBothModes) {
   EXPECT_LT(scene_colours(theme).ground[0], 0.2f);
 }
 
-}  // namespace
+}  // namespace robot_scene_test
 }  // namespace jnd::app::gui

@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace jnd::app::gui {
-namespace {
+namespace scene_camera_test {
 
 TEST(SceneCamera, TurnsAllTheWayRoundAndNeverOverTheTop) {
   SceneCamera camera = camera_at_first();
@@ -45,5 +45,5 @@ TEST(SceneCamera, StaysWhereItIsWhenToldNothingSensible) {
   EXPECT_EQ(camera, before);
 }
 
-}  // namespace
+}  // namespace scene_camera_test
 }  // namespace jnd::app::gui

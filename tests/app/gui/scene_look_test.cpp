@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::app::gui {
-namespace {
+namespace scene_look_test {
 
 SceneRequest request(int width_px, int height_px) {
   SceneRequest request{.camera = camera_at_first(), .width_px = width_px};
@@ -58,5 +58,5 @@ TEST(ScenePace, DrawsNothingAnewThatWouldLookTheSame) {
   EXPECT_TRUE(pace.takes(look, 4.1001)) << "moved on";
 }
 
-}  // namespace
+}  // namespace scene_look_test
 }  // namespace jnd::app::gui

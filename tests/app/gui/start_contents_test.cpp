@@ -8,7 +8,7 @@
 #include "core/storage/backup.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace start_contents_test {
 
 namespace fs = std::filesystem;
 
@@ -42,5 +42,5 @@ TEST(StartContents, ABackupIsListedAsOneBehindTheStudies) {
   EXPECT_EQ(entries.front().path, made.folder());
 }
 
-}  // namespace
+}  // namespace start_contents_test
 }  // namespace jnd::app::gui

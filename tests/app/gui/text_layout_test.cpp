@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::app::gui {
-namespace {
+namespace text_layout_test {
 
 using Lines = std::vector<std::string_view>;
 
@@ -63,5 +63,5 @@ TEST(TextLayout, CapitalsAreThoseOfEuropeanLanguagesAndLeaveGreekSymbolsAlone) {
   EXPECT_EQ(in_capitals("5 µm · η"), "5 µM · η");
 }
 
-}  // namespace
+}  // namespace text_layout_test
 }  // namespace jnd::app::gui

@@ -9,7 +9,7 @@
 #include "app/gui/headless_ui.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace theme_test {
 
 struct Rgb {
   double red, green, blue;  // 0 to 255
@@ -157,5 +157,5 @@ TEST(Theme, AFontsSizeIsItsEmSquareAtEveryScale) {
   }
 }
 
-}  // namespace
+}  // namespace theme_test
 }  // namespace jnd::app::gui

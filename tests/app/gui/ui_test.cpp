@@ -9,7 +9,7 @@
 #include "app/gui/headless_ui.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace ui_test {
 
 constexpr Rect kLeft = {100, 100, 200, 60};
 constexpr Rect kRight = {400, 100, 200, 60};
@@ -715,5 +715,5 @@ TEST(Rect, CutsStripsOffItsSides) {
   EXPECT_EQ((Rect{0, 0, 10, 10}.common({50, 8, 10, 10})).width, 0);
 }
 
-}  // namespace
+}  // namespace ui_test
 }  // namespace jnd::app::gui

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace widget_log_test {
 
 namespace fs = std::filesystem;
 
@@ -87,5 +87,5 @@ TEST(WidgetLog, WithoutAFileItDoesNothingAndWithoutAFolderItSaysSo) {
   EXPECT_THROW(nowhere.write(example(), 1), core::Error);
 }
 
-}  // namespace
+}  // namespace widget_log_test
 }  // namespace jnd::app::gui

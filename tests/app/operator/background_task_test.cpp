@@ -11,7 +11,7 @@
 #include "core/error.h"
 
 namespace jnd::app {
-namespace {
+namespace background_task_test {
 
 TEST(BackgroundTask, ItsResultIsThereOnceItIsDone) {
   std::promise<void> go;
@@ -126,5 +126,5 @@ TEST(BackgroundTask, WhoeverIsWokenLastFindsItOver) {
   EXPECT_TRUE(was_over);
 }
 
-}  // namespace
+}  // namespace background_task_test
 }  // namespace jnd::app

@@ -12,7 +12,7 @@
 #include "core/storage/export_note.h"
 
 namespace jnd::app {
-namespace {
+namespace export_actions_test {
 
 namespace fs = std::filesystem;
 
@@ -166,5 +166,5 @@ TEST_F(ExportActionsTest, AFreeFolderLiesBesideTheStudy) {
   EXPECT_EQ(free_folder_beside(study_.folder(), "csv"), study_.temporary() / "a-csv-2");
 }
 
-}  // namespace
+}  // namespace export_actions_test
 }  // namespace jnd::app

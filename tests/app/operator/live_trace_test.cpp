@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::app {
-namespace {
+namespace live_trace_test {
 
 /// All tips alike.
 core::Sample sample(std::int64_t tick, double x_m, double speed_m_per_s, double tip_force_n) {
@@ -135,5 +135,5 @@ TEST(LiveTrace, NamesTheParameterItRejects) {
   EXPECT_THROW(LiveTrace({.points_per_s = std::nan("")}), core::Error);
 }
 
-}  // namespace
+}  // namespace live_trace_test
 }  // namespace jnd::app

@@ -4,7 +4,7 @@
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
-namespace {
+namespace loose_point_test {
 
 /// A session whose device loses the hold of the index finger for a while.
 class LoosePointTest : public OperatedSessionTest {
@@ -195,5 +195,5 @@ TEST_F(LoosePointTest, AnEmergencyStopComesBeforeALooseFinger) {
   EXPECT_EQ(view().step, Step::kReady);
 }
 
-}  // namespace
+}  // namespace loose_point_test
 }  // namespace jnd::app

@@ -5,7 +5,7 @@
 #include "app/operator/realtime_session_fixture.h"
 
 namespace jnd::app {
-namespace {
+namespace missed_ticks_test {
 
 /// A device that holds the loop up for a twentieth of a second, again and again.
 TEST_F(RealtimeSessionTest, AnAnswerToWhatWasNotFeltInTimeIsKeptAndDoesNotCount) {
@@ -46,5 +46,5 @@ TEST_F(RealtimeSessionTest, AnAnswerToWhatWasNotFeltInTimeIsKeptAndDoesNotCount)
   EXPECT_NE(last.data.find("the answer was 100"), std::string::npos) << last.data;
 }
 
-}  // namespace
+}  // namespace missed_ticks_test
 }  // namespace jnd::app

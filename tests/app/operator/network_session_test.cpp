@@ -12,7 +12,7 @@
 #include "device/network/udp_port.h"
 
 namespace jnd::app {
-namespace {
+namespace network_session_test {
 
 /// The lumped hand as a device that can hurt somebody.
 class HurtfulHand final : public device::HapticDevice {
@@ -220,5 +220,5 @@ TEST(NetworkArming, ADeviceThatCanHurtIsArmedWhereSomebodySaysSo) {
   }
 }
 
-}  // namespace
+}  // namespace network_session_test
 }  // namespace jnd::app

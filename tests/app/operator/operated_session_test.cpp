@@ -8,7 +8,7 @@
 #include "support/small_disk.h"
 
 namespace jnd::app {
-namespace {
+namespace operated_session_test {
 
 TEST_F(OperatedSessionTest, NothingIsStoredBeforeTheOperatorBegins) {
   open();
@@ -392,5 +392,5 @@ TEST_F(OperatedSessionTest, ARefusalSaysWhyAndChangesNothing) {
   EXPECT_EQ(kinds().size(), num_events);
 }
 
-}  // namespace
+}  // namespace operated_session_test
 }  // namespace jnd::app

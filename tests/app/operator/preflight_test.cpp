@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::app {
-namespace {
+namespace preflight_test {
 
 using Status = PreflightLine::Status;
 
@@ -210,5 +210,5 @@ TEST(MachineChecks, FreeSpaceIsThatOfTheFolderThatWillHoldThePath) {
   EXPECT_GT(*here, 0.0);
 }
 
-}  // namespace
+}  // namespace preflight_test
 }  // namespace jnd::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace recent_studies_test {
 
 namespace fs = std::filesystem;
 
@@ -118,5 +118,5 @@ TEST(RecentStudies, LieWhereTheSystemKeepsState) {
   EXPECT_NO_THROW(RecentStudies().add("/tmp", 1));
 }
 
-}  // namespace
+}  // namespace recent_studies_test
 }  // namespace jnd::app

@@ -13,7 +13,7 @@
 #include "core/storage/recording.h"
 
 namespace jnd::app {
-namespace {
+namespace results_model_test {
 
 using namespace results;
 using analysis::HandMadeStudy;
@@ -479,5 +479,5 @@ TEST(ResultsModel, StopsBetweenItsPartsWhenItIsCancelled) {
   EXPECT_THROW((void)results_model(study.folder(), control), WorkCancelled);
 }
 
-}  // namespace
+}  // namespace results_model_test
 }  // namespace jnd::app

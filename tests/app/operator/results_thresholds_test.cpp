@@ -4,7 +4,7 @@
 #include "app/operator/results_model.h"
 
 namespace jnd::app {
-namespace {
+namespace results_thresholds_test {
 
 using namespace results;
 
@@ -120,5 +120,5 @@ TEST(ResultsBoxes, OfMatchesStandByTheirStandardsFromTheLeast) {
   EXPECT_NEAR(model.rows[1].values[0].value(), 1.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace results_thresholds_test
 }  // namespace jnd::app

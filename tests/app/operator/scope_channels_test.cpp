@@ -7,7 +7,7 @@
 #include "core/sample_table.h"
 
 namespace jnd::app {
-namespace {
+namespace scope_channels_test {
 
 TEST(ScopeChannels, AreEveryColumnOfASampleButItsTick) {
   for (const bool with_joints : {false, true}) {
@@ -46,5 +46,5 @@ TEST(ScopeChannels, MatchWhereEveryTypedWordIsInLabelOrUnit) {
   EXPECT_TRUE(channels_matching(all, "index toe").empty());
 }
 
-}  // namespace
+}  // namespace scope_channels_test
 }  // namespace jnd::app

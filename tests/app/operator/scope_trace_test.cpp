@@ -12,7 +12,7 @@
 #include "core/sample_table.h"
 
 namespace jnd::app {
-namespace {
+namespace scope_trace_test {
 
 const std::string kForce = "index_force_x_n";
 
@@ -167,5 +167,5 @@ TEST(ScopeTrace, NamesTheParameterItRejects) {
   EXPECT_THROW(ScopeTrace({.intervals_per_s = std::nan("")}), core::Error);
 }
 
-}  // namespace
+}  // namespace scope_trace_test
 }  // namespace jnd::app

@@ -8,7 +8,7 @@
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
-namespace {
+namespace session_faults_test {
 
 /// Faults that come in a row, and pauses around them.
 class SessionFaultsTest : public OperatedSessionTest {
@@ -169,5 +169,5 @@ TEST_F(SessionFaultsTest, AStopOfOneDeviceIsNoneOfAnother) {
   EXPECT_FALSE(is_stop_remembered(folder, "network:10.0.0.2:5000"));
 }
 
-}  // namespace
+}  // namespace session_faults_test
 }  // namespace jnd::app

@@ -6,7 +6,7 @@
 #include "app/operator/operated_session_fixture.h"
 
 namespace jnd::app {
-namespace {
+namespace session_refusals_test {
 
 using experiments::Direction;
 
@@ -135,5 +135,5 @@ TEST_F(SessionRefusalsTest, NothingGoesOnBeforeTheSessionHasBegun) {
   EXPECT_EQ(kinds().size(), num_events);
 }
 
-}  // namespace
+}  // namespace session_refusals_test
 }  // namespace jnd::app

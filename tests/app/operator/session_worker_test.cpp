@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
-namespace {
+namespace session_worker_test {
 
 namespace fs = std::filesystem;
 
@@ -138,5 +138,5 @@ TEST_F(SessionWorkerTest, ADeviceThatDoesNotStartIsToldAndNothingIsStored) {
   EXPECT_TRUE(read.events(session).empty());
 }
 
-}  // namespace
+}  // namespace session_worker_test
 }  // namespace jnd::app

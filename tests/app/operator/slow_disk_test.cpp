@@ -8,7 +8,7 @@
 #include "core/storage/integrity.h"
 
 namespace jnd::app {
-namespace {
+namespace slow_disk_test {
 
 /// On a disk that is slow or fails when it is told to.
 class SlowDiskTest : public RealtimeSessionTest {
@@ -165,5 +165,5 @@ TEST_F(SlowDiskTest, WhoClosesTheWindowWhenTheDiskFailsIsNotHeldBack) {
   EXPECT_EQ(view().step, Step::kFailed);
 }
 
-}  // namespace
+}  // namespace slow_disk_test
 }  // namespace jnd::app

@@ -11,7 +11,7 @@
 #include "experiments/study/study_problem.h"
 
 namespace jnd::app {
-namespace {
+namespace study_folder_test {
 
 namespace fs = std::filesystem;
 using Status = SessionLine::Status;
@@ -254,5 +254,5 @@ TEST_F(DayInWords, SimulatedTimeIsNoDay) {
   EXPECT_EQ(day_in_words(0, 0), "");
 }
 
-}  // namespace
+}  // namespace study_folder_test
 }  // namespace jnd::app

@@ -7,7 +7,7 @@
 #include "support/places.h"
 
 namespace jnd::app {
-namespace {
+namespace study_outline_test {
 
 namespace fs = std::filesystem;
 
@@ -308,5 +308,5 @@ TEST_F(StudyWatchTest, ProblemsComeAndGoWithTheFile) {
   EXPECT_TRUE(watch_.outline().problems.empty());
 }
 
-}  // namespace
+}  // namespace study_outline_test
 }  // namespace jnd::app

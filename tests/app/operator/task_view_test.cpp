@@ -6,7 +6,7 @@
 // What the operator of a trial is told, sees and can do, task by task.
 
 namespace jnd::app {
-namespace {
+namespace task_view_test {
 
 using experiments::AnswerKind;
 
@@ -256,5 +256,5 @@ TEST_F(TaskViewTest, AParticipantReadsTheFeedbackInTheSessionsLanguage) {
   EXPECT_EQ(view().participant_text, "Das war richtig.");
 }
 
-}  // namespace
+}  // namespace task_view_test
 }  // namespace jnd::app

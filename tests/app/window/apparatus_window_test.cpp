@@ -7,7 +7,7 @@
 #include "app/window/window_studies.h"
 
 namespace jnd::app {
-namespace {
+namespace apparatus_window_test {
 
 namespace fs = std::filesystem;
 
@@ -104,5 +104,5 @@ TEST_F(ApparatusWindowTest, OfADoubleBlindStudyNothingIsShown) {
   window_->kill();
 }
 
-}  // namespace
+}  // namespace apparatus_window_test
 }  // namespace jnd::app

@@ -3,7 +3,7 @@
 #include "app/window/window_fixture.h"
 
 namespace jnd::app {
-namespace {
+namespace blind_window_test {
 
 namespace fs = std::filesystem;
 
@@ -149,5 +149,5 @@ TEST_F(BlindWindowTest,
   EXPECT_GE(told_by(window_->every_text()).size(), 6u);
 }
 
-}  // namespace
+}  // namespace blind_window_test
 }  // namespace jnd::app

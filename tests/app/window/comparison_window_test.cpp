@@ -2,7 +2,7 @@
 #include "app/window/window_studies.h"
 
 namespace jnd::app {
-namespace {
+namespace comparison_window_test {
 
 class ComparisonWindowTest : public WindowTest {};
 
@@ -102,5 +102,5 @@ TEST_F(ComparisonWindowTest, KeysPressedFasterThanTheScreenAreNeitherLostNorDoub
   EXPECT_EQ(events_of(store, "trial_answered").size(), 4u);
 }
 
-}  // namespace
+}  // namespace comparison_window_test
 }  // namespace jnd::app

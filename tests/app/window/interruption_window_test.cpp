@@ -10,7 +10,7 @@
 #include "support/small_disk.h"
 
 namespace jnd::app {
-namespace {
+namespace interruption_window_test {
 
 using test_support::ProgramOutcome;
 
@@ -182,5 +182,5 @@ TEST(WithoutADisplay, TheProgramSaysSoInOneSentence) {
   EXPECT_EQ(sentence_flaw(wrong.err, {"no display", ":65000"}), "");
 }
 
-}  // namespace
+}  // namespace interruption_window_test
 }  // namespace jnd::app

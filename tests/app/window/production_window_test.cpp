@@ -2,7 +2,7 @@
 #include "app/window/window_studies.h"
 
 namespace jnd::app {
-namespace {
+namespace production_window_test {
 
 using std::chrono::milliseconds;
 
@@ -91,5 +91,5 @@ TEST_F(ProductionWindowTest, HeldKeysAndButtonsGoOnStepByStepAndSingleOnesAreNot
   expect_verified();
 }
 
-}  // namespace
+}  // namespace production_window_test
 }  // namespace jnd::app

@@ -1,7 +1,7 @@
 #include "app/window/pictures_fixture.h"
 
 namespace jnd::app {
-namespace {
+namespace session_pictures_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -182,5 +182,5 @@ TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
   close();
 }
 
-}  // namespace
+}  // namespace session_pictures_test
 }  // namespace jnd::app

@@ -4,7 +4,7 @@
 #include "app/window/window_studies.h"
 
 namespace jnd::app {
-namespace {
+namespace stop_window_test {
 
 const std::string kAge = R"json(, {
     "kind": "questionnaire", "name": "about_you", "instruction": {"en": "You."}, "items": [
@@ -102,5 +102,5 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   expect_verified();
 }
 
-}  // namespace
+}  // namespace stop_window_test
 }  // namespace jnd::app

@@ -1,7 +1,7 @@
 #include "app/window/pictures_fixture.h"
 
 namespace jnd::app {
-namespace {
+namespace study_pictures_test {
 
 namespace fs = std::filesystem;
 
@@ -87,5 +87,5 @@ TEST_F(StudyPicturesTest, OfResultsOfThresholdsStaircasesAndMatches) {
   close();
 }
 
-}  // namespace
+}  // namespace study_pictures_test
 }  // namespace jnd::app

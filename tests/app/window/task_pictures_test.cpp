@@ -1,7 +1,7 @@
 #include "app/window/pictures_fixture.h"
 
 namespace jnd::app {
-namespace {
+namespace task_pictures_test {
 
 /// Blocks of every task, few trials each, after the handedness that arms are balanced over.
 const std::string kTasks = R"json({
@@ -106,5 +106,5 @@ TEST_F(TaskPicturesTest, OfEveryTask) {
   window_->kill();
 }
 
-}  // namespace
+}  // namespace task_pictures_test
 }  // namespace jnd::app

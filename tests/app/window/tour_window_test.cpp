@@ -4,7 +4,7 @@
 #include "core/storage/recording.h"
 
 namespace jnd::app {
-namespace {
+namespace tour_window_test {
 
 constexpr int kTrials = 4 + 2 + 12;
 const std::string kFolder = "person/data/jnd/short_tour.study";
@@ -149,5 +149,5 @@ TEST_F(TourWindowTest, FromTheStartViewToItsResultsByMouse) {
   expect_stored_as_answered();
 }
 
-}  // namespace
+}  // namespace tour_window_test
 }  // namespace jnd::app

@@ -5,7 +5,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace flight_recorder_test {
 
 std::vector<std::int64_t> ticks_of(const FlightRecorder& recorder) {
   std::vector<std::int64_t> ticks;
@@ -52,5 +52,5 @@ TEST(FlightRecorder, IsSafeToUseOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace flight_recorder_test
 }  // namespace jnd::core

@@ -11,7 +11,7 @@
 #include "core/telemetry.h"
 
 namespace jnd::core {
-namespace {
+namespace latest_value_test {
 
 TEST(LatestValue, StartsWithADefaultValueAndNothingNew) {
   LatestValue<HapticCommand> door;
@@ -75,5 +75,5 @@ TEST(LatestValue, AReaderNeverSeesHalfAValueNorAnOlderOne) {
   EXPECT_EQ(older, 0U);
 }
 
-}  // namespace
+}  // namespace latest_value_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace spsc_queue_test {
 
 TEST(SpscQueue, KeepsTheOrder) {
   SpscQueue<int> queue(4);
@@ -88,5 +88,5 @@ TEST(SpscQueue, IsSafeToUseOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace spsc_queue_test
 }  // namespace jnd::core

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace jnd::core {
-namespace {
+namespace carlson_test {
 
 TEST(Carlson, GivesThePublishedValues) {
   // Carlson (1995), Numerical computation of real or complex elliptic integrals, section 3.
@@ -46,5 +46,5 @@ TEST(Carlson, OutOfRangeIsNoNumberRatherThanAnEndlessLoop) {
   }
 }
 
-}  // namespace
+}  // namespace carlson_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace ellipsoid_drag_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -112,5 +112,5 @@ TEST(HandAxes, AreTheFingersAcrossThemAndTheNormal) {
 
 TEST(HandAxes, OfPointsOnALineAreZero) { EXPECT_EQ(hand_axes(zero_vectors()).norm(), 0.0); }
 
-}  // namespace
+}  // namespace ellipsoid_drag_test
 }  // namespace jnd::core

@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace fluid_force_test {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
 constexpr std::uint8_t kAllImmersed = 0b11111;
@@ -261,5 +261,5 @@ TEST(FluidForce, IsSafeToComputeOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace fluid_force_test
 }  // namespace jnd::core

@@ -13,7 +13,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace force_map_test {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
 
@@ -187,5 +187,5 @@ TEST(ForceMap, IsSafeToAskOnTheHapticThread) {
   EXPECT_GT(sum, 0.0);
 }
 
-}  // namespace
+}  // namespace force_map_test
 }  // namespace jnd::core

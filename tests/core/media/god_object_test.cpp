@@ -10,7 +10,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::core {
-namespace {
+namespace god_object_test {
 
 constexpr double kPeriodS = 0.001;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
@@ -186,5 +186,5 @@ TEST(SolidAmounts, NameTheParameterTheyReject) {
                Error);
 }
 
-}  // namespace
+}  // namespace god_object_test
 }  // namespace jnd::core

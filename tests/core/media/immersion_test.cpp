@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace jnd::core {
-namespace {
+namespace immersion_test {
 
 TEST(Immersion, TheInfiniteSurfaceAsksForTheHeightAlone) {
   const Immersion immersion;
@@ -38,5 +38,5 @@ TEST(Immersion, ACoordinateThatIsNoNumberIsOutside) {
   EXPECT_FALSE(Immersion{}.contains({0.0, 0.0, nan}));
 }
 
-}  // namespace
+}  // namespace immersion_test
 }  // namespace jnd::core

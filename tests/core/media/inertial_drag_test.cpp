@@ -9,7 +9,7 @@
 #include "core/media/medium.h"
 
 namespace jnd::core {
-namespace {
+namespace inertial_drag_test {
 
 double drag_n(const InertialDrag& drag, double speed_m_per_s) {
   return drag.damping_n_s_per_m() * speed_m_per_s +
@@ -60,5 +60,5 @@ TEST(InertialDrag, NamesTheParameterItRejects) {
   }
 }
 
-}  // namespace
+}  // namespace inertial_drag_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace medium_test {
 
 HandMotion moving(double speed_m_per_s, double sin_angle_of_attack) {
   return {.velocity_m_per_s = {speed_m_per_s, 0.0, 0.0},
@@ -149,5 +149,5 @@ TEST(MediumRamp, IsSafeToCallOnTheHapticThread) {
   EXPECT_GT(drag_n, 0.0);
 }
 
-}  // namespace
+}  // namespace medium_test
 }  // namespace jnd::core

@@ -8,7 +8,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace solid_surfaces_test {
 
 constexpr double kPeriodS = 0.001;
 const Immersion kBucket{.radius_m = 0.15, .depth_m = 0.30};
@@ -168,5 +168,5 @@ TEST(SolidSurfaces, AreSafeToCallOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace solid_surfaces_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace viscous_drag_test {
 
 TEST(ViscousDrag, TheShapeConstantsAreThoseOfTheThesis) {
   // Thesis, B.4: 1.7760 and 1.2322 m.
@@ -54,5 +54,5 @@ TEST(ViscousDrag, NamesTheParameterItRejects) {
                Error);
 }
 
-}  // namespace
+}  // namespace viscous_drag_test
 }  // namespace jnd::core

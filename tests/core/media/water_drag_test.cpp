@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace water_drag_test {
 
 TEST(WaterDrag, HeadOnAtOneMetrePerSecondIsTheForceOfTheThesis) {
   // Thesis, sec. 4.1: 6.585 N; 7.4 * 0.8899 worked by hand.
@@ -56,5 +56,5 @@ TEST(WaterDrag, NamesTheParameterItRejects) {
   }
 }
 
-}  // namespace
+}  // namespace water_drag_test
 }  // namespace jnd::core

@@ -5,7 +5,7 @@
 #include <thread>
 
 namespace jnd::core {
-namespace {
+namespace emergency_stop_test {
 
 TEST(EmergencyStop, StaysPressedUntilItIsReleased) {
   EmergencyStop stop;
@@ -38,5 +38,5 @@ TEST(EmergencyStop, IsSeenFromAnotherThread) {
   EXPECT_TRUE(stop.is_pressed());
 }
 
-}  // namespace
+}  // namespace emergency_stop_test
 }  // namespace jnd::core

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace jnd::core {
-namespace {
+namespace fault_test {
 
 TEST(Fault, EveryOneHasANameAndASentenceOfItsOwn) {
   std::set<std::string> names;
@@ -27,5 +27,5 @@ TEST(Fault, AByteFromAForeignRecordingStillHasWords) {
   EXPECT_FALSE(words(static_cast<Fault>(200)).empty());
 }
 
-}  // namespace
+}  // namespace fault_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace force_distribution_test {
 
 constexpr std::uint8_t kAllImmersed = 0b11111;
 constexpr double kFadeSpeed = 0.005;
@@ -106,5 +106,5 @@ TEST(ForceDistribution, IsSafeToCallOnTheHapticThread) {
   EXPECT_LT(force[0].x(), 0.0);
 }
 
-}  // namespace
+}  // namespace force_distribution_test
 }  // namespace jnd::core

@@ -10,7 +10,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace force_limiter_test {
 
 constexpr double kPeriodS = 0.001;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -200,5 +200,5 @@ TEST(ForceLimiter, IsSafeToCallOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace force_limiter_test
 }  // namespace jnd::core

@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace force_oscillation_test {
 
 constexpr double kPeriod_s = 0.001;
 
@@ -73,5 +73,5 @@ TEST(ForceOscillation, ParametersOutOfRangeAreRefused) {
   EXPECT_THROW(ForceOscillation({.max_turns = 33}, kPeriod_s), Error);
 }
 
-}  // namespace
+}  // namespace force_oscillation_test
 }  // namespace jnd::core

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace jnd::core {
-namespace {
+namespace guards_test {
 
 HapticState held() {
   HapticState state;
@@ -111,5 +111,5 @@ TEST(Guards, NothingThatIsNoNumberIsInTheSpace) {
   EXPECT_EQ(guards.observe_place(state), Fault::kNone);
 }
 
-}  // namespace
+}  // namespace guards_test
 }  // namespace jnd::core

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::core {
-namespace {
+namespace heartbeat_test {
 
 TEST(HeartbeatMonitor, HearsSilenceAfterItsTimeoutAndNotBefore) {
   Heartbeat heartbeat;
@@ -28,5 +28,5 @@ TEST(HeartbeatMonitor, ASimulationNeedsNoHeart) {
   for (int tick = 0; tick < 1000; ++tick) EXPECT_FALSE(monitor.is_silent());
 }
 
-}  // namespace
+}  // namespace heartbeat_test
 }  // namespace jnd::core

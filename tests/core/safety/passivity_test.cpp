@@ -11,7 +11,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::core {
-namespace {
+namespace passivity_test {
 
 constexpr double kPeriodS = 0.001;
 
@@ -209,5 +209,5 @@ TEST(PassivityController, IsSafeToCallOnTheHapticThread) {
   EXPECT_EQ(counter.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace passivity_test
 }  // namespace jnd::core

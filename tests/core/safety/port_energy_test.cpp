@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace port_energy_test {
 
 constexpr double kPeriod_s = 0.001;
 
@@ -133,5 +133,5 @@ TEST(PortEnergy, ParametersOutOfRangeAreRefused) {
   EXPECT_THROW(PortEnergy({}, 0.0), Error);
 }
 
-}  // namespace
+}  // namespace port_energy_test
 }  // namespace jnd::core

@@ -5,7 +5,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace stillness_watch_test {
 
 constexpr double kPeriod_s = 0.001;
 constexpr std::array<bool, kNumContactPoints> kAll = {true, true, true, true, true};
@@ -89,5 +89,5 @@ TEST(StillnessWatch, ParametersOutOfRangeAreRefused) {
   EXPECT_THROW(StillnessWatch({}, 0.0), Error);
 }
 
-}  // namespace
+}  // namespace stillness_watch_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace velocity_check_test {
 
 constexpr double kPeriod_s = 0.001;
 constexpr std::array<bool, kNumContactPoints> kAll = {true, true, true, true, true};
@@ -85,5 +85,5 @@ TEST(VelocityCheck, ParametersOutOfRangeAreRefused) {
   EXPECT_THROW(VelocityCheck({.memory_s = 0.0}), Error);
 }
 
-}  // namespace
+}  // namespace velocity_check_test
 }  // namespace jnd::core

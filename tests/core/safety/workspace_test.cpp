@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::core {
-namespace {
+namespace workspace_test {
 
 TEST(Workspace, IsABoxAboutTheOrigin) {
   const Workspace workspace{
@@ -35,5 +35,5 @@ TEST(Workspace, HasAnEnd) {
   }
 }
 
-}  // namespace
+}  // namespace workspace_test
 }  // namespace jnd::core

@@ -8,7 +8,7 @@
 #include "support/places.h"
 
 namespace jnd::core {
-namespace {
+namespace backup_test {
 
 namespace fs = std::filesystem;
 
@@ -236,5 +236,5 @@ TEST_F(BackupTest, RestoringWritesOverNothing) {
 
 TEST_F(BackupTest, SaysThatOneDiskHoldsBoth) { EXPECT_TRUE(back_up_now().on_one_disk); }
 
-}  // namespace
+}  // namespace backup_test
 }  // namespace jnd::core

@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::core {
-namespace {
+namespace export_note_test {
 
 namespace fs = std::filesystem;
 
@@ -156,5 +156,5 @@ TEST_F(ExportNoteTest, APlaceIsFreeWhereNothingIsOrAnEmptyFolder) {
   EXPECT_FALSE(is_free_place(kept_.folder()));
 }
 
-}  // namespace
+}  // namespace export_note_test
 }  // namespace jnd::core

@@ -13,7 +13,7 @@
 #include "core/storage/withdrawal.h"
 
 namespace jnd::core {
-namespace {
+namespace flight_record_test {
 
 namespace fs = std::filesystem;
 
@@ -118,5 +118,5 @@ TEST_F(FlightRecordTest, OneThatAWithdrawalLeftBehindIsFound) {
   EXPECT_FALSE(verify(StudyStore(kept_.folder(), StudyStore::Mode::kReadOnly)).complete);
 }
 
-}  // namespace
+}  // namespace flight_record_test
 }  // namespace jnd::core

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::core {
-namespace {
+namespace integrity_test {
 
 namespace fs = std::filesystem;
 
@@ -255,5 +255,5 @@ TEST_F(IntegrityTest, AStudyIsMadeAnewWhereTheDeathCameBeforeItsFirstTable) {
   EXPECT_TRUE(store.sessions().empty());
 }
 
-}  // namespace
+}  // namespace integrity_test
 }  // namespace jnd::core

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::core {
-namespace {
+namespace recorded_ticks_test {
 
 using Ranges = std::vector<TickRange>;
 
@@ -37,5 +37,5 @@ TEST(RecordedTicks, ExploredMediaAndEndedPresentationsSpeakOfTicks) {
   EXPECT_EQ(claims[1].trial, 1);
 }
 
-}  // namespace
+}  // namespace recorded_ticks_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::core {
-namespace {
+namespace recording_test {
 
 namespace fs = std::filesystem;
 
@@ -171,5 +171,5 @@ TEST(Recording, RefusesAMissingFile) {
   EXPECT_THROW(RecordingReader("/nonexistent/0001.sqlite"), Error);
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace jnd::core

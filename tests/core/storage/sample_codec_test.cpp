@@ -9,7 +9,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::core {
-namespace {
+namespace sample_codec_test {
 
 /// A hand that sweeps back and forth in a viscous fluid.
 std::vector<Sample> sweep(int num_samples, std::int64_t first_tick) {
@@ -200,5 +200,5 @@ TEST(SampleCodec, TimesThatAreDamagedAreRefused) {
   EXPECT_EQ(decode_samples(bytes.substr(0, without), 0, 64, "chunk")[5].monotonic_ns, 0);
 }
 
-}  // namespace
+}  // namespace sample_codec_test
 }  // namespace jnd::core

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::core {
-namespace {
+namespace sha256_test {
 
 // FIPS 180-4, examples of the standard.
 TEST(Sha256, AgreesWithTheStandardsExamples) {
@@ -11,5 +11,5 @@ TEST(Sha256, AgreesWithTheStandardsExamples) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-}  // namespace
+}  // namespace sha256_test
 }  // namespace jnd::core

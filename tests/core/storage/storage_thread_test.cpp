@@ -9,7 +9,7 @@
 #include <utility>
 
 namespace jnd::core {
-namespace {
+namespace storage_thread_test {
 
 Sample at(std::int64_t tick) {
   Sample sample;
@@ -86,5 +86,5 @@ TEST(StorageThread, ThrowsWhatTheWorkThrewAndGoesOn) {
   EXPECT_TRUE(done);
 }
 
-}  // namespace
+}  // namespace storage_thread_test
 }  // namespace jnd::core

@@ -7,7 +7,7 @@
 #include "support/places.h"
 
 namespace jnd::core {
-namespace {
+namespace study_format_test {
 
 namespace fs = std::filesystem;
 
@@ -93,5 +93,5 @@ TEST_F(StudyFormatTest, AFreshStudyHasEveryStepNoted) {
   EXPECT_EQ(count.integer(0), current_study_format());
 }
 
-}  // namespace
+}  // namespace study_format_test
 }  // namespace jnd::core

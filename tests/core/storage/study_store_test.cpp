@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::core {
-namespace {
+namespace study_store_test {
 
 namespace fs = std::filesystem;
 
@@ -307,5 +307,5 @@ TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {
             fs::perms::owner_read | fs::perms::owner_write);
 }
 
-}  // namespace
+}  // namespace study_store_test
 }  // namespace jnd::core

@@ -9,7 +9,7 @@
 #include "core/storage/kept_study.h"
 
 namespace jnd::core {
-namespace {
+namespace withdrawal_test {
 
 namespace fs = std::filesystem;
 
@@ -230,5 +230,5 @@ TEST_F(WithdrawalTest, NotWhileASessionRuns) {
   EXPECT_EQ(running.sessions().size(), 2U);
 }
 
-}  // namespace
+}  // namespace withdrawal_test
 }  // namespace jnd::core

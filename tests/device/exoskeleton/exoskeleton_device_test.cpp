@@ -17,7 +17,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::device {
-namespace {
+namespace exoskeleton_device_test {
 
 using Eigen::Vector3d;
 using Parameters = ExoskeletonDevice::Parameters;
@@ -467,5 +467,5 @@ TEST(ExoskeletonDevice, NamesTheParameterItRejects) {
   EXPECT_THROW(ExoskeletonDevice(Parameters{.arm = {.home_z_m = kNan}}), core::Error);
 }
 
-}  // namespace
+}  // namespace exoskeleton_device_test
 }  // namespace jnd::device

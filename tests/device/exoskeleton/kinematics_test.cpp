@@ -9,7 +9,7 @@
 #include "device/exoskeleton/mujoco_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace kinematics_test {
 
 using Eigen::Vector3d;
 
@@ -153,5 +153,5 @@ TEST(ExoskeletonKinematics, TorquesDoTheWorkOfTheForces) {
   }
 }
 
-}  // namespace
+}  // namespace kinematics_test
 }  // namespace jnd::device

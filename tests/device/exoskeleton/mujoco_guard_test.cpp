@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::device {
-namespace {
+namespace mujoco_guard_test {
 
 constexpr const char* kPendulum = R"(<mujoco><worldbody><body><joint type="hinge" axis="0 1 0"/>
   <inertial pos="0 0 -1" mass="1" diaginertia="0.1 0.1 0.1"/></body></worldbody></mujoco>)";
@@ -50,5 +50,5 @@ TEST(MujocoGuard, AnErrorInAStepDoesNotEndTheProcess) {
   EXPECT_TRUE(step_mujoco(*model, *data));
 }
 
-}  // namespace
+}  // namespace mujoco_guard_test
 }  // namespace jnd::device

@@ -13,7 +13,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace mujoco_world_test {
 
 using Eigen::Vector3d;
 
@@ -273,5 +273,5 @@ TEST(MujocoWorld, NamesTheParameterItRejects) {
   EXPECT_THROW(MujocoWorld(Parameters{.break_away_n = 0.0}), core::Error);
 }
 
-}  // namespace
+}  // namespace mujoco_world_test
 }  // namespace jnd::device

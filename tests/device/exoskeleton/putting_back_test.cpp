@@ -4,7 +4,7 @@
 #include "device/fault_injection.h"
 
 namespace jnd::device {
-namespace {
+namespace putting_back_test {
 
 bool all_hold_within(HapticDevice& device, int num_ticks) {
   core::HapticState state;
@@ -43,5 +43,5 @@ TEST(PuttingBack, ReachesTheHandThroughInjectedFaults) {
   EXPECT_TRUE(all_hold_within(device, 3000));
 }
 
-}  // namespace
+}  // namespace putting_back_test
 }  // namespace jnd::device

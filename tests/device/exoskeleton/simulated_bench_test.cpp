@@ -11,7 +11,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::device {
-namespace {
+namespace simulated_bench_test {
 
 // What the model is built with (data/models/README.md).
 constexpr double kExtension_n = 0.4, kAbduction_n = 0.83;
@@ -96,5 +96,5 @@ TEST(SimulatedBench, FreeSpaceCanBeStopped) {
       std::runtime_error);
 }
 
-}  // namespace
+}  // namespace simulated_bench_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "device/haptic_loop.h"
 
 namespace jnd::device {
-namespace {
+namespace stability_map_test {
 
 constexpr double kRate_hz = 1000.0;
 
@@ -71,5 +71,5 @@ TEST(StabilityMap, ARateThatTheDeviceCannotDoIsRefused) {
   EXPECT_THROW((void)measure_stability({kRate_hz, 1.0, Contact::kAttached}), core::Error);
 }
 
-}  // namespace
+}  // namespace stability_map_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::device {
-namespace {
+namespace torque_control_test {
 
 constexpr double kPeriod_s = 0.001;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -276,5 +276,5 @@ TEST(TorqueControl, NamesTheParameterItRejects) {
   EXPECT_THROW(TorqueControl({}, 0.0), core::Error);
 }
 
-}  // namespace
+}  // namespace torque_control_test
 }  // namespace jnd::device

@@ -7,7 +7,7 @@
 #include "core/random_stream.h"
 
 namespace jnd::device {
-namespace {
+namespace torque_stages_test {
 
 constexpr LimitProtection kProtection = {.low_rad = -0.2,
                                          .high_rad = 0.3,
@@ -81,5 +81,5 @@ TEST(MaxTorque, LetsAFingerPushWithTenNewtonAndNotMuchMore) {
   }
 }
 
-}  // namespace
+}  // namespace torque_stages_test
 }  // namespace jnd::device

@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::device {
-namespace {
+namespace velocity_filter_test {
 
 TEST(VelocityFilter, StartsAtRestWhereverTheJointsAre) {
   VelocityFilter filter(40.0, 0.001);
@@ -59,5 +59,5 @@ TEST(VelocityFilter, NamesTheParameterItRejects) {
   EXPECT_THROW(VelocityFilter(40.0, 0.0), core::Error);
 }
 
-}  // namespace
+}  // namespace velocity_filter_test
 }  // namespace jnd::device

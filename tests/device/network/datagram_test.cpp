@@ -14,7 +14,7 @@
 #include "support/places.h"
 
 namespace jnd::device {
-namespace {
+namespace datagram_test {
 
 using wire::Datagram;
 using wire::Problem;
@@ -339,5 +339,5 @@ TEST(Datagram, APlanThatComesThroughIsValid) {
   EXPECT_GT(num_passed, 100);
 }
 
-}  // namespace
+}  // namespace datagram_test
 }  // namespace jnd::device

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::device {
-namespace {
+namespace device_key_test {
 
 namespace fs = std::filesystem;
 
@@ -79,5 +79,5 @@ TEST_F(DeviceKeyTest, ANameIsNoPath) {
   ASSERT_EQ(::unsetenv("XDG_CONFIG_HOME"), 0);
 }
 
-}  // namespace
+}  // namespace device_key_test
 }  // namespace jnd::device

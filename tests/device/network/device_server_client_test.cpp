@@ -7,7 +7,7 @@
 #include "device_server_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace device_server_client_test {
 
 using core::Fault;
 
@@ -254,5 +254,5 @@ TEST_F(DeviceServerTest, PuttingFingersBackDoesNotDisturbTheMovement) {
   EXPECT_EQ(handed.hand.num_put_back, 2);
 }
 
-}  // namespace
+}  // namespace device_server_client_test
 }  // namespace jnd::device

@@ -6,7 +6,7 @@
 #include "device_server_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace device_server_test {
 
 using core::Fault;
 
@@ -270,5 +270,5 @@ TEST_F(DeviceServerTest, AnOpenSwitchEndsTheForceAndClosingItBringsNone) {
   EXPECT_EQ(felt_n(), 1.0);
 }
 
-}  // namespace
+}  // namespace device_server_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace hmac_sha256_test {
 
 HmacKey key_of(std::string_view text) {
   HmacKey key{};
@@ -57,5 +57,5 @@ TEST(HmacSha256, TakesNoMemory) {
   EXPECT_EQ(counter.frees(), 0u);
 }
 
-}  // namespace
+}  // namespace hmac_sha256_test
 }  // namespace jnd::device

@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace jnd::device {
-namespace {
+namespace link_quality_test {
 
 using Verdict = LinkQuality::Verdict;
 
@@ -167,5 +167,5 @@ TEST(LinkQuality, JudgedAnewItStillKnowsWhatItHasSeen) {
   EXPECT_EQ(quality.received(3), LinkQuality::Verdict::kNewest) << "of another stream";
 }
 
-}  // namespace
+}  // namespace link_quality_test
 }  // namespace jnd::device

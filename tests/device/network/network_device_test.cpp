@@ -13,7 +13,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace network_device_test {
 
 using core::Fault;
 
@@ -430,5 +430,5 @@ TEST(NetworkDevice, ParametersOutOfRangeAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace network_device_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "network_fault_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace network_fault_test {
 
 using core::Fault;
 using Sent = SimulatedNetwork::Sent;
@@ -321,5 +321,5 @@ INSTANTIATE_TEST_SUITE_P(Points, NetworkFaultTest, ::testing::Values(1, 3, 5),
                            return std::to_string(instance.param) + "Attached";
                          });
 
-}  // namespace
+}  // namespace network_fault_test
 }  // namespace jnd::device

@@ -9,7 +9,7 @@
 #include "network_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace network_hand_test {
 
 using NetworkHandTest = NetworkTest;
 
@@ -118,5 +118,5 @@ TEST_F(NetworkHandTest, AHandWhoseProgramIsGoneGoesHome) {
   EXPECT_TRUE(lumped.simulated_hand()->is_home());
 }
 
-}  // namespace
+}  // namespace network_hand_test
 }  // namespace jnd::device

@@ -7,7 +7,7 @@
 #include "network_fault_fixture.h"
 
 namespace jnd::device {
-namespace {
+namespace network_trust_test {
 
 using core::Fault;
 
@@ -198,5 +198,5 @@ INSTANTIATE_TEST_SUITE_P(Points, NetworkTrustTest, ::testing::Values(1, 3, 5),
                            return std::to_string(instance.param) + "Attached";
                          });
 
-}  // namespace
+}  // namespace network_trust_test
 }  // namespace jnd::device

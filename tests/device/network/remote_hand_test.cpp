@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::device {
-namespace {
+namespace remote_hand_test {
 
 TEST(RemoteHand, TheNewestOrderHoldsAllThatWasAskedFor) {
   RemoteHand hand;
@@ -41,5 +41,5 @@ TEST(RemoteHand, AFreshConnectionHasNoOrders) {
   EXPECT_EQ(hand.order_after({}), nullptr);
 }
 
-}  // namespace
+}  // namespace remote_hand_test
 }  // namespace jnd::device

@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 
 namespace jnd::device {
-namespace {
+namespace sealed_network_test {
 
 using core::Fault;
 using Side = DatagramSeal::Side;
@@ -312,5 +312,5 @@ TEST_F(SealedNetworkTest, ADeviceThatWasRestartedIsFoundAgain) {
   EXPECT_GT(total_now_n(), 0.5);
 }
 
-}  // namespace
+}  // namespace sealed_network_test
 }  // namespace jnd::device

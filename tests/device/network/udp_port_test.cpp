@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::device {
-namespace {
+namespace udp_port_test {
 
 TEST(Endpoint, HostAndPortAreToldApart) {
   EXPECT_EQ(endpoint_of("127.0.0.1:4700").host, "127.0.0.1");
@@ -107,5 +107,5 @@ TEST(UdpPort, APlaceThatIsTakenIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace udp_port_test
 }  // namespace jnd::device

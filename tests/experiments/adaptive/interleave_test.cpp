@@ -8,7 +8,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace {
+namespace interleave_test {
 
 TEST(Interleave, LetsNoTrackGetFurtherAheadThanItMay) {
   for (const int max_lead : {1, 2, 4}) {
@@ -61,5 +61,5 @@ TEST(Interleave, RefusesALeadOfNone) {
   EXPECT_THROW((void)next_track({{0}}, 0, stream), core::Error);
 }
 
-}  // namespace
+}  // namespace interleave_test
 }  // namespace jnd::experiments

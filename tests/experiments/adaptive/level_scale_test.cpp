@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace {
+namespace level_scale_test {
 
 constexpr auto kLinear = LevelScale::kLinear;
 constexpr auto kLogarithmic = LevelScale::kLogarithmic;
@@ -40,5 +40,5 @@ TEST(LevelScale, RefusesWhatIsNoLevel) {
   EXPECT_THROW((void)equally_spaced(kLogarithmic, 0.0, 2.0, 3), core::Error);
 }
 
-}  // namespace
+}  // namespace level_scale_test
 }  // namespace jnd::experiments

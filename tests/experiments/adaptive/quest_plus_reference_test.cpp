@@ -9,7 +9,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace quest_plus_reference_test {
 
 using nlohmann::json;
 
@@ -146,5 +146,5 @@ TEST(QuestPlusReference, ReachesTheEndsOfItsGridsAsSciPyHasIt) {
   EXPECT_EQ(num_reached, 8);
 }
 
-}  // namespace
+}  // namespace quest_plus_reference_test
 }  // namespace jnd::experiments

@@ -14,7 +14,7 @@
 #include "experiments/adaptive/level_scale.h"
 
 namespace jnd::experiments {
-namespace {
+namespace quest_plus_test {
 
 /// Two equally likely values; "yes" is as likely as this at the intensities 1, 2, 3 and 4. The
 /// second tells them apart at once, and so does the fourth.
@@ -323,5 +323,5 @@ TEST(QuestPlus, RefusesARuleThatCannotRun) {
   EXPECT_THROW((void)quest.estimates(quest.prior(), 1.0), core::Error);
 }
 
-}  // namespace
+}  // namespace quest_plus_test
 }  // namespace jnd::experiments

@@ -13,7 +13,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::experiments {
-namespace {
+namespace staircase_test {
 
 StaircaseRule one_up_two_down() {
   return {.step_sizes = {2.0, 1.0},
@@ -308,5 +308,5 @@ TEST(Staircase, RefusesARuleThatCannotRun) {
   EXPECT_THROW((void)Staircase(one_up_two_down()).after({{nan, true}}), core::Error);
 }
 
-}  // namespace
+}  // namespace staircase_test
 }  // namespace jnd::experiments

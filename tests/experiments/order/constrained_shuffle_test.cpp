@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace {
+namespace constrained_shuffle_test {
 
 using Labels = std::vector<std::string>;
 
@@ -226,5 +226,5 @@ TEST(ConstrainedShuffle, OrdersNoItemsAndOne) {
             (std::vector<std::size_t>{0}));
 }
 
-}  // namespace
+}  // namespace constrained_shuffle_test
 }  // namespace jnd::experiments

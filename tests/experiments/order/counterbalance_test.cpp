@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace {
+namespace counterbalance_test {
 
 Stage stage_of(const std::string& name, Counterbalance content) {
   Stage stage;
@@ -318,5 +318,5 @@ TEST(Counterbalance, RefusesACellOfAnotherStudy) {
   EXPECT_THROW(static_cast<void>(stages_of(study, {{"o", {"a"}}})), core::Error);
 }
 
-}  // namespace
+}  // namespace counterbalance_test
 }  // namespace jnd::experiments

@@ -7,7 +7,7 @@
 #include <utility>
 
 namespace jnd::experiments {
-namespace {
+namespace square_rows_test {
 
 /// How often each item stands in each place.
 std::map<std::pair<std::size_t, std::size_t>, int> places_of(const OrderRows& rows) {
@@ -62,5 +62,5 @@ TEST(SquareRows, OfALatinSquareHaveTheSameItemsFollowEachOther) {
   expect_each(followers_of(latin_rows(5)), 5, 4);
 }
 
-}  // namespace
+}  // namespace square_rows_test
 }  // namespace jnd::experiments

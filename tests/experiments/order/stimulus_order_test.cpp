@@ -9,7 +9,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace {
+namespace stimulus_order_test {
 
 using Method = StimulusOrder::Method;
 using Order = std::vector<std::size_t>;
@@ -159,5 +159,5 @@ TEST(StimulusOrder, RefusesWhatNoOrderCanKeepTo) {
                core::Error);
 }
 
-}  // namespace
+}  // namespace stimulus_order_test
 }  // namespace jnd::experiments

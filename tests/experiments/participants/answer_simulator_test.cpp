@@ -12,7 +12,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace answer_simulator_test {
 
 const std::string kSource = test_support::source_folder().string();
 
@@ -156,5 +156,5 @@ TEST(MedianPerson, TheWeberFractionGrowsByTheShareOfTheDevice) {
   }
 }
 
-}  // namespace
+}  // namespace answer_simulator_test
 }  // namespace jnd::experiments

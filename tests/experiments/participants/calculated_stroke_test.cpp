@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace jnd::experiments {
-namespace {
+namespace calculated_stroke_test {
 
 using std::numbers::pi;
 
@@ -76,5 +76,5 @@ TEST(CalculatedStroke, ThickerMediaSlowTheHandDown) {
   }
 }
 
-}  // namespace
+}  // namespace calculated_stroke_test
 }  // namespace jnd::experiments

@@ -11,7 +11,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace laboratory_test {
 
 std::string shipped(const char* name) {
   std::ifstream stream(test_support::source_folder().string() + "/data/laboratories/" + name);
@@ -156,5 +156,5 @@ TEST(Laboratory, LooksBehindAZeroByte) {
                core::Error);
 }
 
-}  // namespace
+}  // namespace laboratory_test
 }  // namespace jnd::experiments

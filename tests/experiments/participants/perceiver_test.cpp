@@ -7,7 +7,7 @@
 #include <string>
 
 namespace jnd::experiments {
-namespace {
+namespace perceiver_test {
 
 constexpr double kMechanical = 4.0;
 constexpr double kStandard = 3.0;
@@ -352,5 +352,5 @@ TEST(Person, StaysPossibleHoweverWideTheSpreads) {
   }
 }
 
-}  // namespace
+}  // namespace perceiver_test
 }  // namespace jnd::experiments

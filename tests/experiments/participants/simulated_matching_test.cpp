@@ -8,7 +8,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace simulated_matching_test {
 
 Laboratory laboratory() {
   return read_laboratory(test_support::source_folder().string() +
@@ -121,5 +121,5 @@ TEST(SimulatedMatching, GoingBackToTheStandardMakesMatchesBetter) {
   EXPECT_LT(squares(often), 0.7 * squares(once));
 }
 
-}  // namespace
+}  // namespace simulated_matching_test
 }  // namespace jnd::experiments

@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace simulated_modulus_test {
 
 /// People whose numbers are a power law of a viscous fluid's viscosity: nothing draws them
 /// toward the middle.
@@ -128,5 +128,5 @@ TEST(SimulatedModulus, IsRefusedByALaboratoryWithoutNumbersForIt) {
   }
 }
 
-}  // namespace
+}  // namespace simulated_modulus_test
 }  // namespace jnd::experiments

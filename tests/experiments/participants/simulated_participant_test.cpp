@@ -9,7 +9,7 @@
 #include <set>
 
 namespace jnd::experiments {
-namespace {
+namespace simulated_participant_test {
 
 Laboratory laboratory() {
   return read_laboratory(test_support::source_folder().string() +
@@ -118,5 +118,5 @@ TEST(SimulatedParticipant, NamesAsManyWordsAsAreAskedFor) {
   EXPECT_EQ(std::count(answer.begin(), answer.end(), ','), 2) << answer;
 }
 
-}  // namespace
+}  // namespace simulated_participant_test
 }  // namespace jnd::experiments

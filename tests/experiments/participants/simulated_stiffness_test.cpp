@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace simulated_stiffness_test {
 
 Laboratory laboratory() {
   return read_laboratory(test_support::source_folder().string() +
@@ -100,5 +100,5 @@ TEST(SimulatedStiffness, IsRefusedByALaboratoryWithoutNumbersForIt) {
   EXPECT_THROW(require_abilities(older, study), core::Error);
 }
 
-}  // namespace
+}  // namespace simulated_stiffness_test
 }  // namespace jnd::experiments

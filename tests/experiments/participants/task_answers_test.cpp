@@ -16,7 +16,7 @@
 // says it does.
 
 namespace jnd::experiments {
-namespace {
+namespace task_answers_test {
 
 constexpr double kWeber = 0.152;
 constexpr double kReference = 8.0;
@@ -209,5 +209,5 @@ TEST(PracticeAnswers, EndWhereTheCriterionIsMet) {
   EXPECT_LT(trials.size(), 20U) << "these are easy";
 }
 
-}  // namespace
+}  // namespace task_answers_test
 }  // namespace jnd::experiments

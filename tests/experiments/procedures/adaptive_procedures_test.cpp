@@ -14,7 +14,7 @@
 #include "support/sanitizer.h"
 
 namespace jnd::experiments {
-namespace {
+namespace adaptive_procedures_test {
 
 constexpr double kPse = 7.0;
 constexpr double kWeberFraction = 0.3;
@@ -256,5 +256,5 @@ TEST(QuestPlusProcedure, EndsWhenTheWeberFractionIsKnownWellEnough) {
   EXPECT_LT(num_trials, 80U);
 }
 
-}  // namespace
+}  // namespace adaptive_procedures_test
 }  // namespace jnd::experiments

@@ -5,7 +5,7 @@
 #include <string>
 
 namespace jnd::experiments {
-namespace {
+namespace adjustment_test {
 
 Block block_of_steps(double fine_step) {
   Block block;
@@ -53,5 +53,5 @@ TEST(Adjustment, NumbersWithoutRoomForMoreDigitsAreLeftAlone) {
   EXPECT_EQ(as_meant(0.1 + 0.2, 1e-3), 0.3);
 }
 
-}  // namespace
+}  // namespace adjustment_test
 }  // namespace jnd::experiments

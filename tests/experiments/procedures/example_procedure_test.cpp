@@ -10,7 +10,7 @@
 // The example of CONTRIBUTING.md, so that what stands there compiles and does what it says.
 
 namespace jnd::experiments {
-namespace {
+namespace example_procedure_test {
 
 std::string text_of(const std::string& file) {
   std::ifstream stream(test_support::source_folder().string() + '/' + file, std::ios::binary);
@@ -48,5 +48,5 @@ TEST(ExampleProcedure, FindsTheThresholdBetweenTwoStimuli) {
   EXPECT_EQ(last_trial(block, 9.0).planned.intensity, 5.0);
 }
 
-}  // namespace
+}  // namespace example_procedure_test
 }  // namespace jnd::experiments

@@ -11,7 +11,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace matching_test {
 
 /// Water as the standard of a viscous fluid.
 const std::string kStudy = R"json({
@@ -116,5 +116,5 @@ TEST(Matching, APlanKnowsHowLongItTakes) {
   EXPECT_EQ(expected_duration_s(study.stages.front()), 18 * 47.0);
 }
 
-}  // namespace
+}  // namespace matching_test
 }  // namespace jnd::experiments

@@ -9,7 +9,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace modulus_test {
 
 Study study_with(const std::string& keys) {
   return read_study_text(R"json({
@@ -92,5 +92,5 @@ TEST(Modulus, TheRangeHoldsTheStandard) {
   EXPECT_EQ(num_standards, 1);
 }
 
-}  // namespace
+}  // namespace modulus_test
 }  // namespace jnd::experiments

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::experiments {
-namespace {
+namespace practice_test {
 
 /// Test 4 is less than the reference 8, 16 is more, and to 8 no answer is right.
 Block practice_block(Practice practice) {
@@ -100,5 +100,5 @@ TEST(Practice, NothingIsDrawnOnceItIsOverAndOneTrialBefore) {
   EXPECT_EQ(num_next(data, {}), 60U);
 }
 
-}  // namespace
+}  // namespace practice_test
 }  // namespace jnd::experiments

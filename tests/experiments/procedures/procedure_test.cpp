@@ -9,7 +9,7 @@
 #include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::experiments {
-namespace {
+namespace procedure_test {
 
 Block block_for(std::string_view procedure) {
   Block block{.procedure = std::string(procedure),
@@ -139,5 +139,5 @@ TEST(ProcedureRegistry, KnowsEveryProcedureByItsNameAndTellsThemToWhoAsksForAnot
   }
 }
 
-}  // namespace
+}  // namespace procedure_test
 }  // namespace jnd::experiments

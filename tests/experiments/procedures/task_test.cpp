@@ -10,7 +10,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace task_test {
 
 /// A comparison of fluids with a reference of 8 Pa s and these keys besides.
 Block block_with(const std::string& keys) {
@@ -329,5 +329,5 @@ TEST(AdaptiveTrials, ExpectTheCatchTrialsToo) {
   EXPECT_NEAR(staircase.expected_trials(more), 1.25 * staircase.expected_trials(plain), 1.0);
 }
 
-}  // namespace
+}  // namespace task_test
 }  // namespace jnd::experiments

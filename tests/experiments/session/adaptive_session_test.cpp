@@ -5,7 +5,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace adaptive_session_test {
 
 class MemoryLog final : public EventLog {
  public:
@@ -138,5 +138,5 @@ TEST_F(AdaptiveSessionTest, AResumedSessionGoesOnAsAnUninterruptedOne) {
   }
 }
 
-}  // namespace
+}  // namespace adaptive_session_test
 }  // namespace jnd::experiments

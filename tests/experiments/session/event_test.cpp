@@ -7,7 +7,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace {
+namespace event_test {
 
 /// One of each kind, no field left at its default.
 std::vector<EventData> one_of_each() {
@@ -178,5 +178,5 @@ TEST(Event, NamesTheEventWhoseDataAreDamaged) {
   EXPECT_THROW((void)event_from_row(without_columns), core::Error);
 }
 
-}  // namespace
+}  // namespace event_test
 }  // namespace jnd::experiments

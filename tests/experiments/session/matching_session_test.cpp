@@ -4,7 +4,7 @@
 #include "experiments/session/session.h"
 
 namespace jnd::experiments {
-namespace {
+namespace matching_session_test {
 
 class MemoryLog final : public EventLog {
  public:
@@ -163,5 +163,5 @@ TEST_F(MatchingSession, StepsEndAtTheBlocksEnd) {
   EXPECT_GT(num_steps, 0);
 }
 
-}  // namespace
+}  // namespace matching_session_test
 }  // namespace jnd::experiments

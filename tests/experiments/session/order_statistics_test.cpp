@@ -5,7 +5,7 @@
 #include <utility>
 
 namespace jnd::experiments {
-namespace {
+namespace order_statistics_test {
 
 class OrderStatisticsTest : public ::testing::Test {
  protected:
@@ -83,5 +83,5 @@ TEST_F(OrderStatisticsTest, TrialsWithoutAStimulusPartTheirNeighbours) {
             (std::vector<std::vector<int>>{{0, 1, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
-}  // namespace
+}  // namespace order_statistics_test
 }  // namespace jnd::experiments

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 namespace jnd::experiments {
-namespace {
+namespace plan_test {
 
 const std::string kStudy = R"json({
   "format": 1, "name": "planned", "languages": ["en"], "title": {"en": "Planned"},
@@ -295,5 +295,5 @@ TEST(Plan, NamesTheTotalLimitWhereItIsTheTighterOne) {
   EXPECT_NEAR(thick->fits_up_to_m_per_s.value(), 0.1, 1e-9);
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace jnd::experiments

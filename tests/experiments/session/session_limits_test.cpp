@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::experiments {
-namespace {
+namespace session_limits_test {
 
 Stage block(const std::string& name, int num_stimuli) {
   Stage stage;
@@ -84,5 +84,5 @@ TEST(SessionLimits, ExposureIsOverWhenItIsReached) {
             "900 N s of force, of at most 900");
 }
 
-}  // namespace
+}  // namespace session_limits_test
 }  // namespace jnd::experiments

@@ -10,7 +10,7 @@
 #include "experiments/session/event.h"
 
 namespace jnd::experiments {
-namespace {
+namespace session_test {
 
 /// Keeps commits in memory; can refuse them like a full disk.
 class MemoryLog final : public EventLog {
@@ -406,5 +406,5 @@ TEST_F(SessionTest, AHandThatWasExposedToAllThatIsAllowedBeginsNoTrial) {
   EXPECT_THROW(again.start_trial(again.state().last_tick + 1), core::Error);
 }
 
-}  // namespace
+}  // namespace session_test
 }  // namespace jnd::experiments

@@ -8,7 +8,7 @@
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
-namespace {
+namespace stimulus_test {
 
 TEST(Stimulus, EveryMediumOfTheTableHasItsAmounts) {
   for (const MediumQuantity& medium : media()) {
@@ -78,5 +78,5 @@ TEST(Stimulus, SaysWhichMediaThereAre) {
   }
 }
 
-}  // namespace
+}  // namespace stimulus_test
 }  // namespace jnd::experiments

@@ -8,7 +8,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace task_session_test {
 
 class MemoryLog final : public EventLog {
  public:
@@ -345,5 +345,5 @@ TEST_F(TaskSessionTest, PracticeIsTheSameRestartedAndResumed) {
   expect_restarts_the_same(kPractice);
 }
 
-}  // namespace
+}  // namespace task_session_test
 }  // namespace jnd::experiments

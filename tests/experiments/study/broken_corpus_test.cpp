@@ -20,7 +20,7 @@
 // and an eye on whether the author would understand that.
 
 namespace jnd::experiments {
-namespace {
+namespace broken_corpus_test {
 
 namespace fs = std::filesystem;
 
@@ -156,5 +156,5 @@ TEST(BrokenCorpus, BreaksAValueOfEveryKind) {
   }
 }
 
-}  // namespace
+}  // namespace broken_corpus_test
 }  // namespace jnd::experiments

@@ -12,7 +12,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace force_map_file_test {
 
 const std::string kHeader =
     "angle_of_attack_rad,speed_m_per_s,drag_coefficient,lift_coefficient\n";
@@ -95,5 +95,5 @@ TEST(ForceMapFile, AFileThatIsNotThereIsSaidToBeNone) {
   EXPECT_THROW(static_cast<void>(read_force_map(test_support::source_folder())), core::Error);
 }
 
-}  // namespace
+}  // namespace force_map_file_test
 }  // namespace jnd::experiments

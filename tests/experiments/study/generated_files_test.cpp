@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace generated_files_test {
 
 std::string shipped(const std::string& name) {
   std::ifstream stream(test_support::source_folder() / "protocols" / name, std::ios::binary);
@@ -28,5 +28,5 @@ TEST(GeneratedFiles, TheShippedReferenceIsThatOfTheTables) {
       << "the tables changed; renew it: build/jnd schema --markdown > protocols/README.md";
 }
 
-}  // namespace
+}  // namespace generated_files_test
 }  // namespace jnd::experiments

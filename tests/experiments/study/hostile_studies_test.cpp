@@ -11,7 +11,7 @@
 // an end. Each gives a sentence, after reading no more than a study may have.
 
 namespace jnd::experiments {
-namespace {
+namespace hostile_studies_test {
 
 constexpr const char* kTooLarge =
     "x.json: expected at most 4 MiB of text, found more; is this a study file?";
@@ -94,5 +94,5 @@ TEST(HostileStudies, AFileWithoutAnEndIsNotWaitedFor) {
             "expected at most 4 MiB of text, found more; is this a study file?");
 }
 
-}  // namespace
+}  // namespace hostile_studies_test
 }  // namespace jnd::experiments

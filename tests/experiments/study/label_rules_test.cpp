@@ -5,7 +5,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace label_rules_test {
 
 TEST(LabelRules, WantTheTwoAnswersOfABlockToDiffer) {
   const auto labels = [](const std::string& no) {
@@ -43,5 +43,5 @@ TEST(LabelRules, LetCommentsRepeatThemselves) {
       "");
 }
 
-}  // namespace
+}  // namespace label_rules_test
 }  // namespace jnd::experiments

@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace level_doubts_test {
 
 constexpr char kViscosities[] = "[10.5, 20]";
 
@@ -65,5 +65,5 @@ TEST(LevelDoubts, ShippedStudiesGiveNone) {
   }
 }
 
-}  // namespace
+}  // namespace level_doubts_test
 }  // namespace jnd::experiments

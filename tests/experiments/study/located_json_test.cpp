@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::experiments {
-namespace {
+namespace located_json_test {
 
 /// The one problem of a text, or all of them, a line each.
 std::string problems_in(const std::string& text) {
@@ -199,5 +199,5 @@ TEST(LocatedJson, RefusesBottomlessNestingWithoutRunningOutOfStack) {
   EXPECT_EQ(problems_in("[\"" + std::string(100, '[') + "\"]"), "");
 }
 
-}  // namespace
+}  // namespace located_json_test
 }  // namespace jnd::experiments

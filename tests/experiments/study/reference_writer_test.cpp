@@ -8,7 +8,7 @@
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
-namespace {
+namespace reference_writer_test {
 
 /// The lines of the section under a heading, up to the next one.
 std::string section_of(const std::string& heading) {
@@ -91,5 +91,5 @@ TEST(ReferenceWriter, LinksOnlyToSectionsThatExist) {
   EXPECT_GT(num_links, 20);
 }
 
-}  // namespace
+}  // namespace reference_writer_test
 }  // namespace jnd::experiments

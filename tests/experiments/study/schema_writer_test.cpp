@@ -10,7 +10,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace schema_writer_test {
 
 using nlohmann::json;
 
@@ -135,5 +135,5 @@ TEST(SchemaWriter, ShowsAnExampleOfEveryStageKindThatTheReaderTakes) {
   }
 }
 
-}  // namespace
+}  // namespace schema_writer_test
 }  // namespace jnd::experiments

@@ -5,7 +5,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace session_rules_test {
 
 TEST(SessionRules, WantEveryStageToBeGivenToSomebody) {
   const std::string inside = "\"name\": \"bucket\"";
@@ -90,5 +90,5 @@ TEST(SessionRules, WantAMediumToLastLongerThanItsRamp) {
   EXPECT_NE(explored("2", "\"device\": {\"ramp_s\": 2},"), "");
 }
 
-}  // namespace
+}  // namespace session_rules_test
 }  // namespace jnd::experiments

@@ -10,7 +10,7 @@
 #include "support/places.h"
 
 namespace jnd::experiments {
-namespace {
+namespace shipped_studies_test {
 
 Study shipped(const std::string& name) {
   return read_study(test_support::source_folder() / "protocols" / (name + ".json"));
@@ -140,5 +140,5 @@ TEST(ShippedStudies, AskForBodyHeightAndHandednessBeforeTheFirstBlock) {
   }
 }
 
-}  // namespace
+}  // namespace shipped_studies_test
 }  // namespace jnd::experiments

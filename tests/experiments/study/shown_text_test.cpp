@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::experiments {
-namespace {
+namespace shown_text_test {
 
 TEST(ShownText, LeavesOrdinaryWordsOfAnyLanguageAlone) {
   EXPECT_EQ(shown_text("Wasser"), "Wasser");
@@ -45,5 +45,5 @@ TEST(ShownText, KeepsShortPointersAndShortensEachLongKey) {
             "/" + std::string(58, 'k') + "...");
 }
 
-}  // namespace
+}  // namespace shown_text_test
 }  // namespace jnd::experiments

@@ -8,7 +8,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
-namespace {
+namespace solid_blocks_test {
 
 std::string study_with(const std::string& keys) {
   return R"json({"format": 1, "name": "solid", "languages": ["en"], "title": {"en": "Solid"},
@@ -83,5 +83,5 @@ TEST(SolidBlocks, TheRangeTellsWhatTheDeviceCannotRender) {
   EXPECT_FALSE(fits.at(50000.0));
 }
 
-}  // namespace
+}  // namespace solid_blocks_test
 }  // namespace jnd::experiments

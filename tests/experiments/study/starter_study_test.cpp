@@ -5,7 +5,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace starter_study_test {
 
 TEST(StarterStudy, HasNoProblemAndTheNameThatWasAskedFor) {
   const std::string text = starter_study("honey_and_oil");
@@ -49,5 +49,5 @@ TEST(RenamedStudy, RefusesAStudyWithProblems) {
   EXPECT_THROW(static_cast<void>(renamed_study("{}", "x", "other")), ProtocolError);
 }
 
-}  // namespace
+}  // namespace starter_study_test
 }  // namespace jnd::experiments

@@ -7,7 +7,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace stimulus_place_test {
 
 std::string pointer(const std::string& stage, const MediumSetting& setting,
                     const std::string& text = kSoundStudy) {
@@ -59,5 +59,5 @@ TEST(StimulusPlace, IsNowhereForAnUnknownStage) {
   EXPECT_EQ(pointer("no_such_stage", {"water", "scale", 2.0}), "");
 }
 
-}  // namespace
+}  // namespace stimulus_place_test
 }  // namespace jnd::experiments

@@ -5,7 +5,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace structure_check_test {
 
 TEST(StructureCheck, FindsNothingWrongWithASoundStudy) {
   EXPECT_EQ(problems_of(kSoundStudy), "");
@@ -182,5 +182,5 @@ TEST(StructureCheck, WantsObjectsWhereObjectsBelong) {
             "found 3");
 }
 
-}  // namespace
+}  // namespace structure_check_test
 }  // namespace jnd::experiments

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::experiments {
-namespace {
+namespace study_problem_test {
 
 TEST(StudyProblem, NamesFilePlacePointerAndMessage) {
   EXPECT_EQ(to_string({"a.json", 3, 7, "/stages/0/name", "expected this, found that"}),
@@ -52,5 +52,5 @@ TEST(NearestWord, FindsNothingWhereNothingIsNear) {
   EXPECT_EQ(did_you_mean("colour", {"scale"}), "");
 }
 
-}  // namespace
+}  // namespace study_problem_test
 }  // namespace jnd::experiments

@@ -8,7 +8,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace study_reader_test {
 
 TEST(StudyReader, FillsTheStudyWordForWord) {
   const Study study = read_study_text(kSoundStudy, "x.json");
@@ -250,5 +250,5 @@ TEST(StudyReader, EitherReadsOrRefusesAStudyWithAnyValueReplaced) {
   }
 }
 
-}  // namespace
+}  // namespace study_reader_test
 }  // namespace jnd::experiments

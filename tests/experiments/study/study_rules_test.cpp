@@ -7,7 +7,7 @@
 #include "tests/experiments/study/broken_study.h"
 
 namespace jnd::experiments {
-namespace {
+namespace study_rules_test {
 
 TEST(StudyRules, WantStagesItemsOptionsAndArmsToHaveNamesOfTheirOwn) {
   EXPECT_EQ(problems_of(broken("\"name\": \"rest\"", "\"name\": \"bucket\"")),
@@ -190,5 +190,5 @@ TEST(StudyRules, AForceMapNeedsEveryAngleWithEverySpeedAndNoLiftAtItsEnds) {
   EXPECT_EQ(std::count(twice.begin(), twice.end(), '\n'), 0) << "one mistake, one problem";
 }
 
-}  // namespace
+}  // namespace study_rules_test
 }  // namespace jnd::experiments

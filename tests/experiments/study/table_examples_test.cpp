@@ -11,7 +11,7 @@
 // What holds for every table, those of procedures to come among them.
 
 namespace jnd::experiments {
-namespace {
+namespace table_examples_test {
 
 using nlohmann::json;
 
@@ -101,5 +101,5 @@ TEST(TableExamples, AreRefusedWithAnUnknownKeyInAnyObject) {
   }
 }
 
-}  // namespace
+}  // namespace table_examples_test
 }  // namespace jnd::experiments

@@ -8,7 +8,7 @@
 #include <iterator>
 
 namespace jnd::experiments {
-namespace {
+namespace written_data_test {
 
 std::string layout(const std::string& name) {
   std::ifstream stream(test_support::source_folder() / "data/database" / name);
@@ -65,5 +65,5 @@ TEST(WrittenData, OfAProcedureIsForOneThatExists) {
   }
 }
 
-}  // namespace
+}  // namespace written_data_test
 }  // namespace jnd::experiments

@@ -8,7 +8,7 @@
 #include "app/gui/headless_ui.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace apparatus_view_test {
 
 SessionView felt() {
   SessionView view{
@@ -391,5 +391,5 @@ TEST_F(ApparatusView, EverythingHasRoomInTheSmallestWindow) {
   }
 }
 
-}  // namespace
+}  // namespace apparatus_view_test
 }  // namespace jnd::app::gui

@@ -6,7 +6,7 @@
 #include "app/gui/views/study_fixtures.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace prepare_view_test {
 
 using Status = PreflightLine::Status;
 
@@ -142,5 +142,5 @@ TEST_F(PrepareViewTest, WhatTheStudyStratifiesByIsAskedBeforeTheStart) {
   EXPECT_TRUE(after_key({Key::kEnter}).start);
 }
 
-}  // namespace
+}  // namespace prepare_view_test
 }  // namespace jnd::app::gui

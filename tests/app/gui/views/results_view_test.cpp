@@ -10,7 +10,7 @@
 #include "app/tiny_study.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace results_view_test {
 
 ResultsModel some_results() {
   analysis::HandMadeStudy study(kTinyStudy);
@@ -170,5 +170,5 @@ TEST_F(ResultsViewTest, APlotHoldsTheModelsPointsCurveAndLine) {
   EXPECT_EQ(boxes.x.ticks.front().label, results().boxes.front().boxes.front().label);
 }
 
-}  // namespace
+}  // namespace results_view_test
 }  // namespace jnd::app::gui

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace jnd::app::gui {
-namespace {
+namespace scope_curve_test {
 
 constexpr Rect kPlace{0, 0, 200, 50};  // A pixel is 50 ms wide.
 constexpr AxisRange kRange{-10.0, 10.0};
@@ -93,5 +93,5 @@ TEST(ScopeRange, IsNeverSmallerThanWhatIsOfInterest) {
   }
 }
 
-}  // namespace
+}  // namespace scope_curve_test
 }  // namespace jnd::app::gui

@@ -6,7 +6,7 @@
 #include "app/gui/views/study_fixtures.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace sessions_view_test {
 
 class SessionsViewTest : public ::testing::Test {
  protected:
@@ -137,5 +137,5 @@ TEST_F(SessionsViewTest, AnEmptyStudySaysWhatToDo) {
   EXPECT_FALSE(ui_.drawn().find("verify")->enabled);
 }
 
-}  // namespace
+}  // namespace sessions_view_test
 }  // namespace jnd::app::gui

@@ -6,7 +6,7 @@
 #include "app/gui/views/study_fixtures.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace start_view_test {
 
 namespace fs = std::filesystem;
 
@@ -173,5 +173,5 @@ TEST_F(StartViewTest, NothingIsCutOffInASmallWindow) {
   }
 }
 
-}  // namespace
+}  // namespace start_view_test
 }  // namespace jnd::app::gui

@@ -8,7 +8,7 @@
 #include "experiments/study/study_reader.h"
 
 namespace jnd::app::gui {
-namespace {
+namespace study_view_test {
 
 class StudyViewTest : public ::testing::Test {
  protected:
@@ -97,5 +97,5 @@ TEST_F(StudyViewTest, OfADoubleBlindStudyNoLevelAndNoOrderIsDrawn) {
   EXPECT_TRUE(ui_.drawn().shows("its orders are hidden"));
 }
 
-}  // namespace
+}  // namespace study_view_test
 }  // namespace jnd::app::gui

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace jnd::app::gui {
-namespace {
+namespace typed_number_test {
 
 TEST(TypedNumber, IsWhatPeopleWrite) {
   EXPECT_EQ(typed_number("41"), 41.0);
@@ -18,5 +18,5 @@ TEST(TypedNumber, IsNothingElse) {
   }
 }
 
-}  // namespace
+}  // namespace typed_number_test
 }  // namespace jnd::app::gui
