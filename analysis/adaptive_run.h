@@ -39,8 +39,8 @@ struct LimitsEstimate {
 /// What QUEST+ knows of a parameter at the end.
 struct PosteriorEstimate {
   std::string parameter;  ///< "pse", "weber_fraction", "threshold", "slope".
-  double mean = 0.0;      ///< Of a ratio exp(mean of ln).
-  double sd = 0.0;        ///< Of a ratio in ln.
+  double mean = 0.0;      ///< Posterior mean; of a ratio the exponential of the mean of ln.
+  double sd = 0.0;        ///< Standard deviation of the posterior; of a ratio that of ln.
   /// Central 95 % of the posterior, values of its grid; no ends where it reaches an end of any
   /// parameter's grid, as what lies beyond was ruled out before the first answer.
   std::optional<double> low, high;

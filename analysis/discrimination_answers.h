@@ -14,7 +14,8 @@ namespace jnd::analysis {
 struct DiscriminationAnswers {
   std::string participant;
   double reference = 0.0;
-  std::map<double, AnswerCount> levels;                    ///< Both orders together.
+  std::map<double, AnswerCount>
+      levels;  ///< By intensity, with both orders of the intervals together.
   std::map<std::pair<double, double>, AnswerCount> cells;  ///< By intensity and order.
   std::vector<OrderedAnswers> in_order;                    ///< One a trial.
 
@@ -43,7 +44,7 @@ struct OwnFitOptions {
   bool free_pse = false;
   bool intervals = false;
   int num_goodness = 0;    ///< Redraws for the goodness of fit; 0 leaves it out.
-  std::uint64_t seed = 1;  ///< Of these.
+  std::uint64_t seed = 1;  ///< Seed of these redraws.
 };
 [[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,
                                       const OwnFitOptions& options);
@@ -52,7 +53,7 @@ struct OwnFitOptions {
 /// pse answers of one order of the intervals may be all alike.
 [[nodiscard]] std::string why_no_pse(const PsychometricFit& fit);
 
-/// As the hierarchical fit takes them.
+/// Everybody's answers in the form in which the hierarchical fit takes them.
 [[nodiscard]] std::vector<ParticipantAnswers> participant_answers(
     const std::vector<DiscriminationAnswers>& all, const std::string& condition);
 

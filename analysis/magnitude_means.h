@@ -36,10 +36,11 @@ struct LogAnswers {
 struct MagnitudeBlock {
   std::vector<std::string> names;
   std::vector<MagnitudeAnswers> answers;
-  std::vector<Means> means;                    ///< Arithmetic, over the repetitions.
-  std::vector<Means> log_means;                ///< Of the logarithms, zeros by `kHalfSmallest`.
-  std::vector<Means> log_means_without_zeros;  ///< The same by `kLeaveOut`.
-  int num_zeros = 0;                           ///< Of all participants.
+  std::vector<Means> means;      ///< Arithmetic means over the repetitions.
+  std::vector<Means> log_means;  ///< Means of the logarithms, zeros by `kHalfSmallest`.
+  std::vector<Means>
+      log_means_without_zeros;  ///< Means of the logarithms, zeros by `kLeaveOut`.
+  int num_zeros = 0;            ///< Answers of 0, of all participants.
   std::vector<ExcludedParticipant> excluded;
 
   [[nodiscard]] std::size_t size() const noexcept { return names.size(); }

@@ -31,8 +31,8 @@ struct JointTail {
 /// What simulated studies tell of everything that was published of one.
 struct Predictive {
   int num_people = 0;        ///< That studies were drawn from; 0 without any.
-  int num_studies = 0;       ///< Drawn.
-  int num_participants = 0;  ///< Of each, as were published.
+  int num_studies = 0;       ///< Studies that were drawn.
+  int num_participants = 0;  ///< Participants of each study, as many as were published.
   std::string reason;        ///< Why there are none; "" if there are some.
   /// Of all statistics but those that follow from others; of those that the laboratory was
   /// neither fitted to nor implies.

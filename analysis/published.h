@@ -19,7 +19,7 @@ struct PublishedStatistic {
     kCombinedPowerLaw,   ///< Through both curves at the intensities that were estimated.
     kProductionRatio,    ///< Of everybody's mean set values for two targets, summed up.
     kNumbers,            ///< `PersonOutcome::numbers` of these names, summed up.
-    kDifferenceOfMeans,  ///< Of two of them.
+    kDifferenceOfMeans,  ///< Difference of the means of two such numbers.
   };
   enum class Summary { kMean, kStandardDeviation, kMedian };
 
@@ -38,10 +38,10 @@ struct PublishedValue {
   std::optional<double> standard_deviation;  ///< Between participants, where it was printed.
   std::string place;                         ///< Where it stands in the publication.
   std::string unit = "1";
-  std::optional<int> num_decimals;  ///< As many as were printed.
+  std::optional<int> num_decimals;  ///< Decimals that were printed.
   std::optional<int> n;             ///< Participants it rests on.
   std::string statistic;            ///< How it was computed, in words; "" if nobody said.
-  std::optional<PublishedStatistic> compute;  ///< The same for the program.
+  std::optional<PublishedStatistic> compute;  ///< How the program computes it.
   /// It is nothing but what others come to, so it tells nothing beside all of them.
   bool follows_from_others = false;
 };

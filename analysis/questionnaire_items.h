@@ -15,13 +15,14 @@ struct QuestionnaireItem {
   std::string
       kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which", "scale", "words".
   std::string question;  ///< In English, or in the first language there is.
-  std::string unit;      ///< Of a number; "" without.
-  int num_steps = 0;     ///< Of a scale, counted from 1.
+  std::string unit;      ///< Unit of a number; "" where there is none.
+  int num_steps = 0;     ///< Steps of a scale, counted from 1.
   /// Of a scale: whether the last step is the favourable end; absent where neither is.
   std::optional<bool> high_is_good{};
-  std::vector<std::string> options;        ///< Of a choice, as stored.
-  std::vector<std::string> option_labels;  ///< As read, in the language of the question.
-  std::string low_label, high_label;       ///< Of a scale: what stands at its ends.
+  std::vector<std::string> options;  ///< Options of a choice, in the words that are stored.
+  std::vector<std::string>
+      option_labels;  ///< Options as people read them, in the question's language.
+  std::string low_label, high_label;  ///< Of a scale: what stands at its ends.
 };
 
 /// The questions of a study file in their order, those of every arm among them. What does not

@@ -68,7 +68,7 @@ struct PracticeRun {
   std::string participant, block;
   int num_trials = 0;
   int num_judged = 0;   ///< The last answers, at most as many as the criterion is of.
-  int num_correct = 0;  ///< Of those.
+  int num_correct = 0;  ///< Right answers among those judged.
   bool criterion_met = false;
   std::string problem;  ///< Why success cannot be told; "" if it can.
 };
@@ -93,7 +93,7 @@ struct StudyData {
   bool delivered = false;  ///< Intensities are those that came out, not those commanded.
   MissingSessions sessions;
   std::vector<ParticipantData> participants;  ///< By pseudonym.
-  std::vector<BlockDesign> blocks;            ///< As the study file has them.
+  std::vector<BlockDesign> blocks;            ///< In the order of the study file.
   std::vector<QuestionnaireItem> items;       ///< In the order of the study file.
   /// Of blocks whose procedure has a rule of its own; by whoever reads that from the study
   /// file.

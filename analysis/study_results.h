@@ -28,7 +28,7 @@ struct Estimate {
   /// Of means: their difference in units of both standard errors, that of the published mean
   /// among them.
   std::optional<double> published_z;
-  std::optional<PredictiveTail> predictive;  ///< Where simulated people are known.
+  std::optional<PredictiveTail> predictive;  ///< Present where simulated people are known.
   bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
   bool implied = false;     ///< It follows, nearly or wholly, from values that were.
   bool primary = false;     ///< It answers what its block asks; see `mark_primary`.
@@ -56,7 +56,7 @@ struct ParticipantEstimate {
   std::string participant;
   std::string name;  ///< "group_d.weber_fraction"
   std::optional<double> value;
-  Interval ci95;                        ///< Of this participant's answers alone.
+  Interval ci95;                        ///< Interval by this participant's answers alone.
   std::string reason;                   ///< Why there is no value; "" if there is one.
   std::vector<std::string> cautions{};  ///< Why it may be wrong, one each.
   bool primary = false;  ///< Of this person what the primary estimate is of the group.
@@ -77,7 +77,7 @@ struct NamedComparison {
 struct FreeAnswer {
   std::string participant;
   std::string item;      ///< "missing_sensations"
-  std::string question;  ///< As it was asked.
+  std::string question;  ///< The question as it was asked.
   std::string answer;
 };
 
@@ -132,7 +132,7 @@ struct StudyResults {
   std::string citation;             ///< Of the published values; "" without any.
   int num_participants = 0;
   MissingSessions sessions;
-  std::vector<LevelLoss> losses;  ///< Of every level of every block.
+  std::vector<LevelLoss> losses;  ///< Losses at every level of every block.
   std::vector<ResultsSection> sections;
   Predictive predictive;  ///< What published values are compared with.
 
@@ -140,8 +140,8 @@ struct StudyResults {
 };
 
 struct ResultsOptions {
-  int num_resamples = 1000;  ///< Of participants, for group intervals.
-  std::uint64_t seed = 1;    ///< Of the resampling.
+  int num_resamples = 1000;  ///< Resamples of participants, for group intervals.
+  std::uint64_t seed = 1;    ///< Seed of the resampling.
   /// Blocks whose Weber fractions are compared; none: as `compared_blocks` chooses.
   std::vector<BlockNames> compared{};
 };

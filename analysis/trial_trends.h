@@ -10,8 +10,8 @@ namespace jnd::analysis {
 /// Whether people change over the trials, each in their own way, which the mean of their z does
 /// not show: where some change up and others down it is about 0.
 struct TrendDispersion {
-  int num_people = 0;      ///< Of whom a z is defined.
-  double sum_squares = 0;  ///< Of their z: about `num_people` if nobody changes.
+  int num_people = 0;      ///< People of whom a z is defined.
+  double sum_squares = 0;  ///< Sum of their z squared: about `num_people` if nobody changes.
   double p_value = 1.0;    ///< One-sided: (1 + redraws with at least this sum) / (all + 1).
 };
 struct TrendDispersions {

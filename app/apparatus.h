@@ -30,7 +30,7 @@ namespace jnd::app {
 class Apparatus {
  public:
   struct Parameters {
-    std::string device = "lumped";  ///< As in the registry of devices.
+    std::string device = "lumped";  ///< A name in the registry of devices.
     double rate_hz = 1000.0;
     double ramp_s = 0.050;
     core::Immersion immersion;
@@ -38,7 +38,7 @@ class Apparatus {
     std::shared_ptr<const core::ForceMap> force_map;  ///< nullptr: the thesis's fit.
     double home_height_m = -0.15;                     ///< Of the hand at rest, workspace frame.
     std::int64_t first_tick = 0;                      ///< A resumed session counts on.
-    std::int64_t first_time_ns = 0;                   ///< Of the simulated clock, likewise.
+    std::int64_t first_time_ns = 0;                   ///< The simulated clock counts on, too.
     bool realtime = false;           ///< Paced by a real-time thread; else as fast as it goes.
     bool allow_no_realtime = false;  ///< A real device also without real-time rights.
     /// A real device is armed at once, as somebody asked for who is beside it. A simulated one
@@ -74,7 +74,7 @@ class Apparatus {
   // Of the simulated arm; a hand that a person moves takes no orders.
   void begin_strokes(const device::StrokePlan& plan, const core::RandomStream& random);
   void go_home();
-  /// Fingers that came off, likewise; a person's are put back by a person.
+  /// Puts fingers that came off back, on a simulated hand; a person's are put back by a person.
   void put_fingers_back();
   /// Whole strokes since the last `begin_strokes`; of a hand that takes no orders, those since
   /// `meter_strokes`.

@@ -28,7 +28,8 @@ struct TrialLength {
 
 /// Where the levels of an adaptive block end: who is there often has a threshold beyond.
 struct LevelEnds {
-  double lowest_ratio = 0.0, highest_ratio = 0.0;  ///< Of all trials, those there.
+  double lowest_ratio = 0.0,
+         highest_ratio = 0.0;  ///< Shares of all trials that lie at either end.
 };
 
 /// What a plan comes to over all of its participants.
@@ -40,7 +41,7 @@ struct PlanStatistics {
   std::string not_simulated;
   std::vector<double> durations_s;                   ///< Of each participant, simulated.
   std::map<std::string, Spread> num_trials;          ///< Of each adaptive block, by its name.
-  std::map<std::string, LevelEnds> level_ends;       ///< Likewise.
+  std::map<std::string, LevelEnds> level_ends;       ///< Of each adaptive block, by its name.
   std::map<std::string, TrialLength> trial_lengths;  ///< Of each block.
 };
 

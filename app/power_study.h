@@ -27,8 +27,8 @@ struct PowerRequest {
 
 /// Expected length of a study of a size, by the plan.
 struct PlannedDuration {
-  double mean_s = 0.0;   ///< Of a participant.
-  double total_s = 0.0;  ///< Of all participants.
+  double mean_s = 0.0;   ///< Mean duration of a participant's session.
+  double total_s = 0.0;  ///< Durations of all participants together.
 };
 
 /// Everything that says what runs are about, so that shards of one study know each other.

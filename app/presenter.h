@@ -35,7 +35,7 @@ class Presenter {
     std::int64_t last_tick = 0;
     double duration_s = 0.0;
     std::int64_t num_ticks = 0;     ///< That were due, from the event of its beginning on.
-    std::int64_t missed_ticks = 0;  ///< Those of them that never ran.
+    std::int64_t missed_ticks = 0;  ///< Ticks among them that never ran.
   };
 
   /// Stores the presentation's beginning, then switches the medium: "test", "reference" or
@@ -81,7 +81,7 @@ class Presenter {
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;
   core::Exposure told_;            ///< In events of this apparatus.
-  core::GuardCounts told_guards_;  ///< Likewise.
+  core::GuardCounts told_guards_;  ///< In events of this apparatus.
 };
 
 }  // namespace jnd::app

@@ -48,7 +48,7 @@ void require_device_moves_by_itself(const std::string& name, const std::string& 
 [[nodiscard]] bool has_own_clock(const std::string& device);
 
 /// For many sessions as fast as they go: throws `UsageError` for a device with a clock of its
-/// own. `place` as above.
+/// own. `place` says where the name is from, "--device mouse".
 void require_device_keeps_pace(const std::string& name, const std::string& place);
 
 /// Opens a simulated device once and closes it, so that nothing is stored for a session that
@@ -74,7 +74,7 @@ void require_device_starts(const std::string& name, double rate_hz);
 /// "P01", "P02", ...: the next free pseudonyms of a study.
 [[nodiscard]] std::vector<std::string> next_participants(const core::StudyStore& store,
                                                          int count);
-/// The same where these are taken.
+/// The same where these pseudonyms are taken.
 [[nodiscard]] std::vector<std::string> next_participants(const std::set<std::string>& taken,
                                                          int count);
 

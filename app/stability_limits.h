@@ -19,14 +19,15 @@ struct StabilityRow {
 
 /// Up to which viscosity and stiffness a device is stable: `jnd stability` makes it.
 struct StabilityMap {
-  std::string device;  ///< As in the registry.
+  std::string device;  ///< Its name in the registry.
   std::vector<StabilityRow> rows;
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const StabilityMap& map);
 /// Throws `core::Error` naming the file and what is wrong in it.
 [[nodiscard]] StabilityMap read_stability_map(const std::filesystem::path& file);
-/// The map shipped for this device; none for a device that has none. Throws as above.
+/// The map shipped for this device; none for a device that has none. Throws as
+/// `read_stability_map`.
 [[nodiscard]] std::optional<StabilityMap> shipped_stability_map(const std::string& device);
 
 /// The stimuli of a study against the map, in its loop's own time: without extra delay.

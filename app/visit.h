@@ -26,7 +26,8 @@ class Visit {
     const experiments::Study& study;
     /// Device, real time and doors; what the study and the session's log decide is filled in.
     Apparatus::Parameters apparatus;
-    const experiments::Laboratory* laboratory = nullptr;  ///< Of a simulated hand.
+    const experiments::Laboratory* laboratory =
+        nullptr;  ///< That of a simulated hand; or none.
     std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
   };
 

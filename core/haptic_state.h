@@ -28,9 +28,10 @@ struct HapticState {
   PointVectors acted_n{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                        Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                        Eigen::Vector3d::Zero()};
-  Eigen::Vector3d end_effector_position_m = Eigen::Vector3d::Zero();  ///< Of the carrying arm.
+  Eigen::Vector3d end_effector_position_m = Eigen::Vector3d::Zero();  ///< Where the arm ends.
   std::array<double, kNumJoints> joint_position_rad{};  ///< 0 from a device without joints.
-  std::array<double, kNumJoints> joint_torque_n_m{};    ///< As its sensors say; likewise.
+  std::array<double, kNumJoints>
+      joint_torque_n_m{};  ///< Measured torques; 0 from a device without joints.
 };
 
 }  // namespace jnd::core

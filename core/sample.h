@@ -24,7 +24,7 @@ struct Sample {
   /// is that of the ticks.
   std::int64_t monotonic_ns = 0;
   std::int64_t device_time_ns =
-      0;  ///< Of the measurement, by the device's own clock; likewise.
+      0;  ///< When it was measured, by the device's own clock; 0 in simulated time.
   std::uint32_t command_sequence = 0;
   std::uint8_t attached_bits = 0;  ///< Bit i: contact point i holds the hand.
   std::uint8_t immersed_bits = 0;  ///< Bit i: contact point i is in the medium.

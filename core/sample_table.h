@@ -9,10 +9,10 @@ namespace jnd::core {
 
 /// Columns that not every recording has.
 struct SampleColumns {
-  bool times = false;   ///< The monotonic time and the device's: of real time.
-  bool joints = false;  ///< Of a device with joints.
+  bool times = false;   ///< Monotonic and device time, of sessions in real time.
+  bool joints = false;  ///< Joint angles and torques, of a device with joints.
 
-  /// Those that either has.
+  /// The columns that either of the two has.
   friend SampleColumns operator|(const SampleColumns& a, const SampleColumns& b) noexcept {
     return {.times = a.times || b.times, .joints = a.joints || b.joints};
   }

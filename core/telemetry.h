@@ -18,7 +18,7 @@ struct Telemetry {
   std::int64_t num_ticks = 0;          ///< Ticks done by this loop; 0 is "none yet".
   std::int64_t num_missed_ticks = 0;   ///< That were due and never ran, so far.
   Sample sample;                       ///< The last one, as recorded.
-  std::uint64_t command_sequence = 0;  ///< Of the command in force.
+  std::uint64_t command_sequence = 0;  ///< Sequence number of the command in force.
   Fault fault = Fault::kNone;
   Arming arming = Arming::kDisarmed;
   bool limited = false;  ///< The limiter changed the force in this tick.

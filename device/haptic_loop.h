@@ -49,10 +49,10 @@ class HapticLoop {
     core::VelocityCheck::Parameters velocity_check;
     double heartbeat_timeout_s = 0.250;  ///< > 0.
     double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
-    double guard_fade_s = 0.030;         ///< Likewise after a guard's fault, > 0.
+    double guard_fade_s = 0.030;         ///< Force to zero after a guard's fault, > 0.
     double warn_margin_m = 0.020;        ///< To the edge of the workspace, >= 0.
     double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
-    double reattach_s = 0.200;           ///< Likewise of a point that is held again, > 0.
+    double reattach_s = 0.200;           ///< Force back on a point that is held again, > 0.
     /// For how long the last measurement may stand in, >= 0; the device may ask for longer.
     double max_stale_s = 0.005;
     /// Left by an attached point, there is no force until the loop is armed again inside.
@@ -123,8 +123,8 @@ class HapticLoop {
   /// No force from the next tick on, until `rearm`: nothing is wrong. Any thread. Real time.
   void disarm() noexcept { disarm_requested_.store(true, std::memory_order_release); }
 
-  /// The machine slept between two ticks: the next one latches a fault. As `stalled`. Real
-  /// time.
+  /// The machine slept between two ticks: the next one latches a fault. May be called as
+  /// `stalled` is. Real time.
   void suspended() noexcept {
     suspended_ = true;
     stall_is_told_ = false;

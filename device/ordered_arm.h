@@ -41,7 +41,7 @@ class OrderedArm final : public SimulatedHand {
  private:
   struct Order {
     std::uint32_t number = 0;
-    bool stroke = false;  ///< Else go home.
+    bool stroke = false;  ///< Whether to stroke; if not, to go home.
     StrokePlan plan;
     core::RandomStream random{0, "stroke"};
   };

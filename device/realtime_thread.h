@@ -20,7 +20,7 @@ class RealtimeThread {
  public:
   struct Parameters {
     int priority = 80;        ///< Of SCHED_FIFO, [1, 99]; 0 does not ask for it.
-    bool lock_memory = true;  ///< Of the whole process.
+    bool lock_memory = true;  ///< Locks the memory of the whole process.
     int cpu = -1;             ///< To pin to; -1: any.
     /// Spun before each tick instead of slept, at most, >= 0; 0: sleep only. Never more than
     /// half a period.
@@ -51,7 +51,7 @@ class RealtimeThread {
   void stop() noexcept;
 
   [[nodiscard]] const LoopTiming& timing() const noexcept { return timing_; }
-  /// Of the ticking alone. After `stop`.
+  /// What the ticking used, without start and stop. Call it after `stop`.
   [[nodiscard]] const ThreadUse& use() const noexcept { return use_; }
 
  private:

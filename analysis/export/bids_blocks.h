@@ -23,10 +23,10 @@ struct BidsBlock {
   std::string name;                   ///< Of the block or stage in the study file.
   std::vector<ExportedTrial> trials;  ///< None in a stage that only shows media.
   std::vector<ExportedPresentation> presentations;
-  std::vector<BidsExploration> explored;  ///< None in a block.
+  std::vector<BidsExploration> explored;  ///< Explored media; a block has none.
   std::int64_t first_tick = 0,
                last_tick = 0;  ///< From its first medium to the end of its last.
-  std::int64_t time_ns = 0;    ///< Of `first_tick`.
+  std::int64_t time_ns = 0;    ///< The time of `first_tick`.
 };
 
 /// The blocks of a session that have an answered trial and the stages in which media were

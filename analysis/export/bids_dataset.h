@@ -15,7 +15,7 @@ namespace jnd::analysis {
 struct BidsDataset {
   std::vector<core::SessionRow> sessions;
   std::map<std::string, std::string> subjects;  ///< Label of every pseudonym, without "sub-".
-  std::vector<core::ProtocolRow> protocols;     ///< Of the sessions, each once.
+  std::vector<core::ProtocolRow> protocols;     ///< Study files of the sessions, each once.
   bool simulated = false;
   bool trials = false;                ///< There is a task of trials,
   bool explored = false;              ///< one of explored media.

@@ -10,8 +10,8 @@ namespace jnd::analysis {
 
 /// What goes into a data set besides what always does.
 struct ExportOptions {
-  bool recordings = false;        ///< Also every sample.
-  bool pilot = false;             ///< Also pilot sessions.
+  bool recordings = false;        ///< Whether every sample is written as well.
+  bool pilot = false;             ///< Whether pilot sessions are written as well.
   std::string program_version{};  ///< Of the program that exports; "": it is not said.
   /// Names of a session's stages, in the order of the participant's list; may be empty, then
   /// stages are named by their numbers.
@@ -28,7 +28,7 @@ struct ExportOutcome {
   bool samples = false;  ///< There are any in it.
 };
 
-/// The sessions of the data set, by number. Who withdrew has none.
+/// The sessions of the data set, by number. Participants who withdrew have none.
 [[nodiscard]] std::vector<core::SessionRow> exported_sessions(const core::StudyStore& store,
                                                               const ExportOptions& options);
 

@@ -9,7 +9,7 @@ namespace jnd::analysis {
 
 /// A column of a recording.
 struct RecordingColumn {
-  std::string name;  ///< As `core::sample_column_names`.
+  std::string name;  ///< One of `core::sample_column_names`.
   std::string unit;
   std::string meaning;
   int decimals = 0;  ///< It was stored in steps of 10^-decimals.

@@ -16,8 +16,8 @@ namespace jnd::analysis {
 struct ExportedTrial {
   core::TrialRow row;
   bool excluded = false;        ///< Set aside with a reason.
-  bool is_practice = false;     ///< Of a block that is practice.
-  std::string standard_medium;  ///< Of the reference; "" where it is the block's own.
+  bool is_practice = false;     ///< Whether the trial belongs to a practice block.
+  std::string standard_medium;  ///< Medium of the reference; "" where it is the block's own.
 };
 /// In the order of the trials.
 [[nodiscard]] std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,

@@ -28,7 +28,7 @@ enum class FitStatus {
   return "not_run";
 }
 
-/// Who goes downhill. Both come to the same optimum.
+/// The method that searches for the optimum. Both methods come to the same one.
 enum class Solver {
   kCeres,   ///< For a fit that is reported; Newton's method mends its last digits and agrees.
   kNewton,  ///< For the many fits of data drawn anew: a tenth of the time.

@@ -17,7 +17,7 @@ struct PowerMinimum {
   std::string_view reason;  ///< Static; "" at kOk.
   double log_k = 0.0, a = 0.0;
   double largest = 0.0;         ///< Largest |magnitude|, so that no square overflows.
-  double sum_of_squares = 0.0;  ///< Of the residuals over `largest`.
+  double sum_of_squares = 0.0;  ///< Sum of squares of the residuals, each over `largest`.
 };
 
 /// The global minimum; every intensity is > 0. For each exponent the best k is known; where the

@@ -24,7 +24,7 @@ struct PsychometricEffect {
   FitStatus status = FitStatus::kNotRun;
   std::string reason;   ///< Why there is no estimate; "" if there is one.
   std::string name;     ///< "response_bias", "interval_order", "drift", "learning"
-  std::string meaning;  ///< Of the estimate, in words.
+  std::string meaning;  ///< What the estimate means, in words.
   std::optional<double> estimate;
   Interval ci95;                    ///< Wald's.
   std::optional<double> statistic;  ///< Chi-squared, one degree of freedom.

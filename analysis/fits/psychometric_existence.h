@@ -6,7 +6,7 @@
 
 namespace jnd::analysis {
 
-/// Where the supremum lies.
+/// Where the supremum of the likelihood lies.
 enum class PsychometricSupremum {
   kAttained,      ///< At one curve.
   kStep,          ///< At infinite slope: w falls to 0.

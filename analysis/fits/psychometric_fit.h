@@ -16,7 +16,7 @@ struct AnswerCount {
   double intensity = 0.0;       ///< >= 0; at 0 the curve is at its lower asymptote.
   std::int64_t num_yes = 0;     ///< 0 .. num_trials
   std::int64_t num_trials = 0;  ///< >= 0; a row without trials says nothing.
-  double order = 0.0;           ///< Where the test lay, see `order_of`.
+  double order = 0.0;           ///< In which interval the test lay, see `order_of`.
 };
 
 inline constexpr double kTestFirst = -0.5, kTestSecond = 0.5;
@@ -76,7 +76,7 @@ struct PsychometricOptions {
   /// Lapses at both ends, else at the upper end alone: see `PsychometricEnds`.
   bool symmetric_lapse = true;
   /// Where the rows' orders differ, let them have pses of their own: kWeber by maximum
-  /// likelihood without lapses and guesses only. Else the orders are pooled.
+  /// likelihood without lapses and guesses only. Without this option the orders are pooled.
   bool by_order = false;
   /// By maximum likelihood, without bootstrap and posterior, which draw binomial answers.
   Overdispersion overdispersion = Overdispersion::kNone;
@@ -88,8 +88,8 @@ struct PsychometricOptions {
   bool advice = false;
   bool guess_unknown = false;  ///< Also a warning where the counts look like right answers.
   int num_goodness = 0;        ///< Redraws for the p values beside them; 0 leaves those out.
-  bool posterior = false;      ///< Also the Bayesian estimate.
-  std::uint64_t seed = 1;      ///< Of both: the same seed gives the same numbers.
+  bool posterior = false;      ///< Whether the Bayesian estimate is computed as well.
+  std::uint64_t seed = 1;      ///< Seed of bootstrap and redraws: the same numbers again.
   bool intervals = true;  ///< False leaves out the profile intervals, where only w is wanted.
   Solver solver = Solver::kCeres;
 };
@@ -166,7 +166,7 @@ struct PsychometricFit {
   /// ln pse, test second, less ln pse, test first; with `by_order` alone.
   std::optional<double> order_effect_ln;
   std::optional<double> lapse_rate;
-  double guess_rate = 0.0;          ///< As it was given.
+  double guess_rate = 0.0;          ///< The guess rate that was given.
   bool symmetric_lapse = true;      ///< Whether lapses are at both ends.
   std::optional<double> r_squared;  ///< lsq: 1 - sse / sst about the mean proportion.
   BootstrapInterval bootstrap;

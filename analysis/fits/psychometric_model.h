@@ -18,7 +18,7 @@ struct PsychometricLevels {
   double reference = 1.0;
   double origin = 1.0;  ///< Intensity at abscissa 0: the reference, or a level if pse is free.
   double unit = 1.0;    ///< Largest |ln(x / origin)|, or |x - origin|; 1 if that is 0.
-  std::vector<double> intensity;  ///< As it was given.
+  std::vector<double> intensity;  ///< The intensity that was given.
   std::vector<double> abscissa;   ///< ln(x / origin) / unit, or (x - origin) / unit.
   std::vector<double> num_yes, num_trials;
   /// Of the level at intensity 0, which a logarithmic family keeps apart.

@@ -11,7 +11,7 @@ namespace jnd::analysis {
 
 struct PsychometricSearchResult {
   PsychometricSupremum supremum = PsychometricSupremum::kNotConverged;
-  std::string_view reason;  ///< As in PsychometricExistence.
+  std::string_view reason;  ///< See `PsychometricExistence`.
   PsychometricOptimum optimum;
 };
 

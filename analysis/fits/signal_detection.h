@@ -7,7 +7,7 @@ namespace jnd::analysis {
 /// "Yes" to stimuli, and to catch trials without any.
 struct DetectionCounts {
   std::int64_t num_hits = 0, num_signals = 0;        ///< 0 <= hits <= signals, >= 1 signal.
-  std::int64_t num_false_alarms = 0, num_catch = 0;  ///< The same of catch trials.
+  std::int64_t num_false_alarms = 0, num_catch = 0;  ///< "Yes" and trials without a stimulus.
 };
 
 /// Sensitivity and criterion of the equal-variance normal model (Green and Swets 1966):

@@ -30,7 +30,7 @@ struct Comparison {
   /// Mean of a - b (also of the rank tests, which test `hodges_lehmann`), of the values, the
   /// correlation, or of a dispersion the mean square.
   std::optional<double> estimate;
-  Interval ci95;  ///< Of the estimate.
+  Interval ci95;  ///< 95 % interval of the estimate.
   std::optional<double> statistic;
   /// "t"; Wilcoxon "T", the smaller sum of ranks; rank sum "U" of a, which R calls W; Spearman
   /// "S" as R has it, (n^3 - n) (1 - r) / 6, the sum of squared differences of untied ranks.

@@ -13,7 +13,7 @@ namespace jnd::analysis {
 /// The answers as the model takes them.
 struct HierarchicalArrangement {
   std::vector<std::string> conditions;  ///< In the order of their first answers.
-  std::vector<double> reference;        ///< Of each condition.
+  std::vector<double> reference;        ///< Reference intensity of each condition.
   std::vector<std::string> participants;
   std::vector<HierarchicalPerson> people;
   std::vector<std::vector<AnswerCount>> pooled;  ///< Rows of each condition.

@@ -63,7 +63,7 @@ struct HierarchicalCondition {
   /// Share of the answers to comparisons at least as easy as the Weber fraction itself, which
   /// the median person gets right in 84.13 % but for lapses.
   double easy_ratio = 0.0;
-  std::vector<std::string> cautions;  ///< Of levels that are too hard; see `hard_levels`.
+  std::vector<std::string> cautions;  ///< Levels that are too hard, answers far off.
   std::optional<double> pse;
   std::optional<Interval> pse_ci95;  ///< Absent unless the pse was free.
   double slope_number = 0.0;         ///< a of HierarchicalLink, of the median person.
@@ -98,18 +98,20 @@ struct HierarchicalPersonEstimate {
 struct HierarchicalFit {
   FitStatus status = FitStatus::kNotRun;
   std::string reason;  ///< Why there is no value; "" if there is one.
-  std::string method;  ///< Of model and integral, in words.
+  std::string method;  ///< The model and its integral, in words.
   int num_participants = 0;
   int num_nodes = 0;
   std::vector<HierarchicalCondition> conditions;
   std::optional<double> lapse_rate;  ///< Absent unless it was free or known.
-  // Of a profile:
-  Interval lapse_rate_ci95;             ///< Profile likelihood of the answers alone.
-  Interval lapse_rate_with_prior_ci95;  ///< The same with the prior: see `weber_fraction_ci95`.
-  std::optional<double> lapse_rate_without_prior;   ///< Most likely by the answers alone.
-  double guess_rate = 0.0;                          ///< As it was given.
-  std::optional<double> correlation;                ///< Of the deviations in two conditions.
-  std::vector<HierarchicalDifference> differences;  ///< Of each condition to the first.
+  // Known if the lapse rate was followed by its profile:
+  Interval lapse_rate_ci95;                        ///< Profile likelihood of the answers alone.
+  Interval lapse_rate_with_prior_ci95;             ///< The same interval with the prior;
+                                                   ///< `weber_fraction_ci95` is over it.
+  std::optional<double> lapse_rate_without_prior;  ///< Most likely by the answers alone.
+  double guess_rate = 0.0;                         ///< The guess rate that was given.
+  std::optional<double> correlation;  ///< Correlation of people's deviations in two conditions.
+  std::vector<HierarchicalDifference>
+      differences;  ///< Difference of each condition to the first.
   std::vector<HierarchicalPersonEstimate> participants;
   std::optional<double> log_likelihood;  ///< Without binomial coefficients.
   std::string note;                      ///< What a reader has to know; "" if nothing.

@@ -13,9 +13,9 @@ class LapseProfile {
   /// Everything else at one lapse rate.
   struct Point {
     bool exists = false;          ///< There is a curve with so many lapses.
-    Eigen::VectorXd parameters;   ///< The lapse rate's among them.
-    double log_likelihood = 0.0;  ///< Of the answers alone.
-    double rise = 0.0;            ///< Its derivative by the lapse rate; 0 at 0.
+    Eigen::VectorXd parameters;   ///< All parameters, the lapse rate's among them.
+    double log_likelihood = 0.0;  ///< Log-likelihood of the answers, without the prior.
+    double rise = 0.0;            ///< Derivative of the above by the lapse rate; 0 at rate 0.
   };
 
   /// `found`: the optimum with the prior; `start`: where it was sought from, people differing.

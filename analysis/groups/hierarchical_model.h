@@ -24,7 +24,7 @@ enum class HierarchicalLink {
 struct HierarchicalCell {
   int condition = 0;
   std::vector<double> log_ratio, num_yes, num_no;
-  std::vector<double> order;  ///< As `AnswerCount::order`.
+  std::vector<double> order;  ///< See `AnswerCount::order`.
 };
 using HierarchicalPerson = std::vector<HierarchicalCell>;
 
@@ -106,8 +106,8 @@ class HierarchicalLikelihood {
   [[nodiscard]] double operator()(const Eigen::VectorXd& parameters,
                                   Eigen::VectorXd* gradient = nullptr) const;
 
-  /// Each person's, without the prior. `scores`, where wanted, has a column a person: the
-  /// gradient of that value, as above.
+  /// The log-likelihood of each person, without the prior. `scores`, where wanted, has a
+  /// column a person: the gradient of that person's value, by the exact integral.
   [[nodiscard]] Eigen::VectorXd of_people(const Eigen::VectorXd& parameters,
                                           Eigen::MatrixXd* scores = nullptr) const;
 

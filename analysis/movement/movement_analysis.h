@@ -46,11 +46,11 @@ struct ConditionMovement {
 struct ParticipantMovement {
   std::string participant;
   std::string reason;                      ///< "" if there is a recording.
-  std::int64_t num_samples = 0;            ///< That were analysed.
-  std::int64_t missing_ticks = 0;          ///< Of the whole recording.
-  std::optional<double> body_height_m;     ///< As the participant said.
+  std::int64_t num_samples = 0;            ///< Samples that were analysed.
+  std::int64_t missing_ticks = 0;          ///< Ticks that are missing from the whole recording.
+  std::optional<double> body_height_m;     ///< Body height that the participant told.
   std::optional<double> surface_height_m;  ///< Of z = 0 above the floor, if it is known.
-  std::vector<PresentationMovement> presentations;  ///< Those whose answer stands.
+  std::vector<PresentationMovement> presentations;  ///< Presentations whose answer stands.
   std::vector<TrialMovement> trials;
   std::vector<ConditionMovement> conditions;
   std::vector<Trajectory> trajectories;

@@ -55,7 +55,8 @@ class StrokeBuffer {
   // Rings, by tick modulo capacity.
   std::vector<Place> places_;
   std::vector<std::array<double, kNumHandChannels>> hand_;
-  std::vector<std::array<float, kNumJointChannels>> joints_;  ///< As samples have them.
+  std::vector<std::array<float, kNumJointChannels>>
+      joints_;  ///< Angles and torques of the joints, in the precision of samples.
   std::int64_t last_tick_ = -1, size_ = 0;
 };
 
@@ -66,7 +67,7 @@ class BandSums {
   void add(const std::vector<double>& values);
   void add(const BandSums& other);
   [[nodiscard]] int num_strokes() const noexcept { return num_strokes_; }
-  /// Of `num_points` values from `first` on.
+  /// The band of `num_points` values from the place `first` on.
   [[nodiscard]] CurveBand band(std::size_t first, std::size_t num_points) const;
 
  private:

@@ -37,8 +37,8 @@ struct PresentationMovement {
   std::int64_t repetition = 0;
   double intensity = 0.0;
   std::int64_t first_tick = 0, last_tick = 0;
-  StrokeMeans strokes;                  ///< Of strokes without gap, lost contact and fault.
-  std::optional<double> mean_height_m;  ///< Of the hand, workspace frame.
+  StrokeMeans strokes;  ///< Means over strokes without gap, lost contact, fault.
+  std::optional<double> mean_height_m;  ///< Mean height of the hand, workspace frame.
   DeliveredForce force;
   MovementMarks marks;
 };

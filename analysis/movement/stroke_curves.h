@@ -31,14 +31,15 @@ struct StrokeCurves {
   std::optional<double> turn_forward_percent, turn_back_percent;
   CurveBand
       forward_velocity_m_per_s;  ///< Of the hand along `forward`; negative on its way back.
-  CurveBand height_m;            ///< Of the hand, workspace frame.
+  CurveBand height_m;            ///< Height of the hand, workspace frame.
   CurveBand opposing_force_n;    ///< Rendered, after every limit, against the hand's motion.
   /// From each point's tip to the end effector, in the order of `core::ContactPoint`.
   std::array<CurveBand, core::kNumContactPoints> tip_distance_m;
-  bool has_joints = false;  ///< Else the joints' bands are empty.
+  bool has_joints = false;  ///< Without joints the joints' bands are empty.
   /// In the order of `core::kJointNames`; the distal joint of a finger follows its proximal.
   std::array<CurveBand, core::kNumJoints> joint_position_rad;
-  std::array<CurveBand, core::kNumJoints> joint_torque_n_m;  ///< As the sensors say.
+  std::array<CurveBand, core::kNumJoints>
+      joint_torque_n_m;  ///< Torques that the sensors measured.
 };
 
 }  // namespace jnd::analysis

@@ -22,7 +22,7 @@ struct Trajectory {
   std::string block;
   std::int64_t repetition = 0;
   std::vector<Path> hand;          ///< Mean of the five points; one a stretch without gaps.
-  std::vector<Path> end_effector;  ///< Likewise.
+  std::vector<Path> end_effector;  ///< The end effector; one path a stretch without gaps.
 };
 
 /// Takes the paths of a participant's presentations. Not real time.

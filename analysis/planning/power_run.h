@@ -23,7 +23,7 @@ enum class PlannedQuantity {
 struct PlannedBlock {
   std::string name;  ///< "group_d"
   PlannedQuantity quantity = PlannedQuantity::kWeberFraction;
-  double reference = 0.0;  ///< Of a discrimination, > 0.
+  double reference = 0.0;  ///< Reference intensity of a discrimination, > 0.
   /// Either interval holds the test: its pse is at the reference then, see `primary_pse`.
   bool either_interval = false;
   std::optional<double> true_value;  ///< In the simulated laboratory.
@@ -35,8 +35,8 @@ struct PlannedAnalysis {
   std::optional<std::pair<std::size_t, std::size_t>> compared;  ///< Places of discriminations.
   bool paired = true;         ///< Some participants get both of these blocks.
   std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
-  bool free_pse = true;       ///< But for blocks of two intervals. Else at the reference.
-  bool hierarchical = false;  ///< Also the hierarchical fit: a thousand times slower.
+  bool free_pse = true;       ///< False: at the reference, as in blocks of two intervals.
+  bool hierarchical = false;  ///< Whether the hierarchical fit runs as well: much slower.
 };
 
 /// What the numbers of a `PlannedSize` are, in its order.

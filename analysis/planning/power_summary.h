@@ -24,7 +24,7 @@ struct PlannedPower {
 /// Over all runs, of one estimate at one size.
 struct PlannedPrecision {
   std::int64_t num_undefined = 0;  ///< Runs without a value.
-  std::optional<double> median;    ///< Of the estimates.
+  std::optional<double> median;    ///< Median of the estimates over all runs.
   std::optional<double> bias;      ///< That median minus the laboratory's true value.
   /// Half width of the 95 % interval over participants: in the median run, and what nine runs
   /// in ten stay below; none where that many intervals are open.
@@ -36,8 +36,8 @@ struct PlannedPrecision {
 
 struct PlannedSummary {
   int num_participants = 0;
-  std::vector<PlannedPower> tests;          ///< As `test_names`.
-  std::vector<PlannedPrecision> estimates;  ///< As `estimate_names`.
+  std::vector<PlannedPower> tests;          ///< One for each of `test_names`.
+  std::vector<PlannedPrecision> estimates;  ///< One for each of `estimate_names`.
   /// By block: share of participants whose posterior of QUEST+ reaches an end of a grid.
   std::vector<double> at_grid_end;
 };

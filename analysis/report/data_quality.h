@@ -39,8 +39,8 @@ struct SessionQuality {
   }
 };
 
-/// Of these sessions, in their order. Throws `Error` for a damaged study; a recording that
-/// cannot be read is a remark.
+/// The quality of these sessions, in their order. Throws `Error` for a damaged study; a
+/// recording that cannot be read is a remark.
 [[nodiscard]] std::vector<SessionQuality> session_quality(
     const core::StudyStore& store, const std::vector<core::SessionRow>& sessions);
 

@@ -29,7 +29,7 @@ struct OwnAnswers {
   std::map<double, LevelAnswers> levels;
   const ParticipantEstimate* fraction = nullptr;  ///< With the pse at the reference.
   const ParticipantEstimate* free_fraction = nullptr;
-  const ParticipantEstimate* pse = nullptr;  ///< Of the latter.
+  const ParticipantEstimate* pse = nullptr;  ///< The pse of the fit with a free pse.
   double order_effect_ln = 0.0, free_order_effect_ln = 0.0;
 
   /// Of the two the one that stands for the primary value, which has the pse free or not.

@@ -21,7 +21,7 @@ struct MagnitudeData {
   };
   std::string block, title, quantity;
   bool is_production = false;
-  std::vector<Own> participants;  ///< Those who answered.
+  std::vector<Own> participants;  ///< Participants who answered.
 
   /// At each x the means of those participants who have one there.
   [[nodiscard]] std::map<double, std::vector<std::pair<std::string, double>>> by_x() const;

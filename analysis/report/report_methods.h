@@ -11,13 +11,13 @@ namespace jnd::analysis {
 struct ChapterSource {
   const ReportSource& report;
   const StudyWords& words;
-  const std::vector<core::SessionRow>& sessions;  ///< Those that are analysed.
-  const std::vector<SessionQuality>& quality;     ///< Likewise.
+  const std::vector<core::SessionRow>& sessions;  ///< Sessions that are analysed.
+  const std::vector<SessionQuality>& quality;     ///< Quality of these sessions.
 };
 
 /// What was run: design, apparatus, analysis, where everything comes from.
 void write_methods(HtmlText& html, const ChapterSource& source);
-/// Who took part.
+/// The participants who took part.
 void write_participants(HtmlText& html, const ChapterSource& source);
 /// Missing, resumed, undone, set aside; recordings; timing.
 void write_data_quality(HtmlText& html, const ChapterSource& source);

@@ -22,7 +22,7 @@ namespace jnd::analysis {
 /// Not torn apart at the end of a line; "" of a pure number.
 [[nodiscard]] std::string unit_words(const std::string& unit);
 
-/// Of all sections.
+/// The estimates of all sections for which the condition holds.
 template <typename Condition>
 std::vector<const Estimate*> estimates_where(const StudyResults& results, Condition condition) {
   std::vector<const Estimate*> found;

@@ -22,8 +22,9 @@ struct StudyWords {
   std::string title;  ///< Its name where it has no title.
   std::string description, citation, blinding;
   std::vector<std::string> authors;
-  std::map<std::string, std::string> titles;     ///< Of stages, by name.
-  std::map<std::string, std::string> questions;  ///< Of blocks and items, by name.
+  std::map<std::string, std::string> titles;  ///< Titles of stages, by their names.
+  std::map<std::string, std::string>
+      questions;  ///< Questions of blocks and items, by their names.
 
   std::vector<PracticeWords> practice;  ///< In the order of the file.
 

@@ -161,7 +161,7 @@ class Ui {
   float chip(float x, float y, std::string_view words, Colour colour);
   [[nodiscard]] float chip_width(std::string_view words) const;
   static constexpr float kKeyCapHeight = 20;
-  /// Of the colour of its letters. Returns its width.
+  /// Draws the cap of a key in the colour of its letters. Returns its width.
   float key_cap(float x, float y, const Chord& key, Colour colour = Colour::kSoft);
   [[nodiscard]] float key_cap_width(const Chord& key) const;
 

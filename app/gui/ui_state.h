@@ -34,7 +34,7 @@ struct Ui::Implementation {
   bool went_up = false;
   float press_x = 0, press_y = 0;  ///< Where the button went down.
   std::string press_dialog;        ///< What was open then.
-  double next_repeat_s = 0.0;      ///< Of a button held down.
+  double next_repeat_s = 0.0;      ///< When a button that is held down acts again.
   bool is_repeating = false;
 
   // The dialog: its name, empty for none.

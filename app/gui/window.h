@@ -50,7 +50,8 @@ class Window {
   /// Escape went down, in any window of ours: called before any frame is drawn. Escape then
   /// goes the way of all keys, too.
   std::function<void()> on_escape;
-  /// A key went down or up, likewise; also when the window loses the keyboard while it is held.
+  /// A key went down or up, in any window of ours: called before any frame is drawn; also when
+  /// the window loses the keyboard while it is held.
   std::function<void(Key key, bool is_down)> on_key_changed;
   /// The left button went down: called before any frame is drawn; logical pixels. The press
   /// then goes the way of all others, too.

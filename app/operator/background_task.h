@@ -25,7 +25,7 @@ class WorkControl {
   /// Has the window draw itself anew.
   void wake() const;
 
-  /// Of who waits.
+  /// Called by whoever waits for the work.
   void cancel() noexcept { cancelled_.store(true); }
   [[nodiscard]] double ratio() const noexcept { return ratio_.load(); }
 

@@ -26,7 +26,7 @@ class LiveTrace {
  public:
   struct Parameters {
     double rate_hz = 1000.0;      ///< Of the loop, > 0.
-    double duration_s = 10.0;     ///< That is kept, > 0.
+    double duration_s = 10.0;     ///< How much is kept, > 0.
     double points_per_s = 100.0;  ///< > 0; at most one a tick.
   };
 

@@ -37,7 +37,7 @@ class OperatedSession {
     const experiments::Laboratory* laboratory = nullptr;
     OperatorDoors& doors;
     LiveTrace* trace = nullptr;    ///< Gets every sample, unless levels are hidden.
-    ScopeTrace* scopes = nullptr;  ///< Likewise.
+    ScopeTrace* scopes = nullptr;  ///< Gets every sample, unless levels are hidden.
     std::string language;          ///< Of the study's texts; "": its first.
     bool realtime = true;          ///< Else time passes only in `advance`: for tests.
     bool allow_no_realtime = false;

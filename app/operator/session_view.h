@@ -104,7 +104,7 @@ struct TrialView {
   std::optional<double> target_percent;
   std::optional<double> modulus_value;  ///< The number of the standard, where it has one.
   std::string level;         ///< "1.65 Pa s, reference 1.85 Pa s"; "" where it is hidden.
-  double rest_left_s = 0.0;  ///< Of the free space before.
+  double rest_left_s = 0.0;  ///< Time left of the free space before it.
 };
 
 struct MediumView {
@@ -170,7 +170,7 @@ struct SessionView {
 
   double elapsed_s = 0.0;   ///< Since this visit began.
   double left_s = 0.0;      ///< Expected.
-  double done_ratio = 0.0;  ///< Of the session.
+  double done_ratio = 0.0;  ///< Share of the session that is done.
 
   core::Telemetry telemetry;
   double max_total_force_n = 0.0;
@@ -182,7 +182,7 @@ struct SessionView {
   std::string fault;                ///< One sentence; "" for none.
   std::string fault_name;           ///< "emergency_stop"
   std::string loose_points;         ///< "the index finger": it came off; "" for none.
-  std::uint8_t loose_bits = 0;      ///< The same, as in `GoOnWithout`.
+  std::uint8_t loose_bits = 0;      ///< These points as bits, as `GoOnWithout` takes them.
   std::string came_off_points;      ///< Why the session is paused; "" for another reason.
   std::string absent_points;        ///< That do not hold the hand and never did; "" for none.
   bool stop_pressed = false;

@@ -31,7 +31,7 @@ struct StudyOutline {
   std::string authors, languages, blinding, device;  ///< In words.
   bool hides_levels = false;
   std::vector<OutlineStage> stages;
-  int num_trials = 0;                        ///< Of the participant with the most.
+  int num_trials = 0;                        ///< Trials of the participant with the most.
   double shortest_s = 0.0, longest_s = 0.0;  ///< Expected, over all cells.
   /// Every problem, as the file has them; the rest is empty if there is one.
   std::vector<experiments::StudyProblem> problems;
@@ -40,7 +40,7 @@ struct StudyOutline {
 /// `shows_levels`: somebody unblinded the folder it is read for.
 [[nodiscard]] StudyOutline outline_of(const experiments::Study& study,
                                       bool shows_levels = false);
-/// The same for a file. Throws nothing for what is wrong with it: that is `problems`.
+/// The outline of a study file. Throws nothing for what is wrong with it: that is `problems`.
 [[nodiscard]] StudyOutline read_outline(const std::filesystem::path& file);
 
 /// How long the longest session of the study is expected to take, whatever the cell.

@@ -31,9 +31,9 @@ class InertialDrag {
   /// Throws `Error` naming the field. Not real time.
   explicit InertialDrag(const Parameters& parameters);
 
-  /// Of the first term.
+  /// Coefficient of the first term, the damping.
   [[nodiscard]] double damping_n_s_per_m() const noexcept { return damping_n_s_per_m_; }
-  /// Of the second: its force at 1 m/s.
+  /// Coefficient of the second term: its force at 1 m/s.
   [[nodiscard]] double inertial_n() const noexcept { return inertial_n_; }
   /// Beyond this speed the correction does not hold; infinite where there is none.
   [[nodiscard]] double max_speed_m_per_s() const noexcept { return max_speed_m_per_s_; }

@@ -10,7 +10,7 @@ namespace jnd::core {
 /// The box in which force may be given, workspace frame. The default is wider than any arm
 /// reaches, and yet no point of a device whose sensors lost their zero can be anywhere.
 struct Workspace {
-  double half_width_x_m = 1.5;  ///< > 0, finite; likewise the others.
+  double half_width_x_m = 1.5;  ///< > 0, finite, as the other two.
   double half_width_y_m = 1.5;
   double half_width_z_m = 1.5;
 

@@ -11,11 +11,11 @@
 namespace jnd::core {
 
 struct BackupReport {
-  std::int64_t num_chunks = 0;         ///< Of all recordings in the backup.
+  std::int64_t num_chunks = 0;         ///< Chunks of all recordings in the backup.
   std::int64_t num_chunks_copied = 0;  ///< By this run; the others were there already.
   std::vector<std::string> remarks;
   bool on_one_disk = false;  ///< A disk that fails takes the study and the backup.
-  Integrity integrity;       ///< Of the backup, read back.
+  Integrity integrity;       ///< What reading the backup back found.
 };
 
 /// Makes `target` a copy of the study in `folder`, or brings an earlier copy up to date: a

@@ -29,7 +29,7 @@ using Word = std::uint32_t;
 using Row = std::array<Word, kNumChannels>;
 using JointRow = std::array<Word, kNumJointChannels>;
 
-// Likewise modulo 2^64, in microseconds.
+// Times are kept modulo 2^64, in microseconds.
 using LongWord = std::uint64_t;
 using TimeRow = std::array<LongWord, kNumTimeChannels>;
 

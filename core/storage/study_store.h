@@ -16,7 +16,7 @@ struct EventRow {
   std::int64_t session = 0;
   std::int64_t sequence = 0;  ///< 1, 2, 3 ... within the session, without gaps.
   std::string kind;
-  int version = 1;  ///< Of the layout of `data`.
+  int version = 1;  ///< Version of the layout of `data`.
   std::int64_t time_ns = 0;
   std::optional<std::int64_t> stage;    ///< Index into the participant's own list of stages.
   std::optional<std::int64_t> trial;    ///< Running number of the trial in the session, from 1.
@@ -39,7 +39,7 @@ struct DesignRow {
   std::int64_t repetition = 0;  ///< From 1.
   std::int64_t position = 0;    ///< Within the repetition, from 1.
   std::optional<double> intensity, reference_intensity, starting_intensity, target_percent;
-  std::optional<std::int64_t> sequence;       ///< Of the event that drew it.
+  std::optional<std::int64_t> sequence;       ///< Sequence number of the event that drew it.
   std::optional<std::int64_t> series;         ///< Staircase or series of the block, from 1.
   std::optional<std::int64_t> test_interval;  ///< 1 or 2, where the order is drawn.
   bool is_catch = false;                      ///< Nothing is there to be found.
@@ -51,7 +51,7 @@ struct PresentationRow {
   std::int64_t trial = 0;
   std::int64_t attempt = 0;
   std::int64_t presentation = 0;  ///< Within the attempt, from 1.
-  std::int64_t sequence = 0;      ///< Of the event that reported it.
+  std::int64_t sequence = 0;      ///< Sequence number of the event that reported it.
   std::string interval;           ///< "test", "reference" or "free_space".
   double intensity = 0.0;
   std::int64_t first_tick = 0, last_tick = 0;
@@ -70,7 +70,7 @@ struct TrialRow {
   std::int64_t session = 0;
   std::int64_t trial = 0;
   std::int64_t attempt = 0;
-  std::int64_t sequence = 0;  ///< Of the answer's event.
+  std::int64_t sequence = 0;  ///< Sequence number of the answer's event.
   std::string block, procedure, medium, quantity;
   std::int64_t repetition = 0, position = 0;
   std::optional<double> intensity;  ///< Of the test stimulus; in production, the value set.
@@ -79,7 +79,7 @@ struct TrialRow {
   std::optional<double> response_time_s;
   std::int64_t num_presentations = 0, num_steps = 0;
   std::int64_t first_tick = 0, last_tick = 0;
-  std::optional<std::int64_t> series, test_interval;  ///< As in `DesignRow`.
+  std::optional<std::int64_t> series, test_interval;  ///< See `DesignRow`.
   bool is_catch = false;
 };
 
@@ -211,7 +211,8 @@ class StudyStore {
   /// Answered trials that count: not superseded. With `include_excluded`, also those set aside.
   [[nodiscard]] std::vector<TrialRow> trials(std::int64_t session,
                                              bool include_excluded = false) const;
-  /// Of the attempts whose answer stands. With `include_excluded`, also of trials set aside.
+  /// The presentations of attempts whose answer stands. With `include_excluded`, those of
+  /// trials that were set aside as well.
   [[nodiscard]] std::vector<PresentationRow> presentations(std::int64_t session,
                                                            bool include_excluded = false) const;
   /// Answers that count: the last one given to each item.

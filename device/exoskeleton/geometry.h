@@ -97,7 +97,7 @@ inline constexpr std::array<double, core::kNumJointsPerFinger> kFingerFriction_n
 // The neutral pose: the arm in a vertical plane, its elbow up, its flange towards +x; the tips
 // where `lumped_hand_tips_m` has them, to 0.1 mm.
 inline constexpr double kUpperArmTilt_rad = 1.25;  ///< From straight up, towards -y.
-inline constexpr double kForearmTilt_rad = 2.70;   ///< Likewise.
+inline constexpr double kForearmTilt_rad = 2.70;   ///< From straight up, towards -y.
 inline constexpr double kNeutralExtension_rad = 0.5;
 inline constexpr double kNeutralProximal_rad = 0.5;
 /// From the middle of the hand to the end effector.

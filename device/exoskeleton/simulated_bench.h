@@ -40,7 +40,8 @@ class SimulatedBench final : public FingerBench {
 };
 
 /// The device with a simulated hand that strokes in free space at several speeds: what it adds
-/// by itself. `on_progress` as above. Throws `core::Error` if the device fails. Not real time.
+/// by itself. `on_progress` is told how much is done, 0 to 1. Throws `core::Error` if the
+/// device fails. Not real time.
 [[nodiscard]] FreeSpaceRegression stroke_in_free_space(
     double rate_hz, std::uint64_t seed, const std::function<void(double)>& on_progress = {});
 

@@ -48,7 +48,7 @@ class DatagramSeal {
   Side side_;
   std::optional<DeviceKey> key_;
   bool has_stream_ = false;
-  DeviceKey to_device_{}, to_program_{};  ///< Of the stream.
+  DeviceKey to_device_{}, to_program_{};  ///< Keys of the stream, one for each direction.
 };
 
 }  // namespace jnd::device

@@ -83,7 +83,8 @@ class DeviceServer {
     std::uint32_t command_sequence = 0;
     std::int64_t command_ns = 0;  ///< When the newest command came.
     wire::Command command;
-    std::uint32_t movement_number = 0, num_put_back = 0;  ///< Of the last order taken.
+    std::uint32_t movement_number = 0,
+                  num_put_back = 0;  ///< Numbers of the last order that was taken.
   };
 
   void take_in(std::int64_t now_ns) noexcept;

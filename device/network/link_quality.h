@@ -55,8 +55,8 @@ class LinkQuality {
   /// Another stream of datagrams, whose numbers begin anew: all is to be shown anew. The
   /// counts go on, and so does our clock, of which no echo counts twice.
   void restart() noexcept;
-  /// Likewise in the middle of a stream, whose numbers count on: what came before stays known,
-  /// so that nothing old counts as new.
+  /// Judges anew in the middle of a stream, whose numbers count on: what came before stays
+  /// known, so that nothing old counts as new.
   void judge_anew() noexcept;
   [[nodiscard]] Verdict received(std::uint32_t sequence) noexcept;
   void refused() noexcept { ++counts_.refused; }
@@ -94,7 +94,7 @@ class LinkQuality {
   bool has_newest_ = false;
   std::uint32_t newest_ = 0;
   std::uint32_t num_expected_ = 0;  ///< Within the window, up to its size.
-  std::uint32_t num_came_ = 0;      ///< Of these.
+  std::uint32_t num_came_ = 0;      ///< Those of them that came.
   /// One bit a sequence number, modulo the window.
   std::array<std::uint64_t, kWindow / 64> came_{};
   bool came_in_tick_ = false;

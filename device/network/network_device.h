@@ -78,7 +78,7 @@ class NetworkDevice final : public HapticDevice {
 
   [[nodiscard]] std::optional<LinkReport> link() const noexcept override;
 
-  /// Of the states that come in. Real time.
+  /// Quality of the link, by the states that come in. Real time.
   [[nodiscard]] const LinkQuality& quality() const noexcept { return quality_; }
 
  private:
@@ -119,7 +119,7 @@ class NetworkDevice final : public HapticDevice {
   Address server_;
   Parameters parameters_;
 
-  std::optional<wire::Welcome> device_;  ///< As it introduced itself.
+  std::optional<wire::Welcome> device_;  ///< What the device said of itself at first.
   bool is_another_ = false;              ///< It introduced itself as something else since.
   std::optional<wire::RefusalReason> refusal_;
   std::uint16_t other_version_ = 0;

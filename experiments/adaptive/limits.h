@@ -13,7 +13,7 @@ namespace jnd::experiments {
 
 enum class SeriesDirection { kAscending, kDescending };
 
-/// Which series follow each other.
+/// In which order ascending and descending series follow each other.
 enum class SeriesOrder {
   kAscendingFirst,   ///< Alternating.
   kDescendingFirst,  ///< Alternating.
@@ -24,7 +24,7 @@ enum class SeriesOrder {
 /// How the method of limits is run.
 struct LimitsRule {
   std::vector<double> levels;              ///< Ascending, two or more, unit of the quantity.
-  LevelScale scale = LevelScale::kLinear;  ///< Of midpoints and means.
+  LevelScale scale = LevelScale::kLinear;  ///< The scale of midpoints and means.
   int num_series = 0;                      ///< >= 1; an even number balances the directions.
   SeriesOrder order = SeriesOrder::kDrawnFirst;
   /// A series starts at its end of the levels, or up to so many levels further in, drawn, >= 0
@@ -63,7 +63,7 @@ struct LimitsSeries {
 /// What the answers so far come to.
 struct LimitsState {
   std::optional<double> next_level;  ///< Unit of the quantity; none when finished.
-  std::vector<LimitsSeries> series;  ///< Those begun.
+  std::vector<LimitsSeries> series;  ///< The series that were begun.
 
   [[nodiscard]] bool is_finished() const noexcept { return !next_level.has_value(); }
 };

@@ -9,8 +9,8 @@
 namespace jnd::experiments {
 
 /// What one counterbalance gives a participant: all of its arms in an order, or one of them.
-/// Likewise what a block does whose stimuli come in a square, "row_1", "row_2" ..., and what
-/// the participant brings: the value of a field.
+/// A block whose stimuli come in a square assigns "row_1", "row_2" ..., and a field assigns
+/// what the participant brings, its value.
 struct Assignment {
   std::string counterbalance;     ///< Name of its stage, of the block, or of the field.
   std::vector<std::string> arms;  ///< Names, in the order in which they are run.
@@ -39,7 +39,7 @@ void require_cell(const Study& study, const Cell& cell);
 
 /// One thing that differs between participants, with all that it can be.
 struct Factor {
-  std::string name;  ///< As in `Assignment`.
+  std::string name;  ///< See `Assignment`.
   std::vector<std::vector<std::string>> alternatives;
   bool is_field = false;    ///< The participant brings it; nobody assigns it.
   std::string stratify_by;  ///< The field within whose values it is balanced; "": all together.

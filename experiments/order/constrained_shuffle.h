@@ -41,13 +41,13 @@ struct ConstrainedOrder {
 /// After how much work a method gives way to the next; the defaults take less than a second.
 struct ShuffleEffort {
   int max_shuffles = 500;
-  int max_states = 50'000;  ///< Of the counting.
-  int max_steps = 200'000;  ///< Of the search.
+  int max_states = 50'000;  ///< Most states that counting may visit.
+  int max_steps = 200'000;  ///< Most steps that the search may take.
 };
 
 /// Shuffles items that have these labels. Tries the methods in the order of `OrderMethod`; the
 /// first two make every order that meets the constraints equally likely, and cover all but
-/// large lists with many labels and wide distances. The same for the same stream.
+/// large lists with many labels and wide distances. The order depends on the stream alone.
 ///
 /// Throws `Error` if a constraint is none, if no order can meet them (by counting places, or by
 /// having gone through all), or if none was found. Not real time.

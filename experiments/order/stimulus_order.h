@@ -13,7 +13,7 @@ namespace jnd::experiments {
 [[nodiscard]] std::size_t num_square_rows(const StimulusOrder& order, std::size_t num_stimuli);
 
 /// Which stimulus comes in each trial of a block, as indices into `stimuli`: every one of them
-/// `num_repetitions` times. The same for the same stream.
+/// `num_repetitions` times. The order depends on the stream alone.
 ///
 /// Shuffled repetitions that keep a distance are drawn one after the other, each place among
 /// those that the repetition before leaves: every order of the block that keeps to the

@@ -8,7 +8,7 @@ namespace jnd::experiments {
 
 /// A stroke of the simulated arm through a medium, by calculation instead of a device.
 struct CalculatedStroke {
-  double max_speed_m_per_s = 0.0;            ///< Of the hand.
+  double max_speed_m_per_s = 0.0;            ///< Largest speed of the hand.
   double delivered_damping_n_s_per_m = 0.0;  ///< Mean force of the medium over mean speed.
 };
 

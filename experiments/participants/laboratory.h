@@ -42,13 +42,13 @@ struct Laboratory {
   /// What strokes have in common.
   struct Movement {
     double max_speed_m_per_s = 0.0,
-           max_speed_sd_ln = 0.0;  ///< Of the reference, between persons.
+           max_speed_sd_ln = 0.0;  ///< Largest speed of the reference, and its spread.
     double stroke_amplitude_sd_ratio = 0.0, stroke_speed_sd_ratio = 0.0;  ///< Within a person.
     double stroke_height_sd_m = 0.0;
     double lift_m = 0.0;  ///< Lower on the way forward, higher on the way back.
     double body_height_m = 0.0, body_height_sd_m = 0.0;
-    double hand_height_ratio = 0.0, hand_height_sd_ratio = 0.0;  ///< Of the body's height.
-    double surface_height_m = 0.0;  ///< Of the fluid above the floor.
+    double hand_height_ratio = 0.0, hand_height_sd_ratio = 0.0;  ///< Over body height.
+    double surface_height_m = 0.0;  ///< Height of the fluid's surface above the floor.
   };
 
   /// One perceiver for all procedures; see perceiver.h for the equations.
@@ -85,7 +85,7 @@ struct Laboratory {
     double standard_stiffness_n_per_m;   ///< What a magnitude of 100 % is, > 0.
     double depth_m;     ///< How far below the surface the arm pulls the hand, > 0.
     double lift_m;      ///< How far above it the hand goes between two presses, > 0.
-    double period_s;    ///< Of one press, > 0.
+    double period_s;    ///< How long one press takes, > 0.
     double sideways_m;  ///< Half the way to and fro along the surface meanwhile, > 0.
   };
 

@@ -82,7 +82,7 @@ class Perceiver {
   [[nodiscard]] bool says_present(double test_ln, double free_space_ln,
                                   const Moment& moment) const;
 
-  /// Answer to "do the two differ", likewise.
+  /// Answer to "do the two differ"; the criterion has no part in it either.
   [[nodiscard]] bool says_different(double first_ln, double second_ln,
                                     const Moment& moment) const;
 

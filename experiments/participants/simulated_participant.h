@@ -17,7 +17,7 @@ struct StrokeIntent {
   double max_speed_m_per_s = 0.0;
   double height_m = 0.0;  ///< Workspace frame: below the surface is negative.
   int num_strokes = 1;    ///< Whole ones, before the person has felt enough.
-  double period_s = 0.0;  ///< Of one stroke.
+  double period_s = 0.0;  ///< How long one stroke takes.
   /// Lower by this in mid-stroke forward, higher on the way back; none: as the person tends to.
   std::optional<double> lift_m{};
 

@@ -11,7 +11,7 @@ enum class Modulus {
   kFree,      ///< Everybody's own.
 };
 
-/// Of a block of magnitude estimation.
+/// What the numbers of a block of magnitude estimation count in.
 [[nodiscard]] Modulus modulus_of(const Block& block);
 
 /// Magnitude estimation (Stevens 1957): a stimulus, a number for how strong it feels. Each

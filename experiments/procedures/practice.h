@@ -11,7 +11,7 @@ namespace jnd::experiments {
 struct PracticeState {
   int num_trials = 0;
   int num_judged = 0;   ///< The last answers that could be right, at most as many as count.
-  int num_correct = 0;  ///< Of those.
+  int num_correct = 0;  ///< Right answers among those judged.
   bool criterion_is_met = false;
   bool is_over = false;  ///< It is met, or there were as many trials as there may be.
 };

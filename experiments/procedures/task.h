@@ -28,7 +28,7 @@ enum class Task {
 /// The response that feedback calls right. Where two equal stimuli are compared there has to be
 /// one, too, for a trial without feedback would be told from the others: "not more", which is
 /// true, in a reminder task; of two intervals the one that was drawn for the test, so that
-/// either answer is called right as often as wrong. None is judged by it.
+/// either answer is called right as often as wrong. No result judges an answer by it.
 [[nodiscard]] std::optional<double> feedback_response(Task task, const PlannedTrial& trial);
 
 /// What is stored for an answer as it was given, and back: an interval, 1 or 2, becomes 1 where

@@ -148,7 +148,7 @@ struct FaultRaised {
 
 /// Whether there may be force, in real time.
 struct ArmingChanged {
-  std::string state;  ///< As `core::name` of an `Arming`.
+  std::string state;  ///< The name that `core::name` gives an `Arming`.
   std::string cause;  ///< Who or what: "armed by the experimenter", a fault's name.
 };
 

@@ -46,7 +46,7 @@ struct ParticipantPlan {
 
 struct PlanRequest {
   std::vector<std::string> participants;  ///< Pseudonyms, in the order in which they come.
-  std::uint64_t seed = 0;                 ///< Of the study.
+  std::uint64_t seed = 0;                 ///< Seed of the study.
   std::int64_t num_earlier_sessions = 0;  ///< In the study folder, completed or not.
   std::vector<std::string> completed;     ///< Cells of those completed.
   FieldValues fields{};  ///< What all of them bring; none: drawn, as simulated ones do.

@@ -22,7 +22,7 @@ struct PresentationState {
 struct TrialState {
   std::int64_t stage = 0;
   PlannedTrial planned;
-  std::int64_t drawn_sequence = 0;  ///< Of the event that drew it.
+  std::int64_t drawn_sequence = 0;  ///< Sequence number of the event that drew it.
   bool is_void = false;             ///< Drawn for an answer that was taken back; never run.
   std::int64_t attempt = 0;         ///< 0 before the first start.
   bool under_way = false;           ///< Started and neither answered nor discarded.
@@ -40,7 +40,7 @@ struct TrialState {
 /// What a session has come to: the fold of its events. Never changed by anything but `apply`.
 struct SessionState {
   bool started = false;
-  std::string language;  ///< As in `SessionStarted`.
+  std::string language;  ///< The language that `SessionStarted` names.
   bool ended = false;
   bool completed = false;
   bool paused = false;
@@ -62,7 +62,7 @@ struct SessionState {
     return trials.at(number - 1);
   }
   /// The trial to be run in this stage: the first without an answer that is not void, those
-  /// that were put off in their later place. None when all have one.
+  /// that were put off in their later place. None when all trials have an answer.
   [[nodiscard]] std::optional<std::int64_t> current_trial() const;
   /// Those of the stage that wait behind the current one, in the order in which they come.
   [[nodiscard]] std::vector<std::int64_t> trials_after_current() const;

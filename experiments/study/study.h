@@ -71,7 +71,7 @@ struct StimulusOrder {
     kShuffled,  ///< Each repetition by itself in random order.
     kMixed,     ///< All repetitions together in random order.
     kLatin,     ///< Rows of a cyclic Latin square, over participants and repetitions.
-    kWilliams,  ///< Rows of a Williams square, likewise.
+    kWilliams,  ///< Rows of a Williams square, over participants and repetitions.
   };
   Method method = Method::kShuffled;
   std::optional<int> max_in_a_row;  ///< Trials of one stimulus, >= 1. Not of squares.
@@ -91,7 +91,7 @@ struct Block {
   Text instruction;
   Text question;                    ///< What the participant is asked in every trial.
   Text yes_label, no_label;         ///< What the two answers are called; may be empty.
-  Text first_label, second_label;   ///< Likewise, of a choice between two intervals.
+  Text first_label, second_label;   ///< What the two intervals are called; may be empty.
   std::vector<double> intensities;  ///< Test stimuli, or starting values of an adjustment.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::string standard_medium;    ///< Of what is felt as the standard; "" where there is none.
@@ -209,7 +209,7 @@ struct SessionLimits {
   std::optional<double> max_duration_s;         ///< > 0.
   std::optional<int> max_trials_without_break;  ///< >= 1.
   std::optional<double> max_force_time_n_s;     ///< > 0; see `core::Exposure`.
-  std::optional<double> max_under_force_s;      ///< > 0; likewise.
+  std::optional<double> max_under_force_s;      ///< > 0; see `core::Exposure`.
 
   [[nodiscard]] bool limits_exposure() const noexcept {
     return max_force_time_n_s || max_under_force_s;

@@ -14,7 +14,7 @@ namespace jnd::experiments {
 /// which they stand in it; a file that cannot be read is one problem. Not real time.
 [[nodiscard]] Study read_study(const std::filesystem::path& file);
 
-/// The same for a text. `file_name` is for messages.
+/// Reads a study from its text. `file_name` is for messages.
 [[nodiscard]] Study read_study_text(const std::string& text, const std::string& file_name);
 
 /// The same for the text in a study folder, which sessions were begun with: that a block cannot

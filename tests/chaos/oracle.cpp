@@ -17,7 +17,7 @@ constexpr double kRounding = 1e-6;
 constexpr int kLoopIsDead_ms = 22;        ///< 20 ms and one look of the watchdog.
 constexpr int kHeartbeatIsLost_ms = 351;  ///< 250 ms, the fading of 100 ms, and a tick.
 constexpr int kStaleReadings = 5;         ///< That may stand in.
-constexpr int kStaleReadingsByNet = 20;   ///< Likewise across a network.
+constexpr int kStaleReadingsByNet = 20;   ///< The same bound across a network.
 constexpr double kStuckWay_m = 0.004;  ///< By its velocity, of a point that stands still: 3 mm,
                                        ///< and one for what the network swallows.
 constexpr int kQuietNetwork_ms = 2;    ///< A command's way, in the ticks of both sides.

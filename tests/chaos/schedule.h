@@ -25,7 +25,7 @@ enum class Trouble : std::uint8_t {
   kNewMedium,
   kBrokenMedium,  ///< A command whose amount is no number.
   kLoopStalls,
-  kLoopHeldUpWithinTick,  ///< Likewise between reading and writing.
+  kLoopHeldUpWithinTick,  ///< The loop is held up between reading and writing.
   kWindowStalls,
   kServerStalls,
   kProgramStops,     ///< SIGSTOP: loop, watchdog and window at once.
