@@ -36,7 +36,7 @@ struct PlannedAnalysis {
   bool paired = true;         ///< Some participants get both of these blocks.
   std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
   bool free_pse = true;       ///< False: at the reference, as in blocks of two intervals.
-  bool hierarchical = false;  ///< Whether the hierarchical fit runs as well: much slower.
+  bool hierarchical = false;  ///< Also the hierarchical fit, which is a thousand times slower.
 };
 
 /// What the numbers of a `PlannedSize` are, in its order.
