@@ -66,9 +66,11 @@ TEST_F(LoopArmingTest, AStopThatIsPressedHoldsAgainstArming) {
   stop.press();
   run(1);
   EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
+  const auto num_faults = telemetry().num_faults;
   loop->rearm();
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0);
+  EXPECT_EQ(telemetry().num_faults, num_faults) << "it was armed for a part of a tick";
   EXPECT_TRUE(stop.release(stop.num_presses()));
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0) << "releasing is no arming";

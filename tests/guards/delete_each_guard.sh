@@ -23,9 +23,9 @@ own_tests() {
   [[ -f ${tests[0]} ]] || return 0
   sed -nE 's/^TEST(_F|_P)?\((\w+).*/*\2.*/p' "${tests[@]}" | sort -u | paste -sd:
 }
-# passes PROGRAM FILTER: within four minutes, for without its guard a test may wait for ever.
+# passes PROGRAM FILTER: within ten minutes, for without its guard a test may wait for ever.
 passes() {
-  timeout 240 "$work/build/tests/$1" --gtest_brief=1 --gtest_fail_fast --gtest_filter="$2" >"$work/log" 2>&1
+  timeout 600 "$work/build/tests/$1" --gtest_brief=1 --gtest_fail_fast --gtest_filter="$2" >"$work/log" 2>&1
 }
 # tests_pass FILE: those that a change of this file can reach.
 tests_pass() {
