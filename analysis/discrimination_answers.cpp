@@ -1,9 +1,8 @@
 #include "analysis/discrimination_answers.h"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
 #include <utility>
+
+#include "analysis/running_numbers.h"
 
 namespace jnd::analysis {
 namespace {
@@ -31,24 +30,6 @@ void add_trial(DiscriminationAnswers& answers, const core::TrialRow& trial,
       {.intensity = *trial.intensity, .num_yes = yes ? 1.0 : 0.0, .test_first = first});
 }
 
-/// A trial that was put off has a number from before its time: within a session numbers go by
-/// the order in which the trials were run. `trials`: those of `in_order`.
-void number_by_time(std::vector<OrderedAnswers>& in_order,
-                    const std::vector<core::TrialRow>& trials) {
-  std::vector<std::size_t> by_time(in_order.size());
-  std::iota(by_time.begin(), by_time.end(), std::size_t{0});
-  std::vector<std::size_t> by_number = by_time;
-  std::ranges::sort(by_time, {}, [&](std::size_t i) {
-    return std::tuple(trials[i].session, trials[i].first_tick, trials[i].trial);
-  });
-  std::ranges::sort(by_number, {}, [&](std::size_t i) {
-    return std::pair(trials[i].session, trials[i].trial);
-  });
-  for (std::size_t i = 0; i < in_order.size(); ++i) {
-    in_order[by_time[i]].trial = static_cast<double>(trials[by_number[i]].trial);
-  }
-}
-
 }  // namespace
 
 std::vector<AnswerCount> DiscriminationAnswers::rows() const {
@@ -70,7 +51,11 @@ std::vector<DiscriminationAnswers> discrimination_answers(
     for (const core::TrialRow& trial : participant.excluded_trials) {
       if (with_excluded && trial.block == block.block) add_trial(answers, trial, trials);
     }
-    number_by_time(answers.in_order, trials);
+    const auto numbers = running_numbers(participant, block.block);
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      answers.in_order[i].trial =
+          static_cast<double>(numbers.at({trials[i].session, trials[i].trial}));
+    }
     if (answers.levels.empty()) {
       name_without_answers(excluded, participant, block.block);
     } else {

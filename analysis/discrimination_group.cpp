@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/fits/interval_order_fit.h"
+#include "analysis/fits/psychometric_warnings.h"
 #include "analysis/groups/summary.h"
 #include "analysis/quantity_unit.h"
 #include "analysis/report/report_words.h"
@@ -80,6 +81,14 @@ bool have_orders(const Everybody& all) {
       all, [](const DiscriminationAnswers& one) { return orders_vary(one.rows()); });
 }
 
+bool are_all_alike(const Everybody& all) {
+  std::vector<AnswerCount> rows;
+  for (const DiscriminationAnswers& one : all) {
+    for (const AnswerCount& row : one.rows()) rows.push_back(row);
+  }
+  return all_alike(rows);
+}
+
 void add_pooled(const Target& target, const Everybody& all, const std::string& name,
                 PsychometricMethod method, bool free_pse, const std::string& meaning) {
   std::vector<std::size_t> everyone(all.size());
@@ -90,6 +99,9 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   if (!fit.weber_fraction) {
     fraction.reason = "the pooled answers are " + fit.reason;
     no_value(target, name, fraction.reason);
+  }
+  if (fit.weber_fraction && !free_pse && are_all_alike(all)) {
+    fraction.cautions.emplace_back(kAllAlike);
   }
   if (!fit.pse) pse.reason = fit.weber_fraction ? why_no_pse(fit) : fraction.reason;
   if (fit.weber_fraction && all.size() > 1) {

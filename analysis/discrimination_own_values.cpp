@@ -1,5 +1,7 @@
 #include "analysis/discrimination_own_values.h"
 
+#include "analysis/fits/psychometric_warnings.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -25,6 +27,9 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     const PsychometricFit fixed = fit_of(false);
     const PsychometricFit free = fit_of(true);
     add("weber_fraction", fixed.weber_fraction, fixed.weber_fraction_ci95, fixed.reason);
+    if (fixed.weber_fraction && all_alike(answers.rows())) {
+      section.participants.back().cautions.emplace_back(kAllAlike);
+    }
     add("weber_fraction_free_pse", free.weber_fraction, free.weber_fraction_ci95, free.reason);
     // For those who draw the curve of the first.
     if (fixed.order_effect_ln) {

@@ -11,11 +11,13 @@
 #include "analysis/groups/within_slope.h"
 #include "analysis/magnitude_section.h"
 #include "analysis/quantity_unit.h"
+#include "analysis/running_numbers.h"
 #include "analysis/test_families.h"
 
 namespace jnd::analysis {
 namespace {
 
+/// Of one block, each with its running number, in the order in which they were run.
 using Trials = std::vector<core::TrialRow>;
 using Points = std::vector<GroupedPoint>;
 
@@ -126,6 +128,8 @@ void add_effect(ResultsSection& section, const StudyData& data, const BlockDesig
   for (const ParticipantData& participant : data.participants) {
     Trials trials = participant.trials_in(block.block);
     if (trials.empty()) continue;
+    const auto numbers = running_numbers(participant, block.block);
+    for (core::TrialRow& trial : trials) trial.trial = numbers.at({trial.session, trial.trial});
     std::ranges::sort(trials, {}, [](const core::TrialRow& trial) {
       return std::pair(trial.session, trial.trial);
     });

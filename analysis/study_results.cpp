@@ -64,6 +64,30 @@ bool is_named(const std::vector<std::string>& list, const StudyData& data,
          std::find(list.begin(), list.end(), data.study + "/" + name) != list.end();
 }
 
+/// A block of which every answer was set aside has no numbers, but is not passed over in
+/// silence.
+void add_blocks_set_aside(std::vector<ResultsSection>& sections, const StudyData& data) {
+  for (const BlockDesign& block : data.blocks) {
+    int num_standing = 0, num_set_aside = 0;
+    for (const ParticipantData& participant : data.participants) {
+      const auto in_block = [&](const core::TrialRow& trial) {
+        return trial.block == block.block;
+      };
+      num_standing += static_cast<int>(std::ranges::count_if(participant.trials, in_block));
+      num_set_aside +=
+          static_cast<int>(std::ranges::count_if(participant.excluded_trials, in_block));
+    }
+    if (num_standing > 0 || num_set_aside == 0) continue;
+    const auto found = std::ranges::find(sections, block.block, &ResultsSection::name);
+    ResultsSection& section = found == sections.end()
+                                  ? sections.emplace_back(ResultsSection{.name = block.block})
+                                  : *found;
+    section.excluded.push_back({"everyone", "every answer in " + block.block +
+                                                " is set aside by `jnd exclude`, so that there "
+                                                "is no value"});
+  }
+}
+
 }  // namespace
 
 const Estimate* StudyResults::find(const std::string& name) const {
@@ -117,6 +141,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
   for (const BlockDesign& block : data.blocks) {
     add_threshold_sections(results.sections, data, block, options);
   }
+  add_blocks_set_aside(results.sections, data);
   for (const ComparedBlocks& pair : compared_blocks(discriminations, options.compared)) {
     results.sections.push_back(discrimination_comparison(data, pair));
   }

@@ -27,7 +27,7 @@ std::string statistic_title(const std::string& name) {
   if (name == "V") return "V, sum of ranks with a > b";
   if (name == "T") return "T, smaller sum of ranks";
   if (name == "U") return "U of a (R: W)";
-  return name == "S" ? "S, of squared rank differences" : name;
+  return name == "S" ? "S, (n^3 - n)(1 - r) / 6" : name;
 }
 
 }  // namespace jnd::app

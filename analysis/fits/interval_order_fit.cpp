@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "analysis/fits/answer_scatter.h"
 #include "analysis/fits/likelihood_profile.h"
 #include "analysis/fits/normal_tail.h"
 #include "analysis/fits/probit_regression.h"
@@ -111,6 +112,19 @@ void add_intervals(PsychometricFit& fit, const Cells& cells, const LikelihoodOpt
   if (place.high) fit.pse_ci95->high = reference * std::exp(*place.high);
 }
 
+/// The cells, each with the fitted curve's probability of a yes.
+std::vector<FittedAnswers> fitted_answers(const Cells& cells,
+                                          const LikelihoodOptimum& optimum) {
+  std::vector<FittedAnswers> answers;
+  for (const Cell& cell : cells) {
+    const double pse = optimum.at.size() > 2 ? optimum.at[2] : 0.0;
+    const double z =
+        std::exp(optimum.at[0]) * (cell.log_ratio - (optimum.at[1] * cell.order + pse));
+    answers.push_back({cell.num_yes, cell.num_trials, normal_tails(z).lower});
+  }
+  return answers;
+}
+
 /// How often answers redrawn from the fitted curve and fitted again lie as far off it. Where
 /// the redrawn ones are separated, their limit counts.
 void add_goodness(PsychometricFit& fit, const Cells& cells, const LikelihoodOptimum& optimum,
@@ -119,12 +133,7 @@ void add_goodness(PsychometricFit& fit, const Cells& cells, const LikelihoodOpti
   fit.goodness.degrees_of_freedom =
       static_cast<int>(cells.size()) - static_cast<int>(optimum.at.size());
   if (options.num_goodness == 0) return;
-  std::vector<double> probability;
-  for (const Cell& cell : cells) {
-    const double place = optimum.at[1] * cell.order + (free_pse ? optimum.at[2] : 0.0);
-    probability.push_back(
-        normal_tails(std::exp(optimum.at[0]) * (cell.log_ratio - place)).lower);
-  }
+  const std::vector<FittedAnswers> fitted = fitted_answers(cells, optimum);
   core::RandomStream random(options.seed, "goodness of fit by interval order");
   Cells redrawn = cells;
   int num_as_far = 0;
@@ -132,7 +141,7 @@ void add_goodness(PsychometricFit& fit, const Cells& cells, const LikelihoodOpti
     for (std::size_t i = 0; i < cells.size(); ++i) {
       redrawn[i].num_yes = 0.0;
       for (double trial = 0.0; trial < cells[i].num_trials; trial += 1.0) {
-        redrawn[i].num_yes += random.uniform() < probability[i] ? 1.0 : 0.0;
+        redrawn[i].num_yes += random.uniform() < fitted[i].probability ? 1.0 : 0.0;
       }
     }
     const double log_likelihood = regression_of(redrawn, free_pse).log_likelihood;
@@ -240,6 +249,10 @@ PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
   fit.log_likelihood = found.log_likelihood;
   fit.deviance = deviance_of(cells, found.log_likelihood);
   if (options.intervals) add_intervals(fit, cells, optimum, options.reference);
+  if (options.intervals) {
+    fit.misfit_p_value =
+        misfit_p_value(fitted_answers(cells, optimum), static_cast<double>(optimum.at.size()));
+  }
   if (options.diagnostics) add_goodness(fit, cells, optimum, options);
   return fit;
 }

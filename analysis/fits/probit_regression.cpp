@@ -1,6 +1,7 @@
 #include "analysis/fits/probit_regression.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/fits/normal_tail.h"
@@ -10,27 +11,40 @@ namespace jnd::analysis {
 namespace {
 
 struct Derivatives {
-  double value = 0.0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
 };
 
 Derivatives derivatives_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
                            const Eigen::VectorXd& num_trials, const Eigen::VectorXd& beta) {
-  Derivatives here{0.0, Eigen::VectorXd::Zero(beta.size()),
+  Derivatives here{Eigen::VectorXd::Zero(beta.size()),
                    Eigen::MatrixXd::Zero(beta.size(), beta.size())};
+  Eigen::VectorXd x(beta.size());
   for (Eigen::Index row = 0; row < design.rows(); ++row) {
-    const Eigen::VectorXd x = design.row(row).transpose();
+    x = design.row(row).transpose();
     const double z = x.dot(beta), yes = num_yes(row), no = num_trials(row) - yes;
     const LogNormalTails tails = log_normal_tails(z);
-    if (yes > 0.0) here.value += yes * tails.log_lower;
-    if (no > 0.0) here.value += no * tails.log_upper;
     here.gradient += (yes * tails.mills_lower - no * tails.mills_upper) * x;
     here.information += (yes * tails.mills_lower * (z + tails.mills_lower) +
                          no * tails.mills_upper * (tails.mills_upper - z)) *
                         x * x.transpose();
   }
   return here;
+}
+
+/// The log-likelihood.
+double value_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
+                const Eigen::VectorXd& num_trials, const Eigen::VectorXd& beta) {
+  double value = 0.0;
+  Eigen::VectorXd x(beta.size());
+  for (Eigen::Index row = 0; row < design.rows(); ++row) {
+    x = design.row(row).transpose();
+    const double yes = num_yes(row), no = num_trials(row) - yes;
+    const LogNormalTails tails = log_normal_tails(x.dot(beta));
+    if (yes > 0.0) value += yes * tails.log_lower;
+    if (no > 0.0) value += no * tails.log_upper;
+  }
+  return value;
 }
 
 }  // namespace
@@ -50,27 +64,36 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
     return fit;
   }
   fit.coefficients = Eigen::VectorXd::Zero(design.cols());
+  fit.log_likelihood = value_at(design, num_yes, num_trials, fit.coefficients);
+  // A sum of so many terms is no better than that.
+  const double rounding = std::max(1e-13, 1e-16 * static_cast<double>(design.rows()));
+  double largest = 0.0;
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
     const Derivatives here = derivatives_at(design, num_yes, num_trials, fit.coefficients);
-    fit.log_likelihood = here.value;
     const Eigen::LLT<Eigen::MatrixXd> cholesky(here.information);
     if (cholesky.info() != Eigen::Success) break;
     Eigen::VectorXd step = cholesky.solve(here.gradient);
-    const double largest = (design * step).cwiseAbs().maxCoeff();
+    largest = (design * step).cwiseAbs().maxCoeff();
     if (largest <= kSmallStep) {
       fit.status = FitStatus::kOk;
       fit.covariance = cholesky.solve(Eigen::MatrixXd::Identity(design.cols(), design.cols()));
       return fit;
     }
-    const auto value_at = [&](const Eigen::VectorXd& beta) {
-      return derivatives_at(design, num_yes, num_trials, beta).value;
-    };
-    const double least = here.value - 1e-13 * std::fabs(here.value);
+    const double least = fit.log_likelihood - rounding * std::fabs(fit.log_likelihood);
+    double value = 0.0;
     for (int halving = 0; halving < kMaxHalvings; ++halving) {
-      if (value_at(fit.coefficients + step) >= least) break;
+      value = value_at(design, num_yes, num_trials, fit.coefficients + step);
+      if (value >= least) break;
       step *= 0.5;
     }
     fit.coefficients += step;
+    fit.log_likelihood = value;
+  }
+  // Answers that are separated send the curve ever further, by a third of z or more a step.
+  constexpr double kAtRest = 1e-3;
+  if (largest < kAtRest) {
+    fit.reason = "not found: the search did not come to rest; add up rows that ask the same";
+    return fit;
   }
   fit.reason = "separated: some combination of the columns splits the answers without overlap";
   return fit;

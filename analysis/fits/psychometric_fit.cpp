@@ -174,8 +174,7 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                   "by_order", "the Weber curve by maximum likelihood alone", 1.0);
     PsychometricFit fit = fit_by_interval_order(data, options);
     if (fit.status != FitStatus::kOk || !fit.order_effect_ln) return fit;
-    add_psychometric_warnings(fit, data, levels, options,
-                              fit.num_levels - (options.free_pse ? 3 : 2), false);
+    add_psychometric_warnings(fit, data, levels, options, false);
     return fit;
   }
   PsychometricFit fit;
@@ -250,9 +249,8 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   if (options.diagnostics) {
     fit.goodness = goodness_of_fit(search, levels, curve, options.num_goodness, options.seed);
   }
-  add_psychometric_warnings(fit, data, levels, options,
-                            residual_degrees_of_freedom(levels, search.free(), curve.lapse),
-                            falls.has_value());
+  if (options.intervals) fit.misfit_p_value = misfit_p_value(levels, search.free(), curve);
+  add_psychometric_warnings(fit, data, levels, options, falls.has_value());
   return fit;
 }
 

@@ -145,8 +145,8 @@ struct PsychometricPosterior {
 /// What the intervals assume, but for `overdispersion`: answers independent and binomial at
 /// each level, and the curve right. A drifting criterion or lapses left out of the model make
 /// them too narrow. At five trials a level the mean of individual Weber fractions is biased
-/// without bound, their median is not; likelihood-ratio intervals cover 95 % there, the
-/// bootstrap's only 79 to 93 %.
+/// without bound, their median is not; likelihood-ratio intervals cover 94 % there, the
+/// bootstrap's only 71 to 93 %.
 struct PsychometricFit {
   FitStatus status = FitStatus::kNotRun;
   /// Why there is no value, or, of a curve whose pse is not > 0, no Weber fraction; else "".
@@ -161,6 +161,9 @@ struct PsychometricFit {
   std::optional<double> standard_error;
   std::optional<double> log_likelihood;  ///< sum k ln f + (n-k) ln(1-f), no binomial terms.
   std::optional<double> deviance;        ///< Twice what the saturated model gains, >= 0.
+  /// Probability that answers of this curve lie as far from it; see `answer_scatter.h`. Absent
+  /// where no degree of freedom is left, or no interval is asked for.
+  std::optional<double> misfit_p_value;
   std::optional<double> pse;
   std::optional<Interval> pse_ci95;  ///< Absent if the pse was not free.
   /// ln pse, test second, less ln pse, test first; with `by_order` alone.

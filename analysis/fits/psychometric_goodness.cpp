@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/fits/answer_scatter.h"
 #include "analysis/fits/psychometric_limits.h"
 #include "analysis/fits/psychometric_redraw.h"
 #include "core/random_stream.h"
@@ -93,6 +94,19 @@ int residual_degrees_of_freedom(const PsychometricLevels& levels, const FreePara
                                 double lapse) {
   return static_cast<int>(levels.size()) - 1 - (free[1] ? 1 : 0) -
          (free[2] && lapse > 0.0 ? 1 : 0);
+}
+
+std::optional<double> misfit_p_value(const PsychometricLevels& levels,
+                                     const FreeParameters& free,
+                                     const PsychometricCurve& fitted) {
+  std::vector<FittedAnswers> answers;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    answers.push_back(
+        {levels.num_yes[level], levels.num_trials[level], fitted.probability(levels, level)});
+  }
+  const int num_fitted =
+      static_cast<int>(levels.size()) - residual_degrees_of_freedom(levels, free, fitted.lapse);
+  return misfit_p_value(answers, num_fitted);
 }
 
 PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,

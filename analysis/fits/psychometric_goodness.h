@@ -15,6 +15,11 @@ namespace jnd::analysis {
 [[nodiscard]] int residual_degrees_of_freedom(const PsychometricLevels& levels,
                                               const FreeParameters& free, double lapse);
 
+/// Probability that answers of the curve lie as far from it as these, by `misfit_p_value`.
+[[nodiscard]] std::optional<double> misfit_p_value(const PsychometricLevels& levels,
+                                                   const FreeParameters& free,
+                                                   const PsychometricCurve& fitted);
+
 /// Residuals, overdispersion and, with `num_redraws` > 0, how often data drawn from the fitted
 /// curve and refitted lie at least as far off: chi-squared does not hold at few answers a level
 /// (Wichmann and Hill 2001). A refit without an optimum has the deviance of its limit.

@@ -33,9 +33,45 @@ std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope
   return places;
 }
 
+/// So many levels tell where the minima are: the search goes on from there with all of them.
+constexpr std::size_t kMostLevels = 512;
+
+/// Where each of at most `kMostLevels` groups of neighbouring levels begins, then their end.
+std::vector<std::size_t> groups_of(std::size_t num_levels) {
+  const std::size_t num = std::min(num_levels, kMostLevels);
+  std::vector<std::size_t> begin;
+  for (std::size_t i = 0; i <= num; ++i) begin.push_back(i * num_levels / num);
+  return begin;
+}
+
+/// Each group one level, at the mean of its places on the abscissa.
+PsychometricLevels grouped(const PsychometricLevels& levels) {
+  if (levels.size() <= kMostLevels) return levels;
+  PsychometricLevels result = levels;
+  for (auto* column :
+       {&result.intensity, &result.abscissa, &result.num_yes, &result.num_trials}) {
+    column->clear();
+  }
+  const std::vector<std::size_t> begin = groups_of(levels.size());
+  for (std::size_t group = 0; group + 1 < begin.size(); ++group) {
+    double place = 0.0, num_yes = 0.0, num_trials = 0.0;
+    for (std::size_t level = begin[group]; level < begin[group + 1]; ++level) {
+      place += levels.abscissa[level];
+      num_yes += levels.num_yes[level];
+      num_trials += levels.num_trials[level];
+    }
+    result.intensity.push_back(levels.intensity[begin[group]]);
+    result.abscissa.push_back(place / static_cast<double>(begin[group + 1] - begin[group]));
+    result.num_yes.push_back(num_yes);
+    result.num_trials.push_back(num_trials);
+  }
+  return result;
+}
+
 }  // namespace
 
-PsychometricGrid::PsychometricGrid(const PsychometricLevels& levels, bool free_pse) {
+PsychometricGrid::PsychometricGrid(const PsychometricLevels& every_level, bool free_pse) {
+  const PsychometricLevels levels = grouped(every_level);
   // A search may leave this range.
   constexpr double kFlattest = 0.002, kRatio = 1.2, kSmallestGap = 1e-3;
   const double steepest_z = 2.25 * sigmoid_reach(levels.sigmoid);
@@ -88,9 +124,10 @@ bool PsychometricGrid::is_lowest_around(std::size_t slope, std::size_t point,
   return true;
 }
 
-std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels& levels,
+std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels& every_level,
                                                         PsychometricMethod method,
                                                         bool free_lapse) const {
+  const PsychometricLevels levels = grouped(every_level);
   const double largest_lapse = 0.98 * levels.ends.lapse_limit();
   std::vector<double> cost, lapse;
   cost.reserve(points_.size());

@@ -8,7 +8,8 @@ namespace jnd::analysis {
 
 /// Curves from nearly flat to a step between neighbouring levels, from which least squares and
 /// free lapses, whose cost can have several minima, are searched. Computed once over one set of
-/// levels, for as many sets of answers as wanted.
+/// levels, for as many sets of answers as wanted. More than 512 levels are looked at in as many
+/// groups of neighbours.
 class PsychometricGrid {
  public:
   /// `levels` is read for its intensities only; they must identify the free parameters.

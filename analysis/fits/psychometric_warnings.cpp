@@ -1,7 +1,6 @@
 #include "analysis/fits/psychometric_warnings.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -15,18 +14,9 @@ namespace {
 
 using enum PsychometricMethod;
 
-/// Whether a deviance is beyond what chi-squared with as many degrees of freedom has in one of
-/// a hundred data sets.
-bool is_far_off(const std::optional<double>& deviance, int degrees_of_freedom) {
-  if (degrees_of_freedom < 1 || !deviance) return false;
-  const boost::math::chi_squared chance(degrees_of_freedom);
-  return boost::math::cdf(boost::math::complement(chance, *deviance)) < kScatterBelow;
-}
-
-bool all_alike(const std::vector<AnswerCount>& data) {
-  const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
-  const auto every = [](const AnswerCount& row) { return row.num_yes == row.num_trials; };
-  return std::ranges::all_of(data, none) || std::ranges::all_of(data, every);
+/// Whether such a p value is one in a hundred, or less.
+bool is_far_off(const std::optional<double>& p_value) {
+  return p_value && *p_value < kScatterBelow;
 }
 
 std::string rounded(double value) {
@@ -47,9 +37,9 @@ std::string advice_of_lapses(const PsychometricFit& fit, const PsychometricLevel
   if (found.supremum != PsychometricSupremum::kAttained) return "";
   const PsychometricCurve& curve = found.optimum.curve;
   const double deviance = deviance_of(with_lapses, -found.optimum.cost.value);
-  const int degrees_of_freedom =
-      residual_degrees_of_freedom(with_lapses, search.free(), curve.lapse);
-  if (!(curve.lapse > 0.0) || is_far_off(deviance, degrees_of_freedom)) return "";
+  if (!(curve.lapse > 0.0) || is_far_off(misfit_p_value(with_lapses, search.free(), curve))) {
+    return "";
+  }
   return std::string("; lapses explain them (deviance ") + rounded(*fit.deviance) +
          ", with a lapse rate " + rounded(deviance) +
          "): " + (with_lapses.ends.symmetric ? "--free lapse" : "--lapse free");
@@ -124,8 +114,7 @@ void add_doubt_of_lapses(PsychometricFit& fit, const PsychometricLevels& levels,
 void add_doubts(PsychometricFit& fit, const std::vector<AnswerCount>& data,
                 const PsychometricLevels& levels) {
   if (all_alike(data)) {
-    fit.warnings.emplace_back(
-        "every answer is the same: the Weber fraction rests on the assumed pse alone");
+    fit.warnings.emplace_back(kAllAlike);
   }
   const double at_jnd = fit.weber_fraction ? *fit.pse * (1.0 + *fit.weber_fraction)
                                            : *fit.pse + fit.parameters.back().value;
@@ -167,16 +156,21 @@ void add_scatter_of_rows(PsychometricFit& fit, const std::vector<AnswerCount>& d
 
 }  // namespace
 
+bool all_alike(const std::vector<AnswerCount>& data) {
+  const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
+  const auto every = [](const AnswerCount& row) { return row.num_yes == row.num_trials; };
+  return std::ranges::all_of(data, none) || std::ranges::all_of(data, every);
+}
+
 void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCount>& data,
                                const PsychometricLevels& levels,
-                               const PsychometricOptions& options, int degrees_of_freedom,
-                               bool falls) {
+                               const PsychometricOptions& options, bool falls) {
   constexpr double kFewTrials = 15.0;
   double most_trials = levels.zero_trials;
   for (const double trials : levels.num_trials) most_trials = std::max(most_trials, trials);
   if (fit.bootstrap.n > 0 && most_trials < kFewTrials) {
     fit.warnings.emplace_back(
-        "bootstrap intervals cover less than 95 % at so few answers a level (79 to 93 % at "
+        "bootstrap intervals cover less than 95 % at so few answers a level (71 to 93 % at "
         "five): rather use the likelihood ratio's");
   }
   const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;
@@ -206,9 +200,9 @@ void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCou
   // Least squares does not seek the lowest deviance, and a simulated p goes before.
   const bool other =
       fit.method == PsychometricMethod::kLeastSquares || fit.goodness.p_value.has_value();
-  if (!other && binomial && is_far_off(fit.deviance, degrees_of_freedom)) {
+  if (!other && binomial && is_far_off(fit.misfit_p_value)) {
     fit.warnings.push_back(
-        "the answers lie farther from the curve than chance has them (deviance, chi-squared: "
+        "the answers lie farther from the curve than chance has them (by their deviance, "
         "p < 0.01): the curve is not theirs, and the intervals are too narrow" +
         advice());
   }

@@ -175,6 +175,7 @@ void MethodWriter::write_hierarchical() {
           cite("Schütt et al. 2016") +
           "). The estimand is the median person’s Weber fraction, which a curve "
           "through pooled answers flattens. Intervals and tests are Wald’s on ln ln(1 + w), "
+          "the interval of a condition over all lapse rates that answers and prior leave, "
           "with the standard error times √(n / (n − 1)) and Student’s t with n − 1 degrees of "
           "freedom, n being the number of participants; the standard error of one condition is "
           "of the observed information, that of a difference of the sandwich over "

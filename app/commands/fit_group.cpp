@@ -96,9 +96,9 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   print_lapses(fit);
   if (fit.correlation) fmt::print("  correlation of the slopes  {}\n", number(fit.correlation));
   for (const analysis::HierarchicalDifference& one : fit.differences) {
-    fmt::print("  {} - {}: {}  95 % {}, t({:.0f}) = {}, p = {}\n", one.second, one.first,
+    fmt::print("  {} - {}: {}  95 % {}, t({:.0f}) = {}, {}\n", one.second, one.first,
                number(one.estimate), range(one.ci95, one.estimate), one.degrees_of_freedom,
-               number(one.statistic), number(one.p_value));
+               number(one.statistic), p_value_words(one.p_value));
   }
   if (!fit.note.empty()) fmt::print("  {}\n", fit.note);
 }
@@ -209,12 +209,12 @@ void print_for_people(const analysis::PsychometricEffects& found) {
   }
   for (const analysis::PsychometricEffect& one : found.effects) {
     if (one.status == FitStatus::kOk && !one.estimate) {
-      fmt::print("  {:<15} {:<9} p = {} of any change: {}\n", one.name, number(one.estimate),
-                 number(one.p_value), one.reason);
+      fmt::print("  {:<15} {:<9} {} of any change: {}\n", one.name, number(one.estimate),
+                 p_value_words(one.p_value), one.reason);
       continue;
     }
-    fmt::print("  {:<15} {:<9} 95 % {}, p = {}: {}\n", one.name, number(one.estimate),
-               range(one.ci95, one.estimate), number(one.p_value),
+    fmt::print("  {:<15} {:<9} 95 % {}, {}: {}\n", one.name, number(one.estimate),
+               range(one.ci95, one.estimate), p_value_words(one.p_value),
                one.status == FitStatus::kOk ? one.meaning : one.reason);
   }
   for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);

@@ -15,6 +15,12 @@ namespace jnd::app {
   return value ? fmt::format("{:.4g}", *value) : "-";
 }
 
+/// "p = 0.031"; nothing that was observed is impossible, so 0 is less than there are numbers
+/// for.
+[[nodiscard]] inline std::string p_value_words(const std::optional<double>& p_value) {
+  return p_value == 0.0 ? "p < 1e-300" : "p = " + number(p_value);
+}
+
 /// "0.32 to 1.6", an end that the data leave open in words.
 [[nodiscard]] inline std::string whole_range(const analysis::Interval& interval) {
   if (!interval.low && !interval.high) return analysis::kNotBounded;

@@ -46,5 +46,21 @@ TEST(DiscriminationAnswers, WhatWasRunInOrderKeepsItsNumbers) {
             (std::vector<double>{3, 7, 8}));
 }
 
+TEST(DiscriminationAnswers, LeavingATrialOutMovesNoOtherInTime) {
+  // Run in the order 1, 3, 4, 2; the third is set aside.
+  StudyData data;
+  data.participants.push_back(
+      {.participant = "P01",
+       .trials = {answered(1, 1, 100), answered(1, 2, 900), answered(1, 4, 600)},
+       .excluded_trials = {answered(1, 3, 300)}});
+  std::vector<ExcludedParticipant> without_answers;
+  const auto answers =
+      discrimination_answers(data, {.block = "group_d"}, false, without_answers);
+  const std::vector<OrderedAnswers>& in_order = answers.at(0).in_order;
+  EXPECT_EQ(*in_order[0].trial, 1.0);
+  EXPECT_EQ(*in_order[1].trial, 4.0);
+  EXPECT_EQ(*in_order[2].trial, 3.0);
+}
+
 }  // namespace discrimination_answers_test
 }  // namespace jnd::analysis

@@ -256,5 +256,30 @@ TEST(DiscriminationGroup, ChangesOverTheTrialsAreOneFamilyOfTheStudy) {
               std::min(1.0, *least * static_cast<double>(p_values.size())), 1e-12);
 }
 
+TEST(DiscriminationGroup, APooledCurveOfAnswersThatAreAllAlikeSaysWhatItRestsOn) {
+  HandMadeStudy study;
+  for (const char* person : {"P01", "P02"}) {
+    study.add(person);
+    for (int i = 0; i < 10; ++i) study.compare("group_d", 6.0 + i, 8.0, true);
+  }
+  const StudyResults of = results(study);
+  const Estimate& pooled = estimate(of, "group_d.weber_fraction");
+  ASSERT_TRUE(pooled.value.has_value());
+  ASSERT_EQ(pooled.cautions.size(), 1U);
+  EXPECT_NE(pooled.cautions[0].find("every answer is the same"), std::string::npos);
+}
+
+TEST(DiscriminationGroup, ABlockOfWhichEveryAnswerIsSetAsideIsNotPassedOver) {
+  HandMadeStudy study;
+  add_people(study, {8});
+  for (std::int64_t trial = 1; trial <= 20; ++trial) study.exclude(trial);
+  const StudyResults of = results(study);
+  const auto section = std::ranges::find(of.sections, "group_d", &ResultsSection::name);
+  ASSERT_NE(section, of.sections.end());
+  ASSERT_FALSE(section->excluded.empty());
+  EXPECT_NE(section->excluded.back().reason.find("every answer in group_d is set aside"),
+            std::string::npos);
+}
+
 }  // namespace discrimination_group_test
 }  // namespace jnd::analysis

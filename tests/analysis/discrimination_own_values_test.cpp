@@ -94,5 +94,11 @@ TEST_F(DiscriminationOwnValues, AreTheSameEveryTime) {
             *own(results(), "SOUND", "group_d.goodness_p").value);
 }
 
+TEST_F(DiscriminationOwnValues, AFractionOfAnswersThatAreAllAlikeSaysWhatItRestsOn) {
+  const StudyResults of = results();
+  EXPECT_EQ(own(of, "ALL_YES", "group_d.weber_fraction").cautions.size(), 1U);
+  EXPECT_TRUE(own(of, "SOUND", "group_d.weber_fraction").cautions.empty());
+}
+
 }  // namespace discrimination_own_values_test
 }  // namespace jnd::analysis

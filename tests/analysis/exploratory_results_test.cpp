@@ -219,5 +219,31 @@ TEST(ExploratoryResults, AStudyWithNothingOfThisHasNone) {
   EXPECT_TRUE(section.comparisons.empty());
 }
 
+/// Trials that were put off have numbers from before their time.
+TEST(ExploratoryResults, DriftAndTheStimulusBeforeGoByWhenTrialsWereRun) {
+  ParticipantData by_number{.participant = "P01"};
+  const std::vector<double> stimuli = {1.0, 3.0, 2.0, 3.0, 2.0, 1.0};
+  const std::vector<double> answers = {90.0, 310.0, 190.0, 290.0, 220.0, 120.0};
+  for (std::size_t i = 0; i < stimuli.size(); ++i) {
+    const auto number = static_cast<std::int64_t>(i + 1);
+    by_number.trials.push_back({.trial = number,
+                                .block = "estimation",
+                                .intensity = stimuli[i],
+                                .response = answers[i],
+                                .first_tick = 1000 * number});
+  }
+  // The same trials in the same order, of which the one run fifth had been drawn as the second.
+  ParticipantData put_off = by_number;
+  const std::vector<std::int64_t> drawn_as = {1, 3, 4, 5, 2, 6};
+  for (std::size_t i = 0; i < drawn_as.size(); ++i) put_off.trials[i].trial = drawn_as[i];
+  const auto effect_of = [](const ParticipantData& person, const std::string& name) {
+    const StudyData data{.participants = {person}, .blocks = {kEstimation}};
+    return own(exploratory_results(data, {}), "P01", "estimation." + name);
+  };
+  for (const std::string name : {"drift_per_ten_trials", "previous_stimulus_slope"}) {
+    EXPECT_DOUBLE_EQ(effect_of(put_off, name), effect_of(by_number, name)) << name;
+  }
+}
+
 }  // namespace exploratory_results_test
 }  // namespace jnd::analysis

@@ -162,5 +162,23 @@ TEST(TrialTrend, APerfectOrSilentObserverHasNone) {
   EXPECT_FALSE(trial_trend({}, 1.0).drift);
 }
 
+/// The sum of so many terms is rounded, which must not look like a step that makes it worse.
+TEST(PsychometricEffects, HalfAMillionSingleAnswersAreFittedAsTheirSums) {
+  const std::vector<OrderedAnswers> sums = {{1.0, 17000.0, 100000.0},
+                                            {1.5, 33000.0, 100000.0},
+                                            {2.0, 51000.0, 100000.0},
+                                            {2.5, 66000.0, 100000.0},
+                                            {3.0, 83000.0, 100000.0}};
+  std::vector<OrderedAnswers> singles;
+  for (const OrderedAnswers& row : sums) {
+    for (double answer = 0.0; answer < row.num_trials; answer += 1.0) {
+      singles.push_back({row.intensity, answer < row.num_yes ? 1.0 : 0.0, 1.0});
+    }
+  }
+  const auto pooled = effects_of(sums, 2.0), single = effects_of(singles, 2.0);
+  ASSERT_EQ(single[0].status, FitStatus::kOk) << single[0].reason;
+  EXPECT_NEAR(*single[0].estimate, *pooled[0].estimate, 1e-8);
+}
+
 }  // namespace psychometric_effects_test
 }  // namespace jnd::analysis

@@ -273,5 +273,16 @@ TEST_F(FitGroupCommandTest, WeberTellsGoodnessPosteriorAndCorrectedBootstrap) {
   EXPECT_TRUE(json["warnings"].is_array());
 }
 
+TEST_F(FitGroupCommandTest, AnEffectThatIsBeyondEveryNumberIsNoCertainty) {
+  table("many.csv",
+        "intensity,num_yes,num_trials\n1,170000,200000\n1.5,180000,200000\n"
+        "2,190000,200000\n3,199000,200000\n");
+  const ProgramOutcome outcome =
+      fit({"effects", "--csv", "many.csv", "--reference", "2"}, false);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("p < 1e-300"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("p = 0:"), std::string::npos) << outcome.out;
+}
+
 }  // namespace fit_group_test
 }  // namespace jnd::app
