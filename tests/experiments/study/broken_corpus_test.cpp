@@ -6,7 +6,6 @@
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,8 @@
 #include "support/places.h"
 
 // tests/experiments/study/broken holds a broken study NAME.json for each rule, and in NAME.txt
-// what the reader must say of it. A new rule wants a new pair:
-//   cd tests/experiments/study/broken && JND validate NAME.json > NAME.txt
-// and an eye on whether the author would understand that.
+// what the reader must say of it, in folders by what is broken. Its README says how a new pair
+// is made.
 
 namespace jnd::experiments {
 namespace broken_corpus_test {
@@ -31,10 +29,10 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The files of a folder with this extension, in order.
+/// The files of a folder and of those in it with this extension, in order.
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
   std::set<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() == extension) files.insert(entry.path());
   }
   return {files.begin(), files.end()};
@@ -70,6 +68,14 @@ TEST(BrokenCorpus, HasAStudyForEveryMessages) {
     fs::path study = file;
     study.replace_extension(".json");
     EXPECT_TRUE(fs::exists(study)) << file;
+  }
+}
+
+TEST(BrokenCorpus, NamesAStudyOnceWhateverItsFolder) {
+  std::map<std::string, fs::path> seen;
+  for (const fs::path& file : files_in(source(kFolder), ".json")) {
+    const auto [first, is_new] = seen.emplace(file.filename().string(), file);
+    EXPECT_TRUE(is_new) << file << " and " << first->second;
   }
 }
 
