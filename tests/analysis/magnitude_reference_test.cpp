@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "analysis/reference_values.h"
 #include "analysis/study_results.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace magnitude_reference_test {
@@ -15,14 +14,7 @@ namespace magnitude_reference_test {
 using nlohmann::json;
 
 /// An invented study and its analysis by SciPy, see the script beside it.
-const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/magnitudes/magnitudes.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
+const json& reference() { return test_support::reference_data("magnitudes/magnitudes.json"); }
 
 StudyData invented_study() {
   StudyData data{.study = "invented"};
@@ -58,24 +50,13 @@ const StudyResults& results() {
   return kResults;
 }
 
-void expect_close(const std::optional<double>& found, const json& expected,
-                  const std::string& where) {
-  ASSERT_TRUE(found.has_value()) << where;
-  const double value = expected.get<double>();
-  EXPECT_NEAR(*found, value, 1e-7 * std::max(std::fabs(value), 1e-3)) << where;
-}
-
-void expect_interval(const Interval& found, const json& expected, const std::string& where) {
-  expect_close(found.low, expected.at(0), where + " low");
-  expect_close(found.high, expected.at(1), where + " high");
-}
-
 TEST(MagnitudeReference, EveryGroupValueAgreesWithScipy) {
   for (const auto& [name, expected] : reference().at("estimates").items()) {
     const Estimate* found = results().find(name);
     ASSERT_NE(found, nullptr) << name;
-    expect_close(found->value, expected.at("value"), name);
-    if (expected.contains("ci95")) expect_interval(found->ci95, expected.at("ci95"), name);
+    expect_reference(found->value, expected.at("value"), 1e-7, name);
+    if (expected.contains("ci95"))
+      expect_reference(found->ci95, expected.at("ci95"), 1e-7, name);
   }
   EXPECT_GE(reference().at("estimates").size(), 70U);
 }
@@ -88,9 +69,9 @@ TEST(MagnitudeReference, EveryParticipantsOwnValueAgreesWithScipy) {
       for (const ParticipantEstimate& own : section.participants) {
         if (own.participant != who || own.name != name) continue;
         is_there = true;
-        expect_close(own.value, expected.at("value"), who + " " + name);
+        expect_reference(own.value, expected.at("value"), 1e-7, who + " " + name);
         if (expected.contains("ci95")) {
-          expect_interval(own.ci95, expected.at("ci95"), who + " " + name);
+          expect_reference(own.ci95, expected.at("ci95"), 1e-7, who + " " + name);
         }
       }
     }
@@ -109,16 +90,17 @@ TEST(MagnitudeReference, EveryTestAgreesWithScipyAndIsAdjustedByHolm) {
     }
     ASSERT_NE(found, nullptr) << name;
     const Comparison& c = found->comparison;
-    expect_close(c.p_value, expected.at("p_value"), name + ": p");
-    if (expected.contains("estimate")) expect_close(c.estimate, expected.at("estimate"), name);
+    expect_reference(c.p_value, expected.at("p_value"), 1e-7, name + ": p");
+    if (expected.contains("estimate"))
+      expect_reference(c.estimate, expected.at("estimate"), 1e-7, name);
     if (expected.contains("statistic")) {
-      expect_close(c.statistic, expected.at("statistic"), name + ": statistic");
+      expect_reference(c.statistic, expected.at("statistic"), 1e-7, name + ": statistic");
     }
-    if (expected.contains("ci95")) expect_interval(c.ci95, expected.at("ci95"), name);
+    if (expected.contains("ci95")) expect_reference(c.ci95, expected.at("ci95"), 1e-7, name);
     EXPECT_EQ(found->p_value_holm.has_value(), expected.contains("p_value_holm")) << name;
     if (!expected.contains("p_value_holm")) continue;
     ++num_adjusted;
-    expect_close(found->p_value_holm, expected.at("p_value_holm"), name + ": Holm");
+    expect_reference(found->p_value_holm, expected.at("p_value_holm"), 1e-7, name + ": Holm");
   }
   const auto exploratory =
       std::ranges::find(results().sections, "exploratory", &ResultsSection::name);

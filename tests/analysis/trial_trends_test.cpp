@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "analysis/test_families.h"
 #include "core/error.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace trial_trends_test {
@@ -35,12 +34,7 @@ DiscriminationAnswers answered(const std::string& name, double reference,
 }
 
 const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/group_tests/trial_trends.json");
-    return json::parse(in);
-  }();
-  return kDocument;
+  return test_support::reference_data("group_tests/trial_trends.json");
 }
 
 std::vector<DiscriminationAnswers> people_of(const json& c) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,10 +10,11 @@
 #include "analysis/fits/fit_json.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/fits/psychometric_model.h"
+#include "analysis/reference_values.h"
 #include "core/error.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 // Curves between other ends than 0 and 1: guesses of forced choices, lapses that are known, and
 // lapses of the upper end alone.
@@ -31,23 +31,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Computed by SciPy: see the script beside it.
 const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/forced_choice/forced_choice.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
-
-std::vector<AnswerCount> rows_of(const json& data) {
-  std::vector<AnswerCount> rows;
-  for (const json& row : data) rows.push_back({row[0], row[1], row[2]});
-  return rows;
+  return test_support::reference_data("forced_choice/forced_choice.json");
 }
 
 PsychometricFit fit_of(const json& one, Solver solver = Solver::kCeres) {
   return fit_psychometric(
-      rows_of(one.at("data")),
+      reference_answers(one.at("data")),
       {.reference = one.at("reference"),
        .family = psychometric_family_named(one.at("family").get<std::string>()).value(),
        .free_pse = one.at("free_pse"),
@@ -58,35 +47,27 @@ PsychometricFit fit_of(const json& one, Solver solver = Solver::kCeres) {
        .solver = solver});
 }
 
-void expect_near(const std::optional<double>& found, const json& expected, double tolerance,
-                 const std::string& where) {
-  ASSERT_EQ(found.has_value(), !expected.is_null()) << where;
-  if (!found) return;
-  const double value = expected;
-  EXPECT_NEAR(*found, value, tolerance * std::max(std::fabs(value), 1e-3)) << where;
-}
-
 TEST(ForcedChoice, AgreesWithSciPy) {
   for (const json& one : reference().at("cases")) {
     const std::string name = one.at("name");
     const PsychometricFit fit = fit_of(one);
     ASSERT_EQ(fit.status, FitStatus::kOk) << name << ": " << fit.reason;
     const json& expected = one.at("expected");
-    expect_near(fit.weber_fraction, expected.at("weber_fraction"), 1e-6, name + " w");
-    expect_near(fit.pse, expected.at("pse"), 1e-6, name + " pse");
-    expect_near(*fit.lapse_rate + 1.0, expected.at("lapse_rate").get<double>() + 1.0, 1e-7,
-                name + " lapse");
-    expect_near(fit.log_likelihood, expected.at("log_likelihood"), 1e-10, name + " ll");
-    expect_near(fit.deviance, expected.at("deviance"), 1e-8, name + " deviance");
-    expect_near(fit.standard_error, expected.at("standard_error"), 2e-5, name + " error");
+    expect_reference(fit.weber_fraction, expected.at("weber_fraction"), 1e-6, name + " w");
+    expect_reference(fit.pse, expected.at("pse"), 1e-6, name + " pse");
+    expect_reference(*fit.lapse_rate + 1.0, expected.at("lapse_rate").get<double>() + 1.0, 1e-7,
+                     name + " lapse");
+    expect_reference(fit.log_likelihood, expected.at("log_likelihood"), 1e-10, name + " ll");
+    expect_reference(fit.deviance, expected.at("deviance"), 1e-8, name + " deviance");
+    expect_reference(fit.standard_error, expected.at("standard_error"), 2e-5, name + " error");
     const json& ends = expected.at("weber_fraction_ci95");
     // SciPy looks no lower than w e^-4.
-    if (!ends[0].is_null()) expect_near(fit.weber_fraction_ci95.low, ends[0], 1e-5, name);
-    expect_near(fit.weber_fraction_ci95.high, ends[1], 1e-5, name + " high");
+    if (!ends[0].is_null()) expect_reference(fit.weber_fraction_ci95.low, ends[0], 1e-5, name);
+    expect_reference(fit.weber_fraction_ci95.high, ends[1], 1e-5, name + " high");
     ASSERT_EQ(fit.pse_ci95.has_value(), !expected.at("pse_ci95").is_null()) << name;
     if (!fit.pse_ci95) continue;
-    expect_near(fit.pse_ci95->low, expected.at("pse_ci95")[0], 1e-5, name + " pse low");
-    expect_near(fit.pse_ci95->high, expected.at("pse_ci95")[1], 1e-5, name + " pse high");
+    expect_reference(fit.pse_ci95->low, expected.at("pse_ci95")[0], 1e-5, name + " pse low");
+    expect_reference(fit.pse_ci95->high, expected.at("pse_ci95")[1], 1e-5, name + " pse high");
   }
 }
 
@@ -354,10 +335,10 @@ TEST(ForcedChoice, RatesOutOfRangeAreRefused) {
 TEST(ForcedChoice, TheChanceIsWarnedOfOnlyWhereTheTaskIsNotKnown) {
   const json& demo = reference().at("cases")[0];
   const auto warnings = [&](double guess, bool unknown) {
-    return fit_psychometric(rows_of(demo.at("data")), {.reference = 0.004,
-                                                       .free_pse = true,
-                                                       .guess_rate = guess,
-                                                       .guess_unknown = unknown})
+    return fit_psychometric(reference_answers(demo.at("data")), {.reference = 0.004,
+                                                                 .free_pse = true,
+                                                                 .guess_rate = guess,
+                                                                 .guess_unknown = unknown})
         .warnings;
   };
   EXPECT_THAT(warnings(0.0, true), testing::Contains(HasSubstr("--guess")));

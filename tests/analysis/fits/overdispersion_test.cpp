@@ -2,15 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/reference_values.h"
 #include "core/error.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace overdispersion_test {
@@ -22,26 +22,7 @@ using testing::Not;
 
 /// Computed by SciPy: see the script beside it.
 const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/overdispersion/overdispersion.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
-
-std::vector<AnswerCount> rows_of(const json& data) {
-  std::vector<AnswerCount> rows;
-  for (const json& row : data) rows.push_back({row[0], row[1], row[2]});
-  return rows;
-}
-
-void expect_near(const std::optional<double>& found, const json& expected, double tolerance,
-                 const std::string& where) {
-  ASSERT_EQ(found.has_value(), !expected.is_null()) << where;
-  if (!found) return;
-  const double value = expected;
-  EXPECT_NEAR(*found, value, tolerance * std::max(std::fabs(value), 1e-3)) << where;
+  return test_support::reference_data("overdispersion/overdispersion.json");
 }
 
 TEST(Overdispersion, AgreesWithSciPy) {
@@ -50,33 +31,36 @@ TEST(Overdispersion, AgreesWithSciPy) {
     const std::string name =
         one.at("name").get<std::string>() + ", " + one.at("model").get<std::string>();
     const PsychometricFit fit = fit_psychometric(
-        rows_of(one.at("data")),
+        reference_answers(one.at("data")),
         {.reference = 1.0,
          .free_pse = true,
          .guess_rate = one.at("guess_rate"),
          .overdispersion = scaled ? Overdispersion::kScaled : Overdispersion::kBetaBinomial});
     ASSERT_EQ(fit.status, FitStatus::kOk) << name << fit.reason;
     const json& expected = one.at("expected");
-    expect_near(fit.weber_fraction, expected.at("weber_fraction"), 2e-6, name + " w");
-    expect_near(fit.pse, expected.at("pse"), 2e-6, name + " pse");
-    expect_near(fit.weber_fraction_ci95.low, expected.at("weber_fraction_ci95")[0], 1e-5, name);
-    expect_near(fit.weber_fraction_ci95.high, expected.at("weber_fraction_ci95")[1], 1e-5,
-                name);
-    expect_near(fit.pse_ci95->low, expected.at("pse_ci95")[0], 1e-5, name);
-    expect_near(fit.pse_ci95->high, expected.at("pse_ci95")[1], 1e-5, name);
+    expect_reference(fit.weber_fraction, expected.at("weber_fraction"), 2e-6, name + " w");
+    expect_reference(fit.pse, expected.at("pse"), 2e-6, name + " pse");
+    expect_reference(fit.weber_fraction_ci95.low, expected.at("weber_fraction_ci95")[0], 1e-5,
+                     name);
+    expect_reference(fit.weber_fraction_ci95.high, expected.at("weber_fraction_ci95")[1], 1e-5,
+                     name);
+    expect_reference(fit.pse_ci95->low, expected.at("pse_ci95")[0], 1e-5, name);
+    expect_reference(fit.pse_ci95->high, expected.at("pse_ci95")[1], 1e-5, name);
     if (scaled) {
-      expect_near(fit.overdispersion.factor, expected.at("factor"), 1e-6, name);
+      expect_reference(fit.overdispersion.factor, expected.at("factor"), 1e-6, name);
     } else {
       EXPECT_NEAR(*fit.overdispersion.correlation, expected.at("correlation").get<double>(),
                   1e-6)
           << name;
-      expect_near(fit.overdispersion.log_likelihood, expected.at("log_likelihood"), 1e-9, name);
+      expect_reference(fit.overdispersion.log_likelihood, expected.at("log_likelihood"), 1e-9,
+                       name);
     }
   }
 }
 
 TEST(Overdispersion, ScaledErrorsGrowByTheRootOfTheFactor) {
-  const std::vector<AnswerCount> rows = rows_of(reference().at("cases")[1].at("data"));
+  const std::vector<AnswerCount> rows =
+      reference_answers(reference().at("cases")[1].at("data"));
   const PsychometricFit plain = fit_psychometric(rows, {.reference = 1.0, .free_pse = true});
   const PsychometricFit scaled = fit_psychometric(
       rows, {.reference = 1.0, .free_pse = true, .overdispersion = Overdispersion::kScaled});
@@ -158,7 +142,8 @@ TEST(Overdispersion, RowsOfOneLevelScatterWhateverTheirSumDoes) {
 
 /// A table of single answers has nothing but its levels to tell scatter by.
 TEST(Overdispersion, SingleAnswersCountByTheirLevels) {
-  std::vector<AnswerCount> counts = rows_of(reference().at("cases")[1].at("data")), single;
+  std::vector<AnswerCount> counts = reference_answers(reference().at("cases")[1].at("data")),
+                           single;
   for (const AnswerCount& row : counts) {
     for (int i = 0; i < row.num_trials; ++i)
       single.push_back({row.intensity, i < row.num_yes, 1});
@@ -187,7 +172,8 @@ std::vector<std::string> advice_of(const std::vector<AnswerCount>& rows, double 
 }
 
 TEST(Overdispersion, TheNoteOffersTheIntervalsByName) {
-  const std::vector<AnswerCount> rows = rows_of(reference().at("cases")[1].at("data"));
+  const std::vector<AnswerCount> rows =
+      reference_answers(reference().at("cases")[1].at("data"));
   EXPECT_THAT(advice_of(rows), Contains(HasSubstr("--overdispersion scaled")));
   EXPECT_THAT(advice_of(rows), Contains(HasSubstr("--overdispersion beta-binomial")));
   EXPECT_THAT(advice_of(rows), Not(Contains(HasSubstr("--free lapse"))));
@@ -218,10 +204,10 @@ TEST(Overdispersion, EndsOfThePriorAreOpenWhereMoreThanTheTailLiesBeyond) {
   for (const json& one : reference().at("posteriors")) {
     const std::string name = one.at("name");
     const PsychometricPosterior found =
-        fit_psychometric(rows_of(one.at("data")), {.reference = 1.0,
-                                                   .free_pse = true,
-                                                   .guess_rate = one.at("guess_rate"),
-                                                   .posterior = true})
+        fit_psychometric(reference_answers(one.at("data")), {.reference = 1.0,
+                                                             .free_pse = true,
+                                                             .guess_rate = one.at("guess_rate"),
+                                                             .posterior = true})
             .posterior;
     ASSERT_EQ(found.status, FitStatus::kOk) << name;
     const auto opens = [&](const char* what) {

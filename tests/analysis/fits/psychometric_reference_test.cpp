@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "analysis/fits/psychometric_effects.h"
 #include "analysis/fits/psychometric_json.h"
-#include "support/places.h"
+#include "analysis/reference_values.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace psychometric_reference_test {
@@ -17,18 +17,7 @@ using nlohmann::json;
 
 /// Computed by R: see the script beside it.
 const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/psychometric_families/psychometric_reference.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
-
-std::vector<AnswerCount> rows_of(const json& data) {
-  std::vector<AnswerCount> rows;
-  for (const json& row : data) rows.push_back({row[0], row[1], row[2]});
-  return rows;
+  return test_support::reference_data("psychometric_families/psychometric_reference.json");
 }
 
 void expect_near(double found, double expected, double tolerance, const std::string& where) {
@@ -37,7 +26,7 @@ void expect_near(double found, double expected, double tolerance, const std::str
 
 PsychometricFit family_fit(const json& one, Solver solver) {
   return fit_psychometric(
-      rows_of(one.at("data")),
+      reference_answers(one.at("data")),
       {.reference = one.at("reference"),
        .family = psychometric_family_named(one.at("family").get<std::string>()).value(),
        .diagnostics = true,
@@ -105,17 +94,18 @@ TEST(PsychometricReference, EffectsAgreeWithGlm) {
 }
 
 TEST(PsychometricReference, TheAccelerationIsThatOfLeavingOutEachAnswer) {
-  const PsychometricFit fit = fit_psychometric(
-      rows_of(reference().at("weber_data")), {.reference = 1.0,
-                                              .num_bootstrap = 200,
-                                              .bootstrap_kind = BootstrapKind::kNonparametric});
+  const PsychometricFit fit =
+      fit_psychometric(reference_answers(reference().at("weber_data")),
+                       {.reference = 1.0,
+                        .num_bootstrap = 200,
+                        .bootstrap_kind = BootstrapKind::kNonparametric});
   expect_near(fit.bootstrap.acceleration.value(), reference().at("acceleration"), 1e-6, "");
 }
 
 TEST(PsychometricReference, ThePosteriorAgreesWithIntegration) {
   const json& expected = reference().at("posterior");
   const auto posterior = [&](bool free_pse) {
-    return fit_psychometric(rows_of(reference().at("weber_data")),
+    return fit_psychometric(reference_answers(reference().at("weber_data")),
                             {.reference = 1.0, .free_pse = free_pse, .posterior = true})
         .posterior;
   };
@@ -135,7 +125,7 @@ TEST(PsychometricReference, ThePosteriorAgreesWithIntegration) {
 
 TEST(PsychometricReference, TheGaussianPosteriorOfTheWeberFractionIsThatOfSpreadOverPse) {
   const json& one = reference().at("families")[0];
-  const std::vector<AnswerCount> rows = rows_of(one.at("data"));
+  const std::vector<AnswerCount> rows = reference_answers(one.at("data"));
   const PsychometricPosterior found =
       fit_psychometric(
           rows, {.reference = 3.0, .family = PsychometricFamily::kGauss, .posterior = true})

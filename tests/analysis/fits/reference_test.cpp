@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "analysis/fits/fit_json.h"
-#include "support/places.h"
+#include "analysis/reference_values.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace reference_test {
@@ -15,14 +15,7 @@ namespace reference_test {
 using nlohmann::json;
 
 /// data/reference/fits_reference.json: computed by SciPy, see the script beside it.
-const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/fits_reference.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
+const json& reference() { return test_support::reference_data("fits_reference.json"); }
 
 void expect_close(const json& found, const json& expected, const std::string& where) {
   if (!expected.is_number()) {
@@ -54,15 +47,14 @@ void expect_all(const json& found, const json& expected, const std::string& name
 
 TEST(Reference, EveryPsychometricFitAgreesWithScipy) {
   for (const json& c : reference().at("weber")) {
-    std::vector<AnswerCount> data;
-    for (const json& row : c.at("data")) data.push_back({row[0], row[1], row[2]});
     const PsychometricOptions options = {.reference = c.at("reference"),
                                          .method = c.at("method") == "ml"
                                                        ? PsychometricMethod::kMaximumLikelihood
                                                        : PsychometricMethod::kLeastSquares,
                                          .free_pse = c.at("free_pse"),
                                          .free_lapse = c.at("free_lapse")};
-    expect_all(to_json(fit_psychometric(data, options)), c.at("expected"), c.at("name"));
+    expect_all(to_json(fit_psychometric(reference_answers(c.at("data")), options)),
+               c.at("expected"), c.at("name"));
   }
 }
 

@@ -1,15 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "analysis/fits/detection_fit.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/fits/signal_detection.h"
+#include "analysis/reference_values.h"
 #include "analysis/threshold_group.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace threshold_reference_test {
@@ -17,61 +16,42 @@ namespace threshold_reference_test {
 using nlohmann::json;
 
 /// data/reference/thresholds: computed by SciPy, see the script beside it.
-const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/thresholds/thresholds.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
-
-std::vector<AnswerCount> rows_of(const json& data) {
-  std::vector<AnswerCount> rows;
-  for (const json& row : data) rows.push_back({row[0], row[1], row[2]});
-  return rows;
-}
-
-void expect_close(const std::optional<double>& found, const json& expected,
-                  const std::string& where) {
-  ASSERT_EQ(found.has_value(), !expected.is_null()) << where;
-  if (!found) return;
-  const double value = expected.get<double>();
-  EXPECT_NEAR(*found, value, 1e-6 * std::max(std::fabs(value), 1e-3)) << where;
-}
-
-void expect_close(const Interval& found, const json& expected, const std::string& where) {
-  expect_close(found.low, expected.at(0), where + " low");
-  expect_close(found.high, expected.at(1), where + " high");
-}
+const json& reference() { return test_support::reference_data("thresholds/thresholds.json"); }
 
 TEST(ThresholdReference, EveryDetectionFitAgreesWithScipy) {
   for (const json& c : reference().at("detection")) {
-    const DetectionFit fit = fit_detection(rows_of(c.at("data")));
+    const DetectionFit fit = fit_detection(reference_answers(c.at("data")));
     const json& expected = c.at("expected");
     const std::string name = c.at("name");
     ASSERT_EQ(fit.status, FitStatus::kOk) << name << ": " << fit.reason;
-    expect_close(fit.threshold, expected.at("threshold"), name + ": threshold");
-    expect_close(fit.threshold_ci95, expected.at("threshold_ci95"), name + ": threshold");
-    expect_close(fit.spread_ln, expected.at("spread_ln"), name + ": spread");
-    expect_close(fit.spread_ln_ci95, expected.at("spread_ln_ci95"), name + ": spread");
-    expect_close(fit.false_alarm_rate, expected.at("false_alarm_rate"), name + ": g");
-    expect_close(fit.log_likelihood, expected.at("log_likelihood"), name + ": likelihood");
+    expect_reference(fit.threshold, expected.at("threshold"), 1e-6, name + ": threshold");
+    expect_reference(fit.threshold_ci95, expected.at("threshold_ci95"), 1e-6,
+                     name + ": threshold");
+    expect_reference(fit.spread_ln, expected.at("spread_ln"), 1e-6, name + ": spread");
+    expect_reference(fit.spread_ln_ci95, expected.at("spread_ln_ci95"), 1e-6,
+                     name + ": spread");
+    expect_reference(fit.false_alarm_rate, expected.at("false_alarm_rate"), 1e-6, name + ": g");
+    expect_reference(fit.log_likelihood, expected.at("log_likelihood"), 1e-6,
+                     name + ": likelihood");
   }
 }
 
 TEST(ThresholdReference, EverySameDifferentFitAgreesWithScipy) {
   for (const json& c : reference().at("same_different")) {
-    const SameDifferentFit fit = fit_same_different(rows_of(c.at("data")), c.at("reference"));
+    const SameDifferentFit fit =
+        fit_same_different(reference_answers(c.at("data")), c.at("reference"));
     const json& expected = c.at("expected");
     const std::string name = c.at("name");
     ASSERT_EQ(fit.status, FitStatus::kOk) << name << ": " << fit.reason;
-    expect_close(fit.weber_fraction, expected.at("weber_fraction"), name + ": w");
-    expect_close(fit.weber_fraction_ci95, expected.at("weber_fraction_ci95"), name + ": w");
-    expect_close(fit.criterion_ln, expected.at("criterion_ln"), name + ": k");
-    expect_close(fit.criterion_ln_ci95, expected.at("criterion_ln_ci95"), name + ": k");
-    expect_close(fit.false_alarm_rate, expected.at("false_alarm_rate"), name + ": F");
-    expect_close(fit.log_likelihood, expected.at("log_likelihood"), name + ": likelihood");
+    expect_reference(fit.weber_fraction, expected.at("weber_fraction"), 1e-6, name + ": w");
+    expect_reference(fit.weber_fraction_ci95, expected.at("weber_fraction_ci95"), 1e-6,
+                     name + ": w");
+    expect_reference(fit.criterion_ln, expected.at("criterion_ln"), 1e-6, name + ": k");
+    expect_reference(fit.criterion_ln_ci95, expected.at("criterion_ln_ci95"), 1e-6,
+                     name + ": k");
+    expect_reference(fit.false_alarm_rate, expected.at("false_alarm_rate"), 1e-6, name + ": F");
+    expect_reference(fit.log_likelihood, expected.at("log_likelihood"), 1e-6,
+                     name + ": likelihood");
   }
 }
 
@@ -84,13 +64,17 @@ TEST(ThresholdReference, EveryFitByIntervalOrderAgreesWithScipy) {
     const json& expected = c.at("expected");
     const std::string name = c.at("name");
     ASSERT_EQ(fit.status, FitStatus::kOk) << name << ": " << fit.reason;
-    expect_close(fit.weber_fraction, expected.at("weber_fraction"), name + ": w");
-    expect_close(fit.weber_fraction_ci95, expected.at("weber_fraction_ci95"), name + ": w");
-    expect_close(fit.order_effect_ln, expected.at("order_effect_ln"), name + ": order");
-    expect_close(fit.pse, expected.at("pse"), name + ": pse");
-    expect_close(fit.log_likelihood, expected.at("log_likelihood"), name + ": likelihood");
+    expect_reference(fit.weber_fraction, expected.at("weber_fraction"), 1e-6, name + ": w");
+    expect_reference(fit.weber_fraction_ci95, expected.at("weber_fraction_ci95"), 1e-6,
+                     name + ": w");
+    expect_reference(fit.order_effect_ln, expected.at("order_effect_ln"), 1e-6,
+                     name + ": order");
+    expect_reference(fit.pse, expected.at("pse"), 1e-6, name + ": pse");
+    expect_reference(fit.log_likelihood, expected.at("log_likelihood"), 1e-6,
+                     name + ": likelihood");
     ASSERT_EQ(fit.pse_ci95.has_value(), !expected.at("pse_ci95").is_null()) << name;
-    if (fit.pse_ci95) expect_close(*fit.pse_ci95, expected.at("pse_ci95"), name + ": pse");
+    if (!fit.pse_ci95) continue;
+    expect_reference(*fit.pse_ci95, expected.at("pse_ci95"), 1e-6, name + ": pse");
   }
 }
 
@@ -98,8 +82,8 @@ TEST(ThresholdReference, SensitivityAndCriterionAgreeWithScipy) {
   for (const json& c : reference().at("signal_detection")) {
     const json& n = c.at("counts");
     const SignalDetection found = signal_detection({n[0], n[1], n[2], n[3]});
-    expect_close(found.d_prime, c.at("d_prime"), "d'");
-    expect_close(found.criterion, c.at("criterion"), "c");
+    expect_reference(found.d_prime, c.at("d_prime"), 1e-6, "d'");
+    expect_reference(found.criterion, c.at("criterion"), 1e-6, "c");
   }
 }
 
@@ -112,9 +96,9 @@ TEST(ThresholdReference, GeometricMeansAgreeWithScipy) {
     ResultsSection section;
     add_geometric_mean(section, {.name = "x"}, values);
     ASSERT_EQ(section.estimates.size(), 2U);
-    expect_close(section.estimates[0].value, c.at("mean"), "mean");
-    expect_close(section.estimates[0].ci95, c.at("ci95"), "mean");
-    expect_close(section.estimates[1].value, c.at("sd_ln"), "sd");
+    expect_reference(section.estimates[0].value, c.at("mean"), 1e-6, "mean");
+    expect_reference(section.estimates[0].ci95, c.at("ci95"), 1e-6, "mean");
+    expect_reference(section.estimates[1].value, c.at("sd_ln"), 1e-6, "sd");
     EXPECT_EQ(section.estimates[1].name, "x_sd_ln");
   }
 }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "analysis/fits/fit_json.h"
 #include "analysis/groups/multiplicity.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace group_reference_test {
@@ -16,14 +15,7 @@ namespace group_reference_test {
 using nlohmann::json;
 
 /// Computed by SciPy, and in part by R: see the script beside it.
-const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/group_tests/group_tests.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
+const json& reference() { return test_support::reference_data("group_tests/group_tests.json"); }
 
 Comparison compared(const json& c) {
   const std::vector<double> a = c.at("a"), b = c.at("b");
@@ -67,9 +59,7 @@ TEST(GroupReference, EveryTestAndEffectSizeAgreesWithScipy) {
 }
 
 TEST(GroupReference, RankTestsWithTiesAndZerosAgreeWithRAndCoin) {
-  std::ifstream in(test_support::source_folder().string() +
-                   "/data/reference/group_tests/rank_tests.json");
-  const json document = json::parse(in);
+  const json& document = test_support::reference_data("group_tests/rank_tests.json");
   for (const json& c : document.at("tests")) {
     const json& expected = c.at("expected");
     const json found = to_json(compared(c));

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "analysis/groups/hierarchical_fit.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace hierarchical_reference_test {
@@ -16,12 +15,7 @@ using nlohmann::json;
 
 /// Computed by lme4's glmer, and by integration on a grid in R: see the script beside it.
 const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/hierarchical/hierarchical_reference.json");
-    return json::parse(in);
-  }();
-  return kDocument;
+  return test_support::reference_data("hierarchical/hierarchical_reference.json");
 }
 
 std::vector<ParticipantAnswers> answers_of(const json& one) {
@@ -33,6 +27,18 @@ std::vector<ParticipantAnswers> answers_of(const json& one) {
       all.push_back({participant, condition, reference().at("reference").at(condition), {}});
     }
     all.back().rows.push_back({row[2], row[3], row[4]});
+  }
+  return all;
+}
+
+/// Rows [participant, intensity, num_yes, num_trials] of one condition.
+std::vector<ParticipantAnswers> answers_to_one_reference(const json& one) {
+  std::vector<ParticipantAnswers> all;
+  for (const json& row : one.at("rows")) {
+    if (all.empty() || all.back().participant != row[0]) {
+      all.push_back({row[0], "", one.at("reference"), {}});
+    }
+    all.back().rows.push_back({row[1], row[2], row[3]});
   }
   return all;
 }
@@ -100,19 +106,11 @@ TEST(HierarchicalReference, LogSlopeFitsAgreeWithTheIntegralOnAFineGrid) {
 }
 
 TEST(HierarchicalReference, AFitWithLapsesAgreesWithTheIntegralOnAFineGrid) {
-  std::ifstream in(test_support::source_folder().string() +
-                   "/data/reference/hierarchical/hierarchical_lapses.json");
-  const json one = json::parse(in);
-  std::vector<ParticipantAnswers> answers;
-  for (const json& row : one.at("rows")) {
-    if (answers.empty() || answers.back().participant != row[0]) {
-      answers.push_back({row[0], "", one.at("reference"), {}});
-    }
-    answers.back().rows.push_back({row[1], row[2], row[3]});
-  }
-  const HierarchicalFit fit = fit_hierarchical(answers, {.pse = HierarchicalPse::kCommon,
-                                                         .lapses = HierarchicalLapses::kCommon,
-                                                         .num_nodes = 41});
+  const json& one = test_support::reference_data("hierarchical/hierarchical_lapses.json");
+  const HierarchicalFit fit =
+      fit_hierarchical(answers_to_one_reference(one), {.pse = HierarchicalPse::kCommon,
+                                                       .lapses = HierarchicalLapses::kCommon,
+                                                       .num_nodes = 41});
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   const json& expected = one.at("expected");
   const auto near = [&](double found, const char* key) {
@@ -129,20 +127,12 @@ TEST(HierarchicalReference, AFitWithLapsesAgreesWithTheIntegralOnAFineGrid) {
 }
 
 TEST(HierarchicalReference, WhatIsLeftOfTheLapseRateAgreesWithProfilesOnAFineGrid) {
-  std::ifstream in(test_support::source_folder().string() +
-                   "/data/reference/hierarchical/hierarchical_lapse_profile.json");
-  const json document = json::parse(in);
+  const json& document =
+      test_support::reference_data("hierarchical/hierarchical_lapse_profile.json");
   for (const json& one : document.at("cases")) {
     SCOPED_TRACE(one.at("name").get<std::string>());
-    std::vector<ParticipantAnswers> answers;
-    for (const json& row : one.at("rows")) {
-      if (answers.empty() || answers.back().participant != row[0]) {
-        answers.push_back({row[0], "", one.at("reference"), {}});
-      }
-      answers.back().rows.push_back({row[1], row[2], row[3]});
-    }
     const HierarchicalFit fit = fit_hierarchical(
-        answers,
+        answers_to_one_reference(one),
         {.pse = HierarchicalPse::kCommon, .guess_rate = one.at("guess_rate"), .num_nodes = 41});
     ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
     const json& expected = one.at("expected");
@@ -170,9 +160,7 @@ TEST(HierarchicalReference, WhatIsLeftOfTheLapseRateAgreesWithProfilesOnAFineGri
 }
 
 TEST(HierarchicalReference, ADifferencesErrorAgreesWithTheSandwichOnAFineGrid) {
-  std::ifstream in(test_support::source_folder().string() +
-                   "/data/reference/hierarchical/hierarchical_difference.json");
-  const json one = json::parse(in);
+  const json& one = test_support::reference_data("hierarchical/hierarchical_difference.json");
   std::vector<ParticipantAnswers> answers;
   for (const json& row : one.at("rows")) {
     const std::string participant = row[0], condition = row[1];

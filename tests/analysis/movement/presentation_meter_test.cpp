@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <string>
 
 #include "analysis/movement/made_up_recording.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::analysis {
 namespace presentation_meter_test {
@@ -61,9 +59,7 @@ PresentationMeter::Result metered_evenly(std::int64_t first_tick, std::int64_t l
 
 /// data/reference/movement: measured by NumPy and SciPy, see the script beside it.
 TEST(PresentationMeter, AgreesWithScipyOnARecordingWithTremorRestAndGap) {
-  std::ifstream file(test_support::source_folder().string() +
-                     "/data/reference/movement/movement_reference.json");
-  const json expected = json::parse(file);
+  const json& expected = test_support::reference_data("movement/movement_reference.json");
   const PresentationMeter::Result found =
       metered(kNumTicks,
               [](core::Sample& sample) { return sample.tick < 11000 || sample.tick >= 11100; },

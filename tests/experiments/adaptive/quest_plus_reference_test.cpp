@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "experiments/adaptive/level_scale.h"
 #include "experiments/adaptive/quest_plus.h"
-#include "support/places.h"
+#include "support/reference_data.h"
 
 namespace jnd::experiments {
 namespace quest_plus_reference_test {
@@ -16,14 +15,7 @@ using nlohmann::json;
 constexpr double kTolerance = 1e-10;
 
 /// Computed with NumPy and SciPy: see the script beside it.
-const json& reference() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/quest_plus/quest_plus.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
+const json& reference() { return test_support::reference_data("quest_plus/quest_plus.json"); }
 
 ParameterGrid grid_of(const json& parameter) {
   ParameterGrid grid{parameter.at("values"), std::nullopt};
@@ -85,14 +77,7 @@ TEST(QuestPlusReference, AgreesWithNumPyOverThirtyTrialsOfEachModel) {
   }
 }
 
-const json& grid_ends() {
-  static const json kDocument = [] {
-    std::ifstream in(test_support::source_folder().string() +
-                     "/data/reference/quest_plus/grid_ends.json");
-    return json::parse(in);
-  }();
-  return kDocument;
-}
+const json& grid_ends() { return test_support::reference_data("quest_plus/grid_ends.json"); }
 
 QuestPlusPosterior posterior_of(const QuestPlus& quest, const json& answers) {
   std::vector<LevelAnswer> all;
