@@ -4,8 +4,8 @@
 
 #include "core/storage/backup_mark.h"
 #include "core/storage/kept_study.h"
+#include "core/storage/old_study.h"
 #include "core/storage/withdrawal.h"
-#include "support/places.h"
 
 namespace jnd::core {
 namespace backup_test {
@@ -160,8 +160,7 @@ TEST_F(BackupTest, SaysWhenTheCopyIsNotWhole) {
 
 TEST_F(BackupTest, AStudyOfAnOlderLayoutKeepsItsIdentity) {
   const fs::path old = kept_.beside("old");
-  fs::copy(test_support::source_folder() / "tests/core/storage/layout_1", old,
-           fs::copy_options::recursive);
+  copy_old_study(1, old);
   EXPECT_TRUE(back_up(old, copy(), 1).integrity.complete);
   EXPECT_EQ(back_up(old, copy(), 2).num_chunks_copied, 0);
 }

@@ -5,9 +5,9 @@
 #include "core/storage/backup.h"
 #include "core/storage/database.h"
 #include "core/storage/kept_study.h"
+#include "core/storage/old_study.h"
 #include "core/storage/study_format.h"
 #include "core/storage/withdrawal.h"
-#include "support/places.h"
 
 namespace jnd::core {
 namespace export_note_test {
@@ -138,8 +138,7 @@ TEST_F(ExportNoteTest, NotesAreNeitherChangedNorDeleted) {
 
 TEST_F(ExportNoteTest, AnOlderStudyLearnsToRemember) {
   const fs::path old = kept_.beside("old");
-  fs::copy(test_support::source_folder() / "tests/core/storage/layout_1", old,
-           fs::copy_options::recursive);
+  copy_old_study(1, old);
   EXPECT_TRUE(noted_exports(old).empty());
   note_export(old,
               {.place = kept_.beside("out"), .kind = "csv", .time_ns = 1, .sessions = {1}});

@@ -1,55 +1,160 @@
 #include "core/storage/study_format.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/storage/backup.h"
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
-#include "support/places.h"
+#include "core/storage/old_study.h"
 
 namespace jnd::core {
 namespace study_format_test {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
-class StudyFormatTest : public ::testing::Test {
+std::int64_t format_of(const fs::path& folder) {
+  Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
+                    Durability::kEveryCommit);
+  return study_format_of(database);
+}
+
+/// Every table, column, view, index and trigger.
+std::string schema_of(const fs::path& folder) {
+  Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
+                    Durability::kEveryCommit);
+  Statement rows(database, "SELECT type, name, sql FROM sqlite_master ORDER BY type, name");
+  std::string text;
+  while (rows.step()) text += rows.text(0) + ' ' + rows.text(1) + ": " + rows.text(2) + '\n';
+  return text;
+}
+
+/// A study of the layout that is the test's parameter.
+class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
  protected:
-  StudyFormatTest() {
-    fs::copy(test_support::source_folder() / "tests/core/storage/layout_1", old(),
-             fs::copy_options::recursive);
-  }
+  OldLayoutTest() { copy_old_study(GetParam(), old()); }
   [[nodiscard]] fs::path old() const { return temporary_.path() / "old.study"; }
-  [[nodiscard]] std::int64_t format() const {
-    Database database(old() / "study.sqlite", Database::Mode::kReadOnly,
-                      Durability::kEveryCommit);
-    return study_format_of(database);
+  [[nodiscard]] static bool has(std::int64_t layout) { return GetParam() >= layout; }
+
+  /// What each layout holds that the one before does not; what there was before stays.
+  static void expect_all_of(const StudyStore& store) {
+    ASSERT_FALSE(store.sessions().empty());
+    EXPECT_EQ(store.sessions()[0].participant, "P01");
+    EXPECT_EQ(store.protocol(store.sessions()[0].protocol_sha256).relative_path, "");
+    EXPECT_EQ(store.trials(1).size(), 4U);
+    EXPECT_EQ(store.answers(1).size(), 2U);
+    ASSERT_EQ(store.design(1).size(), 6U);
+    EXPECT_FALSE(store.design(1)[0].series || store.design(1)[0].is_catch);
+    ASSERT_EQ(store.presentations(1).size(), 4U);
+    EXPECT_FALSE(store.presentations(1)[0].finger_lag_s);
+    EXPECT_EQ(store.presentations(1)[0].missed_ticks, 0);
+    EXPECT_TRUE(verify(store).complete);
+
+    EXPECT_EQ(store.study_id().size(), 32U);
+    EXPECT_EQ(store.study_id() == "0123456789abcdef0123456789abcdef", has(2));
+    EXPECT_EQ(store.unblinded(), has(2));
+    ASSERT_EQ(store.withdrawals().size(), has(2) ? 1U : 0U);
+    EXPECT_THAT(store.unfinished_withdrawals(), IsEmpty());
+    ASSERT_EQ(store.protocols().size(), has(2) ? 2U : 1U);
+    if (has(2)) {
+      EXPECT_EQ(store.withdrawals()[0].session, 2);
+      EXPECT_EQ(store.withdrawals()[0].participant, "P02");
+      EXPECT_EQ(store.protocols()[1].relative_path, "../second.json");
+      EXPECT_THAT(known_backups(store.folder()), ElementsAre("/backups/kept.study"));
+    }
+    if (has(3)) {
+      ASSERT_EQ(store.presentations(3).size(), 1U);
+      EXPECT_EQ(store.presentations(3)[0].finger_lag_s, 0.0125);
+      EXPECT_EQ(store.presentations(3)[0].missed_ticks, 0);
+    }
+    if (has(4)) expect_adaptive_trials(store);
+    if (has(5)) {
+      ASSERT_EQ(store.presentations(5).size(), 1U);
+      EXPECT_EQ(store.presentations(5)[0].missed_ticks, 3);
+    }
+    EXPECT_THAT(store.adverse_events(), IsEmpty());
+  }
+
+  static void expect_adaptive_trials(const StudyStore& store) {
+    const std::vector<DesignRow> design = store.design(4);
+    ASSERT_EQ(design.size(), 2U) << "one was drawn for an answer that was taken back";
+    EXPECT_EQ(store.design(4, /*include_voided=*/true).size(), 3U);
+    EXPECT_EQ(design[0].sequence, 3);
+    EXPECT_EQ(design[0].series, 1);
+    EXPECT_EQ(design[0].test_interval, 2);
+    EXPECT_FALSE(design[0].is_catch);
+    EXPECT_EQ(design[1].trial, 3);
+    EXPECT_FALSE(design[1].series);
+    EXPECT_TRUE(design[1].is_catch);
+    const std::vector<TrialRow> trials = store.trials(4);
+    ASSERT_EQ(trials.size(), 2U);
+    EXPECT_EQ(trials[0].attempt, 2);
+    EXPECT_EQ(trials[0].series, 1);
+    EXPECT_EQ(trials[0].test_interval, 2);
+    EXPECT_TRUE(trials[1].is_catch);
   }
 
   test_support::TemporaryFolder temporary_;
 };
 
-TEST_F(StudyFormatTest, AnOlderStudyIsReadAndStaysAsItIs) {
-  ASSERT_EQ(format(), 1);
+TEST_P(OldLayoutTest, IsReadAndStaysAsItIs) {
+  ASSERT_EQ(format_of(old()), GetParam());
   const std::string before = bytes_of(old() / "study.sqlite");
   {
     const StudyStore store(old(), StudyStore::Mode::kReadOnly);
-    EXPECT_EQ(store.sessions().at(0).participant, "P01");
     EXPECT_EQ(store.events(1).size(), 45U);
-    EXPECT_EQ(store.protocol(store.sessions()[0].protocol_sha256).relative_path, "");
-    EXPECT_TRUE(verify(store).complete);
+    expect_all_of(store);
   }
   EXPECT_EQ(bytes_of(old() / "study.sqlite"), before);
 }
 
-TEST_F(StudyFormatTest, AnOlderStudyIsBroughtUpToDateBeforeItIsWrittenTo) {
+TEST_P(OldLayoutTest, IsBroughtUpToDateBeforeItIsWrittenTo) {
   {
     StudyStore store(old(), StudyStore::Mode::kReadWrite);
     store.append({.event = {.session = 1, .sequence = 46, .kind = "note_added"}});
   }
-  EXPECT_EQ(format(), current_study_format());
+  EXPECT_EQ(format_of(old()), current_study_format());
   const StudyStore store(old(), StudyStore::Mode::kReadOnly);
   EXPECT_EQ(store.events(1).size(), 46U);
-  EXPECT_EQ(store.study_id().size(), 32U);
+  expect_all_of(store);
 }
+
+TEST_P(OldLayoutTest, HasTheSchemaOfAFreshStudyThen) {
+  bring_study_up_to_date(old());
+  const fs::path fresh = temporary_.path() / "fresh.study";
+  { const StudyStore store(fresh, StudyStore::Mode::kCreate); }
+  EXPECT_EQ(schema_of(old()), schema_of(fresh));
+}
+
+TEST_P(OldLayoutTest, KeepsWhatTheStepsBeforeABadOneDid) {
+  if (has(6)) GTEST_SKIP() << "the step is behind it";
+  {
+    Database database(old() / "study.sqlite", Database::Mode::kReadWrite,
+                      Durability::kEveryCommit);
+    // The last table of the sixth step, which can make all but it.
+    database.execute("CREATE TABLE adverse_event (in_the_way INTEGER)");
+    EXPECT_THROW(bring_up_to_date(database), Error);
+    EXPECT_EQ(study_format_of(database), 5);
+    EXPECT_THROW(database.execute("SELECT 1 FROM export"), Error);
+    database.execute("DROP TABLE adverse_event");
+    EXPECT_NO_THROW(bring_up_to_date(database));
+  }
+  EXPECT_EQ(format_of(old()), current_study_format());
+  expect_all_of(StudyStore(old(), StudyStore::Mode::kReadOnly));
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, OldLayoutTest,
+                         ::testing::Range(std::int64_t{1}, current_study_format()));
+
+class StudyFormatTest : public ::testing::Test {
+ protected:
+  StudyFormatTest() { copy_old_study(1, old()); }
+  [[nodiscard]] fs::path old() const { return temporary_.path() / "old.study"; }
+
+  test_support::TemporaryFolder temporary_;
+};
 
 TEST_F(StudyFormatTest, EachStepOrNothing) {
   Database database(old() / "study.sqlite", Database::Mode::kReadWrite,

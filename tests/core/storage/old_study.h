@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "support/places.h"
+
+namespace jnd::core {
+
+/// Puts the study of an older layout (see README.md) into `folder`, which is made.
+inline void copy_old_study(std::int64_t layout, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const fs::path here = test_support::source_folder() / "tests" / "core" / "storage";
+  fs::create_directories(folder);
+  fs::copy(here / "layout_1" / "recordings", folder / "recordings");
+  fs::copy(here / ("layout_" + std::to_string(layout)) / "study.sqlite", folder);
+}
+
+}  // namespace jnd::core
