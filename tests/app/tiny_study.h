@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+
+#include "support/files.h"
 
 namespace jnd::app {
 
@@ -40,20 +40,8 @@ inline const std::string kTinyStudy = R"json({
 })json";
 inline constexpr int kTinyTrials = 10;
 
-inline std::filesystem::path write_file(const std::filesystem::path& file,
-                                        const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file.string());
-  return file;
-}
-
-inline std::string read_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using test_support::read_file;
+using test_support::write_file;
 
 /// The text with the first `from` turned into `to`; throws if there is none.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

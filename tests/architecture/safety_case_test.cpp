@@ -2,23 +2,18 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/safety/fault.h"
+#include "support/files.h"
 #include "support/places.h"
 
 namespace safety_case_test {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// The rows of the table of hazards in SAFETY.md, without its head.
 std::vector<std::string> hazards() {
@@ -39,7 +34,7 @@ std::set<std::string> tests_there_are() {
   for (const auto& entry :
        fs::recursive_directory_iterator(jnd::test_support::source_folder() / "tests")) {
     if (entry.path().extension() != ".cpp") continue;
-    const std::string text = text_of(entry.path());
+    const std::string text = jnd::test_support::read_file(entry.path());
     for (std::sregex_iterator at(text.begin(), text.end(), kPattern), end; at != end; ++at) {
       names.insert((*at)[1].str() + "." + (*at)[2].str());
     }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,11 +11,13 @@
 #include "core/error.h"
 #include "core/sample_table.h"
 #include "core/storage/recording.h"
+#include "support/files.h"
 
 namespace jnd::analysis {
 namespace bids_export_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 class BidsExportTest : public ::testing::Test {
  protected:
@@ -58,14 +59,9 @@ class BidsExportTest : public ::testing::Test {
   [[nodiscard]] fs::path out(const std::string& name) const {
     return temporary_.path() / "out" / name;
   }
-  [[nodiscard]] static std::string bytes(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    EXPECT_TRUE(stream) << file;
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
   [[nodiscard]] static std::vector<std::vector<std::string>> cells(const fs::path& file) {
     std::vector<std::vector<std::string>> rows;
-    std::istringstream lines(bytes(file));
+    std::istringstream lines(read_file(file));
     for (std::string line; std::getline(lines, line);) {
       rows.emplace_back();
       std::istringstream row(line);
@@ -80,7 +76,7 @@ class BidsExportTest : public ::testing::Test {
     return rows.at(row).at(static_cast<std::size_t>(found - rows[0].begin()));
   }
   [[nodiscard]] static nlohmann::json json(const fs::path& file) {
-    return nlohmann::json::parse(bytes(file));
+    return nlohmann::json::parse(read_file(file));
   }
 
   static constexpr const char* kBeh = "sub-P01/ses-01/beh/sub-P01_ses-01_task-groupd";
@@ -99,13 +95,13 @@ TEST_F(BidsExportTest, SaysWhatItIsAndThatItIsSimulated) {
   EXPECT_EQ(description["BIDSVersion"], "1.9.0");
   EXPECT_EQ(description["Authors"], (nlohmann::json{"A", "B"}));
   EXPECT_EQ(description["Simulated"], true);
-  EXPECT_NE(bytes(out("README.md")).find("SIMULATED"), std::string::npos);
-  EXPECT_EQ(bytes(out("participants.tsv")),
+  EXPECT_NE(read_file(out("README.md")).find("SIMULATED"), std::string::npos);
+  EXPECT_EQ(read_file(out("participants.tsv")),
             "participant_id\tpseudonym\tdata_origin\tnum_sessions\tage\n"
             "sub-P01\tP_01\tSIMULATED\t1\tn/a\n");
-  EXPECT_EQ(bytes(out("phenotype/aboutyou.tsv")),
+  EXPECT_EQ(read_file(out("phenotype/aboutyou.tsv")),
             "participant_id\tsimulated\tage_years\nsub-P01\t1\tn/a\n");
-  EXPECT_EQ(bytes(out("derivatives/jnd/results.json")), "{\"study\": \"x\"}\n");
+  EXPECT_EQ(read_file(out("derivatives/jnd/results.json")), "{\"study\": \"x\"}\n");
   EXPECT_EQ(json(out("derivatives/jnd/dataset_description.json"))["DatasetType"], "derivative");
 }
 
@@ -231,11 +227,11 @@ TEST_F(BidsExportTest, StagesInWhichMediaAreExploredAreTasks) {
 TEST_F(BidsExportTest, TheReadmeSpeaksOfMotionOnlyIfThereIsSome) {
   record();
   EXPECT_TRUE(write({.recordings = true}).samples);
-  EXPECT_NE(bytes(out("README.md")).find("`sub-*/ses-*/motion`"), std::string::npos);
-  EXPECT_NE(bytes(out("README.md")).find("max-old-space-size"), std::string::npos)
+  EXPECT_NE(read_file(out("README.md")).find("`sub-*/ses-*/motion`"), std::string::npos);
+  EXPECT_NE(read_file(out("README.md")).find("max-old-space-size"), std::string::npos)
       << "the official validator reads whole files into memory";
   EXPECT_FALSE(write({}, "plain").samples);
-  EXPECT_NE(bytes(temporary_.path() / "plain/README.md").find("without recordings"),
+  EXPECT_NE(read_file(temporary_.path() / "plain/README.md").find("without recordings"),
             std::string::npos);
   HandMadeStudy other;
   other.add("P01");
@@ -243,7 +239,7 @@ TEST_F(BidsExportTest, TheReadmeSpeaksOfMotionOnlyIfThereIsSome) {
   const ExportOutcome outcome =
       export_bids(other.store(), temporary_.path() / "other", {.recordings = true}, "");
   EXPECT_FALSE(outcome.samples) << "all of them are between tasks";
-  EXPECT_NE(bytes(temporary_.path() / "other/README.md").find("No `motion`"),
+  EXPECT_NE(read_file(temporary_.path() / "other/README.md").find("No `motion`"),
             std::string::npos);
 }
 
@@ -268,8 +264,8 @@ TEST_F(BidsExportTest, ItIsGeneratedByTheProgramThatExports) {
 
 TEST_F(BidsExportTest, ASimulatedStudyHasNoDate) {
   (void)write({});
-  EXPECT_EQ(bytes(out("CHANGES")).find("1970"), std::string::npos);
-  EXPECT_TRUE(bytes(out("CHANGES")).starts_with("1.0.0\n"));
+  EXPECT_EQ(read_file(out("CHANGES")).find("1970"), std::string::npos);
+  EXPECT_TRUE(read_file(out("CHANGES")).starts_with("1.0.0\n"));
 }
 
 TEST_F(BidsExportTest, ParticipantsHaveTheAgeGenderAndHandednessThatWereAsked) {
@@ -316,7 +312,7 @@ TEST_F(BidsExportTest, NoAnswerIsAFormulaToASpreadsheetAndTheReadmeSaysHow) {
   const auto form = cells(out("phenotype/aboutyou.tsv"));
   EXPECT_EQ(value(form, 1, "remark"), "' =1+1");
   EXPECT_EQ(value(form, 1, "shift"), "-3.2");
-  EXPECT_NE(bytes(out("README.md")).find("apostrophe"), std::string::npos);
+  EXPECT_NE(read_file(out("README.md")).find("apostrophe"), std::string::npos);
 }
 
 TEST_F(BidsExportTest, ParticipantsHaveTheFieldsOfTheStudyBeforeWhatAFormAsked) {
@@ -361,7 +357,7 @@ TEST_F(BidsExportTest, PilotsStayOutOfEverythingUnlessAskedFor) {
   (void)write({});
   for (const auto& entry : fs::recursive_directory_iterator(out(""))) {
     if (!entry.is_regular_file()) continue;
-    EXPECT_EQ(bytes(entry.path()).find("PILOT"), std::string::npos) << entry.path();
+    EXPECT_EQ(read_file(entry.path()).find("PILOT"), std::string::npos) << entry.path();
   }
   (void)write({.pilot = true}, "with");
   EXPECT_TRUE(fs::exists(temporary_.path() / "with" / "sub-PILOT"));
@@ -381,8 +377,10 @@ TEST_F(BidsExportTest, TheSourceIsAStudyThatOpensAndIsStillAppendOnly) {
   ASSERT_EQ(source.sessions().size(), 1U);
   EXPECT_EQ(source.trials(1).size(), 1U);
   EXPECT_EQ(core::RecordingReader(source.recording_file(1)).missing_ticks(), 3);
-  EXPECT_NE(bytes(study / "study.sqlite").find("trials are never deleted"), std::string::npos);
-  EXPECT_EQ(bytes(out("sourcedata/study_files/by_hand.json")), source.protocols().front().text);
+  EXPECT_NE(read_file(study / "study.sqlite").find("trials are never deleted"),
+            std::string::npos);
+  EXPECT_EQ(read_file(out("sourcedata/study_files/by_hand.json")),
+            source.protocols().front().text);
 }
 
 TEST_F(BidsExportTest, TheSameStudyGivesTheSameBytes) {
@@ -395,7 +393,7 @@ TEST_F(BidsExportTest, TheSameStudyGivesTheSameBytes) {
     ++num_files;
     const fs::path other =
         temporary_.path() / "again" / fs::relative(entry.path(), temporary_.path() / "out");
-    EXPECT_EQ(bytes(entry.path()), bytes(other)) << other;
+    EXPECT_EQ(read_file(entry.path()), read_file(other)) << other;
   }
   EXPECT_GT(num_files, 15);
 }

@@ -14,12 +14,14 @@
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
+#include "support/files.h"
 #include "support/places.h"
 
 namespace jnd::analysis {
 namespace csv_export_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 class CsvExportTest : public ::testing::Test {
  protected:
@@ -52,10 +54,6 @@ class CsvExportTest : public ::testing::Test {
   }
   [[nodiscard]] CsvTable table(const char* name, const char* folder = "out") const {
     return CsvTable::read(out(folder) / name);
-  }
-  [[nodiscard]] std::string bytes(const fs::path& file) const {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
   }
   [[nodiscard]] static std::string cell(const CsvTable& of, std::size_t row,
                                         const char* column) {
@@ -104,7 +102,7 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
   std::string schema;
   for (const auto& layout :
        fs::directory_iterator(test_support::source_folder() / "data" / "database")) {
-    schema += bytes(layout.path());
+    schema += read_file(layout.path());
   }
   const std::set<std::string> kWorkedOut = {"simulated",   "excluded",        "completed",
                                             "is_practice", "standard_medium", "language",
@@ -123,12 +121,12 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
 TEST_F(CsvExportTest, LinesEndInLfAndNumbersHaveAPoint) {
   export_csv(study_.store(), out(), {});
   for (const auto& entry : fs::directory_iterator(out())) {
-    const std::string text = bytes(entry.path());
+    const std::string text = read_file(entry.path());
     EXPECT_EQ(text.find('\r'), std::string::npos) << entry.path();
     EXPECT_TRUE(text.ends_with("\n")) << entry.path();
     EXPECT_FALSE(text.starts_with("\xEF\xBB\xBF")) << entry.path();
   }
-  EXPECT_NE(bytes(out() / "trials.csv").find("0.30000000000000004"), std::string::npos);
+  EXPECT_NE(read_file(out() / "trials.csv").find("0.30000000000000004"), std::string::npos);
 }
 
 TEST_F(CsvExportTest, ValuesReadBackAsTheyWere) {
@@ -173,7 +171,7 @@ TEST_F(CsvExportTest, PilotsAreThereOnlyWhenAskedFor) {
   EXPECT_EQ(table("sessions.csv", "with").num_rows(), 2U);
   EXPECT_EQ(table("trials.csv", "with").num_rows(), 3U);
   for (const char* name : kTables) {
-    EXPECT_EQ(bytes(out() / name).find("PILOT"), std::string::npos) << name;
+    EXPECT_EQ(read_file(out() / name).find("PILOT"), std::string::npos) << name;
   }
 }
 
@@ -205,11 +203,11 @@ TEST_F(CsvExportTest, ParticipantsHaveTheFieldsOfTheStudyAndTheCodebookTellsThem
   EXPECT_EQ(cell(participants, 0, "field_num_trials"), "many");
   EXPECT_EQ(cell(participants, 1, "sex"), "");
   EXPECT_NE(
-      bytes(out() / "codebook.csv")
+      read_file(out() / "codebook.csv")
           .find("participants.csv,sex,,\"Sex?, as was known before the session: female (a "
                 "woman), male (a man)\""),
       std::string::npos)
-      << bytes(out() / "codebook.csv");
+      << read_file(out() / "codebook.csv");
 }
 
 TEST_F(CsvExportTest, QuestionnairesAreThereWithTheirQuestionsAlsoThoseNotAnswered) {
@@ -293,7 +291,7 @@ TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
   }
   export_csv(study_.store(), out(), {.recordings = true});
   EXPECT_EQ(table("recordings/0001.csv").num_rows(), 4U);
-  EXPECT_EQ(bytes(out() / "recordings/gaps.csv"),
+  EXPECT_EQ(read_file(out() / "recordings/gaps.csv"),
             "session,participant,simulated,first_tick,last_tick,missed_ticks\n1,P01,0,2,4,0\n");
 }
 
@@ -327,10 +325,10 @@ TEST_F(CsvExportTest, NoCellThatSomebodyTypedIsAFormula) {
   }
   // Of answers three; of participants the field; of questionnaires question, unit and answer.
   EXPECT_EQ(num_texts, 3U + 1U + 3U);
-  EXPECT_NE(bytes(out() / "answers.csv").find(",'=cmd|' /C calc'!A0\n"), std::string::npos)
-      << bytes(out() / "answers.csv");
-  EXPECT_NE(bytes(out() / "answers.csv").find(",-3.2\n"), std::string::npos);
-  EXPECT_NE(bytes(out() / "codebook.csv").find("apostrophe"), std::string::npos);
+  EXPECT_NE(read_file(out() / "answers.csv").find(",'=cmd|' /C calc'!A0\n"), std::string::npos)
+      << read_file(out() / "answers.csv");
+  EXPECT_NE(read_file(out() / "answers.csv").find(",-3.2\n"), std::string::npos);
+  EXPECT_NE(read_file(out() / "codebook.csv").find("apostrophe"), std::string::npos);
 }
 
 TEST_F(CsvExportTest, WhatFailsHalfWayLeavesNothing) {
@@ -342,18 +340,19 @@ TEST_F(CsvExportTest, WhatFailsHalfWayLeavesNothing) {
 TEST_F(CsvExportTest, TheSameStudyGivesTheSameBytes) {
   export_csv(study_.store(), out("a"), {});
   export_csv(study_.store(), out("b"), {});
-  for (const char* name : kTables) EXPECT_EQ(bytes(out("a") / name), bytes(out("b") / name));
+  for (const char* name : kTables)
+    EXPECT_EQ(read_file(out("a") / name), read_file(out("b") / name));
 }
 
 TEST_F(CsvExportTest, RefusesAFolderThatIsNotEmptyAndTakesOneThatIs) {
   fs::create_directory(out());
   export_csv(study_.store(), out(), {});
-  const std::string before = bytes(out() / "trials.csv");
+  const std::string before = read_file(out() / "trials.csv");
   EXPECT_THROW(export_csv(study_.store(), out(), {.pilot = true}), core::Error);
-  EXPECT_EQ(bytes(out() / "trials.csv"), before);
+  EXPECT_EQ(read_file(out() / "trials.csv"), before);
   std::ofstream(temporary_.path() / "file") << "precious";
   EXPECT_THROW(export_csv(study_.store(), temporary_.path() / "file", {}), core::Error);
-  EXPECT_EQ(bytes(temporary_.path() / "file"), "precious");
+  EXPECT_EQ(read_file(temporary_.path() / "file"), "precious");
 }
 
 TEST_F(CsvExportTest, ALocaleWithDecimalCommasChangesNothing) {
@@ -368,7 +367,7 @@ TEST_F(CsvExportTest, ALocaleWithDecimalCommasChangesNothing) {
   export_csv(study_.store(), out("commas"), {.pilot = true});
   std::locale::global(before);
   for (const char* name : kTables) {
-    EXPECT_EQ(bytes(out("plain") / name), bytes(out("commas") / name)) << name;
+    EXPECT_EQ(read_file(out("plain") / name), read_file(out("commas") / name)) << name;
   }
 }
 

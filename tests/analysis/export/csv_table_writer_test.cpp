@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.h"
+#include "support/files.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
@@ -14,10 +13,7 @@ namespace csv_table_writer_test {
 
 class CsvTableWriterTest : public ::testing::Test {
  protected:
-  [[nodiscard]] std::string written() const {
-    std::ifstream stream(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  [[nodiscard]] std::string written() const { return test_support::read_file(file_); }
   test_support::TemporaryFolder temporary_;
   std::filesystem::path file_ = temporary_.path() / "t.csv";
 };

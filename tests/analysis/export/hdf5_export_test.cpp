@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/sample_table.h"
 #include "core/storage/recording.h"
+#include "support/files.h"
 
 namespace jnd::analysis {
 namespace hdf5_export_test {
@@ -219,15 +220,11 @@ TEST_F(Hdf5ExportTest, OctaveLoadsIt) {
   (void)std::system(("octave --no-gui --quiet --norc --eval \"" + script + "\" >'" +
                      said.string() + "' 2>/dev/null")
                         .c_str());
-  std::ifstream stream(said);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "9\nP01\n1\nestimation\n");
+  EXPECT_EQ(test_support::read_file(said), "9\nP01\n1\nestimation\n");
 }
 
 TEST_F(Hdf5ExportTest, PilotsAreThereOnlyWhenAskedForAndTheSameStudyGivesTheSameBytes) {
-  const auto bytes = [this](const char* name) {
-    std::ifstream stream(file(name), std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(stream), {}};
-  };
+  const auto bytes = [this](const char* name) { return test_support::read_file(file(name)); };
   export_hdf5(study_.store(), temporary_.path() / "a", {});
   export_hdf5(study_.store(), temporary_.path() / "b", {});
   export_hdf5(study_.store(), temporary_.path() / "with", {.pilot = true});

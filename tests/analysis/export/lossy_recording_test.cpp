@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 
 #include "analysis/export/bids_export.h"
 #include "analysis/export/csv_export.h"
@@ -12,11 +11,13 @@
 #include "core/error.h"
 #include "core/storage/database.h"
 #include "core/storage/recording.h"
+#include "support/files.h"
 
 namespace jnd::analysis {
 namespace lossy_recording_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 /// A recorded session whose events speak of the ticks 0 to 8999; in every format.
 class LossyRecordingTest : public ::testing::TestWithParam<const char*> {
@@ -55,14 +56,10 @@ class LossyRecordingTest : public ::testing::TestWithParam<const char*> {
     EXPECT_TRUE(fs::is_empty(temporary_.path()));
     return sentence;
   }
-  [[nodiscard]] static std::string bytes(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
   /// What the data set says of the loss.
   [[nodiscard]] std::string told() const {
-    if (GetParam() == std::string("csv")) return bytes(out() / "recordings/gaps.csv");
-    return bytes(out() / (GetParam() == std::string("bids") ? "README.md" : "study.h5"));
+    if (GetParam() == std::string("csv")) return read_file(out() / "recordings/gaps.csv");
+    return read_file(out() / (GetParam() == std::string("bids") ? "README.md" : "study.h5"));
   }
 
   HandMadeStudy study_;

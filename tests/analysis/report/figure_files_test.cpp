@@ -2,23 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/run_tool.h"
 #include "core/error.h"
+#include "support/files.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::analysis {
 namespace figure_files_test {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+using test_support::read_file;
 
 Figure small_figure(const std::string& title = "Small") {
   Figure figure{.name = "small", .title = title, .width_in = 2.0, .height_in = 1.5};
@@ -35,14 +29,14 @@ Figure small_figure(const std::string& title = "Small") {
 TEST(FigureFiles, TheScriptAndTheTableLieBesideTheFigureAndTellThatItIsSimulated) {
   const test_support::TemporaryFolder temporary;
   const auto drawn = write_figures({small_figure()}, temporary.path(), {.simulated = true});
-  EXPECT_EQ(read(temporary.path() / "points.csv"),
+  EXPECT_EQ(read_file(temporary.path() / "points.csv"),
             "series,who,x,y,simulated\n1,\"a, \"\"b\"\"\",1,0.1,1\n1,c,2,,1\n2,d,3,0.3,1\n");
-  const std::string script = read(temporary.path() / "small.gp");
+  const std::string script = read_file(temporary.path() / "small.gp");
   EXPECT_NE(script.find("# Small (SIMULATED data)\n"), std::string::npos);
   EXPECT_NE(script.find("'SIMULATED' at screen"), std::string::npos);
   ASSERT_EQ(drawn.size(), 1U);
   EXPECT_EQ(drawn[0].problem, "gnuplot is not installed");
-  EXPECT_EQ(read(temporary.path() / "small.gp").find("/"), std::string::npos)
+  EXPECT_EQ(read_file(temporary.path() / "small.gp").find("/"), std::string::npos)
       << "no path of a machine in a script";
 }
 
@@ -60,7 +54,7 @@ TEST(FigureFiles, APdfGetsItsDateAndKeepsItsLength) {
       "%PDF\n/CreationDate (D:20261120190123Z)\n/ModDate (D:20261120190123+00'00')\n%%EOF\n";
   write_text_file(file, before);
   set_pdf_dates(file, 1'542'000'000'000'000'000);
-  EXPECT_EQ(read(file),
+  EXPECT_EQ(read_file(file),
             "%PDF\n/CreationDate (D:20181112052000Z)\n/ModDate (D:20181112052000+00'00')\n"
             "%%EOF\n");
 }
@@ -92,12 +86,12 @@ TEST_F(DrawnFigureTest, TheSameFigureGivesTheSameBytesWheneverItIsDrawn) {
   const auto a = write_figures(figures, first.path(), {.simulated = true, .gnuplot = gnuplot_});
   ASSERT_EQ(a[0].problem, "");
   // Another second of the clock: as if a day had gone by.
-  std::string pdf = read(first.path() / "small.pdf");
+  std::string pdf = read_file(first.path() / "small.pdf");
   EXPECT_NE(pdf.find("/CreationDate (D:19700101000000"), std::string::npos);
   const auto b = write_figures(figures, second.path(),
                                {.simulated = true, .jobs = 3, .gnuplot = gnuplot_});
-  EXPECT_EQ(read(first.path() / "small.svg"), read(second.path() / "small.svg"));
-  EXPECT_EQ(pdf, read(second.path() / "small.pdf"));
+  EXPECT_EQ(read_file(first.path() / "small.svg"), read_file(second.path() / "small.svg"));
+  EXPECT_EQ(pdf, read_file(second.path() / "small.pdf"));
   EXPECT_NE(a[0].svg.find("It's {a} `brace`"), std::string::npos);
   EXPECT_NE(a[0].svg.find("SIMULATED"), std::string::npos);
 }

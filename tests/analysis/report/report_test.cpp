@@ -12,11 +12,13 @@
 #include "analysis/report/html_text.h"
 #include "analysis/report/report_results.h"
 #include "core/error.h"
+#include "support/files.h"
 
 namespace jnd::analysis {
 namespace report_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 constexpr char kProtocol[] = R"json({"name": "by_hand", "title": {"de": "Von Hand",
   "en": "By <hand>"}, "authors": ["A. & B."], "blinding": "participant", "stages": [
@@ -25,11 +27,6 @@ constexpr char kProtocol[] = R"json({"name": "by_hand", "title": {"de": "Von Han
     {"kind": "block", "name": "group_d", "title": {"en": "Group D: thin"}}]}]}]})json";
 
 const std::string kLaboratory = R"({"name": "test"})";
-
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -103,7 +100,7 @@ class ReportTest : public ::testing::Test {
 };
 
 TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
-  const std::string html = without_breaks(read(report(out()).html));
+  const std::string html = without_breaks(read_file(report(out()).html));
   const StudyData data = load_study(study_.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 100});
   for (const ResultsSection& section : results.sections) {
@@ -120,7 +117,7 @@ TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
 }
 
 TEST_F(ReportTest, OfPublishedValuesSaysWhatTheyAre) {
-  const std::string html = without_breaks(read(report(out()).html));
+  const std::string html = without_breaks(read_file(report(out()).html));
   EXPECT_TRUE(has(html, "<code>group_d.individual_weber_fraction_lsq_mean</code>"))
       << "an estimate of its own, for it is published of another statistic than ours";
   EXPECT_TRUE(has(html, "mean of individual Weber fractions, least squares"));
@@ -187,7 +184,7 @@ TEST(PublishedFigure, OfSimulatedStudiesIsADistributionAndAPoint) {
 }
 
 TEST_F(ReportTest, SaysWhatWasRunWithWhichSeedsAndHashes) {
-  const std::string html = without_breaks(read(report(out()).html));
+  const std::string html = without_breaks(read_file(report(out()).html));
   const core::ProtocolRow protocol =
       study_.store().protocol(load_study(study_.store()).protocol_sha256);
   EXPECT_TRUE(has(html, protocol.sha256));
@@ -202,12 +199,12 @@ TEST_F(ReportTest, SaysWhatWasRunWithWhichSeedsAndHashes) {
 
 TEST_F(ReportTest, SimulatedDataSaySoAtTheTopOnEveryPageAndInEveryFigure) {
   const ReportOutcome outcome = report(out());
-  const std::string html = read(outcome.html);
+  const std::string html = read_file(outcome.html);
   EXPECT_TRUE(has(html, "<p class=\"banner\">SIMULATED"));
   EXPECT_TRUE(has(html, "@top-right { content: \"SIMULATED data\""));
   ASSERT_FALSE(outcome.figures.empty());
   for (const Figure& figure : outcome.figures) {
-    EXPECT_TRUE(has(read(out() / "figures" / (figure.name + ".gp")), "SIMULATED"))
+    EXPECT_TRUE(has(read_file(out() / "figures" / (figure.name + ".gp")), "SIMULATED"))
         << figure.name;
   }
 }
@@ -254,7 +251,8 @@ TEST_F(ReportTest, WordsOfTheThesisStandInItsOwnStudiesAlone) {
     EXPECT_FALSE(has(figure.caption, "Schmidt")) << figure.caption;
     EXPECT_TRUE(has(figure.caption, "times the reference. One circle")) << figure.caption;
   }
-  EXPECT_FALSE(has(read(report(out()).html), "<th>Schmidt (2018)")) << "of Somebody (2018)";
+  EXPECT_FALSE(has(read_file(report(out()).html), "<th>Schmidt (2018)"))
+      << "of Somebody (2018)";
 }
 
 TEST_F(ReportTest, TellsBothNumbersOfTwoGroupsAndOneOfPairs) {
@@ -385,7 +383,7 @@ TEST_F(ReportTest, WhoAnswersTheWrongWayRoundIsNamedBesideEveryNumberThatHasThem
 }
 
 TEST_F(ReportTest, DegenerateDataAreSaidToBeSoAndNoNumberIsMadeUp) {
-  const std::string html = read(report(out()).html);
+  const std::string html = read_file(report(out()).html);
   EXPECT_TRUE(has(html, "P03"));
   EXPECT_TRUE(has(html, "separated"));
   for (const char* no_number : {">nan<", ">inf<", "nan to", " inf ", "-nan"}) {
@@ -400,7 +398,8 @@ TEST_F(ReportTest, OfTheSameStudyEveryByteIsTheSame) {
   for (const auto& entry : fs::recursive_directory_iterator(out("a"))) {
     if (!entry.is_regular_file()) continue;
     ++num_files;
-    EXPECT_EQ(read(entry.path()), read(out("b") / fs::relative(entry.path(), out("a"))))
+    EXPECT_EQ(read_file(entry.path()),
+              read_file(out("b") / fs::relative(entry.path(), out("a"))))
         << entry.path();
   }
   EXPECT_GT(num_files, 20U);
@@ -412,7 +411,7 @@ TEST_F(ReportTest, WithoutGnuplotAndBrowserTablesRemainAndTheLackIsSaid) {
   EXPECT_TRUE(has(outcome.problems[0], "gnuplot is not installed"));
   EXPECT_TRUE(has(outcome.problems[1], "neither chromium nor wkhtmltopdf"));
   EXPECT_TRUE(outcome.pdf.empty());
-  const std::string html = without_breaks(read(outcome.html));
+  const std::string html = without_breaks(read_file(outcome.html));
   EXPECT_FALSE(has(html, "<svg"));
   EXPECT_TRUE(has(html, "Not drawn: gnuplot is not installed"));
   EXPECT_TRUE(has(html, "group_d.weber_fraction"));
@@ -428,7 +427,7 @@ TEST_F(ReportTest, ABrowserMakesThePdfWhoseDatesAreThoseOfTheData) {
                                 "> \"$target\"\n");
   const ReportOutcome outcome = report(out(), {.browser = browser});
   EXPECT_EQ(outcome.pdf, out() / "report.pdf");
-  EXPECT_EQ(read(outcome.pdf), "%PDF\n/CreationDate (D:19700101000000Z)\n");
+  EXPECT_EQ(read_file(outcome.pdf), "%PDF\n/CreationDate (D:19700101000000Z)\n");
 }
 
 TEST_F(ReportTest, ABrowserThatFailsIsSaidAndTheRestIsWhole) {
@@ -444,7 +443,7 @@ TEST_F(ReportTest, AFolderWithSomethingInItIsRefusedAndLeftAlone) {
   fs::create_directories(out());
   std::ofstream(out() / "mine.txt") << "mine";
   EXPECT_THROW((void)report(out()), core::Error);
-  EXPECT_EQ(read(out() / "mine.txt"), "mine");
+  EXPECT_EQ(read_file(out() / "mine.txt"), "mine");
   EXPECT_EQ(std::distance(fs::directory_iterator(out()), fs::directory_iterator()), 1);
   std::ofstream(out("file")) << "a file";
   EXPECT_THROW((void)report(out("file")), core::Error);
@@ -469,10 +468,10 @@ TEST_F(ReportTest, NothingOfAReportStaysThatCouldNotBeFinished) {
 TEST_F(ReportTest, PilotsAreLeftOutUnlessAskedFor) {
   (void)study_.add("PILOT", true, kLaboratory);
   study_.compare_ten("group_d", 9);
-  const std::string without = read(report(out("a")).html);
+  const std::string without = read_file(report(out("a")).html);
   EXPECT_FALSE(has(without, "PILOT"));
   EXPECT_TRUE(has(without, "1 pilot session left out"));
-  const std::string with = read(report(out("b"), {}, /*pilot=*/true).html);
+  const std::string with = read_file(report(out("b"), {}, /*pilot=*/true).html);
   EXPECT_TRUE(has(with, "PILOT sessions are among these data"));
   EXPECT_TRUE(has(with, "4 participants"));
 }
@@ -493,13 +492,13 @@ TEST_F(ReportTest, CountsWhatWasUndoneSetAsideAndNeverAnswered) {
   EXPECT_EQ(quality[0].num_undone, 1);
   EXPECT_FALSE(quality[0].completed);
   EXPECT_FALSE(quality[0].timing);
-  EXPECT_TRUE(has(read(report(out()).html), "P04: trial 3 set aside"));
+  EXPECT_TRUE(has(read_file(report(out()).html), "P04: trial 3 set aside"));
 }
 
 TEST_F(ReportTest, AParticipantWithAMissingBlockDoesNotSpoilTheOthers) {
   (void)study_.add("P05", false, kLaboratory);
   study_.estimate(1.0, 100.0);
-  const std::string html = without_breaks(read(report(out()).html));
+  const std::string html = without_breaks(read_file(report(out()).html));
   EXPECT_TRUE(has(html, "no answers in group_d"));
   EXPECT_TRUE(has(html, "<code>combined.k</code>"));
 }

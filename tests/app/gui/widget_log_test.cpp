@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "support/files.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app::gui {
@@ -76,9 +77,8 @@ TEST(WidgetLog, KeepsEveryTextThatAnyFrameOfAnyWindowHasShownOnce) {
   }
   drawn.texts = {"of the participant", "three"};
   log.keep_texts(drawn);
-  std::ifstream in(temporary.path() / "widgets.json.texts");
-  const std::string kept{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_EQ(kept, "one\ntwo lines\nthree\nof the participant\n");
+  EXPECT_EQ(test_support::read_file(temporary.path() / "widgets.json.texts"),
+            "one\ntwo lines\nthree\nof the participant\n");
 }
 
 TEST(WidgetLog, WithoutAFileItDoesNothingAndWithoutAFolderItSaysSo) {

@@ -6,11 +6,13 @@
 #include "core/storage/kept_study.h"
 #include "core/storage/old_study.h"
 #include "core/storage/withdrawal.h"
+#include "support/files.h"
 
 namespace jnd::core {
 namespace backup_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 class BackupTest : public ::testing::Test {
  protected:
@@ -67,15 +69,15 @@ TEST_F(BackupTest, WritesOverNothingButAnEarlierCopyOfTheSameStudy) {
   fs::create_directory(copy());
   std::ofstream(copy() / "thesis.txt") << "mine";
   EXPECT_THROW((void)back_up_now(), Error);
-  EXPECT_EQ(bytes_of(copy() / "thesis.txt"), "mine");
+  EXPECT_EQ(read_file(copy() / "thesis.txt"), "mine");
   fs::remove(copy() / "thesis.txt");
   EXPECT_NO_THROW((void)back_up_now());
 
   const KeptStudy other;
   other.add_session("P09");
-  const std::string before = bytes_of(copy() / "study.sqlite");
+  const std::string before = read_file(copy() / "study.sqlite");
   EXPECT_THROW((void)back_up(other.folder(), copy(), 1), Error);
-  EXPECT_EQ(bytes_of(copy() / "study.sqlite"), before);
+  EXPECT_EQ(read_file(copy() / "study.sqlite"), before);
   EXPECT_THROW((void)back_up(kept_.folder(), kept_.folder(), 1), Error);
   EXPECT_THROW((void)back_up(kept_.beside("none"), kept_.beside("copy2"), 1), Error);
   EXPECT_FALSE(fs::exists(kept_.beside("copy2")));
@@ -86,7 +88,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   kept_.add_session("P02");
   (void)withdraw(kept_.folder(), "P01", 5);
   // The arguments the wrong way round: P02 and the withdrawal would be undone.
-  const std::string before = bytes_of(kept_.folder() / "study.sqlite");
+  const std::string before = read_file(kept_.folder() / "study.sqlite");
   try {
     (void)back_up(copy(), kept_.folder(), 9);
     FAIL() << "overwritten";
@@ -94,7 +96,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
     EXPECT_NE(std::string(error.what()).find("that the study does not have"), std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(bytes_of(kept_.folder() / "study.sqlite"), before);
+  EXPECT_EQ(read_file(kept_.folder() / "study.sqlite"), before);
 
   // A session that went on in its backup.
   kept_.add_session("P03");
@@ -143,12 +145,12 @@ TEST_F(BackupTest, AnInterruptedOneIsToldAndTheEarlierCopyIsWhole) {
 TEST_F(BackupTest, TheMarkHasTheDateOfTheCopyThatWasFinished) {
   constexpr std::int64_t kDay_ns = 86'400'000'000'000;
   (void)back_up(kept_.folder(), copy(), kDay_ns);
-  EXPECT_NE(bytes_of(copy() / kBackupMark).find("1970-01-02"), std::string::npos);
+  EXPECT_NE(read_file(copy() / kBackupMark).find("1970-01-02"), std::string::npos);
   begin_backup(copy(), 2 * kDay_ns);
-  EXPECT_NE(bytes_of(copy() / kBackupMark).find("1970-01-02"), std::string::npos);
+  EXPECT_NE(read_file(copy() / kBackupMark).find("1970-01-02"), std::string::npos);
   EXPECT_TRUE(is_unfinished_backup(copy()));
   finish_backup(copy(), 2 * kDay_ns);
-  EXPECT_NE(bytes_of(copy() / kBackupMark).find("1970-01-03"), std::string::npos);
+  EXPECT_NE(read_file(copy() / kBackupMark).find("1970-01-03"), std::string::npos);
   EXPECT_FALSE(is_unfinished_backup(copy()));
 }
 
@@ -169,7 +171,7 @@ TEST_F(BackupTest, NothingIsAddedToACopy) {
   (void)back_up_now();
   EXPECT_TRUE(is_backup(copy()));
   EXPECT_FALSE(is_backup(kept_.folder()));
-  const std::string before = bytes_of(copy() / "study.sqlite");
+  const std::string before = read_file(copy() / "study.sqlite");
   for (const StudyStore::Mode mode :
        {StudyStore::Mode::kReadWrite, StudyStore::Mode::kCreate}) {
     try {
@@ -180,7 +182,7 @@ TEST_F(BackupTest, NothingIsAddedToACopy) {
           << error.what();
     }
   }
-  EXPECT_EQ(bytes_of(copy() / "study.sqlite"), before);
+  EXPECT_EQ(read_file(copy() / "study.sqlite"), before);
   EXPECT_TRUE(back_up_now().integrity.complete);
 }
 
@@ -224,10 +226,10 @@ TEST_F(BackupTest, AStudyCanBeRestoredToWhereItsBackupWasOnce) {
 
 TEST_F(BackupTest, RestoringWritesOverNothing) {
   (void)back_up_now();
-  const std::string before = bytes_of(kept_.folder() / "study.sqlite");
+  const std::string before = read_file(kept_.folder() / "study.sqlite");
   EXPECT_THROW((void)restore(copy(), kept_.folder(), 9), Error);
   EXPECT_THROW((void)restore(copy(), copy(), 9), Error);
-  EXPECT_EQ(bytes_of(kept_.folder() / "study.sqlite"), before);
+  EXPECT_EQ(read_file(kept_.folder() / "study.sqlite"), before);
   // A study is no backup.
   EXPECT_THROW((void)restore(kept_.folder(), kept_.beside("restored"), 9), Error);
   EXPECT_FALSE(fs::exists(kept_.beside("restored")));

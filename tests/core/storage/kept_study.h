@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"
+#include "support/files.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::core {
@@ -73,16 +72,11 @@ class KeptStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-inline std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// The bytes of every file under the folder, one after the other.
 inline std::string all_bytes(const std::filesystem::path& folder) {
   std::string bytes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) bytes += bytes_of(entry.path());
+    if (entry.is_regular_file()) bytes += test_support::read_file(entry.path());
   }
   return bytes;
 }

@@ -7,11 +7,13 @@
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
 #include "core/storage/old_study.h"
+#include "support/files.h"
 
 namespace jnd::core {
 namespace study_format_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -101,13 +103,13 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
 
 TEST_P(OldLayoutTest, IsReadAndStaysAsItIs) {
   ASSERT_EQ(format_of(old()), GetParam());
-  const std::string before = bytes_of(old() / "study.sqlite");
+  const std::string before = read_file(old() / "study.sqlite");
   {
     const StudyStore store(old(), StudyStore::Mode::kReadOnly);
     EXPECT_EQ(store.events(1).size(), 45U);
     expect_all_of(store);
   }
-  EXPECT_EQ(bytes_of(old() / "study.sqlite"), before);
+  EXPECT_EQ(read_file(old() / "study.sqlite"), before);
 }
 
 TEST_P(OldLayoutTest, IsBroughtUpToDateBeforeItIsWrittenTo) {
@@ -185,7 +187,7 @@ TEST_F(StudyFormatTest, ANewerLayoutIsRefusedReadingAndWriting) {
           << error.what();
     }
   }
-  EXPECT_EQ(bytes_of(old() / "study.sqlite").empty(), false);
+  EXPECT_EQ(read_file(old() / "study.sqlite").empty(), false);
 }
 
 TEST_F(StudyFormatTest, AFreshStudyHasEveryStepNoted) {

@@ -7,11 +7,13 @@
 #include "core/storage/database.h"
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
+#include "support/files.h"
 
 namespace jnd::core {
 namespace withdrawal_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 class WithdrawalTest : public ::testing::Test {
  protected:
@@ -168,7 +170,7 @@ TEST_F(WithdrawalTest, LeavesAForeignFolderAsItIs) {
 }
 
 TEST_F(WithdrawalTest, AnInterruptedOneIsFoundByVerifyAndFinishedByTheNextCall) {
-  const std::string recording = bytes_of(kept_.recording(1));
+  const std::string recording = read_file(kept_.recording(1));
   (void)withdraw(kept_.folder(), "P01", 5);
   std::ofstream(kept_.recording(1), std::ios::binary) << recording;
   EXPECT_FALSE(verified(kept_.folder()).complete);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -11,6 +10,7 @@
 #include "core/random_stream.h"
 #include "device/network/crc32.h"
 #include "simulated_network.h"
+#include "support/files.h"
 #include "support/places.h"
 
 namespace jnd::device {
@@ -168,10 +168,8 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
 
 TEST(Datagram, WhatAnotherProgramWroteAfterTheTablesIsUnderstood) {
   const auto read = [](const std::string& name) {
-    std::ifstream file(
-        test_support::source_folder().string() + "/tests/fuzz/corpus/datagram/" + name + ".bin",
-        std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = test_support::read_file(
+        test_support::source_folder() / "tests/fuzz/corpus/datagram" / (name + ".bin"));
     const auto bytes = std::as_bytes(std::span(text));
     Datagram datagram;
     EXPECT_EQ(wire::decode(bytes, datagram), Problem::kNone) << name;

@@ -5,10 +5,10 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/error.h"
+#include "support/files.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::device {
@@ -38,9 +38,8 @@ TEST_F(DeviceKeyTest, IsDrawnOnceAndReadBack) {
   const fs::path other = temporary.path() / "other.key";
   make_device_key(other);
   EXPECT_NE(read_device_key(other), key);
-  std::ifstream stream(file);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_EQ(text.size(), 65u) << "64 digits and a line's end, for other programs to read";
+  EXPECT_EQ(test_support::read_file(file).size(), 65u)
+      << "64 digits and a line's end, for other programs to read";
   EXPECT_THROW(make_device_key(file), core::Error) << "never overwritten";
   EXPECT_EQ(read_device_key(file), key);
 }

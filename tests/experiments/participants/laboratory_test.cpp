@@ -2,20 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.h"
+#include "support/files.h"
 #include "support/places.h"
 
 namespace jnd::experiments {
 namespace laboratory_test {
 
 std::string shipped(const char* name) {
-  std::ifstream stream(test_support::source_folder().string() + "/data/laboratories/" + name);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return test_support::read_file(test_support::source_folder() / "data/laboratories" / name);
 }
 
 nlohmann::json thesis() { return nlohmann::json::parse(shipped("thesis.json")); }

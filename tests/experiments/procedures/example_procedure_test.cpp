@@ -1,9 +1,9 @@
 #include "tests/experiments/procedures/example_procedure.h"
+#include "support/files.h"
 #include "support/places.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <iterator>
 #include <string>
 
@@ -13,8 +13,7 @@ namespace jnd::experiments {
 namespace example_procedure_test {
 
 std::string text_of(const std::string& file) {
-  std::ifstream stream(test_support::source_folder().string() + '/' + file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return test_support::read_file(test_support::source_folder() / file);
 }
 
 TEST(ExampleProcedure, StandsInContributingWordForWord) {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <regex>
@@ -11,6 +10,7 @@
 
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/study_reader.h"
+#include "support/files.h"
 #include "support/places.h"
 
 // tests/experiments/study/broken holds a broken study NAME.json for each rule, and in NAME.txt
@@ -21,13 +21,9 @@ namespace jnd::experiments {
 namespace broken_corpus_test {
 
 namespace fs = std::filesystem;
+using test_support::read_file;
 
 fs::path source(const std::string& name) { return test_support::source_folder() / name; }
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// The files of a folder and of those in it with this extension, in order.
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
@@ -42,7 +38,7 @@ const fs::path kFolder = "tests/experiments/study/broken";
 
 std::string all_expected_messages() {
   std::string all;
-  for (const fs::path& file : files_in(source(kFolder), ".txt")) all += text_of(file);
+  for (const fs::path& file : files_in(source(kFolder), ".txt")) all += read_file(file);
   return all;
 }
 
@@ -51,13 +47,13 @@ TEST(BrokenCorpus, EveryStudyGivesExactlyTheMessagesBesideIt) {
   for (const fs::path& file : files_in(source(kFolder), ".json")) {
     std::string lines;
     for (const StudyProblem& problem :
-         study_text_problems(text_of(file), file.filename().string())) {
+         study_text_problems(read_file(file), file.filename().string())) {
       lines += to_string(problem) + '\n';
     }
     fs::path expected = file;
     expected.replace_extension(".txt");
     EXPECT_NE(lines, "") << file << " is not broken";
-    EXPECT_EQ(lines, text_of(expected)) << file;
+    EXPECT_EQ(lines, read_file(expected)) << file;
     ++num_files;
   }
   EXPECT_GT(num_files, 50);
@@ -115,7 +111,8 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   for (const char* name : {"structure_check", "study_rules", "session_rules", "label_rules",
                            "task_rules", "order_rules", "field_rules", "limit_rules",
                            "standard_rules", "located_json", "study_reader"}) {
-    const std::string code = text_of(source("experiments/study/" + std::string(name) + ".cpp"));
+    const std::string code =
+        read_file(source("experiments/study/" + std::string(name) + ".cpp"));
     ASSERT_NE(code, "") << name;
     for (const std::string& words : literals_of(code)) {
       if (!words.starts_with("expected ") || elsewhere.contains(words)) continue;
@@ -149,7 +146,7 @@ std::set<ValueKind> kinds_of(const std::string& pointer) {
 TEST(BrokenCorpus, BreaksAValueOfEveryKind) {
   std::set<ValueKind> broken;
   for (const fs::path& file : files_in(source(kFolder), ".json")) {
-    for (const StudyProblem& problem : study_text_problems(text_of(file), "x")) {
+    for (const StudyProblem& problem : study_text_problems(read_file(file), "x")) {
       broken.merge(kinds_of(problem.pointer));
     }
   }

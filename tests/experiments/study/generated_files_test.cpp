@@ -1,20 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "experiments/study/reference_writer.h"
 #include "experiments/study/schema_writer.h"
+#include "support/files.h"
 #include "support/places.h"
 
 namespace jnd::experiments {
 namespace generated_files_test {
 
 std::string shipped(const std::string& name) {
-  std::ifstream stream(test_support::source_folder() / "protocols" / name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return test_support::read_file(test_support::source_folder() / "protocols" / name);
 }
 
 // EXPECT_TRUE, for EXPECT_EQ would print both files.

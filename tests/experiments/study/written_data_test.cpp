@@ -1,18 +1,17 @@
 #include "experiments/study/written_data.h"
+#include "support/files.h"
 #include "support/places.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 namespace jnd::experiments {
 namespace written_data_test {
 
 std::string layout(const std::string& name) {
-  std::ifstream stream(test_support::source_folder() / "data/database" / name);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return test_support::read_file(test_support::source_folder() / "data/database" / name);
 }
 
 /// What stands between the brackets of `CREATE TABLE name (`, in the layout of study folders,
