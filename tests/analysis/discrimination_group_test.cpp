@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
 #include "core/psychometric_function.h"
@@ -151,13 +152,6 @@ TEST(DiscriminationGroup, NobodyWithAnAnswerLeavesReasonsAndNoNumber) {
                  one.reason.find("median_person: no value") != std::string::npos;
         }));
   }
-}
-
-ResultsSection section_of(const StudyResults& of, const std::string& name) {
-  for (const ResultsSection& one : of.sections) {
-    if (one.name == name) return one;
-  }
-  throw core::Error("no section " + name);
 }
 
 const NamedComparison* find_comparison(const ResultsSection& section,

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
 namespace inverted_answers_test {
-
-const ResultsSection& section(const StudyResults& results, const std::string& name) {
-  return *std::ranges::find(results.sections, name, &ResultsSection::name);
-}
 
 StudyResults results(const StudyData& data) {
   return results_of(data, {}, {.num_resamples = 100});
@@ -53,7 +50,7 @@ TEST(InvertedAnswers, AreNamedAndEveryNumberThatHasThemSaysSo) {
   HandMadeStudy study;
   add_six(study);
   const StudyResults of = results(load_study(study.store()));
-  const ResultsSection& block = section(of, "group_d");
+  const ResultsSection& block = section_of(of, "group_d");
   ASSERT_EQ(block.cautions.size(), 1U);
   EXPECT_EQ(block.cautions[0].participant, "P06");
   EXPECT_NE(block.cautions[0].caution.find("wrong way round"), std::string::npos);
@@ -66,10 +63,10 @@ TEST(InvertedAnswers, AreNamedAndEveryNumberThatHasThemSaysSo) {
   const auto without = of.find("group_d.weber_fraction_median_person.without_degenerate");
   ASSERT_NE(without, nullptr);
   EXPECT_TRUE(without->cautions.empty());
-  EXPECT_TRUE(section(of, "group_e").cautions.empty());
+  EXPECT_TRUE(section_of(of, "group_e").cautions.empty());
   EXPECT_TRUE(of.find("group_e.weber_fraction_median_person")->cautions.empty());
   bool any_test = false;
-  for (const NamedComparison& named : section(of, "group_d_against_group_e").comparisons) {
+  for (const NamedComparison& named : section_of(of, "group_d_against_group_e").comparisons) {
     const bool has_everybody = named.name.find("hierarchical") != std::string::npos;
     EXPECT_EQ(has(named.cautions, "P06"), has_everybody) << named.name;
     any_test = any_test || has_everybody;
@@ -84,7 +81,7 @@ TEST(InvertedAnswers, LeftOutOnRequestAreNamedAndShownBesides) {
   const StudyResults with_all = results(data);
   leave_out_inverted(data);
   const StudyResults of = results(data);
-  const ResultsSection& block = section(of, "group_d");
+  const ResultsSection& block = section_of(of, "group_d");
   EXPECT_TRUE(block.cautions.empty());
   EXPECT_TRUE(std::ranges::any_of(block.excluded, [](const ExcludedParticipant& one) {
     return one.participant == "P06" && one.reason.find("--inverted out") != std::string::npos;
@@ -113,8 +110,8 @@ TEST(InvertedAnswers, WhoFeelsNothingWhereThereIsMoreIsNamed) {
     }
   }
   const StudyResults of = results(load_study(study.store()));
-  ASSERT_EQ(section(of, "felt").cautions.size(), 1U);
-  EXPECT_EQ(section(of, "felt").cautions[0].participant, "P02");
+  ASSERT_EQ(section_of(of, "felt").cautions.size(), 1U);
+  EXPECT_EQ(section_of(of, "felt").cautions[0].participant, "P02");
 }
 
 /// Three people of whom the last tells smaller numbers the more there is, or sets smaller
@@ -150,13 +147,6 @@ constexpr char kBothMagnitudes[] = R"({"name": "by_hand", "stages": [
   {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation"},
   {"kind": "block", "name": "production", "procedure": "magnitude_production"}]})";
 
-const ParticipantEstimate& own(const ResultsSection& of, const std::string& participant,
-                               const std::string& name) {
-  return *std::ranges::find_if(of.participants, [&](const ParticipantEstimate& one) {
-    return one.participant == participant && one.name == name;
-  });
-}
-
 TEST(InvertedAnswers, MagnitudesThatFallAreNamedWhereverTheyCount) {
   HandMadeStudy study(kBothMagnitudes);
   add_three(study, false);
@@ -167,13 +157,13 @@ TEST(InvertedAnswers, MagnitudesThatFallAreNamedWhereverTheyCount) {
   EXPECT_EQ(found[0].block, "estimation");
   EXPECT_NEAR(found[0].p_value, 1.0 / 720.0, 1e-12) << "one order of six falls throughout";
   const StudyResults of = results(data);
-  const ResultsSection& block = section(of, "estimation");
+  const ResultsSection& block = section_of(of, "estimation");
   ASSERT_EQ(block.cautions.size(), 1U);
   EXPECT_EQ(block.cautions[0].participant, "P03");
   EXPECT_NE(block.cautions[0].caution.find("the answers fall as the intensity grows"),
             std::string::npos);
-  EXPECT_TRUE(has(own(block, "P03", "estimation.a").cautions, "wrong way round"));
-  EXPECT_TRUE(own(block, "P01", "estimation.a").cautions.empty());
+  EXPECT_TRUE(has(own_of(block, "P03", "estimation.a").cautions, "wrong way round"));
+  EXPECT_TRUE(own_of(block, "P01", "estimation.a").cautions.empty());
   for (const char* name :
        {"estimation.k", "estimation.a", "estimation.data_points.a", "estimation.log_log.a",
         "estimation.geometric.a", "estimation.equalised.a", "estimation.individual_a_mean",
@@ -192,14 +182,14 @@ TEST(InvertedAnswers, MagnitudesThatFallAreLeftOutOnRequest) {
   StudyData data = load_study(study.store());
   leave_out_inverted(data);
   const StudyResults of = results(data);
-  EXPECT_TRUE(section(of, "estimation").cautions.empty());
+  EXPECT_TRUE(section_of(of, "estimation").cautions.empty());
   EXPECT_EQ(of.find("estimation.a")->n, 2);
   EXPECT_GT(*of.find("estimation.a")->value, 0.0);
   EXPECT_TRUE(of.find("estimation.a")->cautions.empty());
   EXPECT_EQ(of.find("production.a")->n, 3);
   EXPECT_EQ(of.find("combined.a")->n, 2);
   EXPECT_TRUE(std::ranges::any_of(
-      section(of, "estimation").excluded, [](const ExcludedParticipant& one) {
+      section_of(of, "estimation").excluded, [](const ExcludedParticipant& one) {
         return one.participant == "P03" &&
                one.reason.find("--inverted out") != std::string::npos;
       }));
@@ -209,9 +199,9 @@ TEST(InvertedAnswers, IntensitiesSetThatFallWithTheTargetAreNamed) {
   HandMadeStudy study(kBothMagnitudes);
   add_three(study, true);
   const StudyResults of = results(load_study(study.store()));
-  EXPECT_TRUE(section(of, "estimation").cautions.empty());
-  ASSERT_EQ(section(of, "production").cautions.size(), 1U);
-  EXPECT_NE(section(of, "production").cautions[0].caution.find("the intensities set fall"),
+  EXPECT_TRUE(section_of(of, "estimation").cautions.empty());
+  ASSERT_EQ(section_of(of, "production").cautions.size(), 1U);
+  EXPECT_NE(section_of(of, "production").cautions[0].caution.find("the intensities set fall"),
             std::string::npos);
   EXPECT_TRUE(has(of.find("production.a")->cautions, "P03"));
   EXPECT_TRUE(has(of.find("set_intensity.50_percent")->cautions, "P03"));
@@ -234,7 +224,7 @@ TEST(InvertedAnswers, AMeanOfOwnExponentsIsNotOfWhoHasNone) {
                                                      : 0.0});
   }
   const StudyResults of = results(load_study(study.store()));
-  EXPECT_FALSE(own(section(of, "estimation"), "P04", "estimation.a").value);
+  EXPECT_FALSE(own_of(section_of(of, "estimation"), "P04", "estimation.a").value);
   EXPECT_TRUE(has(of.find("estimation.a")->cautions, "P03 and P04, who answer"));
   EXPECT_TRUE(has(of.find("estimation.individual_a_mean")->cautions, "P03, who answers"));
   EXPECT_FALSE(has(of.find("estimation.individual_a_mean")->cautions, "P04"));

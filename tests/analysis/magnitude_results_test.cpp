@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/found_results.h"
 #include "analysis/magnitude_fits.h"
 #include "analysis/magnitude_means.h"
 #include "analysis/study_results.h"
@@ -27,28 +28,6 @@ core::TrialRow produced(double target_percent, double set) {
           .intensity = set,
           .target_percent = target_percent,
           .response = set};
-}
-
-const Estimate* find(const ResultsSection& section, const std::string& name) {
-  const auto found = std::ranges::find(section.estimates, name, &Estimate::name);
-  return found == section.estimates.end() ? nullptr : &*found;
-}
-
-double value(const ResultsSection& section, const std::string& name) {
-  const Estimate* estimate = find(section, name);
-  if (estimate == nullptr || !estimate->value) {
-    ADD_FAILURE() << "no value for " << name;
-    return NAN;
-  }
-  return *estimate->value;
-}
-
-const ParticipantEstimate& own(const ResultsSection& section, const std::string& participant,
-                               const std::string& name) {
-  for (const ParticipantEstimate& one : section.participants) {
-    if (one.participant == participant && one.name == name) return one;
-  }
-  throw core::Error("no " + name + " of " + participant);
 }
 
 bool says(const ResultsSection& section, const std::string& participant,
@@ -89,41 +68,42 @@ TEST(LogAnswers, AZeroCountsAsHalfTheSmallestAnswerOfThePersonOrNotAtAll) {
 
 TEST(MagnitudeResults, GeometricMeansAndEqualisedModuliForgetWhoCountsInLargeNumbers) {
   const ResultsSection section = estimation_results(two_units(), kEstimation, kQuick);
-  EXPECT_NEAR(value(section, "estimation.mean_at_4"), 2.5, 1e-12);
-  EXPECT_NEAR(value(section, "estimation.geometric_mean_at_4"), 2.0, 1e-12);
-  EXPECT_EQ(find(section, "estimation.geometric_mean_at_0"), nullptr);
-  EXPECT_NEAR(value(section, "estimation.k"), 1.25, 1e-6);
-  EXPECT_NEAR(value(section, "estimation.geometric.k"), 1.0, 1e-9);
-  EXPECT_NEAR(value(section, "estimation.geometric.a"), 0.5, 1e-9);
-  EXPECT_NEAR(value(section, "estimation.equalised.k"), 1.0, 1e-6);
-  EXPECT_NEAR(value(section, "estimation.equalised.a"), 0.5, 1e-6);
+  EXPECT_NEAR(value_of(section, "estimation.mean_at_4"), 2.5, 1e-12);
+  EXPECT_NEAR(value_of(section, "estimation.geometric_mean_at_4"), 2.0, 1e-12);
+  EXPECT_EQ(find_estimate(section, "estimation.geometric_mean_at_0"), nullptr);
+  EXPECT_NEAR(value_of(section, "estimation.k"), 1.25, 1e-6);
+  EXPECT_NEAR(value_of(section, "estimation.geometric.k"), 1.0, 1e-9);
+  EXPECT_NEAR(value_of(section, "estimation.geometric.a"), 0.5, 1e-9);
+  EXPECT_NEAR(value_of(section, "estimation.equalised.k"), 1.0, 1e-6);
+  EXPECT_NEAR(value_of(section, "estimation.equalised.a"), 0.5, 1e-6);
   // ln 4 apart: the standard deviation of two values is their difference over sqrt 2.
-  EXPECT_NEAR(value(section, "estimation.modulus_sd_ln"), std::log(4.0) / std::sqrt(2.0),
+  EXPECT_NEAR(value_of(section, "estimation.modulus_sd_ln"), std::log(4.0) / std::sqrt(2.0),
               1e-12);
-  EXPECT_EQ(value(section, "estimation.num_zeros"), 0.0);
-  EXPECT_EQ(find(section, "estimation.geometric_without_zeros.a"), nullptr);
+  EXPECT_EQ(value_of(section, "estimation.num_zeros"), 0.0);
+  EXPECT_EQ(find_estimate(section, "estimation.geometric_without_zeros.a"), nullptr);
 }
 
 TEST(MagnitudeResults, ZerosAreCountedAndBothRulesShown) {
   StudyData data = two_units();
   data.participants[0].trials.push_back(estimated(4.0, 0.0, 2));
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
-  EXPECT_EQ(value(section, "estimation.num_zeros"), 1.0);
+  EXPECT_EQ(value_of(section, "estimation.num_zeros"), 1.0);
   // 1 and, for the 0, half of the smallest answer, 0.25: geometric mean 1/2; the other's 4.
-  EXPECT_NEAR(value(section, "estimation.geometric_mean_at_4"), std::sqrt(0.5 * 4.0), 1e-12);
-  EXPECT_NE(find(section, "estimation.geometric.k")->meaning.find("half the person's smallest"),
+  EXPECT_NEAR(value_of(section, "estimation.geometric_mean_at_4"), std::sqrt(0.5 * 4.0), 1e-12);
+  EXPECT_NE(find_estimate(section, "estimation.geometric.k")
+                ->meaning.find("half the person's smallest"),
             std::string::npos);
-  EXPECT_NEAR(value(section, "estimation.geometric_without_zeros.k"), 1.0, 1e-9);
+  EXPECT_NEAR(value_of(section, "estimation.geometric_without_zeros.k"), 1.0, 1e-9);
 }
 
 TEST(MagnitudeResults, APersonWithoutALevelStillCountsInTheOthers) {
   StudyData data = two_units();
   data.participants[1].trials.pop_back();
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
-  EXPECT_EQ(find(section, "estimation.mean_at_9")->n, 1);
-  EXPECT_EQ(find(section, "estimation.mean_at_4")->n, 2);
+  EXPECT_EQ(find_estimate(section, "estimation.mean_at_9")->n, 1);
+  EXPECT_EQ(find_estimate(section, "estimation.mean_at_4")->n, 2);
   // Moduli over the levels that both have, so nothing changes.
-  EXPECT_NEAR(value(section, "estimation.equalised.k"), 1.0, 1e-6);
+  EXPECT_NEAR(value_of(section, "estimation.equalised.k"), 1.0, 1e-6);
 }
 
 TEST(MagnitudeResults, SomebodyWhoFeltNothingSpoilsOnlyTheirOwnLine) {
@@ -132,13 +112,13 @@ TEST(MagnitudeResults, SomebodyWhoFeltNothingSpoilsOnlyTheirOwnLine) {
   for (const double intensity : {1.0, 4.0, 9.0}) numb.trials.push_back(estimated(intensity, 0));
   data.participants.push_back(numb);
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
-  EXPECT_FALSE(own(section, "P03", "estimation.a").value);
-  EXPECT_FALSE(own(section, "P03", "estimation.a").reason.empty());
-  EXPECT_TRUE(own(section, "P01", "estimation.a").value);
-  EXPECT_TRUE(find(section, "estimation.k")->value);
-  EXPECT_TRUE(find(section, "estimation.geometric.k")->value);
+  EXPECT_FALSE(own_of(section, "P03", "estimation.a").value);
+  EXPECT_FALSE(own_of(section, "P03", "estimation.a").reason.empty());
+  EXPECT_TRUE(own_of(section, "P01", "estimation.a").value);
+  EXPECT_TRUE(find_estimate(section, "estimation.k")->value);
+  EXPECT_TRUE(find_estimate(section, "estimation.geometric.k")->value);
   EXPECT_TRUE(says(section, "everyone", "no stimulus that all participants answered above 0"));
-  EXPECT_EQ(find(section, "estimation.individual_a_mean")->n, 2);
+  EXPECT_EQ(find_estimate(section, "estimation.individual_a_mean")->n, 2);
 }
 
 TEST(MagnitudeResults, OnlyThoseCountWhoAreInAGeometricPowerLaw) {
@@ -148,25 +128,28 @@ TEST(MagnitudeResults, OnlyThoseCountWhoAreInAGeometricPowerLaw) {
   data.participants.push_back(numb);
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
   for (const char* law : {"estimation.geometric", "estimation.geometric_without_zeros"}) {
-    EXPECT_EQ(find(section, std::string(law) + ".k")->n, 2) << law;
-    EXPECT_EQ(find(section, std::string(law) + ".a")->n, 2) << law;
+    EXPECT_EQ(find_estimate(section, std::string(law) + ".k")->n, 2) << law;
+    EXPECT_EQ(find_estimate(section, std::string(law) + ".a")->n, 2) << law;
   }
-  EXPECT_EQ(find(section, "estimation.k")->n, 3) << "a mean of 0 pulls the group's down";
+  EXPECT_EQ(find_estimate(section, "estimation.k")->n, 3)
+      << "a mean of 0 pulls the group's down";
   EXPECT_TRUE(says(section, "P03", "every answer is 0, which has no logarithm"));
-  EXPECT_NE(find(section, "estimation.num_zeros")->meaning.find("nothing of who has none"),
-            std::string::npos);
+  EXPECT_NE(
+      find_estimate(section, "estimation.num_zeros")->meaning.find("nothing of who has none"),
+      std::string::npos);
   const ResultsSection sound = estimation_results(two_units(), kEstimation, kQuick);
-  EXPECT_EQ(find(sound, "estimation.num_zeros")->meaning.find("nothing of who has none"),
-            std::string::npos);
+  EXPECT_EQ(
+      find_estimate(sound, "estimation.num_zeros")->meaning.find("nothing of who has none"),
+      std::string::npos);
 }
 
 TEST(MagnitudeResults, WhoAnsweredAtIntensityZeroAloneIsInNoPowerLaw) {
   StudyData data = two_units();
   data.participants.push_back({.participant = "P03", .trials = {estimated(0.0, 0.0)}});
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
-  EXPECT_EQ(find(section, "estimation.k")->n, 2);
-  EXPECT_EQ(find(section, "estimation.geometric.k")->n, 2);
-  EXPECT_EQ(find(section, "estimation.mean_at_0")->n, 3);
+  EXPECT_EQ(find_estimate(section, "estimation.k")->n, 2);
+  EXPECT_EQ(find_estimate(section, "estimation.geometric.k")->n, 2);
+  EXPECT_EQ(find_estimate(section, "estimation.mean_at_0")->n, 3);
   EXPECT_TRUE(says(section, "P03", "no answer at an intensity above 0"));
 }
 
@@ -180,7 +163,7 @@ TEST(MagnitudeResults, AnOwnLawThroughEveryMeanHasNoIntervalAndSaysWhy) {
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
   for (const char* name :
        {"estimation.geometric.k", "estimation.geometric.a", "estimation.k"}) {
-    const ParticipantEstimate& one = own(section, "P03", name);
+    const ParticipantEstimate& one = own_of(section, "P03", name);
     EXPECT_TRUE(one.value.has_value()) << name;
     EXPECT_FALSE(one.ci95.low || one.ci95.high) << name;
     ASSERT_EQ(one.cautions.size(), 1U) << name;
@@ -198,7 +181,7 @@ TEST(MagnitudeResults, PeopleWhoAllAnswerAlikeHaveNoIntervalOfTheGroup) {
     data.participants.push_back(person);
   }
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
-  const Estimate& k = *find(section, "estimation.k");
+  const Estimate& k = *find_estimate(section, "estimation.k");
   EXPECT_NEAR(k.value.value(), 1.0, 1e-9);
   EXPECT_FALSE(k.ci95.low || k.ci95.high);
   ASSERT_EQ(k.cautions.size(), 1U);
@@ -210,11 +193,11 @@ TEST(MagnitudeResults, AGroupWithoutAPowerLawSaysWhyOnce) {
   data.participants.push_back(
       {.participant = "P01", .trials = {estimated(2.0, 100.0), estimated(2.0, 120.0, 2)}});
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
-  EXPECT_FALSE(find(section, "estimation.k")->value);
+  EXPECT_FALSE(find_estimate(section, "estimation.k")->value);
   EXPECT_EQ(std::ranges::count(section.excluded, "everyone", &ExcludedParticipant::participant),
             1);
   EXPECT_TRUE(says(section, "everyone", "estimation: no power law"));
-  EXPECT_NEAR(value(section, "estimation.mean_at_2"), 1.1, 1e-12);
+  EXPECT_NEAR(value_of(section, "estimation.mean_at_2"), 1.1, 1e-12);
 }
 
 TEST(MagnitudeResults, TrialCorrelationsOfEachParticipantHaveFishersInterval) {
@@ -228,7 +211,7 @@ TEST(MagnitudeResults, TrialCorrelationsOfEachParticipantHaveFishersInterval) {
   data.participants.push_back(person);
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
   const Comparison expected = pearson_correlation(first, second);
-  const ParticipantEstimate& r = own(section, "P01", "trial_correlation.t1_t2");
+  const ParticipantEstimate& r = own_of(section, "P01", "trial_correlation.t1_t2");
   EXPECT_EQ(r.value, expected.estimate);
   EXPECT_EQ(r.ci95.low, expected.ci95.low);
 }
@@ -246,14 +229,14 @@ TEST(MagnitudeResults, TheRegressionOfIOnSTurnsTheOtherWayRound) {
   const ResultsSection exact = production_results(data, kProduction, kQuick);
   for (const char* law :
        {"production", "production.geometric", "production.intensity_on_magnitude"}) {
-    EXPECT_NEAR(value(exact, std::string(law) + ".a"), 0.5, 1e-6) << law;
-    EXPECT_NEAR(value(exact, std::string(law) + ".k"), std::sqrt(0.5), 1e-6) << law;
+    EXPECT_NEAR(value_of(exact, std::string(law) + ".a"), 0.5, 1e-6) << law;
+    EXPECT_NEAR(value_of(exact, std::string(law) + ".k"), std::sqrt(0.5), 1e-6) << law;
   }
   // With spread S on I is the flatter one, I on S the steeper, apart by r squared.
   data.participants[0].trials[1].response = 5.0;
   const ResultsSection section = production_results(data, kProduction, kQuick);
-  EXPECT_GT(value(section, "production.intensity_on_magnitude.a"),
-            value(section, "production.geometric.a"));
+  EXPECT_GT(value_of(section, "production.intensity_on_magnitude.a"),
+            value_of(section, "production.geometric.a"));
 }
 
 TEST(FitIntensityOnMagnitude, RefusesAnInvertedProductionAndLeavesAnEndOpenWhereItMust) {
@@ -278,12 +261,12 @@ TEST(MagnitudeResults, ProductionRatiosAreThereForEachParticipantOrTheReason) {
       {.participant = "P02", .trials = {produced(50, 0.0), produced(100, 3.0)}});
   data.participants.push_back({.participant = "P03", .trials = {produced(100, 3.0)}});
   const ResultsSection section = production_results(data, kProduction, kQuick);
-  EXPECT_NEAR(own(section, "P01", "production_ratio_100_50").value.value(), 3.0, 1e-12);
-  EXPECT_EQ(own(section, "P02", "production_ratio_100_50").reason,
+  EXPECT_NEAR(own_of(section, "P01", "production_ratio_100_50").value.value(), 3.0, 1e-12);
+  EXPECT_EQ(own_of(section, "P02", "production_ratio_100_50").reason,
             "0 was set for the lower target");
-  EXPECT_EQ(own(section, "P03", "production_ratio_100_50").reason,
+  EXPECT_EQ(own_of(section, "P03", "production_ratio_100_50").reason,
             "one of the targets has no answer");
-  EXPECT_EQ(find(section, "production_ratio_100_50")->n, 1);
+  EXPECT_EQ(find_estimate(section, "production_ratio_100_50")->n, 1);
 }
 
 /// sqrt(I), and 0.25 I^2 for targets at 1 and 4.
@@ -304,20 +287,20 @@ StudyData both_parts() {
 TEST(CombinedResults, TheGeometricMeanLineLiesHalfWayInLogarithms) {
   const ResultsSection section =
       combined_results(both_parts(), kEstimation, kProduction, kQuick);
-  EXPECT_NEAR(value(section, "combined.geometric_mean.k"), 0.5, 1e-6);
-  EXPECT_NEAR(value(section, "combined.geometric_mean.a"), 1.25, 1e-6);
+  EXPECT_NEAR(value_of(section, "combined.geometric_mean.k"), 0.5, 1e-6);
+  EXPECT_NEAR(value_of(section, "combined.geometric_mean.a"), 1.25, 1e-6);
 }
 
 TEST(CombinedResults, SayWhereACurveIsExtrapolated) {
   const ResultsSection section =
       combined_results(both_parts(), kEstimation, kProduction, kQuick);
-  EXPECT_NEAR(value(section, "combined.shared_range_low"), 2.0, 1e-12);
-  EXPECT_NEAR(value(section, "combined.shared_range_high"), 4.0, 1e-12);
-  EXPECT_EQ(value(section, "combined.num_extrapolated"), 2.0) << "1 and 9, not free space";
+  EXPECT_NEAR(value_of(section, "combined.shared_range_low"), 2.0, 1e-12);
+  EXPECT_NEAR(value_of(section, "combined.shared_range_high"), 4.0, 1e-12);
+  EXPECT_EQ(value_of(section, "combined.num_extrapolated"), 2.0) << "1 and 9, not free space";
   // 4 alone lies within: no law through one intensity, and it is said.
-  EXPECT_FALSE(find(section, "combined.within_shared_range.k")->value);
+  EXPECT_FALSE(find_estimate(section, "combined.within_shared_range.k")->value);
   EXPECT_TRUE(says(section, "everyone", "combined.within_shared_range: no power law"));
-  EXPECT_TRUE(find(section, "combined.k")->value);
+  EXPECT_TRUE(find_estimate(section, "combined.k")->value);
 }
 
 TEST(CombinedResults, AProductionOfNothingReachesNoIntensity) {
@@ -325,7 +308,7 @@ TEST(CombinedResults, AProductionOfNothingReachesNoIntensity) {
   for (ParticipantData& person : data.participants)
     person.trials.push_back(produced(25.0, 0.0));
   const ResultsSection section = combined_results(data, kEstimation, kProduction, kQuick);
-  EXPECT_NEAR(value(section, "combined.shared_range_low"), 2.0, 1e-12);
+  EXPECT_NEAR(value_of(section, "combined.shared_range_low"), 2.0, 1e-12);
 }
 
 TEST(CombinedResults, NoSharedIntensityIsSaid) {
@@ -336,9 +319,9 @@ TEST(CombinedResults, NoSharedIntensityIsSaid) {
     }
   }
   const ResultsSection section = combined_results(data, kEstimation, kProduction, kQuick);
-  EXPECT_FALSE(find(section, "combined.shared_range_low")->value);
+  EXPECT_FALSE(find_estimate(section, "combined.shared_range_low")->value);
   EXPECT_TRUE(says(section, "everyone", "no intensity that both"));
-  EXPECT_TRUE(find(section, "combined.k")->value) << "the curve itself is still there";
+  EXPECT_TRUE(find_estimate(section, "combined.k")->value) << "the curve itself is still there";
 }
 
 TEST(CombinedResults, WhoLacksEitherPartIsNamedAndOnlyTheOthersCount) {
@@ -348,15 +331,15 @@ TEST(CombinedResults, WhoLacksEitherPartIsNamedAndOnlyTheOthersCount) {
   const ResultsSection section = combined_results(data, kEstimation, kProduction, kQuick);
   EXPECT_TRUE(says(section, "P03", "no answers in production"));
   EXPECT_TRUE(says(section, "P04", "no answers in estimation"));
-  EXPECT_EQ(find(section, "combined.k")->n, 2);
-  EXPECT_NEAR(value(section, "combined.geometric_mean.k"), 0.5, 1e-6);
+  EXPECT_EQ(find_estimate(section, "combined.k")->n, 2);
+  EXPECT_NEAR(value_of(section, "combined.geometric_mean.k"), 0.5, 1e-6);
 }
 
 TEST(CombinedResults, AProductionWithoutALawIsNamedAsTheReason) {
   StudyData data = both_parts();
   for (ParticipantData& person : data.participants) person.trials.pop_back();
   const ResultsSection section = combined_results(data, kEstimation, kProduction, kQuick);
-  EXPECT_FALSE(find(section, "combined.k")->value);
+  EXPECT_FALSE(find_estimate(section, "combined.k")->value);
   EXPECT_TRUE(says(section, "everyone", "the production has none"));
   EXPECT_EQ(section.comparisons[0].comparison.status, FitStatus::kDegenerate);
 }
@@ -374,7 +357,8 @@ TEST(CombinedResults, ExponentsAreComparedWithTheProductionAsIOnS) {
   const ResultsSection section = combined_results(data, kEstimation, kProduction, kQuick);
   const ResultsSection production = production_results(data, kProduction, kQuick);
   const auto mean_of = [&](const std::string& name) {
-    return 0.5 * (*own(production, "P01", name).value + *own(production, "P02", name).value);
+    return 0.5 *
+           (*own_of(production, "P01", name).value + *own_of(production, "P02", name).value);
   };
   const auto estimate_of = [&](const std::string& words) {
     for (const NamedComparison& one : section.comparisons) {
@@ -392,16 +376,18 @@ TEST(CombinedResults, ExponentsAreComparedWithTheProductionAsIOnS) {
 
 TEST(MagnitudeResults, WhatIsTheSameByConstructionAndWhatAPointAtZeroAddsIsSaid) {
   const ResultsSection section = estimation_results(two_units(), kEstimation, kQuick);
-  EXPECT_NEAR(value(section, "estimation.data_points.a"), value(section, "estimation.a"), 1e-6);
-  EXPECT_NE(find(section, "estimation.data_points.a")->meaning.find("by construction"),
-            std::string::npos);
-  EXPECT_NE(find(section, "estimation.r_squared")->meaning.find("1 at intensity 0 left out"),
-            std::string::npos);
-  EXPECT_NE(find(section, "estimation.k")->meaning.find("1 at intensity 0 left out"),
+  EXPECT_NEAR(value_of(section, "estimation.data_points.a"), value_of(section, "estimation.a"),
+              1e-6);
+  EXPECT_NE(find_estimate(section, "estimation.data_points.a")->meaning.find("by construction"),
             std::string::npos);
   EXPECT_NE(
-      find(section, "estimation.data_points.k")->meaning.find("2 at intensity 0 left out"),
+      find_estimate(section, "estimation.r_squared")->meaning.find("1 at intensity 0 left out"),
       std::string::npos);
+  EXPECT_NE(find_estimate(section, "estimation.k")->meaning.find("1 at intensity 0 left out"),
+            std::string::npos);
+  EXPECT_NE(find_estimate(section, "estimation.data_points.k")
+                ->meaning.find("2 at intensity 0 left out"),
+            std::string::npos);
 }
 
 }  // namespace magnitude_results_test

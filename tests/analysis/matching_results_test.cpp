@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
 #include "analysis/study_results.h"
 
@@ -17,12 +18,6 @@ constexpr char kWithinViscous[] = R"({"name": "by_hand", "stages": [{"kind": "bl
 
 StudyResults results(const HandMadeStudy& study) {
   return results_of(load_study(study.store()), {}, {.num_resamples = 100});
-}
-
-double value(const StudyResults& results, const std::string& name) {
-  const Estimate* estimate = results.find(name);
-  EXPECT_NE(estimate, nullptr) << name;
-  return estimate == nullptr ? std::nan("") : estimate->value.value_or(std::nan(""));
 }
 
 /// One who halves and doubles about the match with the starting value, and one who is sure.
@@ -44,23 +39,23 @@ TEST(MatchingResults, AreThoseWorkedByHand) {
   add_two_people(study);
   const StudyResults all = results(study);
   // Geometric means of 4 and 1, of 8 and 2.
-  EXPECT_NEAR(value(all, "match.match_at_1"), 2.0, 1e-12);
-  EXPECT_NEAR(value(all, "match.match_at_4"), 4.0, 1e-12);
+  EXPECT_NEAR(value_of(all, "match.match_at_1"), 2.0, 1e-12);
+  EXPECT_NEAR(value_of(all, "match.match_at_4"), 4.0, 1e-12);
   EXPECT_EQ(all.find("match.match_at_4")->unit, "Pa s");
   EXPECT_NE(all.find("match.match_at_4")->meaning.find("4 of water"), std::string::npos);
   // Of 4 and 8, of 1 and 2: sqrt(32) and sqrt(2).
-  EXPECT_NEAR(value(all, "match.match"), std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(value_of(all, "match.match"), std::sqrt(8.0), 1e-12);
   EXPECT_EQ(all.find("match.match")->unit, "Pa s");
   EXPECT_EQ(all.find("match.match")->n, 2);
   EXPECT_LT(all.find("match.match")->ci95.low.value(), std::sqrt(8.0));
   // From 2 at 1 to 4 at 4.
-  EXPECT_NEAR(value(all, "match.k"), 2.0, 1e-9);
-  EXPECT_NEAR(value(all, "match.a"), 0.5, 1e-9);
+  EXPECT_NEAR(value_of(all, "match.k"), 2.0, 1e-9);
+  EXPECT_NEAR(value_of(all, "match.a"), 0.5, 1e-9);
   // Four deviations of ln 2 with 4 - 2 degrees of freedom, and none.
-  EXPECT_NEAR(value(all, "match.match_sd_ln"), 0.5 * std::sqrt(2.0) * std::log(2.0), 1e-12);
+  EXPECT_NEAR(value_of(all, "match.match_sd_ln"), 0.5 * std::sqrt(2.0) * std::log(2.0), 1e-12);
   // The first goes with the start wholly, the second not at all.
-  EXPECT_NEAR(value(all, "match.starting_value_slope"), 0.5, 1e-12);
-  EXPECT_EQ(value(all, "match.num_zeros"), 0.0);
+  EXPECT_NEAR(value_of(all, "match.starting_value_slope"), 0.5, 1e-12);
+  EXPECT_EQ(value_of(all, "match.num_zeros"), 0.0);
 }
 
 TEST(MatchingResults, AreThereForEveryParticipant) {
@@ -95,7 +90,7 @@ TEST(MatchingResults, WithinAUnitTheRatioIsTheConstantError) {
   study.match(2.0, 1.0, 4.0);
   study.match(2.0, 8.0, 4.0);
   const StudyResults all = results(study);
-  EXPECT_NEAR(value(all, "match.ratio_to_standard"), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(value_of(all, "match.ratio_to_standard"), std::sqrt(2.0), 1e-12);
   EXPECT_EQ(all.find("match.k"), nullptr) << "one standard makes no line";
   EXPECT_TRUE(std::ranges::any_of(all.sections.front().comparisons, [](const auto& one) {
     return one.name == "match: ln ratio_to_standard against 0, t";
@@ -110,8 +105,8 @@ TEST(MatchingResults, AMatchOfNothingHasNoLogarithmAndIsCounted) {
   study.add("P02");
   study.match(2.0, 1.0, 0.0);
   const StudyResults all = results(study);
-  EXPECT_NEAR(value(all, "match.match_at_2"), 2.0, 1e-12);
-  EXPECT_EQ(value(all, "match.num_zeros"), 2.0);
+  EXPECT_NEAR(value_of(all, "match.match_at_2"), 2.0, 1e-12);
+  EXPECT_EQ(value_of(all, "match.num_zeros"), 2.0);
   ASSERT_EQ(all.sections.front().excluded.size(), 1U);
   EXPECT_EQ(all.sections.front().excluded.front().participant, "P02");
 }

@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
 namespace own_fractions_test {
-
-const ResultsSection& section(const StudyResults& results, const std::string& name) {
-  return *std::ranges::find(results.sections, name, &ResultsSection::name);
-}
 
 StudyResults results(const HandMadeStudy& study, const Published& published = {}) {
   return results_of(load_study(study.store()), published, {.num_resamples = 1000});
@@ -126,7 +123,7 @@ TEST(OwnFractions, AreToldWithBothPsesByNamesOfTheirOwn) {
   const StudyResults of = results(study);
   const auto median_of = [&](const std::string& own_name) {
     std::vector<double> values;
-    for (const ParticipantEstimate& own : section(of, "group_d").participants) {
+    for (const ParticipantEstimate& own : section_of(of, "group_d").participants) {
       if (own.name == own_name) values.push_back(own.value.value());
     }
     std::ranges::sort(values);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
 
 namespace jnd::analysis {
@@ -28,16 +29,6 @@ constexpr char kProtocol[] = R"json({"name": "asked", "stages": [
      "options": [{"value": "female"}, {"value": "male"}, {"value": "other"}]},
     {"name": "used", "kind": "yes_no_which", "question": {"en": "Used one?"}},
     {"name": "remarks", "kind": "text", "question": {"en": "Anything else?"}}]}]})json";
-
-const Estimate* find(const ResultsSection& section, const std::string& name) {
-  const auto found = std::ranges::find(section.estimates, name, &Estimate::name);
-  return found == section.estimates.end() ? nullptr : &*found;
-}
-
-double value(const ResultsSection& section, const std::string& name) {
-  const Estimate* estimate = find(section, name);
-  return estimate != nullptr ? estimate->value.value_or(NAN) : NAN;
-}
 
 /// Answers of people to the items of the protocol above.
 class Answers {
@@ -104,12 +95,13 @@ TEST(QuestionnaireResults, ScalesAreTurnedSoThatOneIsTheWorst) {
                                      .say("freedom", "1")
                                      .results();
   // 10, 9, 5 of ten steps, of which 1 was "very safe".
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.safety"), 8.0);
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.safety.sd"), std::sqrt(7.0));
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.safety.median"), 9.0);
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.freedom"), 2.0);
-  EXPECT_NE(find(section, "questionnaire.freedom")->meaning.find("to 4, the best: Free?"),
-            std::string::npos);
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.safety"), 8.0);
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.safety.sd"), std::sqrt(7.0));
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.safety.median"), 9.0);
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.freedom"), 2.0);
+  EXPECT_NE(
+      find_estimate(section, "questionnaire.freedom")->meaning.find("to 4, the best: Free?"),
+      std::string::npos);
   const ParticipantEstimate& own = section.participants.front();
   EXPECT_EQ(own.participant, "P01");
   EXPECT_EQ(own.name, "questionnaire.safety");
@@ -128,7 +120,7 @@ TEST(QuestionnaireResults, AScaleWithoutABetterEndIsToldAsItWasAsked) {
   data.participants.push_back({.participant = "P01"});
   data.participants.back().answers.push_back({.stage = "form", .item = "side", .answer = "2"});
   const ResultsSection section = questionnaire_results(data);
-  const Estimate& mean = *find(section, "questionnaire.side");
+  const Estimate& mean = *find_estimate(section, "questionnaire.side");
   EXPECT_EQ(mean.value, 2.0) << "not turned round";
   EXPECT_EQ(mean.meaning, "mean step from 1, “left”, to 7, “right”: Which side?");
   for (const Estimate& estimate : section.estimates) {
@@ -159,12 +151,12 @@ TEST(QuestionnaireResults, TheTableOfTheThesisComesOutAsPrinted) {
     }
   }
   const ResultsSection section = questionnaire_results(data);
-  EXPECT_NEAR(value(section, "questionnaire.safety"), 9.69, 0.005);
-  EXPECT_NEAR(value(section, "questionnaire.safety.sd"), 0.48, 0.005);
-  EXPECT_NEAR(value(section, "questionnaire.freedom"), 7.00, 0.005);
-  EXPECT_NEAR(value(section, "questionnaire.freedom.sd"), 1.58, 0.005);
-  EXPECT_NEAR(value(section, "questionnaire.realism"), 6.38, 0.005);
-  EXPECT_NEAR(value(section, "questionnaire.realism.sd"), 2.26, 0.005);
+  EXPECT_NEAR(value_of(section, "questionnaire.safety"), 9.69, 0.005);
+  EXPECT_NEAR(value_of(section, "questionnaire.safety.sd"), 0.48, 0.005);
+  EXPECT_NEAR(value_of(section, "questionnaire.freedom"), 7.00, 0.005);
+  EXPECT_NEAR(value_of(section, "questionnaire.freedom.sd"), 1.58, 0.005);
+  EXPECT_NEAR(value_of(section, "questionnaire.realism"), 6.38, 0.005);
+  EXPECT_NEAR(value_of(section, "questionnaire.realism.sd"), 2.26, 0.005);
 }
 
 TEST(QuestionnaireResults, ChoicesAreCountedThoseThatNobodyTookToo) {
@@ -181,12 +173,12 @@ TEST(QuestionnaireResults, ChoicesAreCountedThoseThatNobodyTookToo) {
                                      .of("P04")
                                      .say("gender", "once_offered")
                                      .results();
-  EXPECT_EQ(value(section, "questionnaire.gender.female"), 2.0);
-  EXPECT_EQ(value(section, "questionnaire.gender.other"), 0.0);
-  EXPECT_EQ(value(section, "questionnaire.gender.once_offered"), 1.0);
-  EXPECT_EQ(find(section, "questionnaire.gender.female")->n, 4);
-  EXPECT_EQ(value(section, "questionnaire.is_solid.yes"), 2.0);
-  EXPECT_EQ(find(section, "questionnaire.is_solid.no")->n, 3);
+  EXPECT_EQ(value_of(section, "questionnaire.gender.female"), 2.0);
+  EXPECT_EQ(value_of(section, "questionnaire.gender.other"), 0.0);
+  EXPECT_EQ(value_of(section, "questionnaire.gender.once_offered"), 1.0);
+  EXPECT_EQ(find_estimate(section, "questionnaire.gender.female")->n, 4);
+  EXPECT_EQ(value_of(section, "questionnaire.is_solid.yes"), 2.0);
+  EXPECT_EQ(find_estimate(section, "questionnaire.is_solid.no")->n, 3);
 }
 
 TEST(QuestionnaireResults, FreeAnswersAreListedAsTheyWereGiven) {
@@ -200,8 +192,8 @@ TEST(QuestionnaireResults, FreeAnswersAreListedAsTheyWereGiven) {
                                      .say("words", "hard, cold, flat")
                                      .say("used", "yes")
                                      .results();
-  EXPECT_EQ(value(section, "questionnaire.used.yes"), 2.0);
-  EXPECT_EQ(value(section, "questionnaire.used.no"), 1.0);
+  EXPECT_EQ(value_of(section, "questionnaire.used.yes"), 2.0);
+  EXPECT_EQ(value_of(section, "questionnaire.used.no"), 1.0);
   ASSERT_EQ(section.free_answers.size(), 3U);
   EXPECT_EQ(section.free_answers[0].item, "words");
   EXPECT_EQ(section.free_answers[0].answer, "hard, cold, flat");
@@ -219,19 +211,19 @@ TEST(QuestionnaireResults, WhatIsNoNumberIsSaidAndLeftOut) {
                                      .of("P03")
                                      .say("height_m", "1.60")
                                      .results();
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.height_m"), 1.7);
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.height_m.minimum"), 1.6);
-  EXPECT_DOUBLE_EQ(value(section, "questionnaire.height_m.maximum"), 1.8);
-  EXPECT_EQ(find(section, "questionnaire.height_m")->unit, "m");
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.height_m"), 1.7);
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.height_m.minimum"), 1.6);
+  EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.height_m.maximum"), 1.8);
+  EXPECT_EQ(find_estimate(section, "questionnaire.height_m")->unit, "m");
   EXPECT_EQ(section.participants[1].reason, "expected a number, found \"1,70\"");
   EXPECT_FALSE(section.participants[1].value);
 }
 
 TEST(QuestionnaireResults, NobodyAnsweringGivesNoNumberNeverZero) {
   const ResultsSection section = Answers().of("P01").say("remarks", "none").results();
-  EXPECT_FALSE(find(section, "questionnaire.safety")->value);
-  EXPECT_EQ(find(section, "questionnaire.safety")->n, 0);
-  EXPECT_EQ(find(section, "questionnaire.height_m.minimum"), nullptr);
+  EXPECT_FALSE(find_estimate(section, "questionnaire.safety")->value);
+  EXPECT_EQ(find_estimate(section, "questionnaire.safety")->n, 0);
+  EXPECT_EQ(find_estimate(section, "questionnaire.height_m.minimum"), nullptr);
 }
 
 TEST(QuestionnaireResults, WhoAnsweredNothingIsNamedNobodyOnce) {

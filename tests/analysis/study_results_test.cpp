@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/fits/power_fit.h"
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
 
@@ -16,22 +17,6 @@ constexpr ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
 
 StudyResults results(const HandMadeStudy& study, const Published& published = {}) {
   return results_of(load_study(study.store()), published, kQuick);
-}
-
-double value(const StudyResults& of, const std::string& name) {
-  const Estimate* estimate = of.find(name);
-  if (estimate == nullptr || !estimate->value) {
-    ADD_FAILURE() << "no value for " << name;
-    return NAN;
-  }
-  return *estimate->value;
-}
-
-const ResultsSection& section(const StudyResults& of, const std::string& name) {
-  for (const ResultsSection& one : of.sections) {
-    if (one.name == name) return one;
-  }
-  throw core::Error("no section " + name);
 }
 
 const Comparison& comparison(const ResultsSection& of, const std::string& words) {
@@ -64,14 +49,14 @@ TEST(StudyResults, EstimationIsThePowerLawThroughTheGroupMeans) {
   const StudyResults of = results(study);
   EXPECT_EQ(of.study, "by_hand");
   EXPECT_EQ(of.num_participants, 2);
-  EXPECT_NEAR(value(of, "estimation.k"), 3.0, 1e-6);
-  EXPECT_NEAR(value(of, "estimation.a"), 0.5, 1e-6);
-  EXPECT_NEAR(value(of, "estimation.log_log.a"), 0.5, 1e-9);
+  EXPECT_NEAR(value_of(of, "estimation.k"), 3.0, 1e-6);
+  EXPECT_NEAR(value_of(of, "estimation.a"), 0.5, 1e-6);
+  EXPECT_NEAR(value_of(of, "estimation.log_log.a"), 0.5, 1e-9);
   const Estimate& k = *of.find("estimation.k");
   EXPECT_EQ(k.n, 2);
   EXPECT_FALSE(k.ci95.low.has_value()) << "two participants say nothing of others";
   // Each one's own: 2 sqrt(I) and 4 sqrt(I).
-  const std::vector<ParticipantEstimate>& own = section(of, "estimation").participants;
+  const std::vector<ParticipantEstimate>& own = section_of(of, "estimation").participants;
   ASSERT_GE(own.size(), 4U);
   EXPECT_EQ(own[0].participant, "P01");
   EXPECT_EQ(own[0].name, "estimation.k");
@@ -106,8 +91,8 @@ TEST(StudyResults, RepetitionsAreAveragedWithinAParticipantFirst) {
   study.add("P02");
   study.estimate(1.0, 300.0);
   study.estimate(2.0, 600.0);
-  EXPECT_NEAR(value(results(study), "estimation.k"), 2.0, 1e-6);
-  EXPECT_NEAR(value(results(study), "estimation.a"), 1.0, 1e-6);
+  EXPECT_NEAR(value_of(results(study), "estimation.k"), 2.0, 1e-6);
+  EXPECT_NEAR(value_of(results(study), "estimation.a"), 1.0, 1e-6);
 }
 
 TEST(StudyResults, ProductionIsThePowerLawFromSetValuesToTargets) {
@@ -119,10 +104,10 @@ TEST(StudyResults, ProductionIsThePowerLawFromSetValuesToTargets) {
     study.produce(400.0, 4.0);
   }
   const StudyResults of = results(study);
-  EXPECT_NEAR(value(of, "production.k"), 0.25, 1e-6);
-  EXPECT_NEAR(value(of, "production.a"), 2.0, 1e-6);
-  EXPECT_NEAR(value(of, "set_intensity.100_percent"), 2.0, 1e-12);
-  EXPECT_NEAR(value(of, "production_ratio_400_100"), 2.0, 1e-12);
+  EXPECT_NEAR(value_of(of, "production.k"), 0.25, 1e-6);
+  EXPECT_NEAR(value_of(of, "production.a"), 2.0, 1e-6);
+  EXPECT_NEAR(value_of(of, "set_intensity.100_percent"), 2.0, 1e-12);
+  EXPECT_NEAR(value_of(of, "production_ratio_400_100"), 2.0, 1e-12);
 }
 
 TEST(StudyResults, CombinedIsTheCurveBetweenEstimationAndProduction) {
@@ -135,8 +120,8 @@ TEST(StudyResults, CombinedIsTheCurveBetweenEstimationAndProduction) {
   study.produce(400.0, 4.0);
   const StudyResults of = results(study);
   const PowerFit between = power_between({1.0, 0.5}, {0.25, 2.0}, {1.0, 4.0, 9.0});
-  EXPECT_NEAR(value(of, "combined.k"), between.k.value(), 1e-6);
-  EXPECT_NEAR(value(of, "combined.a"), between.a.value(), 1e-6);
+  EXPECT_NEAR(value_of(of, "combined.k"), between.k.value(), 1e-6);
+  EXPECT_NEAR(value_of(of, "combined.a"), between.a.value(), 1e-6);
 }
 
 TEST(StudyResults, RepetitionsOfAnEstimationAreCorrelatedIntensityByIntensity) {
@@ -148,9 +133,9 @@ TEST(StudyResults, RepetitionsOfAnEstimationAreCorrelatedIntensityByIntensity) {
     study.estimate(intensity, 400.0 - 100.0 * intensity, 3);
   }
   const StudyResults of = results(study);
-  EXPECT_NEAR(value(of, "trial_correlation.t1_t2"), 1.0, 1e-12);
-  EXPECT_NEAR(value(of, "trial_correlation.t1_t3"), -1.0, 1e-12);
-  EXPECT_NEAR(value(of, "trial_correlation_median"), -1.0, 1e-12);
+  EXPECT_NEAR(value_of(of, "trial_correlation.t1_t2"), 1.0, 1e-12);
+  EXPECT_NEAR(value_of(of, "trial_correlation.t1_t3"), -1.0, 1e-12);
+  EXPECT_NEAR(value_of(of, "trial_correlation_median"), -1.0, 1e-12);
 }
 
 TEST(StudyResults, DiscriminationIsTheWeberFractionOfThePooledCurve) {
@@ -162,8 +147,8 @@ TEST(StudyResults, DiscriminationIsTheWeberFractionOfThePooledCurve) {
   // 16 of 20 right: Phi(ln 1.5 / ln(1 + w)) = 0.8, so ln(1 + w) = ln 1.5 / 0.8416212.
   const double expected = std::expm1(std::log(1.5) / 0.8416212335729143);
   const StudyResults of = results(study);
-  EXPECT_NEAR(value(of, "group_d.weber_fraction"), expected, 1e-6);
-  EXPECT_NEAR(value(of, "group_d.weber_fraction_ml"), expected, 1e-6);
+  EXPECT_NEAR(value_of(of, "group_d.weber_fraction"), expected, 1e-6);
+  EXPECT_NEAR(value_of(of, "group_d.weber_fraction_ml"), expected, 1e-6);
   const Estimate& w = *of.find("group_d.weber_fraction");
   EXPECT_FALSE(w.ci95.low.has_value());
 }
@@ -177,7 +162,7 @@ TEST(StudyResults, TwoConditionsAreComparedPairedInLnLnAndUnpairedInW) {
   study.compare_ten("group_d", 7);
   study.compare_ten("group_e", 9);
   const StudyResults of = results(study);
-  const ResultsSection& against = section(of, "group_d_against_group_e");
+  const ResultsSection& against = section_of(of, "group_d_against_group_e");
   const Comparison& paired = comparison(against, "ln ln(1 + w), paired");
   // ln ln(1 + w) is ln ln 1.5 - ln z: differences ln(z_e / z_d).
   const double z70 = 0.5244005127080407;
@@ -202,10 +187,10 @@ TEST(StudyResults, AParticipantWithoutAWeberFractionIsNamedAndComparedWithAndWit
     study.compare_ten("group_e", 9);
   }
   const StudyResults of = results(study);
-  EXPECT_TRUE(is_named(section(of, "group_d").excluded, "P03", "group_d"));
-  EXPECT_FALSE(is_named(section(of, "group_d").excluded, "P01", ""));
-  EXPECT_TRUE(section(of, "group_e").excluded.empty());
-  const ResultsSection& against = section(of, "group_d_against_group_e");
+  EXPECT_TRUE(is_named(section_of(of, "group_d").excluded, "P03", "group_d"));
+  EXPECT_FALSE(is_named(section_of(of, "group_d").excluded, "P01", ""));
+  EXPECT_TRUE(section_of(of, "group_e").excluded.empty());
+  const ResultsSection& against = section_of(of, "group_d_against_group_e");
   EXPECT_EQ(comparison(against, "paired, without degenerate").num_a, 2);
   EXPECT_EQ(comparison(against, "paired, with degenerate").num_a, 3);
   // The pooled curve has everyone: 25 of 30.
@@ -219,7 +204,7 @@ TEST(StudyResults, AMedianOfOwnFractionsIsThereWhileMostPeopleHaveOne) {
     study.compare_ten("group_d", right);
   }
   const double w90 = std::expm1(std::log(1.5) / 1.2815515655446004);
-  EXPECT_NEAR(value(results(study), "group_d.individual_weber_fraction_median"), w90, 1e-6);
+  EXPECT_NEAR(value_of(results(study), "group_d.individual_weber_fraction_median"), w90, 1e-6);
 }
 
 TEST(StudyResults, NobodyWithAFractionLeavesNoNumberAndAReason) {
@@ -228,7 +213,7 @@ TEST(StudyResults, NobodyWithAFractionLeavesNoNumberAndAReason) {
   study.compare_ten("group_d", 10);
   const StudyResults of = results(study);
   EXPECT_FALSE(of.find("group_d.weber_fraction")->value);
-  EXPECT_TRUE(is_named(section(of, "group_d").excluded, "P01", "group_d"));
+  EXPECT_TRUE(is_named(section_of(of, "group_d").excluded, "P01", "group_d"));
   for (const ResultsSection& one : of.sections) {
     for (const Estimate& estimate : one.estimates) {
       if (estimate.value) {
@@ -252,9 +237,10 @@ TEST(StudyResults, WhoLacksABlockIsNamedThere) {
   study.estimate(1.0, 100.0);
   study.estimate(2.0, 200.0);
   const StudyResults of = results(study);
-  EXPECT_TRUE(is_named(section(of, "group_e").excluded, "P02", "no answers in group_e"));
-  EXPECT_TRUE(is_named(section(of, "production").excluded, "P02", "no answers in production"));
-  EXPECT_TRUE(is_named(section(of, "combined").excluded, "P02", "no answers in production"));
+  EXPECT_TRUE(is_named(section_of(of, "group_e").excluded, "P02", "no answers in group_e"));
+  EXPECT_TRUE(
+      is_named(section_of(of, "production").excluded, "P02", "no answers in production"));
+  EXPECT_TRUE(is_named(section_of(of, "combined").excluded, "P02", "no answers in production"));
   EXPECT_EQ(of.find("group_e.weber_fraction")->n, 1);
 }
 
@@ -330,12 +316,12 @@ TEST(StudyResults, ArmsThatNobodySharesHaveNoPairs) {
   HandMadeStudy study(kArms);
   add_both_arms(study);
   const StudyResults of = results(study);
-  for (const NamedComparison& named : section(of, "movement").comparisons) {
+  for (const NamedComparison& named : section_of(of, "movement").comparisons) {
     EXPECT_EQ(named.name.find("thin_oil - "), std::string::npos) << named.name;
   }
   EXPECT_NE(of.find("stroke_width_m.thin_oil"), nullptr);
   EXPECT_EQ(of.find("stroke_width_m.thin_oil_minus_thick_oil"), nullptr);
-  const ResultsSection& against = section(of, "thin_oil_against_thick_oil");
+  const ResultsSection& against = section_of(of, "thin_oil_against_thick_oil");
   for (const NamedComparison& named : against.comparisons) {
     EXPECT_EQ(named.name.find(", paired"), std::string::npos) << named.name;
     EXPECT_EQ(named.name.find("Wilcoxon"), std::string::npos) << named.name;
@@ -355,8 +341,8 @@ TEST(StudyResults, AnOwnFractionIsBeyondTheStimuliOfTheBlockNotOfOnesOwnAnswers)
   study.compare_ten("group_d", 8);
   for (int answered = 0; answered < 10; ++answered) study.compare("group_d", 16.0, 8.0, true);
   const StudyResults of = results(study);
-  EXPECT_EQ(value(of, "group_d.individual_weber_fraction_beyond_stimuli"), 0.0);
-  EXPECT_GT(value(of, "group_d.individual_weber_fraction_median"), 0.3);
+  EXPECT_EQ(value_of(of, "group_d.individual_weber_fraction_beyond_stimuli"), 0.0);
+  EXPECT_GT(value_of(of, "group_d.individual_weber_fraction_median"), 0.3);
 }
 
 TEST(StudyResults, AMedianBeyondTheStimuliSaysBeyondWhat) {
@@ -367,7 +353,7 @@ TEST(StudyResults, AMedianBeyondTheStimuliSaysBeyondWhat) {
   }
   const StudyResults of = results(study);
   EXPECT_FALSE(of.find("group_d.individual_weber_fraction_median")->value);
-  EXPECT_TRUE(is_named(section(of, "group_d").excluded, "everyone",
+  EXPECT_TRUE(is_named(section_of(of, "group_d").excluded, "everyone",
                        "group_d.individual_weber_fraction_median: no value, > 0.5000: 2 of 3"));
 }
 
@@ -412,8 +398,8 @@ TEST(StudyResults, PilotsAndAnswersTakenBackOrSetAsideDoNotCount) {
   study.exclude(strange);
   const StudyResults of = results(study);
   EXPECT_EQ(of.num_participants, 3);
-  EXPECT_NEAR(value(of, "estimation.k"), 3.0, 1e-6);
-  EXPECT_NEAR(value(of, "estimation.a"), 0.5, 1e-6);
+  EXPECT_NEAR(value_of(of, "estimation.k"), 3.0, 1e-6);
+  EXPECT_NEAR(value_of(of, "estimation.a"), 0.5, 1e-6);
 }
 
 TEST(StudyResults, PilotsAloneAreNothingToAnalyse) {
@@ -433,7 +419,7 @@ TEST(StudyResults, PublishedValuesStandBesideOursByName) {
   EXPECT_EQ(of.find("estimation.k")->published, 2.5);
   EXPECT_EQ(of.find("estimation.k")->published_sd, 0.5);
   EXPECT_FALSE(of.find("estimation.a")->published);
-  EXPECT_NEAR(value(of, "estimation.k"), 3.0, 1e-6) << "never moved by what was published";
+  EXPECT_NEAR(value_of(of, "estimation.k"), 3.0, 1e-6) << "never moved by what was published";
 }
 
 TEST(StudyResults, SayOfEachValueWhetherTheLaboratoryWasCalibratedOnIt) {
@@ -486,13 +472,14 @@ TEST(StudyResults, MovementIsTheMeanOverParticipantsOfPresentationsWithAWholeStr
   present("group_d", 0.5, 0.70, 1);
   present("group_e", 0.1, 0.20, 1);
   const StudyResults of = results(study);
-  EXPECT_NEAR(value(of, "stroke_width_m.group_d"), 0.5 * (0.3 + 0.5), 1e-12);
-  EXPECT_NEAR(value(of, "max_speed_m_per_s.group_d"), 0.5 * (0.5 + 0.7), 1e-12);
-  EXPECT_NEAR(value(of, "max_speed_m_per_s.group_e"), 0.5 * (0.3 + 0.2), 1e-12);
-  EXPECT_NEAR(value(of, "stroke_width_m"), 0.5 * (0.3 + 0.3), 1e-12);
-  EXPECT_NEAR(comparison(section(of, "movement"), "max_speed_m_per_s, paired").estimate.value(),
-              0.5 * (0.2 + 0.5), 1e-12);
-  for (const NamedComparison& named : section(of, "movement").comparisons) {
+  EXPECT_NEAR(value_of(of, "stroke_width_m.group_d"), 0.5 * (0.3 + 0.5), 1e-12);
+  EXPECT_NEAR(value_of(of, "max_speed_m_per_s.group_d"), 0.5 * (0.5 + 0.7), 1e-12);
+  EXPECT_NEAR(value_of(of, "max_speed_m_per_s.group_e"), 0.5 * (0.3 + 0.2), 1e-12);
+  EXPECT_NEAR(value_of(of, "stroke_width_m"), 0.5 * (0.3 + 0.3), 1e-12);
+  EXPECT_NEAR(
+      comparison(section_of(of, "movement"), "max_speed_m_per_s, paired").estimate.value(),
+      0.5 * (0.2 + 0.5), 1e-12);
+  for (const NamedComparison& named : section_of(of, "movement").comparisons) {
     const bool paired = named.comparison.kind == Comparison::Kind::kPaired;
     EXPECT_EQ(named.family, paired ? "exploratory, movement" : "") << named.name;
     EXPECT_EQ(named.p_value_holm.has_value(), paired) << named.name;
@@ -518,7 +505,7 @@ TEST(StudyResults, FingersTrailBehindThePalmOfADeviceThatHasThem) {
   present("group_d", 0.014);
   study.add("P02");
   present("group_d", 0.020);
-  EXPECT_NEAR(value(results(study), "finger_lag_s"), 0.5 * (0.012 + 0.020), 1e-12);
+  EXPECT_NEAR(value_of(results(study), "finger_lag_s"), 0.5 * (0.012 + 0.020), 1e-12);
 }
 
 TEST(StudyResults, ATrendOverTheTrialsNamesTheAnswerItIsOf) {

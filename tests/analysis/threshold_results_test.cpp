@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "analysis/fits/same_different_fit.h"
+#include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
-#include "core/error.h"
 
 namespace jnd::analysis {
 namespace threshold_results_test {
@@ -46,30 +46,6 @@ void pairs(HandMadeStudy& study, const std::vector<Level>& levels) {
   add(study, {.block = "pairs", .reference_intensity = 8.0}, levels);
 }
 
-const ResultsSection& section(const StudyResults& of, const std::string& name) {
-  for (const ResultsSection& one : of.sections) {
-    if (one.name == name) return one;
-  }
-  throw core::Error("no section " + name);
-}
-
-const ParticipantEstimate& own(const ResultsSection& of, const std::string& participant,
-                               const std::string& name) {
-  for (const ParticipantEstimate& one : of.participants) {
-    if (one.participant == participant && one.name == name) return one;
-  }
-  throw core::Error("no value " + name + " of " + participant);
-}
-
-double value(const StudyResults& of, const std::string& name) {
-  const Estimate* const found = of.find(name);
-  if (found == nullptr || !found->value) {
-    ADD_FAILURE() << "no value for " << name;
-    return NAN;
-  }
-  return *found->value;
-}
-
 /// Symmetric about a threshold in ln: 2, 5 and 8 of 10 at a half, at it, at its double.
 std::vector<Level> about(double threshold) {
   return {{0.5 * threshold, 2, 10}, {threshold, 5, 10}, {2.0 * threshold, 8, 10}};
@@ -82,14 +58,14 @@ TEST(DetectionResults, AThresholdIsWhereHalfOfTheStimuliAreFelt) {
   study.add("P02");
   felt(study, about(0.8));
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
-  const ResultsSection& of = section(results, "felt");
-  EXPECT_NEAR(*own(of, "P01", "felt.threshold").value, 0.2, 1e-9);
-  EXPECT_NEAR(*own(of, "P02", "felt.threshold").value, 0.8, 1e-9);
-  EXPECT_LT(*own(of, "P01", "felt.threshold").ci95.low, 0.2);
+  const ResultsSection& of = section_of(results, "felt");
+  EXPECT_NEAR(*own_of(of, "P01", "felt.threshold").value, 0.2, 1e-9);
+  EXPECT_NEAR(*own_of(of, "P02", "felt.threshold").value, 0.8, 1e-9);
+  EXPECT_LT(*own_of(of, "P01", "felt.threshold").ci95.low, 0.2);
   // Phi(ln 2 / s) = 0.8: s = 0.8236.
-  EXPECT_NEAR(*own(of, "P01", "felt.spread_ln").value, std::log(2.0) / 0.8416212, 1e-6);
-  EXPECT_NEAR(value(results, "felt.threshold"), 0.4, 1e-9) << "geometric mean";
-  EXPECT_NEAR(value(results, "felt.threshold_sd_ln"), std::log(4.0) / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(*own_of(of, "P01", "felt.spread_ln").value, std::log(2.0) / 0.8416212, 1e-6);
+  EXPECT_NEAR(value_of(results, "felt.threshold"), 0.4, 1e-9) << "geometric mean";
+  EXPECT_NEAR(value_of(results, "felt.threshold_sd_ln"), std::log(4.0) / std::sqrt(2.0), 1e-9);
   EXPECT_EQ(results.find("felt.threshold")->unit, "Pa s");
   EXPECT_EQ(results.find("felt.threshold")->n, 2);
   EXPECT_EQ(results.find("felt.d_prime"), nullptr) << "nobody had catch trials";
@@ -118,14 +94,14 @@ TEST(DetectionResults, FalseAlarmsAreToldAndCorrectedFor) {
   felt(study, about(0.2));
   felt(study, {{0.0, 3, 20}}, /*is_catch=*/true);
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
-  const ResultsSection& of = section(results, "felt");
-  EXPECT_NEAR(*own(of, "P01", "felt.threshold").value, 0.2, 1e-9)
+  const ResultsSection& of = section_of(results, "felt");
+  EXPECT_NEAR(*own_of(of, "P01", "felt.threshold").value, 0.2, 1e-9)
       << "without regard to catch trials";
-  EXPECT_GT(*own(of, "P01", "felt.threshold_corrected").value, 0.21);
-  EXPECT_NEAR(*own(of, "P01", "felt.false_alarm_rate").value, 0.15, 1e-12);
+  EXPECT_GT(*own_of(of, "P01", "felt.threshold_corrected").value, 0.21);
+  EXPECT_NEAR(*own_of(of, "P01", "felt.false_alarm_rate").value, 0.15, 1e-12);
   // 15 of 30 hits, 3 of 20 false alarms: z(15.5 / 31) = 0, z(3.5 / 21) = -0.96742.
-  EXPECT_NEAR(*own(of, "P01", "felt.d_prime").value, 0.9674216, 1e-6);
-  EXPECT_NEAR(*own(of, "P01", "felt.criterion").value, 0.5 * 0.9674216, 1e-6);
+  EXPECT_NEAR(*own_of(of, "P01", "felt.d_prime").value, 0.9674216, 1e-6);
+  EXPECT_NEAR(*own_of(of, "P01", "felt.criterion").value, 0.5 * 0.9674216, 1e-6);
 }
 
 TEST(DetectionResults, WhoHasNoThresholdIsNamedAndComesInAgainWithHalfAnAnswer) {
@@ -135,9 +111,9 @@ TEST(DetectionResults, WhoHasNoThresholdIsNamedAndComesInAgainWithHalfAnAnswer) 
   study.add("P02");
   felt(study, {{0.1, 0, 10}, {0.2, 0, 10}, {0.4, 10, 10}});
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
-  const ResultsSection& of = section(results, "felt");
-  EXPECT_FALSE(own(of, "P02", "felt.threshold").value.has_value());
-  EXPECT_NE(own(of, "P02", "felt.threshold").reason, "");
+  const ResultsSection& of = section_of(results, "felt");
+  EXPECT_FALSE(own_of(of, "P02", "felt.threshold").value.has_value());
+  EXPECT_NE(own_of(of, "P02", "felt.threshold").reason, "");
   EXPECT_EQ(results.find("felt.threshold")->n, 1);
   EXPECT_EQ(results.find("felt.threshold.with_degenerate")->n, 2);
   EXPECT_TRUE(std::ranges::any_of(of.excluded, [](const ExcludedParticipant& one) {
@@ -151,9 +127,9 @@ TEST(DetectionResults, TrialsSetAsideAreShownBesides) {
   felt(study, about(0.2));
   study.exclude(1);
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
-  EXPECT_NE(value(results, "felt.threshold"),
-            value(results, "felt.threshold.with_excluded_trials"));
-  EXPECT_NEAR(value(results, "felt.threshold.with_excluded_trials"), 0.2, 1e-9);
+  EXPECT_NE(value_of(results, "felt.threshold"),
+            value_of(results, "felt.threshold.with_excluded_trials"));
+  EXPECT_NEAR(value_of(results, "felt.threshold.with_excluded_trials"), 0.2, 1e-9);
 }
 
 TEST(SameDifferentResults, AreThoseOfTheDifferencingModel) {
@@ -161,13 +137,13 @@ TEST(SameDifferentResults, AreThoseOfTheDifferencingModel) {
   study.add("P01");
   pairs(study, {{8.0, 4, 20}, {10.0, 9, 20}, {16.0, 18, 20}});
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
-  const ResultsSection& of = section(results, "pairs");
+  const ResultsSection& of = section_of(results, "pairs");
   const SameDifferentFit fit =
       fit_same_different({{8.0, 4, 20}, {10.0, 9, 20}, {16.0, 18, 20}}, 8.0);
-  EXPECT_EQ(own(of, "P01", "pairs.weber_fraction").value, fit.weber_fraction);
-  EXPECT_EQ(own(of, "P01", "pairs.criterion_ln").value, fit.criterion_ln);
-  EXPECT_NEAR(*own(of, "P01", "pairs.false_alarm_rate").value, 0.2, 1e-12);
-  EXPECT_NEAR(value(results, "pairs.weber_fraction"), *fit.weber_fraction, 1e-12);
+  EXPECT_EQ(own_of(of, "P01", "pairs.weber_fraction").value, fit.weber_fraction);
+  EXPECT_EQ(own_of(of, "P01", "pairs.criterion_ln").value, fit.criterion_ln);
+  EXPECT_NEAR(*own_of(of, "P01", "pairs.false_alarm_rate").value, 0.2, 1e-12);
+  EXPECT_NEAR(value_of(results, "pairs.weber_fraction"), *fit.weber_fraction, 1e-12);
   EXPECT_EQ(results.find("pairs.weber_fraction_free_pse"), nullptr)
       << "no psychometric function over \"more\"";
 }
@@ -199,9 +175,9 @@ TEST(AdaptiveResults, AStaircaseHasAThresholdAndAWeberFractionOfTheOneDefinition
   data.runs = {staircase_run("P01", level), staircase_run("P02", 7.5)};
   const ResultsSection of = adaptive_results(data, data.blocks.front());
   EXPECT_EQ(of.name, "stairs_staircase");
-  EXPECT_NEAR(*own(of, "P01", "stairs.staircase_weber_fraction").value, 0.25, 1e-6);
-  EXPECT_FALSE(own(of, "P02", "stairs.staircase_weber_fraction").value.has_value());
-  EXPECT_NE(own(of, "P02", "stairs.staircase_weber_fraction").reason, "");
+  EXPECT_NEAR(*own_of(of, "P01", "stairs.staircase_weber_fraction").value, 0.25, 1e-6);
+  EXPECT_FALSE(own_of(of, "P02", "stairs.staircase_weber_fraction").value.has_value());
+  EXPECT_NE(own_of(of, "P02", "stairs.staircase_weber_fraction").reason, "");
   const auto named = [&](const std::string& name) {
     return *std::ranges::find(of.estimates, name, &Estimate::name);
   };
@@ -217,7 +193,7 @@ TEST(AdaptiveResults, AStaircaseAboutFiftyPercentHasNoWeberFraction) {
   data.runs = {staircase_run("P01", 9.0)};
   data.runs.front().target_probability = 0.5;
   const ResultsSection of = adaptive_results(data, data.blocks.front());
-  EXPECT_NE(own(of, "P01", "stairs.staircase_weber_fraction").reason.find("50 %"),
+  EXPECT_NE(own_of(of, "P01", "stairs.staircase_weber_fraction").reason.find("50 %"),
             std::string::npos);
 }
 
@@ -231,7 +207,7 @@ TEST(AdaptiveResults, LimitsTellHabituationFromExpectation) {
     data.runs.push_back(run);
   }
   const ResultsSection of = adaptive_results(data, data.blocks.front());
-  EXPECT_NEAR(*own(of, "P02", "stairs.limits_constant_error").value, 0.1, 1e-12);
+  EXPECT_NEAR(*own_of(of, "P02", "stairs.limits_constant_error").value, 0.1, 1e-12);
   ASSERT_EQ(of.comparisons.size(), 1U);
   EXPECT_NEAR(*of.comparisons.front().comparison.estimate, 0.08, 1e-12);
 }
@@ -245,8 +221,8 @@ TEST(AdaptiveResults, ARunWithoutAnEstimateIsNamed) {
        .posterior = {{"weber_fraction", 0.3, 0.1, 0.2, 0.5}, {"pse", 8.2, 0.1, 7.0, 9.0}}},
       {.participant = "P02", .block = "stairs", .problem = "no answers"}};
   const ResultsSection of = adaptive_results(data, data.blocks.front());
-  EXPECT_EQ(*own(of, "P01", "stairs.quest_plus_weber_fraction").value, 0.3);
-  EXPECT_EQ(*own(of, "P01", "stairs.quest_plus_weber_fraction").ci95.high, 0.5);
+  EXPECT_EQ(*own_of(of, "P01", "stairs.quest_plus_weber_fraction").value, 0.3);
+  EXPECT_EQ(*own_of(of, "P01", "stairs.quest_plus_weber_fraction").ci95.high, 0.5);
   ASSERT_EQ(of.excluded.size(), 1U);
   EXPECT_EQ(of.excluded.front().reason, "stairs: no answers");
 }
@@ -276,10 +252,10 @@ TEST(AdaptiveResults, APosteriorAtTheEndOfItsGridSaysSoBesideEveryNumberOfIt) {
   data.runs.resize(3);
   data.runs.back() = run("P03", {"the lower end of `pse_viscosity_pa_s` (12)"});
   const ResultsSection of = adaptive_results(data, data.blocks.front());
-  EXPECT_TRUE(own(of, "P01", "stairs.quest_plus_weber_fraction").cautions.empty());
-  EXPECT_TRUE(own(of, "P01", "stairs.quest_plus_weber_fraction").ci95.low.has_value());
+  EXPECT_TRUE(own_of(of, "P01", "stairs.quest_plus_weber_fraction").cautions.empty());
+  EXPECT_TRUE(own_of(of, "P01", "stairs.quest_plus_weber_fraction").ci95.low.has_value());
   for (const char* name : {"stairs.quest_plus_pse", "stairs.quest_plus_weber_fraction"}) {
-    const ParticipantEstimate& one = own(of, "P03", name);
+    const ParticipantEstimate& one = own_of(of, "P03", name);
     EXPECT_TRUE(one.value.has_value()) << name;
     EXPECT_FALSE(one.ci95.low || one.ci95.high) << name;
     EXPECT_NE(one.cautions.at(0).find("reaches the lower end of `pse_viscosity_pa_s` (12)"),
@@ -306,9 +282,9 @@ TEST(IntervalResults, AnOrderEffectMovesThePseAndNotTheSlope) {
         levels);
   }
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
-  const ResultsSection& of = section(results, "order_intervals");
-  EXPECT_NEAR(*own(of, "P01", "order.order_effect_ln").value, std::log(2.0), 1e-6);
-  EXPECT_NEAR(*own(of, "P01", "order.interval_bias").value, 0.0, 1e-12)
+  const ResultsSection& of = section_of(results, "order_intervals");
+  EXPECT_NEAR(*own_of(of, "P01", "order.order_effect_ln").value, std::log(2.0), 1e-6);
+  EXPECT_NEAR(*own_of(of, "P01", "order.interval_bias").value, 0.0, 1e-12)
       << "half of all answers, at levels that differ";
 }
 

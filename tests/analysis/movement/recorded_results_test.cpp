@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/found_results.h"
 #include "analysis/movement/recorded_study.h"
 
 namespace jnd::analysis {
@@ -25,11 +26,6 @@ ParticipantMovement person(const std::string& name, double body_height_m, double
   return one;
 }
 
-const Estimate* estimate(const ResultsSection& section, const std::string& name) {
-  const auto found = std::ranges::find(section.estimates, name, &Estimate::name);
-  return found == section.estimates.end() ? nullptr : &*found;
-}
-
 const Comparison* comparison(const ResultsSection& section, const std::string& name) {
   const auto found = std::ranges::find(section.comparisons, name, &NamedComparison::name);
   return found == section.comparisons.end() ? nullptr : &found->comparison;
@@ -42,11 +38,11 @@ TEST(RecordedResults, AreMeansOverParticipantsByBlockWithTheirDifference) {
                        person("P03", 1.8, 0.4, 4.5),
                        {.participant = "P04", .reason = "the recording is missing"}}};
   const ResultsSection section = recorded_results(movement);
-  ASSERT_NE(estimate(section, "stroke_duration_s.d"), nullptr);
-  EXPECT_NEAR(*estimate(section, "stroke_duration_s.d")->value, 9.5 / 3.0, 1e-12);
-  EXPECT_EQ(estimate(section, "stroke_duration_s.e")->n, 3);
-  EXPECT_NEAR(*estimate(section, "marked_ratio.d")->value, 0.25, 1e-12);
-  EXPECT_EQ(estimate(section, "pause_s.d"), nullptr) << "nobody's is known";
+  ASSERT_NE(find_estimate(section, "stroke_duration_s.d"), nullptr);
+  EXPECT_NEAR(*find_estimate(section, "stroke_duration_s.d")->value, 9.5 / 3.0, 1e-12);
+  EXPECT_EQ(find_estimate(section, "stroke_duration_s.e")->n, 3);
+  EXPECT_NEAR(*find_estimate(section, "marked_ratio.d")->value, 0.25, 1e-12);
+  EXPECT_EQ(find_estimate(section, "pause_s.d"), nullptr) << "nobody's is known";
   const Comparison* difference = comparison(section, "d - e: stroke_duration_s, paired");
   ASSERT_NE(difference, nullptr);
   EXPECT_NEAR(*difference->estimate, -1.0, 1e-12);
@@ -83,8 +79,8 @@ TEST(RecordedResults, TakeDeliveredOverCommandedForceFromTheBlocksOwnStimuli) {
   presented("d", "free_space", 0.1);
   presented("e", "test", 0.5);
   const ResultsSection section = recorded_results({.participants = {one}});
-  EXPECT_NEAR(*estimate(section, "delivered_ratio.d")->value, 0.85, 1e-12);
-  EXPECT_NEAR(*estimate(section, "delivered_ratio.e")->value, 0.5, 1e-12);
+  EXPECT_NEAR(*find_estimate(section, "delivered_ratio.d")->value, 0.85, 1e-12);
+  EXPECT_NEAR(*find_estimate(section, "delivered_ratio.e")->value, 0.5, 1e-12);
 }
 
 TEST(RecordedResults, OfAStudyHoldWhatItsRecordingSays) {
@@ -97,11 +93,11 @@ TEST(RecordedResults, OfAStudyHoldWhatItsRecordingSays) {
   study.present({});
   study.finish();
   const ResultsSection section = recorded_results(analyse_movement(study.store()));
-  EXPECT_NEAR(*estimate(section, "delivered_ratio.group_d")->value, 0.8, 2e-3);
-  EXPECT_EQ(estimate(section, "delivered_ratio.group_d")->n, 2);
-  EXPECT_NEAR(*estimate(section, "hand_height_ratio.group_d")->value, 0.5, 1e-6);
-  EXPECT_EQ(estimate(section, "hand_height_ratio.group_d")->n, 1);
-  EXPECT_NEAR(*estimate(section, "mean_speed_m_per_s.group_d")->value, 0.8, 1e-3);
+  EXPECT_NEAR(*find_estimate(section, "delivered_ratio.group_d")->value, 0.8, 2e-3);
+  EXPECT_EQ(find_estimate(section, "delivered_ratio.group_d")->n, 2);
+  EXPECT_NEAR(*find_estimate(section, "hand_height_ratio.group_d")->value, 0.5, 1e-6);
+  EXPECT_EQ(find_estimate(section, "hand_height_ratio.group_d")->n, 1);
+  EXPECT_NEAR(*find_estimate(section, "mean_speed_m_per_s.group_d")->value, 0.8, 1e-3);
 }
 
 TEST(RecordedResults, OfNoRecordingAreEmptyButForTheReasons) {
