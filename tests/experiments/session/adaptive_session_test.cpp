@@ -1,17 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "core/random_stream.h"
-#include "experiments/session/session.h"
+#include "experiments/session/session_in_memory.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
 namespace adaptive_session_test {
-
-class MemoryLog final : public EventLog {
- public:
-  void append(const core::Commit& commit) override { events.push_back(commit.event); }
-  std::vector<core::EventRow> events;
-};
 
 const std::string kStudy = R"json({
   "format": 1, "name": "adaptive", "languages": ["en"], "title": {"en": "Adaptive"},
@@ -40,11 +34,8 @@ class AdaptiveSessionTest : public ::testing::Test {
   }
   static void run_trial(Session& s, double response) {
     s.start_trial(s.state().last_tick + 1);
-    for (const char* interval : {"reference", "test"}) {
-      const std::int64_t tick = s.state().last_tick + 1;
-      s.begin_presentation(interval, tick);
-      s.end_presentation(tick + 99, {});
-    }
+    present(s, "reference");
+    present(s, "test");
     s.answer(response, 1.5, s.state().last_tick);
   }
   /// "Yes" above 6 Pa s.

@@ -1,31 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "experiments/session/session.h"
+#include "experiments/session/session_in_memory.h"
 
 namespace jnd::experiments {
 namespace matching_session_test {
-
-class MemoryLog final : public EventLog {
- public:
-  void append(const core::Commit& commit) override {
-    commits.push_back(commit);
-    events.push_back(commit.event);
-  }
-  std::vector<core::Commit> commits;
-  std::vector<core::EventRow> events;
-};
 
 class MatchingSession : public ::testing::Test {
  protected:
   Session session(const std::vector<core::EventRow>& history = {}) {
     return Session({.session = 1, .seed = 42, .stages = {&stage_}}, history, log_, clock_);
-  }
-
-  static void present(Session& session, const char* interval) {
-    const std::int64_t tick = session.state().last_tick + 1;
-    session.begin_presentation(interval, tick);
-    session.end_presentation(tick + 99, {});
   }
 
   /// Standard, comparison, one step up, the standard again, the comparison, and it matches.

@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 #include "experiments/session/event.h"
-#include "experiments/session/session.h"
+#include "experiments/session/session_in_memory.h"
 #include "experiments/study/study_reader.h"
 #include "support/temporary_folder.h"
 
@@ -48,14 +48,6 @@ std::vector<std::string> participants(int count) {
   for (int i = 1; i <= count; ++i) names.push_back("P" + std::to_string(i));
   return names;
 }
-
-class MemoryLog final : public EventLog {
- public:
-  void append(const core::Commit& commit) override {
-    design.insert(design.end(), commit.design.begin(), commit.design.end());
-  }
-  std::vector<core::DesignRow> design;
-};
 
 TEST(Plan, FillsTheCellsEvenly) {
   const Study study = read_study_text(kStudy, "x");

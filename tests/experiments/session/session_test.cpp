@@ -8,22 +8,10 @@
 
 #include "core/error.h"
 #include "experiments/session/event.h"
+#include "experiments/session/session_in_memory.h"
 
 namespace jnd::experiments {
 namespace session_test {
-
-/// Keeps commits in memory; can refuse them like a full disk.
-class MemoryLog final : public EventLog {
- public:
-  void append(const core::Commit& commit) override {
-    if (refuses) throw core::Error("disk full");
-    commits.push_back(commit);
-    events.push_back(commit.event);
-  }
-  std::vector<core::Commit> commits;
-  std::vector<core::EventRow> events;
-  bool refuses = false;
-};
 
 Stage production_stage() {
   return {.name = "production",
@@ -50,12 +38,6 @@ class SessionTest : public ::testing::Test {
  protected:
   Session session(const std::vector<core::EventRow>& history = {}) {
     return Session({.session = 1, .seed = 42, .stages = stages_}, history, log_, clock_);
-  }
-
-  static void present(Session& session, const char* interval) {
-    const std::int64_t tick = session.state().last_tick + 1;
-    session.begin_presentation(interval, tick);
-    session.end_presentation(tick + 99, {});
   }
 
   static void run_trial(Session& session, double response) {

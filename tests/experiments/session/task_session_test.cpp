@@ -3,22 +3,12 @@
 #include <set>
 
 #include "core/error.h"
-#include "experiments/session/session.h"
+#include "experiments/session/session_in_memory.h"
 #include "experiments/session/stimulus.h"
 #include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
 namespace task_session_test {
-
-class MemoryLog final : public EventLog {
- public:
-  void append(const core::Commit& commit) override {
-    events.push_back(commit.event);
-    if (commit.trial) rows.push_back(*commit.trial);
-  }
-  std::vector<core::EventRow> events;
-  std::vector<core::TrialRow> rows;
-};
 
 std::string study_of(const std::string& keys) {
   return R"json({
@@ -58,11 +48,6 @@ class TaskSessionTest : public ::testing::Test {
   }
   static const PlannedTrial& now(const Session& s) {
     return s.state().trial(*s.state().current_trial()).planned;
-  }
-  static void present(Session& s, const std::string& interval) {
-    const std::int64_t tick = s.state().last_tick + 1;
-    s.begin_presentation(interval, tick);
-    s.end_presentation(tick + 99, {});
   }
   static void run_trial(Session& s, double answer) {
     s.start_trial(s.state().last_tick + 1);
@@ -173,18 +158,18 @@ TEST_F(TaskSessionTest, AnIntervalIsAnsweredAndWhetherItHeldTheTestIsStored) {
     const int chosen = 1 + trial % 2;
     const int test = *now(s).test_interval;
     run_trial(s, chosen);
-    const core::TrialRow& row = log_.rows.back();
+    const core::TrialRow& row = log_.trials.back();
     EXPECT_EQ(row.response, chosen == test ? 1.0 : 0.0);
     EXPECT_EQ(row.test_interval, test);
     EXPECT_EQ(row.response == 1.0 ? *row.test_interval : 3 - *row.test_interval, chosen)
         << "the codebook's rule";
   }
-  const double stored = *log_.rows.back().response;
-  const auto corrected = *log_.rows.back().test_interval;
+  const double stored = *log_.trials.back().response;
+  const auto corrected = *log_.trials.back().test_interval;
   s.correct(
       8, stored == 1.0 ? 3.0 - static_cast<double>(corrected) : static_cast<double>(corrected),
       "meant the other one");
-  EXPECT_EQ(log_.rows.back().response, 1.0 - stored);
+  EXPECT_EQ(log_.trials.back().response, 1.0 - stored);
 }
 
 TEST_F(TaskSessionTest, NothingButAnIntervalIsTaken) {
@@ -237,7 +222,7 @@ TEST_F(TaskSessionTest, CatchTrialsOfAYesNoTaskAreFreeSpaceAndStoredAsSuch) {
   while (s.state().current_trial()) {
     const bool is_catch = now(s).is_catch;
     run_trial(s, is_catch ? 0.0 : 1.0);
-    const core::TrialRow& row = log_.rows.back();
+    const core::TrialRow& row = log_.trials.back();
     EXPECT_EQ(row.is_catch, is_catch);
     const MediumSetting felt = setting_of(block, "test", *row.intensity);
     EXPECT_EQ(felt.medium, is_catch ? "free_space" : "viscous");
