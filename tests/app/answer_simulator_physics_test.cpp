@@ -7,6 +7,7 @@
 #include "analysis/fits/psychometric_fit.h"
 #include "app/session_setup.h"
 #include "experiments/participants/answer_simulator.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
 #include "support/places.h"
@@ -36,7 +37,7 @@ void expect_alike_felt(const Both& both) {
 std::map<std::string, Both> answers_of(const std::string& study_name, int num_participants) {
   const std::filesystem::path file = kSource / "protocols" / (study_name + ".json");
   const Study study = read_study(file);
-  const Laboratory laboratory = read_laboratory(kSource / "data/laboratories/thesis.json");
+  const Laboratory laboratory = thesis_laboratory();
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   core::StudyStore store(temporary.path() / "a.study", core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);

@@ -12,15 +12,10 @@
 #include "core/error.h"
 #include "core/media/medium.h"
 #include "core/random_stream.h"
-#include "support/places.h"
+#include "experiments/participants/thesis_laboratory.h"
 
 namespace jnd::app {
 namespace apparatus_test {
-
-experiments::Laboratory thesis_laboratory() {
-  return experiments::read_laboratory(test_support::source_folder() / "data" / "laboratories" /
-                                      "thesis.json");
-}
 
 double force_n(const Apparatus& apparatus) {
   const core::PlainVector& force = apparatus.telemetry().total_force_n;
@@ -62,7 +57,7 @@ class ApparatusTest : public ::testing::Test {
     return force_n(apparatus) > 1.0;
   }
 
-  experiments::Laboratory laboratory_ = thesis_laboratory();
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
   OperatorDoors doors_;
   core::PointerPosition pointer_;
 };

@@ -13,9 +13,9 @@
 #include "core/error.h"
 #include "core/storage/integrity.h"
 #include "core/storage/recording.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/event.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
@@ -84,8 +84,7 @@ class LaboratoryRunTest : public ::testing::Test {
 
   /// Hurried persons, so that hundreds of sessions take seconds.
   static experiments::Laboratory hurried_laboratory() {
-    experiments::Laboratory laboratory = experiments::read_laboratory(
-        test_support::source_folder() / "data" / "laboratories" / "thesis.json");
+    experiments::Laboratory laboratory = experiments::thesis_laboratory();
     laboratory.arm.home_s = 0.1;
     for (auto& [procedure, strokes] : laboratory.strokes) {
       strokes.amplitude_m = 0.05;

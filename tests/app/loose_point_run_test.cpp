@@ -7,8 +7,8 @@
 #include "app/tiny_study.h"
 #include "core/error.h"
 #include "core/storage/integrity.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -47,8 +47,7 @@ class LoosePointRunTest : public ::testing::Test {
                R"({"medium": "free_space", "duration_s": 0.5},
                   {"medium": "free_space", "duration_s": 0.5})"),
       "tiny.json");
-  experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      test_support::source_folder() / "data/laboratories/thesis.json");
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
 };

@@ -8,8 +8,8 @@
 #include "app/tiny_study.h"
 #include "core/storage/integrity.h"
 #include "experiments/participants/answer_simulator.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/session.h"
-#include "support/places.h"
 
 namespace jnd::app {
 namespace matching_run_test {
@@ -54,8 +54,7 @@ class MatchingRun : public ::testing::Test {
 
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   Study study_ = read_study_text(kMatchingStudy, "matching.json");
-  Laboratory laboratory_ =
-      read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
+  Laboratory laboratory_ = thesis_laboratory();
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
   std::vector<std::int64_t> sessions_;

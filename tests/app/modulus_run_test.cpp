@@ -4,8 +4,8 @@
 #include "app/operator/operated_session_fixture.h"
 #include "app/replay_check.h"
 #include "core/storage/integrity.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/session.h"
-#include "support/places.h"
 
 namespace jnd::app {
 namespace modulus_run_test {
@@ -32,8 +32,7 @@ const std::string kModulusStudy = R"json({
 TEST(ModulusRun, VerifiesAndHasResults) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const Study study = read_study_text(kModulusStudy, "modulus.json");
-  const Laboratory laboratory =
-      read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
+  const Laboratory laboratory = thesis_laboratory();
   core::StudyStore store(temporary.path() / "a.study", core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const auto sessions = add_sessions(store,

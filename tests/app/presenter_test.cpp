@@ -14,8 +14,8 @@
 #include "core/media/medium.h"
 #include "core/random_stream.h"
 #include "experiments/participants/laboratory.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 
 namespace jnd::app {
 namespace presenter_test {
@@ -53,8 +53,7 @@ class PresenterTest : public ::testing::Test {
   }
 
   experiments::Study study_ = experiments::read_study_text(kTinyStudy, "tiny.json");
-  experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      test_support::source_folder() / "data/laboratories/thesis.json");
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
   SlowLog log_;
   std::unique_ptr<Apparatus> apparatus_;
   std::unique_ptr<experiments::Session> session_;

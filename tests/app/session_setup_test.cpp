@@ -8,8 +8,8 @@
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "core/error.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -26,8 +26,7 @@ class SessionSetupTest : public ::testing::Test {
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
   experiments::Study study_ = experiments::read_study_text(kTinyStudy, "t.json");
-  experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      test_support::source_folder() / "data" / "laboratories" / "thesis.json");
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
 };
 
 TEST_F(SessionSetupTest, EverySessionHasASeedOfItsOwnAndEverythingNeededToRepeatIt) {

@@ -8,9 +8,9 @@
 #include "app/stability_limits.h"
 #include "core/storage/integrity.h"
 #include "experiments/participants/answer_simulator.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
-#include "support/places.h"
 #include "support/sanitizer.h"
 
 namespace jnd::app {
@@ -30,10 +30,6 @@ const std::string kSolidStudy = R"json({
 })json";
 
 Study study() { return read_study_text(kSolidStudy, "solid.json"); }
-
-Laboratory laboratory() {
-  return read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
-}
 
 class SolidRun : public ::testing::Test {
  protected:
@@ -55,7 +51,7 @@ class SolidRun : public ::testing::Test {
 
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   Study study_ = study();
-  Laboratory laboratory_ = laboratory();
+  Laboratory laboratory_ = thesis_laboratory();
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};
   std::vector<std::int64_t> sessions_;

@@ -11,10 +11,10 @@
 #include "app/task_study.h"
 #include "core/storage/integrity.h"
 #include "experiments/participants/answer_simulator.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/event.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
@@ -42,8 +42,7 @@ class TaskRunTest : public ::testing::Test {
   }
 
   experiments::Study study_ = experiments::read_study_text(kTaskStudy, "tasks.json");
-  experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      test_support::source_folder() / "data/laboratories/thesis.json");
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   core::StudyStore store_{temporary_.path() / "a.study", core::StudyStore::Mode::kCreate,
                           core::Durability::kAtClose};

@@ -13,8 +13,8 @@
 #include "app/operator/scope_trace.h"
 #include "app/session_setup.h"
 #include "app/tiny_study.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -166,8 +166,7 @@ class OperatedSessionTest : public ::testing::Test {
 
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   std::filesystem::path folder_ = temporary_.path() / "a.study";
-  experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      test_support::source_folder() / "data/laboratories/thesis.json");
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
   OperatorDoors doors_;
   LiveTrace trace_{LiveTrace::Parameters{}};
   ScopeTrace scopes_{ScopeTrace::Parameters{}};

@@ -8,8 +8,8 @@
 #include "app/session_setup.h"
 #include "app/tiny_study.h"
 #include "core/storage/integrity.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -21,8 +21,8 @@ class SessionWorkerTest : public ::testing::Test {
  protected:
   std::unique_ptr<SessionWorker> start(const std::string& study_text = kTinyStudy) {
     experiments::Study study = experiments::read_study_text(study_text, "study.json");
-    auto laboratory = std::make_unique<experiments::Laboratory>(experiments::read_laboratory(
-        test_support::source_folder() / "data/laboratories/thesis.json"));
+    auto laboratory =
+        std::make_unique<experiments::Laboratory>(experiments::thesis_laboratory());
     auto store = std::make_unique<core::StudyStore>(folder_, core::StudyStore::Mode::kCreate);
     const std::int64_t session = add_sessions(*store,
                                               {.study = study,

@@ -9,8 +9,8 @@
 #include "app/session_setup.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -88,8 +88,7 @@ class SimulatedStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   std::filesystem::path file_;
   experiments::Study study_;
-  experiments::Laboratory laboratory_ = experiments::read_laboratory(
-      test_support::source_folder() / "data" / "laboratories" / "thesis.json");
+  experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
 };
 
 }  // namespace jnd::app

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "experiments/participants/median_person.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study_reader.h"
@@ -16,14 +17,12 @@ namespace answer_simulator_test {
 
 const std::string kSource = test_support::source_folder().string();
 
-Laboratory laboratory() { return read_laboratory(kSource + "/data/laboratories/thesis.json"); }
-
 Study study(const char* name) { return read_study(kSource + "/protocols/" + name + ".json"); }
 
 TEST(AnswerSimulator, AsksInTheOrderThatASessionOfTheSameSeedWouldDraw) {
   for (const char* name : {"viscosity_discrimination", "magnitude_of_virtual_water"}) {
     const Study here = study(name);
-    const Laboratory there = laboratory();
+    const Laboratory there = thesis_laboratory();
     const AnswerSimulator simulator(here, there);
     for (const ParticipantPlan& plan :
          plan_participants(here, {.participants = {"P01", "P02"}, .seed = 4})) {
@@ -47,7 +46,7 @@ TEST(AnswerSimulator, AsksInTheOrderThatASessionOfTheSameSeedWouldDraw) {
 
 TEST(AnswerSimulator, IsAFunctionOfTheSeedAlone) {
   const Study here = study("magnitude_of_virtual_water");
-  const Laboratory there = laboratory();
+  const Laboratory there = thesis_laboratory();
   const AnswerSimulator simulator(here, there), other(here, there);
   const auto stages = stages_of(here, cells_of(here).front());
   const auto responses = [&](const AnswerSimulator& by, std::uint64_t seed) {
@@ -66,7 +65,7 @@ TEST(AnswerSimulator, IsAFunctionOfTheSeedAlone) {
 
 TEST(AnswerSimulator, APerfectObserverIsRightAboutEveryStimulus) {
   const Study here = study("viscosity_discrimination");
-  const Laboratory quiet = without_noise(laboratory());
+  const Laboratory quiet = without_noise(thesis_laboratory());
   const AnswerSimulator simulator(here, quiet);
   for (const AnsweredBlock& block :
        simulator.answers(stages_of(here, cells_of(here).front()), 1)) {
@@ -78,7 +77,7 @@ TEST(AnswerSimulator, APerfectObserverIsRightAboutEveryStimulus) {
 
 TEST(AnswerSimulator, PeopleSayThickerOneWeberFractionAboveTheReferenceAsOftenAsTheModelHasIt) {
   // Only reading noise: then 84.13 % at reference (1 + w).
-  Laboratory plain = without_noise(laboratory());
+  Laboratory plain = without_noise(thesis_laboratory());
   plain.perceiver.weber_fraction = 0.152;
   Study here = study("viscosity_discrimination");
   const Cell cell = cells_of(here).front();
@@ -105,7 +104,7 @@ TEST(AnswerSimulator, PeopleSayThickerOneWeberFractionAboveTheReferenceAsOftenAs
 
 TEST(AnswerSimulator, ProductionsLieOnTheStepsAndApproachTheTarget) {
   const Study here = study("magnitude_of_virtual_water");
-  const Laboratory there = laboratory();
+  const Laboratory there = thesis_laboratory();
   const AnswerSimulator simulator(here, there);
   std::map<double, double> sums;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -128,7 +127,7 @@ TEST(AnswerSimulator, ProductionsLieOnTheStepsAndApproachTheTarget) {
 }
 
 TEST(MedianPerson, TheWeberFractionGrowsByTheShareOfTheDevice) {
-  const Laboratory there = laboratory();
+  const Laboratory there = thesis_laboratory();
   for (const Stage& stage : study("viscosity_discrimination").stages) {
     const auto* several = std::get_if<Counterbalance>(&stage.content);
     if (several == nullptr) continue;

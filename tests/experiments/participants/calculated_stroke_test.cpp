@@ -1,5 +1,5 @@
 #include "experiments/participants/calculated_stroke.h"
-#include "support/places.h"
+#include "experiments/participants/thesis_laboratory.h"
 
 #include <gtest/gtest.h>
 
@@ -11,22 +11,17 @@ namespace calculated_stroke_test {
 
 using std::numbers::pi;
 
-Laboratory laboratory() {
-  return read_laboratory(test_support::source_folder().string() +
-                         "/data/laboratories/thesis.json");
-}
-
 TEST(CalculatedStroke, AViscousFluidIsDeliveredAsItsDampingWhateverTheSpeed) {
   for (const double speed : {0.1, 0.45, 2.0}) {
-    EXPECT_DOUBLE_EQ(
-        calculated_stroke(laboratory(), 0.3, speed, core::viscous({.viscosity_pa_s = 10.0}))
-            .delivered_damping_n_s_per_m,
-        core::viscous({.viscosity_pa_s = 10.0}).damping_n_s_per_m);
+    EXPECT_DOUBLE_EQ(calculated_stroke(thesis_laboratory(), 0.3, speed,
+                                       core::viscous({.viscosity_pa_s = 10.0}))
+                         .delivered_damping_n_s_per_m,
+                     core::viscous({.viscosity_pa_s = 10.0}).damping_n_s_per_m);
   }
 }
 
 TEST(CalculatedStroke, AStiffArmMovesTheHandAsItsReference) {
-  Laboratory stiff = laboratory();
+  Laboratory stiff = thesis_laboratory();
   stiff.arm.stiffness_n_per_m = 1e7;
   // Water head on: q = 1/2 rho A C_D = 6.5853 N at 1 m/s, delivered as pi/4 q V.
   const CalculatedStroke stroke =
@@ -36,7 +31,7 @@ TEST(CalculatedStroke, AStiffArmMovesTheHandAsItsReference) {
 }
 
 TEST(CalculatedStroke, AHandWithoutMediumAndFrictionIsTheLinearOscillatorOfTheTextbook) {
-  Laboratory free = laboratory();
+  Laboratory free = thesis_laboratory();
   free.device.dry_friction_n = 0.0;
   const double amplitude = 0.2, speed = 0.5, omega = 2.5;
   const double k = free.arm.stiffness_n_per_m, d = free.arm.damping_n_s_per_m;
@@ -48,7 +43,7 @@ TEST(CalculatedStroke, AHandWithoutMediumAndFrictionIsTheLinearOscillatorOfTheTe
 }
 
 TEST(CalculatedStroke, BalancesTheWorkOfWaterAndFrictionInOneSine) {
-  const Laboratory here = laboratory();
+  const Laboratory here = thesis_laboratory();
   for (const double scale : {0.5, 4.0, 40.0}) {
     const core::MediumAmounts water = core::water({.scale = scale});
     const CalculatedStroke stroke = calculated_stroke(here, 0.164, 0.437, water);
@@ -69,7 +64,7 @@ TEST(CalculatedStroke, ThickerMediaSlowTheHandDown) {
   double before = 1e9;
   for (const double scale : {0.0, 0.5, 1.0, 2.0, 4.0, 100.0}) {
     const double speed =
-        calculated_stroke(laboratory(), 0.164, 0.437, core::water({.scale = scale}))
+        calculated_stroke(thesis_laboratory(), 0.164, 0.437, core::water({.scale = scale}))
             .max_speed_m_per_s;
     EXPECT_LT(speed, before);
     before = speed;

@@ -5,15 +5,10 @@
 #include "core/media/viscous_drag.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
-#include "support/places.h"
+#include "experiments/participants/thesis_laboratory.h"
 
 namespace jnd::experiments {
 namespace simulated_matching_test {
-
-Laboratory laboratory() {
-  return read_laboratory(test_support::source_folder().string() +
-                         "/data/laboratories/thesis.json");
-}
 
 Study matching_study(const std::string& standard_medium, std::vector<double> standards) {
   Study study;
@@ -41,7 +36,7 @@ std::vector<AnsweredTrial> answers(const Study& study, const Laboratory& there,
 TEST(SimulatedMatching, AQuietPersonMatchesWhatFeelsAlike) {
   // The drag of a sphere is 1.2322 viscosity speed, that of the hand 1.7760: 8 Pa s of the one
   // feel like 5.550 of the other.
-  const Laboratory quiet = without_noise(laboratory());
+  const Laboratory quiet = without_noise(thesis_laboratory());
   for (const AnsweredTrial& trial :
        answers(matching_study("viscous_stokes", {8.0}), quiet, 1)) {
     EXPECT_NEAR(trial.response, 8.0 * 1.2322 / 1.7760, 0.4)
@@ -50,14 +45,14 @@ TEST(SimulatedMatching, AQuietPersonMatchesWhatFeelsAlike) {
 }
 
 TEST(SimulatedMatching, WithinAMediumAQuietPersonFindsTheStandard) {
-  const Laboratory quiet = without_noise(laboratory());
+  const Laboratory quiet = without_noise(thesis_laboratory());
   for (const AnsweredTrial& trial : answers(matching_study("viscous", {4.0, 12.0}), quiet, 1)) {
     EXPECT_NEAR(std::log(trial.response / *trial.planned.reference_intensity), 0.0, 0.1);
   }
 }
 
 TEST(SimulatedMatching, TheConstantErrorIsThePersonsCriterion) {
-  Laboratory there = laboratory();
+  Laboratory there = thesis_laboratory();
   there.perceiver.criterion_sd_ln = 0.2;
   const double per_viscosity = core::ViscousDrag({.viscosity_pa_s = 0.0}).shape_constant_m();
   const double mechanical = there.device.mechanical_viscosity_n_s_per_m;
@@ -85,7 +80,7 @@ TEST(SimulatedMatching, TheConstantErrorIsThePersonsCriterion) {
 }
 
 TEST(SimulatedMatching, APersonWhoIsLessSureScattersMore) {
-  Laboratory sure = without_noise(laboratory()), unsure = sure;
+  Laboratory sure = without_noise(thesis_laboratory()), unsure = sure;
   sure.perceiver.weber_fraction = 0.05;
   unsure.perceiver.weber_fraction = 0.3;
   const auto spread = [](const Laboratory& there) {
@@ -104,7 +99,7 @@ TEST(SimulatedMatching, APersonWhoIsLessSureScattersMore) {
 }
 
 TEST(SimulatedMatching, GoingBackToTheStandardMakesMatchesBetter) {
-  Laboratory once = without_noise(laboratory());
+  Laboratory once = without_noise(thesis_laboratory());
   once.perceiver.weber_fraction = 0.2;
   Laboratory often = once;
   often.perceiver.look_again_probability = 0.8;

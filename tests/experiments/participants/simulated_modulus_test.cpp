@@ -7,7 +7,7 @@
 #include "experiments/participants/abilities.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
-#include "support/places.h"
+#include "experiments/participants/thesis_laboratory.h"
 
 namespace jnd::experiments {
 namespace simulated_modulus_test {
@@ -15,8 +15,7 @@ namespace simulated_modulus_test {
 /// People whose numbers are a power law of a viscous fluid's viscosity: nothing draws them
 /// toward the middle.
 Laboratory laboratory() {
-  Laboratory laboratory = read_laboratory(test_support::source_folder().string() +
-                                          "/data/laboratories/thesis.json");
+  Laboratory laboratory = thesis_laboratory();
   laboratory.perceiver.shrink = 1.0;
   laboratory.perceiver.shrink_sd_ln = laboratory.perceiver.assimilation_ratio = 0.0;
   return laboratory;

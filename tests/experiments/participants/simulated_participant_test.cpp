@@ -1,5 +1,5 @@
 #include "experiments/participants/simulated_participant.h"
-#include "support/places.h"
+#include "experiments/participants/thesis_laboratory.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,6 @@
 namespace jnd::experiments {
 namespace simulated_participant_test {
 
-Laboratory laboratory() {
-  return read_laboratory(test_support::source_folder().string() +
-                         "/data/laboratories/thesis.json");
-}
-
 QuestionnaireItem item(const char* name, const char* kind) {
   QuestionnaireItem made;
   made.name = name;
@@ -24,7 +19,7 @@ QuestionnaireItem item(const char* name, const char* kind) {
 }
 
 TEST(SimulatedParticipant, IsAFunctionOfLaboratoryAndSeed) {
-  const Laboratory here = laboratory();
+  const Laboratory here = thesis_laboratory();
   const SimulatedParticipant first(here, 9);
   const SimulatedParticipant again(here, 9);
   const SimulatedParticipant other(here, 10);
@@ -37,7 +32,7 @@ TEST(SimulatedParticipant, IsAFunctionOfLaboratoryAndSeed) {
 }
 
 TEST(SimulatedParticipant, StrokesAsItsLaboratorySaysForEachProcedure) {
-  Laboratory here = laboratory();
+  Laboratory here = thesis_laboratory();
   for (auto& [procedure, habit] : here.strokes) habit.amplitude_sd_ln = 0.0;
   here.movement.max_speed_sd_ln = 0.0;
   const SimulatedParticipant participant(here, 1);
@@ -55,7 +50,7 @@ TEST(SimulatedParticipant, StrokesAsItsLaboratorySaysForEachProcedure) {
 }
 
 TEST(SimulatedParticipant, WhoStrokesWideDoesSoUnderEveryProcedure) {
-  const Laboratory here = laboratory();
+  const Laboratory here = thesis_laboratory();
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const SimulatedParticipant participant(here, seed);
     const bool wide = participant.person().amplitude_score > 0.0;
@@ -69,7 +64,7 @@ TEST(SimulatedParticipant, WhoStrokesWideDoesSoUnderEveryProcedure) {
 }
 
 TEST(SimulatedParticipant, TheHandIsAlwaysInTheFluid) {
-  const Laboratory here = laboratory();
+  const Laboratory here = thesis_laboratory();
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     const SimulatedParticipant participant(here, seed);
     EXPECT_LT(participant.home_height_m(), 0.0) << seed;
@@ -78,7 +73,7 @@ TEST(SimulatedParticipant, TheHandIsAlwaysInTheFluid) {
 }
 
 TEST(SimulatedParticipant, AnswersWhatAQuestionAllows) {
-  const Laboratory here = laboratory();
+  const Laboratory here = thesis_laboratory();
   QuestionnaireItem choice = item("sport", "choice");
   choice.options = {{.value = "none"}, {.value = "some"}, {.value = "much"}};
   QuestionnaireItem age = item("age_years", "number");
@@ -109,7 +104,7 @@ TEST(SimulatedParticipant, AnswersWhatAQuestionAllows) {
 }
 
 TEST(SimulatedParticipant, NamesAsManyWordsAsAreAskedFor) {
-  const Laboratory here = laboratory();
+  const Laboratory here = thesis_laboratory();
   PostExperimentItem words;
   words.name = "honey";
   words.answer = "words";

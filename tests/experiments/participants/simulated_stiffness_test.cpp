@@ -7,15 +7,10 @@
 #include "experiments/participants/abilities.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
-#include "support/places.h"
+#include "experiments/participants/thesis_laboratory.h"
 
 namespace jnd::experiments {
 namespace simulated_stiffness_test {
-
-Laboratory laboratory() {
-  return read_laboratory(test_support::source_folder().string() +
-                         "/data/laboratories/thesis.json");
-}
 
 Study study_of(Block block) {
   block.medium = "solid";
@@ -34,7 +29,7 @@ std::vector<AnsweredTrial> answers(const Study& study, const Laboratory& there,
 
 TEST(SimulatedStiffness, IsToldApartByItsOwnWeberFraction) {
   // Only reading noise: then 84.13 % at reference (1 + w).
-  Laboratory plain = without_noise(laboratory());
+  Laboratory plain = without_noise(thesis_laboratory());
   plain.pressing->weber_fraction = 0.23;
   const Study study = study_of({.procedure = "constant_stimuli",
                                 .intensities = {400.0 * 1.23},
@@ -48,7 +43,7 @@ TEST(SimulatedStiffness, IsToldApartByItsOwnWeberFraction) {
 }
 
 TEST(SimulatedStiffness, TheDevicesViscosityPlaysNoRole) {
-  Laboratory heavy = laboratory(), light = heavy;
+  Laboratory heavy = thesis_laboratory(), light = heavy;
   heavy.device.mechanical_viscosity_n_s_per_m = 50.0;
   light.device.mechanical_viscosity_n_s_per_m = 0.0;
   const Study study = study_of({.procedure = "constant_stimuli",
@@ -67,13 +62,13 @@ TEST(SimulatedStiffness, AQuietPersonMatchesTheStandard) {
                                 .repetitions = 2,
                                 .coarse_step = 100.0,
                                 .fine_step = 10.0});
-  for (const AnsweredTrial& trial : answers(study, without_noise(laboratory()))) {
+  for (const AnsweredTrial& trial : answers(study, without_noise(thesis_laboratory()))) {
     EXPECT_NEAR(trial.response, 400.0, 20.0);
   }
 }
 
 TEST(SimulatedStiffness, LessThanTheThresholdFeelsLikeNothing) {
-  const Laboratory there = without_noise(laboratory());
+  const Laboratory there = without_noise(thesis_laboratory());
   const SimulatedParticipant participant(there, 1);
   Block block;
   block.medium = "solid";
@@ -83,7 +78,7 @@ TEST(SimulatedStiffness, LessThanTheThresholdFeelsLikeNothing) {
 }
 
 TEST(SimulatedStiffness, APressGoesAsDeepAndAsHighAsTheLaboratorySays) {
-  const Laboratory there = laboratory();
+  const Laboratory there = thesis_laboratory();
   const StrokeIntent press = SimulatedParticipant(there, 1).presses("constant_stimuli", 0.1);
   EXPECT_NEAR(press.height_m - press.lift_m.value(), 0.1 - there.pressing->depth_m, 1e-12);
   EXPECT_NEAR(press.height_m + press.lift_m.value(), 0.1 + there.pressing->lift_m, 1e-12);
@@ -92,7 +87,7 @@ TEST(SimulatedStiffness, APressGoesAsDeepAndAsHighAsTheLaboratorySays) {
 }
 
 TEST(SimulatedStiffness, IsRefusedByALaboratoryWithoutNumbersForIt) {
-  Laboratory older = laboratory();
+  Laboratory older = thesis_laboratory();
   older.pressing.reset();
   const Study study = study_of({.procedure = "constant_stimuli",
                                 .intensities = {300.0, 500.0},

@@ -5,12 +5,12 @@
 #include "core/psychometric_function.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
+#include "experiments/participants/thesis_laboratory.h"
 #include "experiments/procedures/adaptive_trial.h"
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
 #include "experiments/session/stimulus.h"
 #include "experiments/study/study_reader.h"
-#include "support/places.h"
 
 // Every task gives back what its simulated participant has, and a criterion shows where theory
 // says it does.
@@ -23,8 +23,7 @@ constexpr double kReference = 8.0;
 
 /// Only reading noise.
 Laboratory plain_laboratory() {
-  Laboratory laboratory = without_noise(read_laboratory(test_support::source_folder().string() +
-                                                        "/data/laboratories/thesis.json"));
+  Laboratory laboratory = without_noise(thesis_laboratory());
   laboratory.perceiver.weber_fraction = kWeber;
   return laboratory;
 }
