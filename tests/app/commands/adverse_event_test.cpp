@@ -2,18 +2,18 @@
 
 #include <string>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace adverse_event_test {
 
 using test_support::ProgramOutcome;
 
-class AdverseEventTest : public ::testing::Test {
+class AdverseEventTest : public CommandTest {
  protected:
   void SetUp() override {
     write_file(temporary_.path() / "tiny.json", kTinyStudy);
@@ -22,12 +22,6 @@ class AdverseEventTest : public ::testing::Test {
             .exit_code,
         0);
   }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 TEST_F(AdverseEventTest, IsStoredListedReportedAndOutlivesAWithdrawal) {

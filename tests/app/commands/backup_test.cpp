@@ -2,11 +2,11 @@
 
 #include <csignal>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace backup_test {
@@ -14,23 +14,15 @@ namespace backup_test {
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-class BackupCommandTest : public ::testing::Test {
+class BackupCommandTest : public CommandTest {
  protected:
   BackupCommandTest() { write_file(temporary_.path() / "tiny.json", kTinyStudy); }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   void simulate() {
     ASSERT_EQ(jnd({"simulate", "tiny.json", "--participants", "2", "--study", "a.study",
                    "--seed", "7"})
                   .exit_code,
               0);
   }
-  [[nodiscard]] core::StudyStore opened(const std::string& study) const {
-    return {temporary_.path() / study, core::StudyStore::Mode::kReadOnly};
-  }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 TEST_F(BackupCommandTest, TheCopyGivesTheSameResults) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/session_content.h"
@@ -10,7 +11,6 @@
 #include "core/storage/database.h"
 #include "support/program.h"
 #include "support/small_disk.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace bad_folder_test {
@@ -18,19 +18,13 @@ namespace bad_folder_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class BadFolderTest : public ::testing::Test {
+class BadFolderTest : public CommandTest {
  protected:
   void SetUp() override { write_file(path("tiny.json"), kTinyStudy); }
 
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   ProgramOutcome run(const std::string& study, const std::string& participant) {
     return jnd({"run", "tiny.json", "--study", study, "--participant", participant,
                 "--headless", "--seed", "7"});
-  }
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
   }
   void make_session(const std::string& study = "a.study") {
     ASSERT_EQ(run(study, "P01").exit_code, 0);
@@ -80,9 +74,6 @@ class BadFolderTest : public ::testing::Test {
     for (int i = 0; i < count; ++i) bytes[at + i] = static_cast<char>(~bytes[at + i]);
     write_file(file, bytes);
   }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 TEST_F(BadFolderTest, AFolderWithoutAStudyIsToldAsSuch) {

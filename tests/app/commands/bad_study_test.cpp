@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace bad_study_test {
@@ -16,15 +16,8 @@ namespace bad_study_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class BadStudyTest : public ::testing::Test {
+class BadStudyTest : public CommandTest {
  protected:
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
-  }
-
   /// `study.json` is refused by all who read it, each naming `pointer` and `parts`.
   void expect_refused(const std::string& pointer, const std::vector<std::string>& parts) {
     const ProgramOutcome json = jnd({"validate", "study.json", "--json"});
@@ -59,9 +52,6 @@ class BadStudyTest : public ::testing::Test {
       EXPECT_FALSE(fs::exists(path("copy.json")));
     }
   }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 struct Change {

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
@@ -17,7 +18,6 @@
 #include "device/device_registry.h"
 #include "device/simulated_hand.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace device_simulator_command_test {
@@ -42,7 +42,7 @@ const std::string kShortStudy = R"json({
   ]
 })json";
 
-class DeviceSimulatorTest : public ::testing::Test {
+class DeviceSimulatorTest : public CommandTest {
  protected:
   void SetUp() override { write_file(temporary_.path() / "short.json", kShortStudy); }
 
@@ -61,9 +61,6 @@ class DeviceSimulatorTest : public ::testing::Test {
   static std::string port_of(const std::string& place) {
     return place.substr(place.rfind(':') + 1);
   }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   static std::vector<std::string> run_words(const std::string& place) {
     return {"run",          "short.json",    "--study",
             "short.study",  "--participant", "P01",
@@ -75,8 +72,6 @@ class DeviceSimulatorTest : public ::testing::Test {
     return {temporary_.path() / "short.study", core::StudyStore::Mode::kReadOnly};
   }
 
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
   std::optional<RunningProgram> simulator_;
 };
 

@@ -1,17 +1,17 @@
 #include <gtest/gtest.h>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace exclude_test {
 
 using test_support::ProgramOutcome;
 
-class ExcludeCommandTest : public ::testing::Test {
+class ExcludeCommandTest : public CommandTest {
  protected:
   ExcludeCommandTest() {
     write_file(temporary_.path() / "tiny.json", kTinyStudy);
@@ -20,16 +20,11 @@ class ExcludeCommandTest : public ::testing::Test {
                   .exit_code,
               0);
   }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
   [[nodiscard]] std::size_t trials_in_force(std::int64_t session) const {
     return core::StudyStore(temporary_.path() / "a.study", core::StudyStore::Mode::kReadOnly)
         .trials(session)
         .size();
   }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(ExcludeCommandTest, LeavesTrialsOutWithTheReasonAndTakesThemBack) {

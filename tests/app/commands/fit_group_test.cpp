@@ -3,29 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/commands/fit_fixture.h"
 #include "app/json_document.h"
-#include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace fit_group_test {
 
 using test_support::ProgramOutcome;
 
-class FitGroupCommandTest : public ::testing::Test {
- protected:
-  ProgramOutcome fit(std::vector<std::string> arguments, bool as_json = true) {
-    arguments.insert(arguments.begin(), "fit");
-    if (as_json) arguments.emplace_back("--json");
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
-  void table(const char* name, const std::string& text) const {
-    write_file(temporary_.path() / name, text);
-  }
-  test_support::TemporaryFolder temporary_;
-};
+class FitGroupCommandTest : public FitFixture {};
 
 constexpr char kGroup[] =
     "participant,condition,intensity,num_yes,num_trials\n"

@@ -1,28 +1,15 @@
 #include <gtest/gtest.h>
 
+#include "app/commands/fit_fixture.h"
 #include "app/json_document.h"
-#include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace fit_test {
 
 using test_support::ProgramOutcome;
 
-class FitCommandTest : public ::testing::Test {
- protected:
-  ProgramOutcome fit(std::vector<std::string> arguments, bool as_json = true) {
-    arguments.insert(arguments.begin(), "fit");
-    if (as_json) arguments.emplace_back("--json");
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
-  void table(const char* name, const std::string& text) const {
-    write_file(temporary_.path() / name, text);
-  }
-  test_support::TemporaryFolder temporary_;
-};
+class FitCommandTest : public FitFixture {};
 
 constexpr char kAnswers[] =
     "intensity,num_yes,num_trials\n5,2,20\n8,10,20\n12,17,20\n20,20,20\n";

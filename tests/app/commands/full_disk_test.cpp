@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "app/acknowledged.h"
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
 #include "support/small_disk.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace full_disk_test {
@@ -15,24 +15,16 @@ namespace full_disk_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class FullDiskTest : public ::testing::Test {
+class FullDiskTest : public CommandTest {
  protected:
   void SetUp() override {
     write_file(path("tiny.json"), kTinyStudy);
     fs::create_directory(path("disk"));
   }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
   ProgramOutcome run(const std::string& study) {
     return jnd({"run", "tiny.json", "--study", study, "--participant", "P01", "--headless",
                 "--seed", "7", "--acknowledge"});
   }
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
-  }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(FullDiskTest, ASessionSaysSoKeepsWhatItAcknowledgedAndGoesOnOnceThereIsRoom) {

@@ -6,12 +6,12 @@
 #include <thread>
 
 #include "app/acknowledged.h"
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
 #include "support/sanitizer.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace kill_test {
@@ -29,7 +29,7 @@ struct Moment {
   Clock::duration elapsed{};
 };
 
-class KillTest : public ::testing::Test {
+class KillTest : public CommandTest {
  protected:
   void SetUp() override {
     write_file(temporary_.path() / "tiny.json", kTinyStudy);
@@ -39,9 +39,6 @@ class KillTest : public ::testing::Test {
     num_events_ = opened("whole.study").events(1).size();
   }
 
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   static std::vector<std::string> run_words(const std::string& study) {
     return {"run", "tiny.json",  "--study", study, "--participant",
             "P01", "--headless", "--seed",  "7",   "--acknowledge"};
@@ -53,9 +50,6 @@ class KillTest : public ::testing::Test {
                                        const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
-  }
-  [[nodiscard]] core::StudyStore opened(const std::string& study) const {
-    return {temporary_.path() / study, core::StudyStore::Mode::kReadOnly};
   }
 
   /// Every third at any moment, while the folder is being made included; the others right
@@ -137,8 +131,6 @@ class KillTest : public ::testing::Test {
     EXPECT_EQ(items(store), items(whole));
   }
 
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
   std::mt19937 random_{20181120};
   Clock::duration whole_duration_{};
   std::size_t num_events_ = 0;

@@ -7,12 +7,12 @@
 #include <sstream>
 #include <utility>
 
+#include "app/commands/command_fixture.h"
 #include "app/tiny_study.h"
 #include "core/storage/backup_mark.h"
 #include "core/storage/integrity.h"
 #include "support/program.h"
 #include "support/sanitizer.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace killed_call_test {
@@ -94,7 +94,7 @@ std::string problems_of(const fs::path& folder) try {
   return error.what();
 }
 
-class KilledCall : public ::testing::Test {
+class KilledCall : public CommandTest {
  protected:
   void SetUp() override {
     if (test_support::kIsSanitized) GTEST_SKIP() << "hundreds of runs, each ten times as slow";
@@ -109,13 +109,7 @@ class KilledCall : public ::testing::Test {
     done({"exclude", "now/a.study", "--participant", "P01", "--trial", "1", "--reason", kMark});
   }
 
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
-  }
   [[nodiscard]] fs::path now(const std::string& name) const { return path("now") / name; }
-  ProgramOutcome jnd(const std::vector<std::string>& words) {
-    return test_support::run_program(words, {.folder = temporary_.path(), .environment = {}});
-  }
   void done(const std::vector<std::string>& words) {
     const ProgramOutcome outcome = jnd(words);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err << outcome.out;
@@ -164,7 +158,6 @@ class KilledCall : public ::testing::Test {
   }
 
   static constexpr const char* kMark = "the mark of the first person";
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(KilledCall, AWithdrawalIsToldTrulyWhereverItWasKilledAndMendedByItsRepetition) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
@@ -9,7 +10,6 @@
 #include "support/places.h"
 #include "support/program.h"
 #include "support/small_disk.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace noted_export_test {
@@ -17,14 +17,11 @@ namespace noted_export_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class NotedExportTest : public ::testing::Test {
+class NotedExportTest : public CommandTest {
  protected:
   void SetUp() override {
     write_file(path("tiny.json"), kTinyStudy);
     simulate("a.study");
-  }
-  ProgramOutcome jnd(const std::vector<std::string>& words) {
-    return test_support::run_program(words, {.folder = temporary_.path(), .environment = {}});
   }
   void simulate(const std::string& study) {
     done({"simulate", "tiny.json", "--participants", "2", "--study", study, "--seed", "7"});
@@ -45,10 +42,6 @@ class NotedExportTest : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return jnd(words);
   }
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
-  }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(NotedExportTest, AWithdrawalIsDoneAndNamesEveryExportUntilTheyAreGoneOrKnown) {

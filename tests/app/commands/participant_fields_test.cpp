@@ -2,11 +2,11 @@
 
 #include <map>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace participant_fields_test {
@@ -26,14 +26,10 @@ std::string stratified_study() {
   return replaced(kTinyStudy, "\"stages\": [", fields);
 }
 
-class ParticipantFieldsTest : public ::testing::Test {
+class ParticipantFieldsTest : public CommandTest {
  protected:
   ParticipantFieldsTest() { write_file(temporary_.path() / "study.json", stratified_study()); }
 
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
   ProgramOutcome run(const std::string& participant, const std::vector<std::string>& more) {
     std::vector<std::string> words = {"run",        "study.json",    "--study",
                                       "s.study",    "--participant", participant,
@@ -44,8 +40,6 @@ class ParticipantFieldsTest : public ::testing::Test {
   [[nodiscard]] core::StudyStore store() const {
     return {temporary_.path() / "s.study", core::StudyStore::Mode::kReadOnly};
   }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(ParticipantFieldsTest, ASessionWantsThemAndKeepsThem) {

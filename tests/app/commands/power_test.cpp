@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace power_test {
@@ -20,23 +20,14 @@ namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 using Words = std::vector<std::string>;
 
-class PowerCommandTest : public ::testing::Test {
+class PowerCommandTest : public CommandTest {
  protected:
-  ProgramOutcome jnd(const Words& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   ProgramOutcome power(const Words& more, const std::string& study = "viscosity_discrimination",
                        const std::string& participants = "6,8..10") {
     Words words = {"power", study, "--participants", participants};
     words.insert(words.end(), more.begin(), more.end());
     return jnd(words);
   }
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
-  }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 TEST_F(PowerCommandTest, PrintsPowerPrecisionAndDurationOfEverySize) {

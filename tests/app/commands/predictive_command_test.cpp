@@ -7,6 +7,7 @@
 #include "analysis/published.h"
 #include "analysis/published_statistics.h"
 #include "analysis/study_results.h"
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/study_data.h"
 #include "app/tiny_study.h"
@@ -14,21 +15,13 @@
 #include "support/places.h"
 #include "support/program.h"
 #include "support/sanitizer.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace predictive_command_test {
 
 namespace fs = std::filesystem;
 
-class PredictiveCommandTest : public ::testing::Test {
- protected:
-  test_support::ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-};
+class PredictiveCommandTest : public CommandTest {};
 
 /// Where we have an estimate of a published name already, it is the published statistic.
 TEST_F(PredictiveCommandTest, OurEstimatesOfPublishedNamesAreThePublishedStatistics) {

@@ -3,12 +3,12 @@
 #include <map>
 #include <set>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
 #include "support/small_disk.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace report_test {
@@ -16,7 +16,7 @@ namespace report_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class ReportCommandTest : public ::testing::Test {
+class ReportCommandTest : public CommandTest {
  protected:
   void SetUp() override { write_file(path("tiny.json"), kTinyStudy); }
 
@@ -36,9 +36,6 @@ class ReportCommandTest : public ::testing::Test {
                         const std::string& programs = "/nowhere") {
     return jnd({"report", study, "--out", out, "--resamples", "100"}, programs);
   }
-  [[nodiscard]] fs::path path(const std::string& name) const {
-    return temporary_.path() / name;
-  }
   /// Every file below a folder.
   [[nodiscard]] std::map<std::string, std::string> files(const std::string& name) const {
     std::map<std::string, std::string> all;
@@ -48,7 +45,6 @@ class ReportCommandTest : public ::testing::Test {
     }
     return all;
   }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(ReportCommandTest, WithoutGnuplotAndBrowserTablesRemainAndItIsDone) {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace results_movement_test {
@@ -15,12 +15,8 @@ namespace results_movement_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class ResultsMovementTest : public ::testing::Test {
+class ResultsMovementTest : public CommandTest {
  protected:
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
   void simulate(const std::vector<std::string>& arguments) {
     std::vector<std::string> all = {"simulate"};
     all.insert(all.end(), arguments.begin(), arguments.end());
@@ -51,7 +47,6 @@ class ResultsMovementTest : public ::testing::Test {
     }
     return std::numeric_limits<double>::infinity();
   }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(ResultsMovementTest, AddsWhatTheRecordingsSayOnRequest) {

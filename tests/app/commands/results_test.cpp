@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/sanitizer.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace results_test {
@@ -16,12 +16,8 @@ namespace results_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class ResultsCommandTest : public ::testing::Test {
+class ResultsCommandTest : public CommandTest {
  protected:
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
   void simulate(const std::string& file, const std::string& study, int participants,
                 const std::string& laboratory = "thesis") {
     const ProgramOutcome outcome =
@@ -45,7 +41,6 @@ class ResultsCommandTest : public ::testing::Test {
       for (const auto& part : value) expect_finite(part);
     }
   }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(ResultsCommandTest, PrintsTheKeysOfTheContractForTheMagnitudeStudy) {

@@ -5,12 +5,12 @@
 #include <csignal>
 
 #include "app/acknowledged.h"
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace run_test {
@@ -19,24 +19,15 @@ namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-class RunCommandTest : public ::testing::Test {
+class RunCommandTest : public CommandTest {
  protected:
   RunCommandTest() { write_file(temporary_.path() / "tiny.json", kTinyStudy); }
 
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   static std::vector<std::string> run_words(const std::string& study,
                                             const std::string& file = "tiny.json") {
     return {"run", file,         "--study", study, "--participant",
             "P01", "--headless", "--seed",  "7",   "--acknowledge"};
   }
-  [[nodiscard]] core::StudyStore opened(const std::string& study) const {
-    return {temporary_.path() / study, core::StudyStore::Mode::kReadOnly};
-  }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 TEST_F(RunCommandTest, AcknowledgesEveryEventOnceInOrderAndNothingElse) {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace simulate_test {
@@ -12,7 +12,7 @@ namespace simulate_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class SimulateCommandTest : public ::testing::Test {
+class SimulateCommandTest : public CommandTest {
  protected:
   SimulateCommandTest() { write_file(temporary_.path() / "tiny.json", kTinyStudy); }
 
@@ -22,11 +22,6 @@ class SimulateCommandTest : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return test_support::run_program(words, {.folder = temporary_.path(), .environment = {}});
   }
-  [[nodiscard]] core::StudyStore opened(const std::string& study) const {
-    return {temporary_.path() / study, core::StudyStore::Mode::kReadOnly};
-  }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(SimulateCommandTest, EverySessionIsTheSameForAnyNumberOfJobs) {

@@ -6,27 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace stability_test {
 
 using test_support::ProgramOutcome;
 
-class StabilityCommandTest : public ::testing::Test {
- protected:
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
-};
+class StabilityCommandTest : public CommandTest {};
 
 TEST_F(StabilityCommandTest, PrintsTheKeysOfTheContractAndKeepsTheSameInAFile) {
   const ProgramOutcome outcome = jnd(

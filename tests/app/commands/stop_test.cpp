@@ -5,12 +5,12 @@
 #include <thread>
 
 #include "app/acknowledged.h"
+#include "app/commands/command_fixture.h"
 #include "app/sentence.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
 #include "core/storage/database.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace stop_test {
@@ -19,13 +19,10 @@ using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
 /// A session that is stopped from outside, and readers that go away.
-class StopTest : public ::testing::Test {
+class StopTest : public CommandTest {
  protected:
   void SetUp() override { write_file(temporary_.path() / "tiny.json", kTinyStudy); }
 
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments, options_);
-  }
   ProgramOutcome jnd_into(const std::string& file, const std::vector<std::string>& arguments) {
     test_support::ProgramOptions options = options_;
     options.out_file = file;
@@ -37,9 +34,6 @@ class StopTest : public ::testing::Test {
             "--participant", "P01",
             "--headless",    "--acknowledge"};
   }
-  [[nodiscard]] core::StudyStore opened(const std::string& study) const {
-    return {temporary_.path() / study, core::StudyStore::Mode::kReadOnly};
-  }
   void expect_resumable(const std::string& study) {
     EXPECT_FALSE(opened(study).finished(1));
     EXPECT_EQ(jnd({"verify", study}).exit_code, 0);
@@ -47,9 +41,6 @@ class StopTest : public ::testing::Test {
     EXPECT_TRUE(opened(study).completed(1));
     EXPECT_EQ(jnd({"verify", study}).exit_code, 0);
   }
-
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-  test_support::ProgramOptions options_{.folder = temporary_.path(), .environment = {}};
 };
 
 TEST_F(StopTest, EverySignalToStopEndsTheSessionCleanlyAndTellsHowToGoOn) {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace study_files_test {
@@ -17,20 +17,12 @@ namespace study_files_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class StudyFileCommandsTest : public ::testing::Test {
- protected:
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
-  [[nodiscard]] fs::path file(const char* name) const { return temporary_.path() / name; }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
-};
+class StudyFileCommandsTest : public CommandTest {};
 
 TEST_F(StudyFileCommandsTest, ValidateTellsEveryProblemWithItsPlace) {
   std::string text = replaced(kTinyStudy, "\"repetitions\": 2", "\"repititions\": 2");
   text = replaced(text, "\"name\": \"tiny\"", "\"name\": 7");
-  write_file(file("wrong.json"), text);
+  write_file(path("wrong.json"), text);
   const ProgramOutcome outcome = jnd({"validate", "wrong.json", "--json"});
   EXPECT_EQ(outcome.exit_code, 1);
   const auto json = document(outcome.out);
@@ -63,7 +55,7 @@ TEST_F(StudyFileCommandsTest, ValidateFindsNothingInWhatIsShipped) {
 }
 
 TEST_F(StudyFileCommandsTest, ValidateAsksAboutADecimalCommaAndTakesTheStudy) {
-  write_file(file("comma.json"), replaced(kTinyStudy, "[4, 16]", "[4,5, 16]"));
+  write_file(path("comma.json"), replaced(kTinyStudy, "[4, 16]", "[4,5, 16]"));
   const ProgramOutcome plain = jnd({"validate", "comma.json"});
   EXPECT_EQ(plain.exit_code, 0) << plain.err;
   EXPECT_NE(plain.out.find("viscosity_pa_s: warning: expected levels in order"),
@@ -77,8 +69,8 @@ TEST_F(StudyFileCommandsTest, ValidateAsksAboutADecimalCommaAndTakesTheStudy) {
 }
 
 TEST_F(StudyFileCommandsTest, ValidateTellsTheProblemsOfAllFiles) {
-  write_file(file("a.json"), "[]");
-  write_file(file("b.json"), "{");
+  write_file(path("a.json"), "[]");
+  write_file(path("b.json"), "{");
   const auto json = document(jnd({"validate", "a.json", "b.json", "--json"}).out);
   std::set<std::string> files;
   for (const auto& problem : json["problems"]) files.insert(problem["file"]);
@@ -86,7 +78,7 @@ TEST_F(StudyFileCommandsTest, ValidateTellsTheProblemsOfAllFiles) {
 }
 
 TEST_F(StudyFileCommandsTest, ValidateHoldsStimuliAgainstADeviceAtTheirPlaces) {
-  write_file(file("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
+  write_file(path("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
   EXPECT_EQ(jnd({"validate", "strong.json"}).exit_code, 0) << "no device, no limits";
   const ProgramOutcome outcome =
       jnd({"validate", "strong.json", "--device", "lumped", "--json"});
@@ -110,7 +102,7 @@ TEST_F(StudyFileCommandsTest, ValidateHoldsStimuliAgainstADeviceAtTheirPlaces) {
 }
 
 TEST_F(StudyFileCommandsTest, ValidateTellsWhatADeviceCannotRenderStably) {
-  write_file(file("stiff.json"), replaced(kTinyStudy, "\"stages\": [",
+  write_file(path("stiff.json"), replaced(kTinyStudy, "\"stages\": [",
                                           R"("stages": [{"kind": "explore", "name": "wall",
   "instruction": {"en": "Touch it."},
   "media": [{"medium": "solid", "stiffness_n_per_m": 100000, "duration_s": 5}]},)"));
@@ -129,7 +121,7 @@ TEST_F(StudyFileCommandsTest, ValidateTellsWhatADeviceCannotRenderStably) {
 
 TEST_F(StudyFileCommandsTest, PlanCountsOrdersAndSaysHowLongSessionsTake) {
   write_file(
-      file("square.json"),
+      path("square.json"),
       replaced(kTinyStudy, "\"scale\": [0.5, 2], \"repetitions\": 2",
                "\"scale\": [0.5, 2], \"repetitions\": 2, \"order\": {\"method\": \"latin\"}"));
   const ProgramOutcome outcome = jnd({"plan", "square.json", "--participants", "8", "--json"});
@@ -163,19 +155,19 @@ TEST_F(StudyFileCommandsTest, ANewStudyHasTheSchemaBesideItForEditors) {
   const ProgramOutcome outcome = jnd({"new", "honey"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("study.schema.json: written"), std::string::npos) << outcome.out;
-  EXPECT_EQ(document(read_file(file("honey.json")))["$schema"], "./study.schema.json");
-  EXPECT_EQ(read_file(file("study.schema.json")), jnd({"schema"}).out);
+  EXPECT_EQ(document(read_file(path("honey.json")))["$schema"], "./study.schema.json");
+  EXPECT_EQ(read_file(path("study.schema.json")), jnd({"schema"}).out);
   const ProgramOutcome second = jnd({"new", "oil"});
   EXPECT_EQ(second.exit_code, 0);
   EXPECT_EQ(second.out.find("study.schema.json: "), std::string::npos) << second.out;
 }
 
 TEST_F(StudyFileCommandsTest, ASchemaOfAnotherVersionIsLeftAsItIs) {
-  write_file(file("study.schema.json"), "{}");
+  write_file(path("study.schema.json"), "{}");
   const ProgramOutcome outcome = jnd({"new", "honey"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("left as it is"), std::string::npos) << outcome.out;
-  EXPECT_EQ(read_file(file("study.schema.json")), "{}");
+  EXPECT_EQ(read_file(path("study.schema.json")), "{}");
 }
 
 TEST_F(StudyFileCommandsTest, SchemaIsOneDraft7Document) {
@@ -203,19 +195,19 @@ TEST_F(StudyFileCommandsTest, ANewStudyValidatesPlansAndRuns) {
 TEST_F(StudyFileCommandsTest, NewCopiesAShippedStudyUnderItsOwnName) {
   EXPECT_EQ(jnd({"new", "mine", "--from", "short_tour"}).exit_code, 0);
   EXPECT_EQ(jnd({"validate", "mine.json"}).exit_code, 0);
-  EXPECT_NE(read_file(file("mine.json")).find("\"name\": \"mine\""), std::string::npos);
+  EXPECT_NE(read_file(path("mine.json")).find("\"name\": \"mine\""), std::string::npos);
 }
 
 TEST_F(StudyFileCommandsTest, NewWritesOverNothing) {
-  write_file(file("mine.json"), "precious");
+  write_file(path("mine.json"), "precious");
   const ProgramOutcome outcome = jnd({"new", "mine"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.err.find("nothing was overwritten"), std::string::npos);
-  EXPECT_EQ(read_file(file("mine.json")), "precious");
+  EXPECT_EQ(read_file(path("mine.json")), "precious");
 }
 
 TEST_F(StudyFileCommandsTest, PlanPrintsTheKeysOfTheContract) {
-  write_file(file("tiny.json"), kTinyStudy);
+  write_file(path("tiny.json"), kTinyStudy);
   const ProgramOutcome outcome =
       jnd({"plan", "tiny.json", "--participants", "3", "--seed", "5", "--json"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -287,14 +279,14 @@ TEST_F(StudyFileCommandsTest, PlanExpectsFewerTrialsOfAPracticeThanItMayTake) {
 }
 
 TEST_F(StudyFileCommandsTest, SessionsDrawTheOrdersThatWerePlanned) {
-  write_file(file("tiny.json"), kTinyStudy);
+  write_file(path("tiny.json"), kTinyStudy);
   const auto plan =
       document(jnd({"plan", "tiny.json", "--participants", "2", "--seed", "5", "--json"}).out);
   ASSERT_EQ(jnd({"simulate", "tiny.json", "--participants", "2", "--seed", "5", "--study",
                  "tiny.study", "--fast"})
                 .exit_code,
             0);
-  const core::StudyStore store(file("tiny.study"), core::StudyStore::Mode::kReadOnly);
+  const core::StudyStore store(path("tiny.study"), core::StudyStore::Mode::kReadOnly);
   for (std::int64_t session = 1; session <= 2; ++session) {
     std::vector<double> planned;
     for (const auto& block : plan["participants"][session - 1]["order"]) {
@@ -326,13 +318,13 @@ TEST_F(StudyFileCommandsTest, PlanFillsTheCellsThatAStudyFolderLacks) {
 }
 
 TEST_F(StudyFileCommandsTest, AStudyFileOtherThanThatOfTheFolderIsAProblemOfThePlan) {
-  write_file(file("mine.json"), kTinyStudy);
+  write_file(path("mine.json"), kTinyStudy);
   ASSERT_EQ(
       jnd({"simulate", "mine.json", "--participants", "1", "--study", "m.study", "--fast"})
           .exit_code,
       0);
   EXPECT_EQ(jnd({"plan", "mine.json", "--study", "m.study"}).exit_code, 0);
-  write_file(file("mine.json"), replaced(kTinyStudy, "[4, 16]", "[4, 15]"));
+  write_file(path("mine.json"), replaced(kTinyStudy, "[4, 16]", "[4, 15]"));
   const ProgramOutcome changed = jnd({"plan", "mine.json", "--study", "m.study"});
   EXPECT_EQ(changed.exit_code, 1) << "no session of it could be added";
   EXPECT_NE(changed.err.find("m.study: expected the study file that it was begun with"),
@@ -341,7 +333,7 @@ TEST_F(StudyFileCommandsTest, AStudyFileOtherThanThatOfTheFolderIsAProblemOfTheP
 }
 
 TEST_F(StudyFileCommandsTest, StimuliThatTheDeviceCannotRenderAreAProblemOfThePlan) {
-  write_file(file("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
+  write_file(path("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
   const ProgramOutcome plain = jnd({"plan", "strong.json"});
   EXPECT_EQ(plain.exit_code, 1);
   EXPECT_NE(plain.out.find("TOO STRONG"), std::string::npos)
@@ -395,7 +387,7 @@ TEST_F(StudyFileCommandsTest, PlanNamesLevelsThatCouldNotTellLapsesAndThoseThatW
 }
 
 TEST_F(StudyFileCommandsTest, TheOrdersOfADoubleBlindStudyAreRefusedUntilItIsUnblinded) {
-  write_file(file("blind.json"), replaced(kTinyStudy, "\"name\": \"tiny\"",
+  write_file(path("blind.json"), replaced(kTinyStudy, "\"name\": \"tiny\"",
                                           "\"name\": \"tiny\", \"blinding\": \"double\""));
   ASSERT_EQ(
       jnd({"simulate", "blind.json", "--participants", "1", "--study", "b.study"}).exit_code,

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "app/acknowledged.h"
+#include "app/commands/command_fixture.h"
 #include "app/tiny_study.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace sync_trace_test {
@@ -53,7 +53,7 @@ std::vector<Call> calls_in(const std::string& trace) {
 }
 
 /// Follows which files hold what is not on the disk yet.
-class SyncTrace : public ::testing::Test {
+class SyncTrace : public CommandTest {
  protected:
   /// The system calls of a whole session; "" where they cannot be followed.
   std::string trace_of_a_session() {
@@ -85,7 +85,6 @@ class SyncTrace : public ::testing::Test {
     return (fs::canonical(temporary_.path()) / name).string();
   }
 
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   std::vector<std::string> acknowledged_;
 };
 

@@ -1,17 +1,17 @@
 #include <gtest/gtest.h>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace unblind_test {
 
 using test_support::ProgramOutcome;
 
-class UnblindCommandTest : public ::testing::Test {
+class UnblindCommandTest : public CommandTest {
  protected:
   UnblindCommandTest() {
     write_file(temporary_.path() / "blind.json",
@@ -21,11 +21,6 @@ class UnblindCommandTest : public ::testing::Test {
                   .exit_code,
               0);
   }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
-  }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(UnblindCommandTest, ADoubleBlindStudyShowsNothingUntilSomebodyUnblindsIt) {

@@ -2,11 +2,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
 #include "core/storage/database.h"
 #include "support/program.h"
-#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace verify_test {
@@ -14,17 +14,13 @@ namespace verify_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-class VerifyCommandTest : public ::testing::Test {
+class VerifyCommandTest : public CommandTest {
  protected:
   VerifyCommandTest() {
     write_file(temporary_.path() / "tiny.json", kTinyStudy);
     EXPECT_EQ(
         jnd({"simulate", "tiny.json", "--participants", "2", "--study", "a.study"}).exit_code,
         0);
-  }
-  ProgramOutcome jnd(const std::vector<std::string>& arguments) {
-    return test_support::run_program(arguments,
-                                     {.folder = temporary_.path(), .environment = {}});
   }
   nlohmann::json verified(int exit_code) {
     const ProgramOutcome outcome = jnd({"verify", "a.study", "--json"});
@@ -40,7 +36,6 @@ class VerifyCommandTest : public ::testing::Test {
   [[nodiscard]] fs::path in_study(const char* name) const {
     return temporary_.path() / "a.study" / name;
   }
-  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
 TEST_F(VerifyCommandTest, AWholeStudyIsComplete) {
