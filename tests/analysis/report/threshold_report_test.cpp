@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/hand_made_study.h"
+#include "analysis/felt_study.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/report_results.h"
 #include "analysis/report/threshold_methods.h"
@@ -10,27 +10,11 @@
 namespace jnd::analysis {
 namespace threshold_report_test {
 
-const char* const kProtocol = R"json({"name": "by_hand", "stages": [
-  {"kind": "block", "name": "felt", "task": "yes_no"}]})json";
-
 /// Two people who felt three levels, one of them nothing below the last; and their staircases.
 class ThresholdReportTest : public ::testing::Test {
  protected:
-  ThresholdReportTest() : study_(kProtocol) {
-    const int felt[2][3] = {{2, 5, 8}, {0, 0, 10}};
-    for (int person = 0; person < 2; ++person) {
-      study_.add("P0" + std::to_string(person + 1));
-      for (int level = 0; level < 3; ++level) {
-        for (int i = 0; i < 10; ++i) {
-          (void)study_.answer({.block = "felt",
-                               .procedure = "staircase",
-                               .quantity = "viscosity_pa_s",
-                               .repetition = 1,
-                               .intensity = 0.1 * (1 << level),
-                               .response = i < felt[person][level] ? 1.0 : 0.0});
-        }
-      }
-    }
+  ThresholdReportTest() : study_(kFeltProtocol) {
+    add_felt_answers(study_);
     data_ = load_study(study_.store());
     for (const char* name : {"P01", "P02"}) {
       data_.runs.push_back(

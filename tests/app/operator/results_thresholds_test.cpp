@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "analysis/hand_made_study.h"
+#include "analysis/felt_study.h"
 #include "app/operator/results_model.h"
 
 namespace jnd::app {
@@ -8,27 +8,11 @@ namespace results_thresholds_test {
 
 using namespace results;
 
-const char* const kProtocol = R"json({"name": "by_hand", "stages": [
-  {"kind": "block", "name": "felt", "task": "yes_no"}]})json";
-
 /// P01 felt 2, 5 and 8 of 10 at 0.1, 0.2 and 0.4 Pa s; P02 is degenerate.
 class ResultsThresholdsTest : public ::testing::Test {
  protected:
-  ResultsThresholdsTest() : study_(kProtocol) {
-    const int felt[2][3] = {{2, 5, 8}, {0, 0, 10}};
-    for (int person = 0; person < 2; ++person) {
-      study_.add("P0" + std::to_string(person + 1));
-      for (int level = 0; level < 3; ++level) {
-        for (int i = 0; i < 10; ++i) {
-          (void)study_.answer({.block = "felt",
-                               .procedure = "staircase",
-                               .quantity = "viscosity_pa_s",
-                               .repetition = 1,
-                               .intensity = 0.1 * (1 << level),
-                               .response = i < felt[person][level] ? 1.0 : 0.0});
-        }
-      }
-    }
+  ResultsThresholdsTest() : study_(analysis::kFeltProtocol) {
+    analysis::add_felt_answers(study_);
     data_ = analysis::load_study(study_.store());
     data_.runs.push_back({.participant = "P01",
                           .block = "felt",

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/hand_made_study.h"
+
+namespace jnd::analysis {
+
+inline constexpr char kFeltProtocol[] = R"json({"name": "by_hand", "stages": [
+  {"kind": "block", "name": "felt", "task": "yes_no"}]})json";
+
+/// Two people of the protocol above: P01 felt 2, 5 and 8 of ten at 0.1, 0.2 and 0.4 Pa s; P02
+/// felt all of the last and nothing else, so that no threshold can be fitted.
+inline void add_felt_answers(HandMadeStudy& study) {
+  const int felt[2][3] = {{2, 5, 8}, {0, 0, 10}};
+  for (int person = 0; person < 2; ++person) {
+    study.add("P0" + std::to_string(person + 1));
+    for (int level = 0; level < 3; ++level) {
+      for (int i = 0; i < 10; ++i) {
+        (void)study.answer({.block = "felt",
+                            .procedure = "staircase",
+                            .quantity = "viscosity_pa_s",
+                            .repetition = 1,
+                            .intensity = 0.1 * (1 << level),
+                            .response = i < felt[person][level] ? 1.0 : 0.0});
+      }
+    }
+  }
+}
+
+}  // namespace jnd::analysis
