@@ -82,6 +82,30 @@ Moments deviance_moments(double num_trials, double probability) {
   return {raw.mean, raw.variance - raw.mean * raw.mean};
 }
 
+/// Levels with several answers as they are, and those with one, which cannot lie far from any
+/// curve, in groups of ten neighbours by the curve (after Hosmer and Lemeshow 1980).
+std::vector<FittedAnswers> with_grouped_singles(const std::vector<FittedAnswers>& answers) {
+  constexpr std::size_t kInGroup = 10;
+  std::vector<FittedAnswers> result, singles;
+  for (const FittedAnswers& one : answers) {
+    if (one.num_trials > 0.0) (one.num_trials > 1.0 ? result : singles).push_back(one);
+  }
+  std::ranges::stable_sort(singles, {}, &FittedAnswers::probability);
+  const std::size_t num_groups = singles.size() / kInGroup;
+  for (std::size_t group = 0; group < num_groups; ++group) {
+    const std::size_t begin = group * singles.size() / num_groups;
+    const std::size_t end = (group + 1) * singles.size() / num_groups;
+    FittedAnswers sum;
+    for (std::size_t i = begin; i < end; ++i) {
+      sum.num_yes += singles[i].num_yes;
+      sum.num_trials += 1.0;
+      sum.probability += singles[i].probability / static_cast<double>(end - begin);
+    }
+    result.push_back(sum);
+  }
+  return result;
+}
+
 }  // namespace
 
 RowScatter& RowScatter::operator+=(const RowScatter& other) noexcept {
@@ -137,8 +161,7 @@ std::optional<double> misfit_p_value(const std::vector<FittedAnswers>& answers,
   constexpr double kCertain = 1e-12;
   double deviance = 0.0, num_levels = 0.0;
   Moments expected;
-  for (const FittedAnswers& one : answers) {
-    if (!(one.num_trials > 0.0)) continue;
+  for (const FittedAnswers& one : with_grouped_singles(answers)) {
     const double probability = std::clamp(one.probability, kCertain, 1.0 - kCertain);
     deviance += deviance_of(one.num_yes, one.num_trials, probability);
     const Moments moments = deviance_moments(one.num_trials, probability);

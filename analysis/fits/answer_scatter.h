@@ -37,10 +37,11 @@ struct FittedAnswers {
 
 /// Probability that answers of the fitted curve lie as far from it as these do, by their
 /// deviance. Its mean and variance are those of binomial answers with these probabilities,
-/// exactly, since with few answers a level they are not those of chi-squared; the mean is less
-/// by `num_fitted`, the number of parameters that followed the answers. The distribution is
-/// taken as a gamma distribution with these two, which chi-squared is. Absent where fewer than
-/// one degree of freedom is left. Not real time.
+/// exactly, since with few answers a level they are not those of chi-squared. Levels of a
+/// single answer are taken together in tens, neighbours by the curve; fewer are left out. The
+/// mean is less by `num_fitted`, the number of parameters that followed the answers. The
+/// distribution is taken as a gamma distribution with these two, which chi-squared is. Absent
+/// where fewer than one degree of freedom is left. Not real time.
 [[nodiscard]] std::optional<double> misfit_p_value(const std::vector<FittedAnswers>& answers,
                                                    double num_fitted);
 

@@ -131,10 +131,17 @@ int fit_hierarchical(const FitGroupOptions& options) {
   require_reference(options);
   require_lapses(options);
   const std::optional<double> lapse = lapse_of(options);
-  const std::vector<analysis::ParticipantAnswers> answers = analysis::read_participant_answers(
-      analysis::CsvTable::read(options.csv), options.reference);
+  const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
+  const std::vector<analysis::ParticipantAnswers> answers =
+      analysis::read_participant_answers(table, options.reference);
   std::vector<std::string> warnings =
       analysis::hierarchical_warnings(answers, guess_of(options));
+  if (table.find("test_first")) {
+    warnings.emplace_back(
+        "the column test_first is not used: answers of both orders of the intervals are added "
+        "up, which makes the Weber fraction too large where people favour an interval; jnd fit "
+        "effects tells the effect of the order");
+  }
   const bool uses_others = std::ranges::any_of(answers, [&](const auto& one) {
     return options.reference && one.reference != *options.reference;
   });

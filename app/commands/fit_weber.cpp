@@ -202,6 +202,13 @@ std::vector<std::string> pooling_warnings(
                     "them",
                     num, grouped_also_by(options, "condition")));
   }
+  if (num_pooled(table, group, options, "test_first") > 1) {
+    warnings.push_back(fmt::format(
+        "answers with the test first and with the test second are added up into one curve, "
+        "which is flatter than theirs where an interval is favoured: {} fits each order, jnd "
+        "fit effects tells the effect of the order",
+        grouped_also_by(options, "test_first")));
+  }
   return warnings;
 }
 

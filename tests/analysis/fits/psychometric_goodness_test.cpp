@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
@@ -128,6 +130,33 @@ TEST(PsychometricGoodness, ThousandsOfLevelsWithLapsesAreFittedAsFewAre) {
   EXPECT_NEAR(*found.weber_fraction, 0.3, 0.05);
   EXPECT_NEAR(*found.lapse_rate, 0.04, 0.03);
   EXPECT_NEAR(*found.pse, 2.0, 0.05);
+}
+
+/// The deviance of single answers about a half is 2 ln 2 each, whatever was answered.
+TEST(PsychometricGoodness, SingleAnswersAboutAHalfAreNotFarFromAFlatCurve) {
+  const std::string answers = "11100001000000101011";
+  std::vector<AnswerCount> rows;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(answers.size() - 1);
+    rows.push_back({std::exp(std::lerp(std::log(0.9), std::log(1.1), share)),
+                    answers[i] == '1' ? 1 : 0, 1});
+  }
+  const PsychometricFit found = fit_psychometric(rows, {.reference = 1.0});
+  ASSERT_EQ(found.status, FitStatus::kOk);
+  ASSERT_TRUE(found.misfit_p_value.has_value());
+  EXPECT_GT(*found.misfit_p_value, 0.05);
+}
+
+/// In tens they tell a wrong curve nevertheless.
+TEST(PsychometricGoodness, SingleAnswersThatRiseAndFallAreFarFromEveryCurve) {
+  std::vector<AnswerCount> rows;
+  for (int level = 0; level < 80; ++level) {
+    const bool is_in_the_middle = level >= 20 && level < 60;
+    rows.push_back({1.0 + 0.01 * level, is_in_the_middle ? 1 : 0, 1});
+  }
+  const PsychometricFit found = fit_psychometric(rows, {.reference = 1.4, .free_pse = true});
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  EXPECT_LT(*found.misfit_p_value, 0.01);
 }
 
 }  // namespace psychometric_goodness_test

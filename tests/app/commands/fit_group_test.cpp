@@ -271,5 +271,18 @@ TEST_F(FitGroupCommandTest, AnEffectThatIsBeyondEveryNumberIsNoCertainty) {
   EXPECT_EQ(outcome.out.find("p = 0:"), std::string::npos) << outcome.out;
 }
 
+TEST_F(FitGroupCommandTest, AnOrderOfTheIntervalsThatIsNotFittedIsWarnedOf) {
+  table("o.csv",
+        "participant,intensity,num_yes,num_trials,test_first\n"
+        "A,5,2,10,1\nA,10,9,10,1\nA,5,0,10,0\nA,10,7,10,0\n"
+        "B,5,3,10,1\nB,10,9,10,1\nB,5,1,10,0\nB,10,6,10,0\n");
+  for (const std::string command : {"hierarchical", "weber"}) {
+    const auto json = document(fit({command, "--csv", "o.csv", "--reference", "7"}).out);
+    EXPECT_NE(json["warnings"].dump().find("jnd fit effects tells the effect of the order"),
+              std::string::npos)
+        << command << json["warnings"].dump();
+  }
+}
+
 }  // namespace fit_group_test
 }  // namespace jnd::app
