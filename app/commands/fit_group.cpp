@@ -127,6 +127,16 @@ void require_lapses(const FitGroupOptions& options) {
       options.guess, options.lapse));
 }
 
+/// Whether somebody's answers to one condition hold both orders of the intervals.
+bool adds_up_orders(const analysis::CsvTable& table) {
+  std::vector<std::string> group_by = {"participant"};
+  if (table.find("condition")) group_by.emplace_back("condition");
+  return std::ranges::any_of(
+      analysis::read_answer_counts(table, group_by), [&](const auto& one) {
+        return analysis::different_cells(table, "test_first", one).size() > 1;
+      });
+}
+
 int fit_hierarchical(const FitGroupOptions& options) {
   require_reference(options);
   require_lapses(options);
@@ -136,7 +146,7 @@ int fit_hierarchical(const FitGroupOptions& options) {
       analysis::read_participant_answers(table, options.reference);
   std::vector<std::string> warnings =
       analysis::hierarchical_warnings(answers, guess_of(options));
-  if (table.find("test_first")) {
+  if (adds_up_orders(table)) {
     warnings.emplace_back(
         "the column test_first is not used: answers of both orders of the intervals are added "
         "up, which makes the Weber fraction too large where people favour an interval; jnd fit "

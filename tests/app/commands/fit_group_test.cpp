@@ -284,5 +284,14 @@ TEST_F(FitGroupCommandTest, AnOrderOfTheIntervalsThatIsNotFittedIsWarnedOf) {
   }
 }
 
+TEST_F(FitGroupCommandTest, AnOrderThatIsTheSameInAllAnswersOfAPersonIsNotWarnedOf) {
+  table("o.csv",
+        "participant,intensity,num_yes,num_trials,test_first\n"
+        "A,5,2,10,1\nA,10,9,10,1\nB,5,1,10,0\nB,10,6,10,0\n");
+  const auto json = document(fit({"hierarchical", "--csv", "o.csv", "--reference", "7"}).out);
+  EXPECT_EQ(json["warnings"].dump().find("test_first"), std::string::npos)
+      << json["warnings"].dump();
+}
+
 }  // namespace fit_group_test
 }  // namespace jnd::app
