@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
-#include "app/command.h"
+#include "app/command_line/command.h"
+#include "app/command_line/open_window.h"
+#include "app/command_line/usage_message.h"
 #include "app/commands/validate.h"
-#include "app/open_window.h"
-#include "app/usage_message.h"
 #include "core/missing_right.h"
 #include "device/haptic_device.h"
 

@@ -44,16 +44,17 @@ bool is_finite(const core::HapticState& state, bool has_joints, bool tells_force
 
 }  // namespace
 
-HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const Doors& doors)
+HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
+                       const Exchange& exchange)
     : parameters_(parameters),
       device_(device),
-      doors_(doors),
+      exchange_(exchange),
       period_s_(core::period_s_at(parameters.rate_hz)),
       has_joints_(device.capabilities().num_joints > 0),
       staleness_(ticks(std::max(parameters.max_stale_s, device.capabilities().max_stale_s),
                        parameters.rate_hz),
                  period_s_),
-      heartbeat_(doors.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
+      heartbeat_(exchange.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
       num_points_(std::clamp(device.capabilities().num_contact_points, 1, kNumContactPoints)),
@@ -89,7 +90,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device, const
   core::require_positive(parameters.max_jump_m, "max_jump_m");
   core::require_positive(parameters.flight_recorder_s, "flight_recorder_s");
   point_authority_ratio_.fill(1.0);
-  known_stop_presses_ = doors.emergency_stop.num_presses();
+  known_stop_presses_ = exchange.emergency_stop.num_presses();
   if (!parameters.starts_armed) {
     fault_ = Fault::kNotArmed;
     authority_ratio_ = 0.0;
@@ -115,7 +116,7 @@ void HapticLoop::render() noexcept {
   obey_emergency_stop();
   if (authority_ratio_ == 0.0) force_on_hand_n_ = core::zero_vectors();
   write_device();
-  if (doors_.watchdog != nullptr) doors_.watchdog->beat();
+  if (exchange_.watchdog != nullptr) exchange_.watchdog->beat();
 }
 
 void HapticLoop::write_device() noexcept {
@@ -133,8 +134,8 @@ void HapticLoop::write_device() noexcept {
 
 /// Also one that was released again before anybody looked.
 void HapticLoop::obey_emergency_stop() noexcept {
-  const std::uint64_t num_presses = doors_.emergency_stop.num_presses();
-  if (num_presses != known_stop_presses_ || doors_.emergency_stop.is_pressed()) {
+  const std::uint64_t num_presses = exchange_.emergency_stop.num_presses();
+  if (num_presses != known_stop_presses_ || exchange_.emergency_stop.is_pressed()) {
     latch(Fault::kEmergencyStop);
   }
   // Asked for before it was pressed, if only just: refused, also where it is released already.
@@ -147,7 +148,7 @@ void HapticLoop::obey_emergency_stop() noexcept {
 /// It has halted the device, or whoever ticks lost time: whatever was latched before, there is
 /// no force since.
 void HapticLoop::obey_watchdog() noexcept {
-  stalled_ |= doors_.watchdog != nullptr && doors_.watchdog->has_bitten();
+  stalled_ |= exchange_.watchdog != nullptr && exchange_.watchdog->has_bitten();
   if (suspended_) latch(Fault::kSuspended);
   if (stalled_) latch(Fault::kWatchdog);
   stall_is_told_ = stalled_ || suspended_;
@@ -155,7 +156,7 @@ void HapticLoop::obey_watchdog() noexcept {
 
 bool HapticLoop::stands_still() const noexcept {
   return stalled_ || suspended_ ||
-         (doors_.watchdog != nullptr && doors_.watchdog->has_bitten());
+         (exchange_.watchdog != nullptr && exchange_.watchdog->has_bitten());
 }
 
 /// A hand that is being put in moves the device about, and whoever holds its switch leaves it
@@ -201,7 +202,7 @@ core::Arming HapticLoop::arming() const noexcept {
 void HapticLoop::rearm_if_requested() noexcept {
   if (!rearm_requested_.load(std::memory_order_relaxed)) return;
   rearm_requested_.store(false, std::memory_order_relaxed);
-  if (doors_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
+  if (exchange_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
   // Asked for before anybody knew that the loop had stood still: refused.
   if (stands_still() && !stall_is_told_) return;
   fault_ = Fault::kNone;
@@ -221,7 +222,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   suspended_ = false;
   stall_is_told_ = false;
   is_first_armed_tick_ = true;
-  if (doors_.watchdog != nullptr) doors_.watchdog->forgive();
+  if (exchange_.watchdog != nullptr) exchange_.watchdog->forgive();
   flight_recorder_.thaw();
 }
 
@@ -334,8 +335,8 @@ std::uint8_t HapticLoop::surrounded_bits(const core::HapticCommand& command) con
 }
 
 void HapticLoop::take_command() noexcept {
-  if (doors_.commands.fetch()) {
-    const core::HapticCommand& command = doors_.commands.value();
+  if (exchange_.commands.fetch()) {
+    const core::HapticCommand& command = exchange_.commands.value();
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that had met a value that is no number would never get rid of it.
     if (command_is_finite_) {
@@ -350,7 +351,7 @@ void HapticLoop::take_command() noexcept {
 }
 
 void HapticLoop::compute_force() noexcept {
-  const core::HapticCommand& command = doors_.commands.value();
+  const core::HapticCommand& command = exchange_.commands.value();
   const core::MediumAmounts& medium = ramp_.advance(period_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
@@ -417,7 +418,7 @@ void HapticLoop::warm() const noexcept {
   };
   fetch(this, sizeof *this);
   fetch(&device_, kOfTheDevice);
-  fetch(&doors_.telemetry, sizeof doors_.telemetry);
+  fetch(&exchange_.telemetry, sizeof exchange_.telemetry);
   core::PointVectors force_on_hand_n = core::zero_vectors();
   const core::HandMotion motion =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
@@ -442,7 +443,7 @@ void HapticLoop::add_exposure() noexcept {
 }
 
 void HapticLoop::report() noexcept {
-  const core::HapticCommand& command = doors_.commands.value();
+  const core::HapticCommand& command = exchange_.commands.value();
   core::Sample& sample = telemetry_.sample;
   sample.tick += 1 + num_missed_;
   sample.num_missed_before = num_missed_;
@@ -474,8 +475,8 @@ void HapticLoop::report() noexcept {
   guards_.end_tick(fault_ == Fault::kNone);
   flight_recorder_.record(sample);
   if (core::is_failure(fault_)) flight_recorder_.freeze();
-  if (doors_.samples != nullptr && !doors_.samples->try_push(sample)) {
-    telemetry_.num_dropped_samples = doors_.samples->num_dropped();
+  if (exchange_.samples != nullptr && !exchange_.samples->try_push(sample)) {
+    telemetry_.num_dropped_samples = exchange_.samples->num_dropped();
   }
 
   ++telemetry_.num_ticks;
@@ -494,7 +495,7 @@ void HapticLoop::report() noexcept {
   telemetry_.total_force_n = plain(force_sum);
   if (limited_) ++telemetry_.num_limited_ticks;
   telemetry_.contact_sums = device_.contact_sums();
-  doors_.telemetry.publish(telemetry_);
+  exchange_.telemetry.publish(telemetry_);
 }
 
 }  // namespace jnd::device

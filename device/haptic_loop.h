@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/doors/flight_recorder.h"
-#include "core/doors/latest_value.h"
-#include "core/doors/spsc_queue.h"
-#include "core/haptic_command.h"
+#include "core/exchange/flight_recorder.h"
+#include "core/exchange/haptic_command.h"
+#include "core/exchange/latest_value.h"
+#include "core/exchange/spsc_queue.h"
+#include "core/exchange/telemetry.h"
 #include "core/media/force_map.h"
 #include "core/media/solid_surfaces.h"
 #include "core/safety/emergency_stop.h"
@@ -19,7 +20,6 @@
 #include "core/safety/staleness.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
-#include "core/telemetry.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {
@@ -72,7 +72,7 @@ class HapticLoop {
   };
 
   /// What leads out of the haptic thread. The caller keeps all of it alive.
-  struct Doors {
+  struct Exchange {
     core::LatestValue<core::HapticCommand>& commands;
     core::LatestValue<core::Telemetry>& telemetry;
     core::EmergencyStop& emergency_stop;
@@ -83,7 +83,7 @@ class HapticLoop {
 
   /// Throws `core::Error` naming the field. The device is opened and closed by the caller. Not
   /// real time.
-  HapticLoop(const Parameters& parameters, HapticDevice& device, const Doors& doors);
+  HapticLoop(const Parameters& parameters, HapticDevice& device, const Exchange& exchange);
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
@@ -108,7 +108,7 @@ class HapticLoop {
   /// force minutes later. So it is while the emergency stop is pressed, and where it is pressed
   /// before the tick. Any thread. Real time.
   void rearm() noexcept {
-    if (doors_.emergency_stop.is_pressed()) return;
+    if (exchange_.emergency_stop.is_pressed()) return;
     rearm_requested_.store(true, std::memory_order_release);
   }
 
@@ -141,7 +141,7 @@ class HapticLoop {
 
   /// Whether a heartbeat reaches it and this is where it tells its watchdog that it lives.
   [[nodiscard]] bool is_watched_by(const core::WatchdogState& watched) const noexcept {
-    return doors_.heartbeat != nullptr && doors_.watchdog == &watched;
+    return exchange_.heartbeat != nullptr && exchange_.watchdog == &watched;
   }
 
   /// The last second before a fault; read it before `rearm`.
@@ -171,7 +171,7 @@ class HapticLoop {
 
   Parameters parameters_;
   HapticDevice& device_;
-  Doors doors_;
+  Exchange exchange_;
   double period_s_;
   bool has_joints_;
   bool stalled_ = false;

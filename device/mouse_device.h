@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/doors/latest_value.h"
+#include "core/exchange/latest_value.h"
 #include "core/pointer.h"
 #include "device/drawn_mass.h"
 #include "device/halt_latch.h"
@@ -46,7 +46,7 @@ class MouseDevice final : public HapticDevice {
   };
 
   /// Throws `core::Error` naming the field. `pointer` has to outlive the device; nullptr: it
-  /// has a door of its own. Not real time.
+  /// has one of its own. Not real time.
   explicit MouseDevice(const Parameters& parameters,
                        core::LatestValue<core::PointerPosition>* pointer = nullptr);
 

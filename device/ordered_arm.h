@@ -3,13 +3,13 @@
 #include <atomic>
 #include <cstdint>
 
-#include "core/doors/latest_value.h"
+#include "core/exchange/latest_value.h"
 #include "device/simulated_hand.h"
 #include "device/stroking_arm.h"
 
 namespace jnd::device {
 
-/// A `StrokingArm` inside a device and the door through which another thread gives it orders.
+/// A `StrokingArm` inside a device and the place at which another thread gives it orders.
 /// What a `SimulatedHand` offers belongs to the one who orders, everything else to the loop's
 /// thread.
 class OrderedArm final : public SimulatedHand {

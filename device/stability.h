@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "core/haptic_command.h"
+#include "core/exchange/haptic_command.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {

@@ -21,7 +21,7 @@ class WatchedLoop {
     bool clear_cpu = false;          ///< Where `cpu` is -1: see `ClearedCpu`.
   };
 
-  /// `loop` drives `device`, and its doors have a heartbeat and `watched` as the watchdog's
+  /// `loop` drives `device`, and its exchange has a heartbeat and `watched` as the watchdog's
   /// state; all of them outlive this. Throws `core::Error`: no real-time rights for a real
   /// device, a CPU that is not to be had, a device that does not open, a loop that nobody
   /// watches over. Then the device is closed and not one tick was run.

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "analysis/json_fields.h"
+#include "analysis/data/json_fields.h"
 
 namespace jnd::analysis {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "analysis/data/json_fields.h"
 #include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
-#include "analysis/json_fields.h"
 
 namespace jnd::analysis {
 namespace {

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/data/questionnaire_items.h"
 #include "analysis/export/bids_dataset.h"
 #include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
 #include "analysis/export/study_tables.h"
 #include "analysis/export/table_rows.h"
-#include "analysis/questionnaire_items.h"
 
 namespace jnd::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/protocol_blocks.h"
+#include "analysis/data/protocol_blocks.h"
 
 namespace jnd::analysis {
 namespace {

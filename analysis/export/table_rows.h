@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/data/questionnaire_items.h"
 #include "analysis/export/exported_recording.h"
 #include "analysis/export/table_writer.h"
-#include "analysis/questionnaire_items.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "analysis/fits/fit_status.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
 

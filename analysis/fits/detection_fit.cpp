@@ -21,9 +21,9 @@ double largest_binomial_log(double k, double n) {
 
 /// The data, and minus their log-likelihood in (place of the threshold, ln s, a), places being
 /// those of the levels and g = sin^2 a: so that a rate of 0 is no end of the parameter.
-class Model {
+class DetectionModel {
  public:
-  explicit Model(const PsychometricLevels& levels) : levels_(levels) {}
+  explicit DetectionModel(const PsychometricLevels& levels) : levels_(levels) {}
 
   [[nodiscard]] bool has_catch() const { return levels_.zero_trials > 0.0; }
 
@@ -135,7 +135,7 @@ class Model {
   const PsychometricLevels& levels_;
 };
 
-std::string why_degenerate(const Model& model, double cost) {
+std::string why_degenerate(const DetectionModel& model, double cost) {
   constexpr double kNoGain = 1e-8;
   if (model.step_cost() <= cost + kNoGain) {
     return "separated: one threshold splits the answers without overlap, so how fast they "
@@ -165,7 +165,7 @@ DetectionFit fit_detection(const std::vector<AnswerCount>& data) {
     fit.reason = "not identified: fewer than two intensities with answers";
     return fit;
   }
-  const Model model(levels);
+  const DetectionModel model(levels);
   const SmoothCost cost = [&model](std::span<const double> x, double& value,
                                    std::span<double> gradient) {
     return model(x, value, gradient);

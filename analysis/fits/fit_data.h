@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/csv_table.h"
+#include "analysis/data/csv_table.h"
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
 

@@ -1,7 +1,7 @@
 #include "analysis/fits/fit_json.h"
 
-#include "analysis/fits/json_values.h"
 #include "analysis/fits/psychometric_json.h"
+#include "analysis/statistics/json_values.h"
 
 namespace jnd::analysis {
 

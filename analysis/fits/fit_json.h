@@ -4,7 +4,7 @@
 
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
-#include "analysis/groups/comparison.h"
+#include "analysis/statistics/comparison.h"
 
 namespace jnd::analysis {
 

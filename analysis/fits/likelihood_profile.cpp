@@ -11,9 +11,6 @@
 namespace jnd::analysis {
 namespace {
 
-/// Half the 95 % quantile of chi-squared with one degree of freedom.
-constexpr double kLikelihoodDrop = 1.9207294103470617;
-
 struct Point {
   double cost = std::numeric_limits<double>::infinity();
   std::vector<double> gradient;

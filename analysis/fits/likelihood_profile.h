@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "analysis/fits/ceres_descent.h"
-#include "analysis/fits/fit_status.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
+
+/// Half the 95 % quantile of chi-squared with one degree of freedom: by so much does minus a
+/// log-likelihood rise from its least to the ends of a 95 % interval.
+inline constexpr double kLikelihoodDrop = 1.9207294103470617;
 
 /// Where minus a log-likelihood of a few parameters is least.
 struct LikelihoodOptimum {

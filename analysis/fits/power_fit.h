@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
+#include "analysis/statistics/fit_status.h"
 #include "core/power_function.h"
 
 namespace jnd::analysis {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "analysis/fits/fit_status.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
 

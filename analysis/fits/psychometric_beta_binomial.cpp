@@ -46,11 +46,11 @@ LogProduct log_product(double first, double step, double count) {
 /// Minus the log-likelihood of one level, with its derivatives in f and rho:
 /// f (1 - rho) + j rho over the yes, (1 - f) (1 - rho) + j rho over the no, 1 - rho + j rho
 /// over all.
-struct LevelCost {
+struct SpreadCost {
   double value, by_f, by_correlation;
 };
 
-LevelCost level_cost(double yes, double no, double f, double g, double correlation) {
+SpreadCost level_cost(double yes, double no, double f, double g, double correlation) {
   const double rest = 1.0 - correlation;
   const LogProduct of_yes = log_product(f * rest, correlation, yes);
   const LogProduct of_no = log_product(g * rest, correlation, no);
@@ -63,9 +63,9 @@ LevelCost level_cost(double yes, double no, double f, double g, double correlati
 /// The parameters of the search: ln of the spread (of a curve over the intensity itself, where
 /// that is asked for, ln of the Weber fraction), the place of the pse, and angles whose squared
 /// sines are the lapse rate, over its limit, and the correlation.
-class Model {
+class SpreadModel {
  public:
-  Model(const PsychometricLevels& levels, const FreeParameters& free, bool by_fraction)
+  SpreadModel(const PsychometricLevels& levels, const FreeParameters& free, bool by_fraction)
       : levels_(levels), free_(free), by_fraction_(by_fraction) {}
 
   [[nodiscard]] std::size_t size() const { return correlation_at() + 1; }
@@ -109,7 +109,7 @@ class Model {
       const double distance = levels_.abscissa[level] - (free_[1] ? x[1] : 0.0);
       const SigmoidTails tails = sigmoid_tails(levels_.sigmoid, here.slope * distance);
       const double yes = levels_.num_yes[level], no = levels_.num_trials[level] - yes;
-      const LevelCost cost =
+      const SpreadCost cost =
           level_cost(yes, no, low + rise * tails.lower, here.lapse + rise * tails.upper, rho);
       value += cost.value;
       by_slope += cost.by_f * rise * tails.density * distance;
@@ -118,7 +118,7 @@ class Model {
       by_rho += cost.by_correlation;
     }
     if (levels_.zero_trials > 0.0) {
-      const LevelCost cost = level_cost(
+      const SpreadCost cost = level_cost(
           levels_.zero_yes, levels_.zero_trials - levels_.zero_yes, low, 1.0 - low, rho);
       value += cost.value;
       by_lapse += cost.by_f * ends.low_by_lapse();
@@ -160,7 +160,7 @@ class Model {
 
 /// Standard error of parameter 0, what is on a bound held there: the Hessian by differences of
 /// the gradient.
-std::optional<double> error_of_first(const Model& model, const LikelihoodOptimum& optimum,
+std::optional<double> error_of_first(const SpreadModel& model, const LikelihoodOptimum& optimum,
                                      const FreeParameters& free) {
   constexpr double kStep = 1e-5;
   std::vector<std::size_t> moving;
@@ -198,8 +198,8 @@ BetaBinomialFit fit_beta_binomial(const PsychometricLevels& levels, const FreePa
                                   const PsychometricCurve& start, bool intervals) {
   constexpr double kFarthest = 12.0;  // ln spread: further, and the curve is a step or flat.
   BetaBinomialFit fit;
-  const Model spread(levels, free, false);
-  const auto starts_of = [&](const Model& model, const PsychometricCurve& curve) {
+  const SpreadModel spread(levels, free, false);
+  const auto starts_of = [&](const SpreadModel& model, const PsychometricCurve& curve) {
     std::vector<std::vector<double>> starts;
     for (const double correlation_angle : {0.05, 0.3}) {
       starts.push_back(model.start(curve, 0.05, correlation_angle));
@@ -227,7 +227,7 @@ BetaBinomialFit fit_beta_binomial(const PsychometricLevels& levels, const FreePa
   const bool linear = !levels.logarithmic();
   const bool relative = !linear || fit.curve.pse(levels) > 0.0;
   // Of a curve over the intensity itself w is no function of the spread alone.
-  const Model fraction(levels, free, linear && relative);
+  const SpreadModel fraction(levels, free, linear && relative);
   LikelihoodOptimum at_fraction = found;
   if (linear && relative) at_fraction.at[0] = std::log(fit.curve.weber_fraction(levels));
   if (relative) {

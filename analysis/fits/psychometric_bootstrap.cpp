@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "analysis/fits/psychometric_redraw.h"
-#include "analysis/groups/summary.h"
+#include "analysis/statistics/summary.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
 #include "core/require.h"
@@ -14,7 +14,7 @@ namespace jnd::analysis {
 namespace {
 
 using core::kInfinity;
-constexpr double kTail = 0.025;
+constexpr double kBootstrapTail = 0.025;
 
 /// The refit's Weber fraction or, without an optimum, the limit it tends to; absent if the
 /// answers identify nothing.
@@ -105,7 +105,7 @@ void add_bca(BootstrapInterval& result, const std::vector<double>& ascending, do
     return;
   }
   const double bias = core::standard_normal_quantile(share);
-  const double z = core::standard_normal_quantile(kTail);
+  const double z = core::standard_normal_quantile(kBootstrapTail);
   const double low = corrected_probability(z, bias, *acceleration);
   const double high = corrected_probability(-z, bias, *acceleration);
   result.bias_correction = bias;
@@ -139,7 +139,8 @@ BootstrapInterval bootstrapped_weber_fraction(const PsychometricSearch& search,
   result.method = parametric ? "parametric, percentile" : "nonparametric, percentile";
   if (values.empty()) return result;
   std::sort(values.begin(), values.end());
-  result.ci95 = {.low = end_at(values, kTail), .high = end_at(values, 1.0 - kTail)};
+  result.ci95 = {.low = end_at(values, kBootstrapTail),
+                 .high = end_at(values, 1.0 - kBootstrapTail)};
   const double estimate = fitted.weber_fraction(levels);
   if (refused(result.ci95, estimate)) {
     result.method += "; refused, because it would miss the estimate";

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
 

@@ -9,6 +9,7 @@
 #include "analysis/fits/chance_level.h"
 #include "analysis/fits/falling_test.h"
 #include "analysis/fits/interval_order_fit.h"
+#include "analysis/fits/likelihood_profile.h"
 #include "analysis/fits/psychometric_beta_binomial.h"
 #include "analysis/fits/psychometric_bootstrap.h"
 #include "analysis/fits/psychometric_goodness.h"
@@ -22,8 +23,6 @@ namespace jnd::analysis {
 namespace {
 
 using enum PsychometricMethod;
-/// Half the 95 % quantile of chi-squared with one degree of freedom.
-constexpr double kLikelihoodDrop = 1.9207294103470617;
 constexpr char kNotRelative[] =
     "the pse is not above 0: there is nothing that a Weber fraction is relative to";
 

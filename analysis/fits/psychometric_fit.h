@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
 #include "analysis/fits/psychometric_family.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
 

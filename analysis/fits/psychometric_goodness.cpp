@@ -31,13 +31,14 @@ double deviance_residual(double yes, double trials, double fitted) {
   return std::copysign(std::sqrt(std::max(0.0, share)), yes / trials - fitted);
 }
 
-struct Residuals {
+struct StandardResiduals {
   std::vector<double> fitted, deviance;  ///< By level.
   double pearson = 0.0;                  ///< Sum of squared standardised residuals.
 };
 
-Residuals residuals_of(const PsychometricLevels& levels, const PsychometricCurve& curve) {
-  Residuals all;
+StandardResiduals residuals_of(const PsychometricLevels& levels,
+                               const PsychometricCurve& curve) {
+  StandardResiduals all;
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const double fitted = curve.probability(levels, level);
     const double difference = levels.num_yes[level] - levels.num_trials[level] * fitted;
@@ -117,7 +118,7 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
                                   const PsychometricCurve& curve) {
     return -psychometric_cost(data, kMaximumLikelihood, curve).value;
   };
-  const Residuals residuals = residuals_of(levels, fitted);
+  const StandardResiduals residuals = residuals_of(levels, fitted);
   PsychometricGoodness goodness;
   goodness.degrees_of_freedom =
       residual_degrees_of_freedom(levels, search.free(), fitted.lapse);
@@ -153,7 +154,7 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
     // Ties are common at few answers: rounding must not break them.
     if (deviance_of(redrawn, value) >= deviance * (1.0 - 1e-9)) ++num_as_far;
     if (!attained || !goodness.level_correlation) continue;
-    const Residuals of_redrawn = residuals_of(redrawn, found.optimum.curve);
+    const StandardResiduals of_redrawn = residuals_of(redrawn, found.optimum.curve);
     const auto other = correlation(of_redrawn.fitted, of_redrawn.deviance);
     if (!other) continue;
     ++num_correlations;

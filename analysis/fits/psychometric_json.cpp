@@ -1,6 +1,6 @@
 #include "analysis/fits/psychometric_json.h"
 
-#include "analysis/fits/json_values.h"
+#include "analysis/statistics/json_values.h"
 
 namespace jnd::analysis {
 namespace {

@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr int kMaxIterations = 500;
+constexpr int kMaxSteps = 500;
 constexpr double kLapseScale = 0.1;  ///< A step of the lapse as large as one of ln slope.
 constexpr double kLargestRadius = 1e3;
 /// Newton's last step is at most this, so that the error left is about its square.
@@ -79,7 +79,7 @@ PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
   PsychometricOptimum best{start, psychometric_cost(levels, method, start), false};
   const double largest_lapse = levels.ends.largest_lapse();
   double radius = 2.0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxSteps; ++iteration) {
     const PsychometricCurve& curve = best.curve;
     FreeParameters moving = free;
     // On a bound that the cost presses against, the lapse stays.

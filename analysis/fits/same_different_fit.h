@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "analysis/data/study_data.h"
 #include "analysis/movement/movement_analysis.h"
-#include "analysis/study_data.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {

@@ -83,7 +83,7 @@ class PresentationMeter {
   bool has_continuous_ = false;
 };
 
-/// The hand of a sample: mean of its five points, as `StrokeMeter` is fed.
+/// The hand of a sample: mean of the points that the device has, as `StrokeMeter` is fed.
 [[nodiscard]] HandTick hand_tick(const core::Sample& sample,
                                  const std::array<double, 2>& forward) noexcept;
 

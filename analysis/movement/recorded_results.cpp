@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "analysis/groups/summary.h"
+#include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
 namespace {

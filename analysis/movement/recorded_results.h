@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/movement/movement_analysis.h"
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
 

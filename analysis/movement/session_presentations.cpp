@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "analysis/json_fields.h"
-#include "analysis/protocol_blocks.h"
+#include "analysis/data/json_fields.h"
+#include "analysis/data/protocol_blocks.h"
 
 namespace jnd::analysis {
 namespace {

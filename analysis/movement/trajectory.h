@@ -21,7 +21,7 @@ struct Path {
 struct Trajectory {
   std::string block;
   std::int64_t repetition = 0;
-  std::vector<Path> hand;          ///< Mean of the five points; one a stretch without gaps.
+  std::vector<Path> hand;          ///< Mean of the device's points; one a stretch without gaps.
   std::vector<Path> end_effector;  ///< The end effector; one path a stretch without gaps.
 };
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/discrimination_answers.h"
-#include "analysis/groups/comparison.h"
-#include "analysis/groups/hierarchical_fit.h"
-#include "analysis/groups/summary.h"
-#include "analysis/magnitude_fits.h"
+#include "analysis/hierarchical/hierarchical_fit.h"
+#include "analysis/results/discrimination_answers.h"
+#include "analysis/results/magnitude_fits.h"
+#include "analysis/statistics/comparison.h"
+#include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
 namespace {

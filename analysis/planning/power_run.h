@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
+#include "analysis/data/magnitude_means.h"
 #include "analysis/fits/psychometric_fit.h"
-#include "analysis/magnitude_means.h"
+#include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include "analysis/groups/summary.h"
-#include "analysis/groups/wilson_interval.h"
+#include "analysis/statistics/summary.h"
+#include "analysis/statistics/wilson_interval.h"
 #include "core/require.h"
 
 namespace jnd::analysis {

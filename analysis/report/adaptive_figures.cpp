@@ -3,7 +3,7 @@
 
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

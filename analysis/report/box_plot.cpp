@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "analysis/groups/summary.h"
 #include "analysis/report/plot_parts.h"
+#include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
 

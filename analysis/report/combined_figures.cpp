@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "analysis/report/magnitude_data.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

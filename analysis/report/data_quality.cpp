@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "analysis/json_fields.h"
+#include "analysis/data/json_fields.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-std::int64_t number_in(const json& data, const char* key) {
+std::int64_t count_in(const json& data, const char* key) {
   const auto found = data.find(key);
   return found != data.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
 }
@@ -33,11 +33,11 @@ class TimingSum {
     if (last_.is_null()) return;
     if (!sum_) sum_.emplace();
     SessionTiming& sum = *sum_;
-    sum.num_ticks += number_in(last_, "num_ticks");
-    sum.missed_ticks += number_in(last_, "missed_ticks");
-    sum.num_dropped_samples += number_in(last_, "num_dropped_samples");
+    sum.num_ticks += count_in(last_, "num_ticks");
+    sum.missed_ticks += count_in(last_, "missed_ticks");
+    sum.num_dropped_samples += count_in(last_, "num_dropped_samples");
     sum.max_lateness_s = std::max(
-        sum.max_lateness_s, 1e-9 * static_cast<double>(number_in(last_, "max_lateness_ns")));
+        sum.max_lateness_s, 1e-9 * static_cast<double>(count_in(last_, "max_lateness_ns")));
     if (const auto buckets = last_.find("lateness_ns");
         buckets != last_.end() && buckets->is_array()) {
       for (const json& bucket : *buckets) {

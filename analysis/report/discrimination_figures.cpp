@@ -2,16 +2,16 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/discrimination_group.h"
+#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/interval_order_fit.h"
-#include "analysis/groups/summary.h"
-#include "analysis/groups/wilson_interval.h"
-#include "analysis/quantity_unit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
-#include "analysis/threshold_results.h"
+#include "analysis/results/discrimination_group.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/summary.h"
+#include "analysis/statistics/wilson_interval.h"
 
 namespace jnd::analysis {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/presentation_use.h"
+#include "analysis/data/presentation_use.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
 

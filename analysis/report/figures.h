@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "analysis/data/study_data.h"
 #include "analysis/movement/movement_analysis.h"
 #include "analysis/report/figure.h"
 #include "analysis/report/study_words.h"
-#include "analysis/study_data.h"
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "analysis/groups/summary.h"
+#include "analysis/statistics/summary.h"
 #include "core/power_function.h"
 
 namespace jnd::analysis {

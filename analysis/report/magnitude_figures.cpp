@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/groups/comparison.h"
 #include "analysis/report/box_plot.h"
 #include "analysis/report/magnitude_data.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
+#include "analysis/statistics/comparison.h"
 
 namespace jnd::analysis {
 namespace {

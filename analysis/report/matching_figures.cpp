@@ -2,11 +2,11 @@
 #include <map>
 #include <set>
 
-#include "analysis/magnitude_section.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/magnitude_section.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "analysis/presentation_use.h"
+#include "analysis/data/presentation_use.h"
 #include "analysis/report/literature.h"
 #include "analysis/report/test_methods.h"
 #include "analysis/report/threshold_methods.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/groups/summary.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
+#include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
 namespace {

@@ -1,8 +1,8 @@
 #include "analysis/report/recording_conditions.h"
 
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

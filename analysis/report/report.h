@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "analysis/data/study_data.h"
 #include "analysis/movement/movement_analysis.h"
 #include "analysis/report/figure_files.h"
-#include "analysis/study_data.h"
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {

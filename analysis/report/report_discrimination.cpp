@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "analysis/discrimination_own_values.h"
 #include "analysis/report/report_results.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/discrimination_own_values.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

@@ -5,11 +5,11 @@
 #include <map>
 #include <set>
 
-#include "analysis/groups/summary.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
 #include "analysis/report/method_words.h"
-#include "analysis/report/report_words.h"
-#include "analysis/threshold_results.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/summary.h"
 #include "core/storage/sha256.h"
 
 namespace jnd::analysis {

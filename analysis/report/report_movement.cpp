@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "analysis/groups/summary.h"
-#include "analysis/presentation_use.h"
+#include "analysis/data/presentation_use.h"
 #include "analysis/report/explored_media.h"
 #include "analysis/report/report_results.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
+#include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <set>
 
-#include "analysis/groups/summary.h"
 #include "analysis/report/report_methods.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
+#include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/report/html_text.h"
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "analysis/report/report_published.h"
-#include "analysis/report/report_words.h"
-#include "analysis/test_families.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/test_families.h"
 
 namespace jnd::analysis {
 namespace {

@@ -2,18 +2,18 @@
 
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {
 
-struct Quantity {
+struct StrokeQuantity {
   const char* name;
   const char* axis;
   std::optional<double> core::PresentationRow::*value;
 };
 
-constexpr Quantity kQuantities[] = {
+constexpr StrokeQuantity kStrokeQuantities[] = {
     {"stroke_width_m", "Stroke width [m]", &core::PresentationRow::stroke_width_m},
     {"max_speed_m_per_s", "Highest speed [m/s]", &core::PresentationRow::max_speed_m_per_s},
 };
@@ -31,8 +31,8 @@ FigureTable strokes_table(const FigureSource& source) {
       const ParticipantData& participant = source.data.participants[i];
       const auto found = participant.presentations.find(block);
       if (found == participant.presentations.end()) continue;
-      const auto width = movement_mean(found->second, kQuantities[0].value);
-      const auto speed = movement_mean(found->second, kQuantities[1].value);
+      const auto width = movement_mean(found->second, kStrokeQuantities[0].value);
+      const auto speed = movement_mean(found->second, kStrokeQuantities[1].value);
       if (!width && !speed) continue;
       table.rows.push_back({static_cast<int>(b) + 1, block,
                             static_cast<double>(i) + 1.0 + aside, participant.participant,
@@ -57,7 +57,7 @@ std::vector<Figure> stroke_figures(const FigureSource& source) {
                 .thesis = "Fig. D.17 and D.25"};
   PanelGrid grid{.num_columns = 1, .x_title = "Participant", .left_in = 0.75, .top_in = 0.42};
   std::vector<Panel> panels;
-  for (const Quantity& quantity : kQuantities) {
+  for (const StrokeQuantity& quantity : kStrokeQuantities) {
     Panel panel;
     panel.before =
         "  set xrange [0.3:" + plot_number(static_cast<double>(people.size()) + 0.7) + "]\n" +

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "analysis/json_fields.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/data/json_fields.h"
+#include "analysis/data/quantity_unit.h"
 
 namespace jnd::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
 

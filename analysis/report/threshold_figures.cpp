@@ -2,14 +2,14 @@
 #include <cmath>
 #include <functional>
 
+#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/same_different_fit.h"
-#include "analysis/groups/wilson_interval.h"
-#include "analysis/quantity_unit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
-#include "analysis/threshold_answers.h"
-#include "analysis/threshold_results.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/threshold_answers.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/wilson_interval.h"
 #include "core/psychometric_function.h"
 
 namespace jnd::analysis {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/threshold_results.h"
+#include "analysis/results/threshold_results.h"
 
 namespace jnd::analysis {
 namespace {

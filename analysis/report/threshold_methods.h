@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "analysis/study_data.h"
+#include "analysis/data/study_data.h"
 
 namespace jnd::analysis {
 

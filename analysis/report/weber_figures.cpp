@@ -2,12 +2,12 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/discrimination_own_values.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
 #include "analysis/report/box_plot.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/discrimination_own_values.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace {

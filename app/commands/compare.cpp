@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "analysis/fits/fit_json.h"
-#include "analysis/groups/comparison.h"
-#include "analysis/groups/comparison_data.h"
-#include "analysis/groups/multiplicity.h"
+#include "analysis/statistics/comparison.h"
+#include "analysis/statistics/comparison_data.h"
+#include "analysis/statistics/multiplicity.h"
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
 #include "app/commands/fit_words.h"
-#include "app/json_text.h"
-#include "app/statistic_words.h"
+#include "app/results/statistic_words.h"
 
 namespace jnd::app {
 namespace {

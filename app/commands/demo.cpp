@@ -4,18 +4,18 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/open_window.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "app/open_window.h"
-#include "app/option_checks.h"
-#include "app/predictive_option.h"
-#include "app/progress_bar.h"
-#include "app/results_output.h"
-#include "app/session_setup.h"
-#include "app/share.h"
-#include "app/study_data.h"
+#include "app/commands/predictive_option.h"
+#include "app/results/results_output.h"
+#include "app/results/study_data.h"
+#include "app/session/session_setup.h"
+#include "app/session/shipped_files.h"
 #include "core/error.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 namespace {

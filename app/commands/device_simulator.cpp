@@ -12,17 +12,17 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/stop_signals.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/session_setup.h"
-#include "app/stop_signals.h"
+#include "app/session/session_setup.h"
 #include "core/error.h"
-#include "device/device_registry.h"
 #include "device/network/device_key.h"
 #include "device/network/device_server.h"
 #include "device/network/udp_port.h"
 #include "device/realtime_report.h"
+#include "device/registry/device_registry.h"
 
 namespace jnd::app {
 namespace {

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "device/device_registry.h"
+#include "device/registry/device_registry.h"
 
 namespace jnd::app {
 namespace {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "app/machine_checks.h"
+#include "app/session/machine_checks.h"
 
 namespace jnd::app {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/option_checks.h"
 #include "app/commands/commands.h"
-#include "app/option_checks.h"
-#include "app/reopened_session.h"
+#include "app/session/reopened_session.h"
 #include "core/error.h"
 
 namespace jnd::app {

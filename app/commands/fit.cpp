@@ -10,12 +10,12 @@
 
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
 #include "app/commands/fit_group.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_weber.h"
 #include "app/commands/fit_words.h"
-#include "app/json_text.h"
 
 namespace jnd::app {
 namespace {

@@ -9,15 +9,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "analysis/csv_table.h"
+#include "analysis/data/csv_table.h"
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/psychometric_json.h"
-#include "analysis/groups/hierarchical_data.h"
-#include "analysis/groups/hierarchical_json.h"
-#include "analysis/groups/hierarchical_warnings.h"
+#include "analysis/hierarchical/hierarchical_data.h"
+#include "analysis/hierarchical/hierarchical_json.h"
+#include "analysis/hierarchical/hierarchical_warnings.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
 #include "app/commands/fit_words.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
 
 namespace jnd::app {
 namespace {

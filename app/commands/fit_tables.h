@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/csv_table.h"
+#include "analysis/data/csv_table.h"
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
-#include "analysis/fits/fit_status.h"
+#include "analysis/statistics/fit_status.h"
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
 #include "app/commands/fit_words.h"
-#include "app/json_text.h"
 
 /// What `jnd fit weber` and `jnd fit power` share: a table, of which each group is fitted.
 namespace jnd::app {

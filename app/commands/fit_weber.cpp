@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "analysis/fits/fit_data.h"
+#include "app/command_line/option_checks.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_words.h"
-#include "app/option_checks.h"
 
 namespace jnd::app {
 namespace {

@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "app/share.h"
+#include "app/session/shipped_files.h"
 #include "core/error.h"
 #include "core/hand.h"
 #include "core/media/fluid_force.h"
 #include "core/media/medium.h"
-#include "experiments/study/force_map_file.h"
+#include "experiments/protocol/force_map_file.h"
 
 namespace jnd::app {
 namespace {

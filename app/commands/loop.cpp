@@ -7,14 +7,14 @@
 #include <string>
 #include <thread>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/stop_signals.h"
 #include "app/commands/commands.h"
-#include "app/device_run.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/session_setup.h"
-#include "app/stop_signals.h"
+#include "app/session/device_run.h"
+#include "app/session/session_setup.h"
 #include "core/error.h"
-#include "device/device_registry.h"
+#include "device/registry/device_registry.h"
 #include "device/simulated_hand.h"
 
 namespace jnd::app {

@@ -10,15 +10,15 @@
 #include <memory>
 #include <string>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/usage_message.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "app/share.h"
-#include "app/usage_message.h"
+#include "app/session/shipped_files.h"
 #include "core/error.h"
-#include "experiments/study/schema_writer.h"
-#include "experiments/study/starter_study.h"
-#include "experiments/study/structure_check.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/schema_writer.h"
+#include "experiments/protocol/starter_study.h"
+#include "experiments/protocol/structure_check.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 namespace {

@@ -1,5 +1,5 @@
 #include "experiments/session/plan.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
 
 #include <fmt/format.h>
 
@@ -12,20 +12,20 @@
 #include <string>
 #include <vector>
 
-#include "app/block_words.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
 #include "app/commands/commands.h"
-#include "app/field_options.h"
-#include "app/json_text.h"
+#include "app/commands/field_options.h"
 #include "app/operator/study_words.h"
-#include "app/option_checks.h"
-#include "app/plan_lapses.h"
-#include "app/plan_statistics.h"
-#include "app/session_setup.h"
-#include "app/share.h"
-#include "app/stability_limits.h"
+#include "app/planning/plan_lapses.h"
+#include "app/planning/plan_statistics.h"
+#include "app/results/block_words.h"
+#include "app/session/session_setup.h"
+#include "app/session/shipped_files.h"
+#include "app/session/stability_limits.h"
 #include "core/error.h"
-#include "device/device_registry.h"
-#include "experiments/study/study_reader.h"
+#include "device/registry/device_registry.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 namespace {

@@ -5,17 +5,17 @@
 #include <string>
 
 #include "analysis/report/report.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
+#include "app/command_line/stop_signals.h"
 #include "app/commands/commands.h"
-#include "app/compare_option.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/participant_list.h"
-#include "app/power_files.h"
-#include "app/power_study.h"
-#include "app/progress_bar.h"
-#include "app/share.h"
-#include "app/stop_signals.h"
-#include "experiments/study/study_reader.h"
+#include "app/commands/compare_option.h"
+#include "app/commands/participant_list.h"
+#include "app/planning/power_files.h"
+#include "app/planning/power_study.h"
+#include "app/session/shipped_files.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 namespace {

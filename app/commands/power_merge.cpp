@@ -6,7 +6,7 @@
 
 #include "analysis/report/report.h"
 #include "app/commands/commands.h"
-#include "app/power_files.h"
+#include "app/planning/power_files.h"
 
 namespace jnd::app {
 namespace {

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
 #include "app/commands/commands.h"
-#include "app/compare_option.h"
-#include "app/inverted_option.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/progress_bar.h"
-#include "app/study_report.h"
+#include "app/commands/compare_option.h"
+#include "app/commands/inverted_option.h"
+#include "app/results/study_report.h"
 
 namespace jnd::app {
 namespace {
@@ -59,7 +59,7 @@ StudyReport written(const ReportOptions& options) {
                              .pilot = options.pilot,
                              .jobs = options.jobs,
                              .results = std::move(results),
-                             .inverted = options.inverted,
+                             .leaves_out_inverted = options.inverted == "out",
                              .on_progress = [&bar](double done) { bar.show(done); }});
 }
 

@@ -8,15 +8,16 @@
 
 #include "analysis/movement/delivered_intensity.h"
 #include "analysis/movement/recorded_results.h"
+#include "analysis/results/inverted_answers.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
 #include "app/commands/commands.h"
-#include "app/compare_option.h"
-#include "app/inverted_option.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/predictive_option.h"
-#include "app/results_output.h"
-#include "app/session_setup.h"
-#include "app/study_data.h"
+#include "app/commands/compare_option.h"
+#include "app/commands/inverted_option.h"
+#include "app/commands/predictive_option.h"
+#include "app/results/results_output.h"
+#include "app/results/study_data.h"
+#include "app/session/session_setup.h"
 
 namespace jnd::app {
 namespace {
@@ -45,7 +46,7 @@ int run_results(ResultsOptions options) {
   require_unblinded(store);
   analysis::DeliveredStudy study{.data = load_study_data(store)};
   if (options.delivered) study = analysis::with_delivered(std::move(study.data), store);
-  apply_inverted_option(options.inverted, study.data);
+  if (options.inverted == "out") analysis::leave_out_inverted(study.data);
   const std::optional<analysis::PredictivePeople> people =
       people_asked_for(options.predictive, store, study.data);
   analysis::StudyResults results =

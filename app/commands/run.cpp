@@ -10,23 +10,23 @@
 #include <string>
 #include <thread>
 
+#include "app/command_line/open_window.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
+#include "app/command_line/stop_signals.h"
+#include "app/command_line/usage_message.h"
 #include "app/commands/commands.h"
-#include "app/field_options.h"
-#include "app/laboratory_run.h"
-#include "app/open_window.h"
-#include "app/option_checks.h"
-#include "app/progress_bar.h"
-#include "app/pseudonym.h"
-#include "app/session_setup.h"
-#include "app/share.h"
-#include "app/stop_signals.h"
-#include "app/usage_message.h"
+#include "app/commands/field_options.h"
+#include "app/session/laboratory_run.h"
+#include "app/session/pseudonym.h"
+#include "app/session/session_setup.h"
+#include "app/session/shipped_files.h"
 #include "core/error.h"
 #include "core/safety/guard.h"
-#include "device/device_registry.h"
 #include "device/haptic_device.h"
+#include "device/registry/device_registry.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/event.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/commands/commands.h"
-#include "experiments/study/reference_writer.h"
-#include "experiments/study/schema_writer.h"
+#include "experiments/protocol/reference_writer.h"
+#include "experiments/protocol/schema_writer.h"
 
 namespace jnd::app {
 

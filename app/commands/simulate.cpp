@@ -3,16 +3,16 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
+#include "app/command_line/stop_signals.h"
 #include "app/commands/commands.h"
-#include "app/field_options.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/progress_bar.h"
-#include "app/session_setup.h"
-#include "app/share.h"
-#include "app/stop_signals.h"
+#include "app/commands/field_options.h"
+#include "app/session/session_setup.h"
+#include "app/session/shipped_files.h"
 #include "core/error.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
 #include "app/commands/commands.h"
-#include "app/device_check.h"
-#include "app/json_text.h"
-#include "app/option_checks.h"
-#include "app/session_setup.h"
-#include "app/share.h"
-#include "experiments/study/study_reader.h"
+#include "app/commands/device_check.h"
+#include "app/session/session_setup.h"
+#include "app/session/shipped_files.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 namespace {

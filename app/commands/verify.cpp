@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/command_line/json_text.h"
 #include "app/commands/commands.h"
-#include "app/json_text.h"
-#include "app/replay_check.h"
+#include "app/session/replay_check.h"
 #include "core/storage/integrity.h"
 
 namespace jnd::app {

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "analysis/export/csv_export.h"
-#include "analysis/report/report_words.h"
-#include "app/noted_export.h"
-#include "app/reopened_session.h"
-#include "app/replay_check.h"
-#include "app/session_setup.h"
-#include "app/study_report.h"
+#include "analysis/results/report_words.h"
+#include "app/results/noted_export.h"
+#include "app/results/study_report.h"
+#include "app/session/reopened_session.h"
+#include "app/session/replay_check.h"
+#include "app/session/session_setup.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/storage/backup.h"

@@ -6,7 +6,7 @@
 #include "app/operator/live_trace.h"
 #include "app/operator/remembered_stop.h"
 #include "app/operator/scope_trace.h"
-#include "app/session_setup.h"
+#include "app/session/session_setup.h"
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "core/safety/fault.h"
@@ -37,7 +37,7 @@ Apparatus::Parameters apparatus_parameters(const OperatedSession::Parameters& pa
   apparatus.device = row.device;
   apparatus.realtime = parameters.realtime;
   apparatus.allow_no_realtime = parameters.allow_no_realtime;
-  apparatus.doors = &parameters.doors;
+  apparatus.exchange = &parameters.exchange;
   apparatus.injected_faults = parameters.injected_faults;
   if (hides_levels) return apparatus;
   apparatus.on_sample = [trace = parameters.trace, scopes = parameters.scopes,
@@ -57,16 +57,16 @@ OperatedSession::OperatedSession(const Parameters& parameters)
       hides_levels_(parameters.study.blinding == Blinding::kDouble &&
                     !parameters.store.unblinded()),
       remark_(changed_study_remark(parameters.store, row_)),
-      visit_({.store = parameters.store,
-              .session = parameters.session,
-              .study = parameters.study,
-              .apparatus = apparatus_parameters(parameters, row_, hides_levels_),
-              .laboratory = parameters.laboratory}),
-      session_(visit_.session()),
-      presenter_(visit_.apparatus(), session_, parameters.study.device) {
-  visit_.apparatus().render(core::free_space());
+      running_({.store = parameters.store,
+                .session = parameters.session,
+                .study = parameters.study,
+                .apparatus = apparatus_parameters(parameters, row_, hides_levels_),
+                .laboratory = parameters.laboratory}),
+      session_(running_.session()),
+      presenter_(running_.apparatus(), session_, parameters.study.device) {
+  running_.apparatus().render(core::free_space());
   if (is_stop_remembered(parameters_.stops, row_.device)) {
-    parameters_.doors.emergency_stop.press();
+    parameters_.exchange.emergency_stop.press();
   }
   // A session goes on in the language that it was begun in.
   language_ = !state().language.empty()      ? state().language
@@ -83,7 +83,8 @@ const Block* OperatedSession::block() const {
 }
 
 double OperatedSession::now_s() const {
-  return static_cast<double>(visit_.apparatus().next_tick()) / parameters_.study.device.rate_hz;
+  return static_cast<double>(running_.apparatus().next_tick()) /
+         parameters_.study.device.rate_hz;
 }
 
 void OperatedSession::request(OperatorRequest request) {
@@ -100,9 +101,9 @@ void OperatedSession::request(OperatorRequest request) {
 void OperatedSession::advance(double duration_s) {
   if (!parameters_.realtime && duration_s > 0.0) {
     try {
-      visit_.apparatus().run_for(duration_s);
+      running_.apparatus().run_for(duration_s);
     } catch (const core::Error&) {
-      if (visit_.apparatus().telemetry().fault == core::Fault::kNone) throw;
+      if (running_.apparatus().telemetry().fault == core::Fault::kNone) throw;
     }
   }
   try {
@@ -169,8 +170,8 @@ bool OperatedSession::must_wait(const OperatorRequest& request) const {
 
 /// The medium first: whatever comes after waits for the disk.
 void OperatedSession::abandon_presentation() {
-  visit_.apparatus().render(core::free_space());
-  visit_.apparatus().go_home();
+  running_.apparatus().render(core::free_space());
+  running_.apparatus().go_home();
   feeling_.reset();
   presenter_.abandon();
   if (begun_ && !state().ended && failure_.empty()) presenter_.tell_exposure();
@@ -178,10 +179,10 @@ void OperatedSession::abandon_presentation() {
 
 void OperatedSession::end_feeling(bool counts) {
   const Feeling felt = *feeling_;
-  const std::int64_t last_tick = visit_.apparatus().next_tick() - 1;
+  const std::int64_t last_tick = running_.apparatus().next_tick() - 1;
   feeling_.reset();
-  visit_.apparatus().render(core::free_space());
-  visit_.apparatus().go_home();
+  running_.apparatus().render(core::free_space());
+  running_.apparatus().go_home();
   if (counts) {
     session_.explored(felt.setting.medium, felt.setting.intensity, felt.first_tick, last_tick);
   }
@@ -193,7 +194,7 @@ void OperatedSession::follow_session() {
   if (!begun_ || left_ || !failure_.empty()) return;
   while (!state().ended && !state().paused && known_fault_ == core::Fault::kNone) {
     if (stage() == nullptr) {
-      visit_.keep_timing();
+      running_.keep_timing();
       session_.complete();
       return;
     }
@@ -202,7 +203,7 @@ void OperatedSession::follow_session() {
     } else if (stage_is_complete() && !std::holds_alternative<Break>(stage()->content) &&
                !std::holds_alternative<Questionnaire>(stage()->content) && block() == nullptr) {
       session_.finish_stage();
-      visit_.keep_timing();
+      running_.keep_timing();
     } else {
       break;
     }
@@ -227,13 +228,13 @@ void OperatedSession::rest_before_trial() {
   }
   resting_for_trial_ = *trial;
   rest_until_s_ = now_s() + block()->free_space_between_s;
-  visit_.apparatus().go_home();
+  running_.apparatus().go_home();
 }
 
 void OperatedSession::give_up(const std::string& why) {
   if (!failure_.empty()) return;
   failure_ = why;
-  visit_.apparatus().disarm();
+  running_.apparatus().disarm();
   try {
     abandon_presentation();
   } catch (const core::Error&) {
@@ -251,9 +252,10 @@ void OperatedSession::forget_stop() const {
 
 /// Of a device that moves by itself; others take no notice.
 void OperatedSession::move_simulated_hand(double height_m) {
-  visit_.apparatus().begin_strokes(
+  running_.apparatus().begin_strokes(
       {.height_m = height_m},
-      core::RandomStream(row_.seed, "stroke", {state().stage, visit_.apparatus().next_tick()}));
+      core::RandomStream(row_.seed, "stroke",
+                         {state().stage, running_.apparatus().next_tick()}));
 }
 
 }  // namespace jnd::app

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/attachment_watch.h"
-#include "app/operator/operator_doors.h"
 #include "app/operator/operator_request.h"
 #include "app/operator/session_view.h"
-#include "app/presenter.h"
-#include "app/visit.h"
+#include "app/session/attachment_watch.h"
+#include "app/session/operator_exchange.h"
+#include "app/session/presenter.h"
+#include "app/session/running_session.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
@@ -35,7 +35,7 @@ class OperatedSession {
     const experiments::Study& study;
     /// Of the simulated hand; nullptr for a device that needs none.
     const experiments::Laboratory* laboratory = nullptr;
-    OperatorDoors& doors;
+    OperatorExchange& exchange;
     LiveTrace* trace = nullptr;    ///< Gets every sample, unless levels are hidden.
     ScopeTrace* scopes = nullptr;  ///< Gets every sample, unless levels are hidden.
     std::string language;          ///< Of the study's texts; "": its first.
@@ -119,7 +119,7 @@ class OperatedSession {
   core::SessionRow row_;
   bool hides_levels_;
   std::string remark_;
-  Visit visit_;
+  RunningSession running_;
   experiments::Session& session_;
   Presenter presenter_;
 

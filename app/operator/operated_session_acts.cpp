@@ -9,7 +9,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/safety/fault.h"
-#include "experiments/session/stimulus.h"
+#include "experiments/procedures/stimulus.h"
 
 namespace jnd::app {
 
@@ -45,7 +45,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Begin& begin) const {
     if (my.begun_) refuse("the session has begun already");
-    my.visit_.begin(begin.choice, my.language_);
+    my.running_.begin(begin.choice, my.language_);
     my.begun_ = true;
     my.begun_s_ = my.now_s();
   }
@@ -70,8 +70,8 @@ struct OperatedSession::Act {
     my.session_.require_exposure_left();
     begin_feeling();
     my.feeling_ =
-        Feeling{.first_tick = my.visit_.apparatus().next_tick(), .setting = medium->setting};
-    my.visit_.apparatus().render(amounts_of(medium->setting));
+        Feeling{.first_tick = my.running_.apparatus().next_tick(), .setting = medium->setting};
+    my.running_.apparatus().render(amounts_of(medium->setting));
     my.move_simulated_hand(medium->setting.medium == "solid" ? kTouchingM : -0.15);
   }
 
@@ -95,7 +95,7 @@ struct OperatedSession::Act {
       refuse("the stage is not done yet");
     }
     my.session_.finish_stage();
-    my.visit_.keep_timing();
+    my.running_.keep_timing();
   }
 
   void operator()(const operate::Present& present) const {
@@ -105,7 +105,7 @@ struct OperatedSession::Act {
     begin_feeling();
     if (!trial.under_way) {
       my.first_felt_s_.reset();
-      my.session_.start_trial(my.visit_.apparatus().next_tick());
+      my.session_.start_trial(my.running_.apparatus().next_tick());
     }
     end_presentation();
     my.presenter_.begin(*my.block(), present.interval);
@@ -201,7 +201,7 @@ struct OperatedSession::Act {
   }
 
   void operator()(const operate::ReleaseStop& release) const {
-    if (!my.parameters_.doors.emergency_stop.release(release.num_stop_presses)) {
+    if (!my.parameters_.exchange.emergency_stop.release(release.num_stop_presses)) {
       refuse("the emergency stop was pressed again");
     }
     my.forget_stop();
@@ -213,7 +213,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Rearm&) const {
     if (my.known_fault_ == core::Fault::kNone) refuse("there is nothing to arm");
-    if (my.parameters_.doors.emergency_stop.is_pressed()) {
+    if (my.parameters_.exchange.emergency_stop.is_pressed()) {
       refuse("the emergency stop is pressed: release it first");
     }
     if (my.num_own_faults_ >= kMostFaults) {
@@ -221,8 +221,8 @@ struct OperatedSession::Act {
           "three faults of the device or this machine in one sitting are enough: leave the "
           "session, find out why, and resume it");
     }
-    my.known_num_faults_ = my.visit_.apparatus().telemetry().num_faults;
-    my.visit_.apparatus().rearm();
+    my.known_num_faults_ = my.running_.apparatus().telemetry().num_faults;
+    my.running_.apparatus().rearm();
     my.rearming_ = true;
   }
 
@@ -230,7 +230,7 @@ struct OperatedSession::Act {
     if (!my.begun_ || my.state().ended) refuse("there is no session under way");
     require_reason(end.reason);
     my.abandon_presentation();
-    my.visit_.keep_timing();
+    my.running_.keep_timing();
     my.session_.end_early(end.reason);
   }
 
@@ -238,7 +238,7 @@ struct OperatedSession::Act {
     my.left_ = true;  // Whatever the disk says to the rest.
     my.abandon_presentation();
     if (!my.begun_ || my.state().ended) return;
-    my.visit_.keep_timing();
+    my.running_.keep_timing();
     my.session_.pause(leave.reason.empty() ? "left by the operator" : leave.reason);
   }
 
@@ -264,14 +264,14 @@ struct OperatedSession::Act {
   void require_held() const {
     const std::uint8_t loose = my.loose_bits();
     if (loose == 0) return;
-    my.visit_.apparatus().put_fingers_back();
+    my.running_.apparatus().put_fingers_back();
     refuse(words_of_points(loose) +
            " came off: put back what came off first, or go on without it");
   }
 
   void begin_feeling() const {
     require_held();
-    my.attachment_.begin(my.visit_.apparatus().telemetry());
+    my.attachment_.begin(my.running_.apparatus().telemetry());
   }
 
   static void require_reason(const std::string& reason) {
@@ -305,7 +305,7 @@ struct OperatedSession::Act {
   void require_ticks(const Presenter::Felt& felt, const std::string& answer = "") const {
     const std::string reason = my.presenter_.missed_reason(felt);
     if (reason.empty()) return;
-    my.visit_.apparatus().render(core::free_space());
+    my.running_.apparatus().render(core::free_space());
     my.session_.put_off_attempt(reason + answer);
     my.resting_for_trial_ = 0;
     refuse("that did not count, and the trial comes again later (" + reason +

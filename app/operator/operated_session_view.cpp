@@ -1,18 +1,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/block_words.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/session_words.h"
 #include "app/operator/study_outline.h"
 #include "app/operator/trial_intervals.h"
+#include "app/results/block_words.h"
 #include "core/safety/fault.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session_limits.h"
-#include "experiments/session/stimulus.h"
 
 namespace jnd::app {
 
@@ -242,7 +242,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
   if (presenter_.under_way()) {
     view.interval = shown_interval(form, trial);
     view.felt_s = presenter_.felt_s();
-    if (!hides_levels_) view.num_strokes = visit_.apparatus().num_metered_strokes();
+    if (!hides_levels_) view.num_strokes = running_.apparatus().num_metered_strokes();
   }
   view.first_felt_s = first_felt_s_;
   view.can_answer = can_answer(form, trial);
@@ -274,7 +274,7 @@ MediumView OperatedSession::medium_view(const Exploration& medium) const {
     view.count = static_cast<int>(post->items.size());
   }
   if (feeling_) {
-    view.felt_s = static_cast<double>(visit_.apparatus().next_tick() - feeling_->first_tick) /
+    view.felt_s = static_cast<double>(running_.apparatus().next_tick() - feeling_->first_tick) /
                   parameters_.study.device.rate_hz;
   }
   return view;
@@ -338,14 +338,14 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
 }
 
 void OperatedSession::describe_loop(SessionView& view) const {
-  const Apparatus& apparatus = visit_.apparatus();
+  const Apparatus& apparatus = running_.apparatus();
   view.telemetry = apparatus.telemetry();
   view.max_total_force_n = apparatus.max_total_force_n();
   view.num_contact_points = apparatus.num_contact_points();
   view.loop.rate_hz = parameters_.study.device.rate_hz;
   view.loop.num_dropped_samples = view.telemetry.num_dropped_samples;
-  view.stop_pressed = parameters_.doors.emergency_stop.is_pressed();
-  view.num_stop_presses = parameters_.doors.emergency_stop.num_presses();
+  view.stop_pressed = parameters_.exchange.emergency_stop.is_pressed();
+  view.num_stop_presses = parameters_.exchange.emergency_stop.num_presses();
   if (const device::RealtimeThread* thread = apparatus.realtime_thread()) {
     const device::LoopTiming& timing = thread->timing();
     view.loop.lateness_p99_us =
@@ -457,7 +457,7 @@ SessionView OperatedSession::view() const {
   view.loose_bits = loose_bits();
   view.loose_points = words_of_points(view.loose_bits);
   view.came_off_points = words_of_points(paused_for_bits_);
-  const core::Telemetry& now = visit_.apparatus().telemetry();
+  const core::Telemetry& now = running_.apparatus().telemetry();
   if (now.num_ticks > 0) view.absent_points = words_of_points(attachment_.absent_bits(now));
   view.refusal = refusal_;
   view.num_refusals = num_refusals_;

@@ -6,7 +6,7 @@ namespace jnd::app {
 void OperatedSession::watch_apparatus() {
   watch_for_faults();
   if (begun_ && !state().ended && failure_.empty()) {
-    visit_.keep_arming("armed by the experimenter");
+    running_.keep_arming("armed by the experimenter");
   }
   watch_for_loose_points();
 }
@@ -21,7 +21,7 @@ static bool says_something_is_wrong(core::Fault fault) noexcept {
 /// A fault is stored as soon as it is seen; the attempt it hit counts for nothing. The next one
 /// may latch before anybody has seen that the last was over.
 void OperatedSession::watch_for_faults() {
-  const core::Telemetry now = visit_.apparatus().telemetry();
+  const core::Telemetry now = running_.apparatus().telemetry();
   if (now.fault == core::Fault::kNone) return arming_succeeded();
   const bool latched_anew = rearming_ && now.num_faults != known_num_faults_;
   if ((now.fault == known_fault_ && !latched_anew) || !failure_.empty()) return;
@@ -34,11 +34,11 @@ void OperatedSession::watch_for_faults() {
   abandon_presentation();
   if (now.fault == core::Fault::kEmergencyStop) remember_stop();
   if (!begun_ || state().ended || !core::is_failure(now.fault)) return;
-  visit_.keep_fault();
+  running_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
     session_.put_off_attempt(std::string("fault: ") + std::string(name(now.fault)));
   }
-  visit_.keep_timing();
+  running_.keep_timing();
 }
 
 /// The session goes on by itself only from what the fault alone had stopped.
@@ -52,7 +52,7 @@ void OperatedSession::arming_succeeded() {
 }
 
 std::uint8_t OperatedSession::loose_bits() const {
-  return attachment_.loose_bits(visit_.apparatus().telemetry());
+  return attachment_.loose_bits(running_.apparatus().telemetry());
 }
 
 /// A point that comes off while something is felt: that counts for nothing, and nothing goes on
@@ -60,7 +60,7 @@ std::uint8_t OperatedSession::loose_bits() const {
 void OperatedSession::watch_for_loose_points() {
   if (known_fault_ != core::Fault::kNone || !failure_.empty()) return;
   if (!presenter_.under_way() && !feeling_) return;
-  const std::uint8_t came_off = attachment_.came_off_bits(visit_.apparatus().telemetry());
+  const std::uint8_t came_off = attachment_.came_off_bits(running_.apparatus().telemetry());
   if (came_off == 0) return;
   abandon_presentation();
   const std::string reason = came_off_reason(came_off);
@@ -69,7 +69,7 @@ void OperatedSession::watch_for_loose_points() {
   }
   session_.pause(reason);
   paused_for_bits_ = came_off;
-  visit_.apparatus().put_fingers_back();
+  running_.apparatus().put_fingers_back();
 }
 
 }  // namespace jnd::app

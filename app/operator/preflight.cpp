@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/machine_checks.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
+#include "app/session/machine_checks.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
-#include "device/device_registry.h"
+#include "device/registry/device_registry.h"
 
 namespace jnd::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/operator/background_task.h"
-#include "app/stability_limits.h"
+#include "app/session/stability_limits.h"
 #include "core/safety/emergency_stop.h"
 #include "device/haptic_device.h"
 #include "experiments/session/plan.h"

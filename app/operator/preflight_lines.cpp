@@ -9,14 +9,14 @@
 #include <memory>
 #include <thread>
 
-#include "app/device_run.h"
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
+#include "app/session/device_run.h"
 #include "core/error.h"
 #include "core/storage/backup_mark.h"
 #include "core/storage/study_store.h"
 #include "core/storage/writer_lock.h"
-#include "device/device_registry.h"
+#include "device/registry/device_registry.h"
 
 namespace jnd::app {
 namespace {

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
-#include "analysis/groups/summary.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
+#include "analysis/statistics/summary.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/power_fit.h"
-#include "analysis/groups/summary.h"
-#include "analysis/quantity_unit.h"
+#include "analysis/statistics/summary.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "core/power_function.h"

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
-#include "analysis/study_data.h"
-#include "analysis/study_results.h"
+#include "analysis/data/study_data.h"
+#include "analysis/results/study_results.h"
+#include "analysis/statistics/fit_status.h"
 #include "app/operator/background_task.h"
 
 namespace jnd::app {

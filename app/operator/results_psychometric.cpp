@@ -5,10 +5,10 @@
 #include <limits>
 #include <tuple>
 
+#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/interval_order_fit.h"
-#include "analysis/groups/wilson_interval.h"
-#include "analysis/quantity_unit.h"
-#include "analysis/threshold_results.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/wilson_interval.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 

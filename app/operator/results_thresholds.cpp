@@ -5,12 +5,12 @@
 #include <cmath>
 #include <tuple>
 
+#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/same_different_fit.h"
-#include "analysis/groups/wilson_interval.h"
-#include "analysis/quantity_unit.h"
-#include "analysis/threshold_answers.h"
-#include "analysis/threshold_results.h"
+#include "analysis/results/threshold_answers.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/wilson_interval.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "core/psychometric_function.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/operator/surroundings_view.h"
-#include "core/telemetry.h"
+#include "core/exchange/telemetry.h"
 #include "experiments/procedures/procedure.h"
 #include "experiments/study/study.h"
 

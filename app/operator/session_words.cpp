@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "analysis/quantity_unit.h"
+#include "analysis/data/quantity_unit.h"
 
 namespace jnd::app {
 namespace {

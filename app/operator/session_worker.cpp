@@ -14,9 +14,9 @@ constexpr auto kGlance = std::chrono::milliseconds(15);
 constexpr auto kBetweenPictures = std::chrono::milliseconds(33);
 }  // namespace
 
-SessionWorker::SessionWorker(Parameters parameters, OperatorDoors& doors)
+SessionWorker::SessionWorker(Parameters parameters, OperatorExchange& exchange)
     : parameters_(std::move(parameters)),
-      doors_(doors),
+      exchange_(exchange),
       trace_({.rate_hz = parameters_.study.device.rate_hz}),
       scopes_({.rate_hz = parameters_.study.device.rate_hz}),
       thread_([this] { run(); }) {}
@@ -91,7 +91,7 @@ void SessionWorker::work() {
                            .session = parameters_.session,
                            .study = parameters_.study,
                            .laboratory = parameters_.laboratory.get(),
-                           .doors = doors_,
+                           .exchange = exchange_,
                            .trace = &trace_,
                            .scopes = &scopes_,
                            .language = parameters_.language,

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "app/operator/live_trace.h"
-#include "app/operator/operator_doors.h"
 #include "app/operator/operator_request.h"
 #include "app/operator/scope_trace.h"
 #include "app/operator/session_view.h"
+#include "app/session/operator_exchange.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
@@ -40,8 +40,8 @@ class SessionWorker {
     std::function<void()> wake;
   };
 
-  /// Starts; `doors` must outlive it.
-  SessionWorker(Parameters parameters, OperatorDoors& doors);
+  /// Starts; `exchange` must outlive it.
+  SessionWorker(Parameters parameters, OperatorExchange& exchange);
   /// Leaves a session that is still open; it can be resumed.
   ~SessionWorker();
   SessionWorker(const SessionWorker&) = delete;
@@ -68,7 +68,7 @@ class SessionWorker {
   std::vector<OperatorRequest> wait_for_requests();
 
   Parameters parameters_;
-  OperatorDoors& doors_;
+  OperatorExchange& exchange_;
   LiveTrace trace_;
   ScopeTrace scopes_;
   mutable std::mutex mutex_;

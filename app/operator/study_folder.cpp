@@ -9,18 +9,18 @@
 #include <map>
 #include <set>
 
-#include "analysis/report/report_words.h"
-#include "app/block_words.h"
+#include "analysis/results/report_words.h"
 #include "app/operator/study_words.h"
-#include "app/session_setup.h"
+#include "app/results/block_words.h"
+#include "app/session/session_setup.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
 #include "core/storage/backup_mark.h"
 #include "core/storage/recording.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/procedures/practice.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/session_state.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::app {
 namespace {

@@ -6,17 +6,18 @@
 #include <cmath>
 #include <type_traits>
 
-#include "analysis/quantity_unit.h"
-#include "analysis/report/report_words.h"
-#include "app/block_words.h"
-#include "app/session_setup.h"
+#include "analysis/data/quantity_unit.h"
+#include "analysis/results/report_words.h"
+#include "app/results/block_words.h"
+#include "app/session/session_setup.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/plan.h"
+#include "experiments/study/medium_quantity.h"
 #include "experiments/study/parameter_table.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "app/operator/study_outline.h"
 #include "core/error.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
 

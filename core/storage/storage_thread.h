@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "core/doors/spsc_queue.h"
 #include "core/error.h"
+#include "core/exchange/spsc_queue.h"
 #include "core/sample.h"
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"

@@ -9,7 +9,7 @@ struct mjData_;
 namespace jnd::device {
 
 /// MuJoCo left to itself ends the process at an error, writes warnings to a file in the current
-/// folder, and resets a world in which a number went bad. Behind these doors it does neither of
+/// folder, and resets a world in which a number went bad. Behind this guard it does neither of
 /// the first two, and the third is told.
 
 struct MujocoDeleter {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/random_stream.h"
-#include "device/characterization.h"
+#include "device/exoskeleton/characterization.h"
 #include "device/exoskeleton/exoskeleton_device.h"
 
 namespace jnd::device {

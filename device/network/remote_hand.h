@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "core/doors/latest_value.h"
+#include "core/exchange/latest_value.h"
 #include "device/network/datagram.h"
 #include "device/simulated_hand.h"
 

@@ -12,8 +12,8 @@
 #include "experiments/procedures/adjustment.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
-#include "experiments/session/stimulus.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {

@@ -4,7 +4,7 @@
 
 #include "experiments/participants/calculated_stroke.h"
 #include "experiments/procedures/magnitude_estimation.h"
-#include "experiments/session/stimulus.h"
+#include "experiments/procedures/stimulus.h"
 
 namespace jnd::experiments {
 namespace {

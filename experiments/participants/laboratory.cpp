@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "experiments/protocol/structure_check.h"
 #include "experiments/study/shown_text.h"
-#include "experiments/study/structure_check.h"
 
 namespace jnd::experiments {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "experiments/participants/calculated_stroke.h"
-#include "experiments/session/stimulus.h"
+#include "experiments/procedures/stimulus.h"
 
 namespace jnd::experiments {
 

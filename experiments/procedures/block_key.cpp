@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "experiments/study/stage_tables.h"
+#include "experiments/study/medium_quantity.h"
+#include "experiments/study/order_table.h"
 
 namespace jnd::experiments {
 namespace {

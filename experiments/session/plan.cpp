@@ -4,29 +4,18 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <type_traits>
 
 #include "core/hand.h"
 #include "core/random_stream.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/stimulus.h"
 #include "experiments/session/event.h"
 #include "experiments/session/session.h"
-#include "experiments/session/stimulus.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
 namespace {
-
-double total_duration_s(const std::vector<Exploration>& explorations) {
-  double duration_s = 0.0;
-  for (const Exploration& exploration : explorations) duration_s += exploration.duration_s;
-  return duration_s;
-}
-
-double trials_duration_s(const Block& block, int num_trials) {
-  return (block.free_space_between_s + block.expected_trial_s) * num_trials;
-}
 
 /// The most that a hand feels at this speed, whichever way it is turned.
 double moving_force_n(const core::MediumAmounts& amounts, const core::ForceMap* map,
@@ -123,39 +112,6 @@ class RangeCollector {
 };
 
 }  // namespace
-
-double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
-  return std::visit(
-      [&](const auto& content) -> double {
-        using Content = std::decay_t<decltype(content)>;
-        if constexpr (std::is_same_v<Content, Checklist>) {
-          return times.checklist_item_s * static_cast<double>(content.items.size());
-        } else if constexpr (std::is_same_v<Content, Consent>) {
-          return times.consent_paragraph_s * static_cast<double>(content.paragraphs.size());
-        } else if constexpr (std::is_same_v<Content, Explore>) {
-          return total_duration_s(content.media);
-        } else if constexpr (std::is_same_v<Content, Training>) {
-          return total_duration_s(content.examples);
-        } else if constexpr (std::is_same_v<Content, Block>) {
-          return trials_duration_s(content, expected_trials(content));
-        } else if constexpr (std::is_same_v<Content, Break>) {
-          return content.duration_s;
-        } else if constexpr (std::is_same_v<Content, PostExperiment>) {
-          return times.post_experiment_item_s * static_cast<double>(content.items.size());
-        } else if constexpr (std::is_same_v<Content, Questionnaire>) {
-          return times.questionnaire_item_s * static_cast<double>(content.items.size());
-        } else {
-          return 0.0;  // A counterbalance is resolved before anything takes time.
-        }
-      },
-      stage.content);
-}
-
-double longest_duration_s(const Stage& stage, const ExpectedTimes& times) {
-  const auto* block = std::get_if<Block>(&stage.content);
-  return block == nullptr ? expected_duration_s(stage, times)
-                          : trials_duration_s(*block, most_trials(*block));
-}
 
 std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanRequest& request) {
   std::vector<Cell> cells =

@@ -7,23 +7,11 @@
 
 #include "core/storage/study_store.h"
 #include "experiments/order/counterbalance.h"
+#include "experiments/procedures/expected_session.h"
 #include "experiments/procedures/procedure.h"
 #include "experiments/study/study.h"
 
 namespace jnd::experiments {
-
-/// Rough times for what a study gives none for. Only for planning the length of a session.
-struct ExpectedTimes {
-  double checklist_item_s = 20.0;
-  double consent_paragraph_s = 30.0;
-  double questionnaire_item_s = 15.0;
-  double post_experiment_item_s = 45.0;
-};
-
-/// How long this stage is expected to take, in seconds.
-[[nodiscard]] double expected_duration_s(const Stage& stage, const ExpectedTimes& times = {});
-/// The same of a stage whose block has all trials that it can have.
-[[nodiscard]] double longest_duration_s(const Stage& stage, const ExpectedTimes& times = {});
 
 /// A block with the order in which its first trials will be drawn: all of them, unless the
 /// procedure adapts.

@@ -5,31 +5,7 @@
 #include <cstdio>
 #include <variant>
 
-#include "experiments/procedures/practice.h"
-#include "experiments/session/plan.h"
-
 namespace jnd::experiments {
-
-Stretch longest_stretch(const std::vector<StageInstance>& stages) {
-  Stretch longest, current;
-  for (const StageInstance& instance : stages) {
-    if (std::holds_alternative<Break>(instance.stage->content)) current = {};
-    const auto* block = std::get_if<Block>(&instance.stage->content);
-    if (block == nullptr) continue;
-    current.num_trials += expected_trials(*block);
-    current.blocks.push_back(instance.stage);
-    if (current.num_trials > longest.num_trials) longest = current;
-  }
-  return longest;
-}
-
-double expected_session_s(const std::vector<StageInstance>& stages) {
-  double duration_s = 0.0;
-  for (const StageInstance& instance : stages) {
-    duration_s += expected_duration_s(*instance.stage);
-  }
-  return duration_s;
-}
 
 int num_answers_since_break(const std::vector<const Stage*>& stages,
                             const SessionState& state) {

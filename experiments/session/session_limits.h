@@ -10,19 +10,6 @@
 
 namespace jnd::experiments {
 
-/// The most trials that somebody does from one `break` to the next, or to an end of the
-/// session.
-struct Stretch {
-  int num_trials = 0;                  ///< To be expected.
-  std::vector<const Stage*> blocks{};  ///< That they are of.
-};
-
-/// Of a participant's own list of stages; the first of those that are equally long.
-[[nodiscard]] Stretch longest_stretch(const std::vector<StageInstance>& stages);
-
-/// How long a participant's own list of stages is expected to take, in seconds.
-[[nodiscard]] double expected_session_s(const std::vector<StageInstance>& stages);
-
 /// Answers given since the last `break` that was finished, in any stage after it.
 [[nodiscard]] int num_answers_since_break(const std::vector<const Stage*>& stages,
                                           const SessionState& state);

@@ -1,4 +1,4 @@
-#include "experiments/study/stage_tables.h"
+#include "experiments/study/order_table.h"
 
 namespace jnd::experiments {
 

@@ -69,28 +69,8 @@ struct ParameterTable {
   [[nodiscard]] const Parameter* find(std::string_view key) const noexcept;
 };
 
-/// The whole file.
-[[nodiscard]] const ParameterTable& study_table();
-/// One table for each stage kind, its `name` being the kind.
-[[nodiscard]] const std::vector<const ParameterTable*>& stage_tables();
-/// Null for an unknown kind.
-[[nodiscard]] const ParameterTable* stage_table(std::string_view kind) noexcept;
-/// Every table there is, each once.
-[[nodiscard]] const std::vector<const ParameterTable*>& all_tables();
 /// `comment`, the key that every object may have.
 [[nodiscard]] const Parameter& comment_parameter();
-
-/// A medium and its one varied quantity, which is the key it is given under.
-struct MediumQuantity {
-  std::string medium;
-  std::string quantity;  ///< "" for free space.
-  std::string unit;
-  Range range;
-  std::string meaning;
-};
-[[nodiscard]] const std::vector<MediumQuantity>& media();
-/// "" for free space and for unknown media.
-[[nodiscard]] std::string quantity_of(std::string_view medium);
 
 /// "a number > 0 and <= 1000 (Pa s)", "a list of texts", "`yes_no` or `text`".
 [[nodiscard]] std::string expectation(const Parameter& parameter);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 #include "core/error.h"
 
 // Parts of results by their names.

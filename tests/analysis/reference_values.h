@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fits/fit_status.h"
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/statistics/fit_status.h"
 
 // What tests against `test_support::reference_data` read from it and expect of it.
 

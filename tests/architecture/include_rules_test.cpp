@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/places.h"
@@ -14,33 +16,139 @@ namespace include_rules_test {
 
 namespace fs = std::filesystem;
 
-// The architecture, as data. A room may include itself and the rooms listed here. The longest
-// matching path names the room, so core/storage is a room of its own inside core.
-const std::map<std::string, std::set<std::string>> kMayInclude = {
+// The architecture, as data: the folders from the innermost to the outermost, and what each may
+// include besides itself. What it may include stands above it, so there is no circle.
+const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"core", {}},
-    {"core/storage", {"core"}},
-    {"device", {"core"}},
-    {"experiments", {"core", "core/storage"}},
-    {"analysis", {"core", "core/storage"}},
-    {"app", {"core", "core/storage", "device", "experiments", "analysis"}},
+    {"core/safety", {"core"}},
+    {"core/media", {"core", "core/safety"}},
+    {"core/exchange", {"core", "core/safety", "core/media"}},
+    {"core/storage", {"core", "core/exchange"}},
+    {"device", {"core", "core/safety", "core/media", "core/exchange"}},
+    {"device/exoskeleton", {"core", "core/safety", "device"}},
+    {"device/network", {"core", "core/safety", "core/exchange", "device"}},
+    {"device/registry", {"core", "device", "device/exoskeleton", "device/network"}},
+    {"experiments/study", {"core", "core/media"}},
+    {"experiments/order", {"core", "experiments/study"}},
+    {"experiments/adaptive", {"core"}},
+    {"experiments/procedures",
+     {"core", "core/media", "experiments/study", "experiments/order", "experiments/adaptive"}},
+    {"experiments/protocol",
+     {"core", "core/media", "experiments/study", "experiments/order",
+      "experiments/procedures"}},
+    {"experiments/session",
+     {"core", "core/storage", "experiments/study", "experiments/order",
+      "experiments/procedures"}},
+    {"experiments/participants",
+     {"core", "core/media", "experiments/study", "experiments/order", "experiments/procedures",
+      "experiments/protocol", "experiments/session"}},
+    {"analysis/data", {"core", "core/storage"}},
+    {"analysis/statistics", {"core", "analysis/data"}},
+    {"analysis/fits", {"core", "analysis/data", "analysis/statistics"}},
+    {"analysis/hierarchical",
+     {"core", "analysis/data", "analysis/statistics", "analysis/fits"}},
+    {"analysis/results",
+     {"core", "analysis/data", "analysis/statistics", "analysis/fits",
+      "analysis/hierarchical"}},
+    {"analysis/movement",
+     {"core", "core/media", "core/storage", "analysis/data", "analysis/statistics",
+      "analysis/results"}},
+    {"analysis/planning",
+     {"core", "analysis/data", "analysis/statistics", "analysis/fits", "analysis/hierarchical",
+      "analysis/results"}},
+    {"analysis/export", {"core", "core/storage", "analysis/data"}},
+    {"analysis/report",
+     {"core", "core/storage", "analysis/data", "analysis/statistics", "analysis/fits",
+      "analysis/results", "analysis/movement", "analysis/planning", "analysis/export"}},
+    {"app/command_line", {"experiments/study"}},
+    {"app/session",
+     {"core", "core/safety", "core/media", "core/exchange", "core/storage", "device",
+      "device/exoskeleton", "device/registry", "experiments/study", "experiments/order",
+      "experiments/procedures", "experiments/protocol", "experiments/session",
+      "experiments/participants", "analysis/movement", "app/command_line"}},
+    {"app/results",
+     {"core", "core/storage", "experiments/study", "experiments/adaptive",
+      "experiments/procedures", "experiments/protocol", "experiments/participants",
+      "analysis/data", "analysis/statistics", "analysis/fits", "analysis/results",
+      "analysis/export", "analysis/report", "app/command_line", "app/session"}},
+    {"app/planning",
+     {"core", "core/storage", "experiments/study", "experiments/order",
+      "experiments/procedures", "experiments/session", "experiments/participants",
+      "analysis/data", "analysis/fits", "analysis/planning", "analysis/export",
+      "analysis/report", "app/command_line", "app/session", "app/results"}},
+    {"app/operator",
+     {"core",
+      "core/safety",
+      "core/media",
+      "core/exchange",
+      "core/storage",
+      "device",
+      "device/registry",
+      "experiments/study",
+      "experiments/order",
+      "experiments/procedures",
+      "experiments/protocol",
+      "experiments/session",
+      "experiments/participants",
+      "analysis/data",
+      "analysis/statistics",
+      "analysis/fits",
+      "analysis/results",
+      "analysis/export",
+      "app/session",
+      "app/results"}},
+    {"app/gui", {"core", "device/exoskeleton", "app/operator"}},
+    {"app/gui/views",
+     {"experiments/study", "analysis/fits", "analysis/results", "app/session", "app/operator",
+      "app/gui"}},
+    {"app/gui/application",
+     {"core", "core/storage", "device/registry", "experiments/protocol", "analysis/results",
+      "app/command_line", "app/session", "app/operator", "app/gui", "app/gui/views"}},
+    {"app/commands",
+     {"core",
+      "core/safety",
+      "core/media",
+      "core/storage",
+      "device",
+      "device/exoskeleton",
+      "device/network",
+      "device/registry",
+      "experiments/study",
+      "experiments/order",
+      "experiments/protocol",
+      "experiments/session",
+      "analysis/data",
+      "analysis/statistics",
+      "analysis/fits",
+      "analysis/hierarchical",
+      "analysis/results",
+      "analysis/movement",
+      "analysis/export",
+      "analysis/report",
+      "app/command_line",
+      "app/session",
+      "app/results",
+      "app/planning",
+      "app/operator"}},
+    {"app", {"core", "device", "app/command_line", "app/commands"}},
 };
 
-// The only places that may name a third-party library other than Eigen. Matched as a prefix:
-// "imgui" also covers imgui_impl_glfw.h.
+// The only places that may name a third-party library other than Eigen, as beginnings of paths.
+// A library is matched by its beginning, too: "imgui" also covers imgui_impl_glfw.h.
 const std::map<std::string, std::set<std::string>> kLibraryHomes = {
-    {"sqlite3", {"core/storage"}},
-    {"zstd", {"core/storage"}},
-    {"openssl", {"core/storage", "device/network"}},
-    {"boost", {"analysis"}},
-    {"hdf5", {"analysis"}},
-    {"nlohmann", {"experiments", "analysis", "app"}},
-    {"mujoco", {"device", "app"}},
-    {"ceres", {"analysis"}},
-    {"imgui", {"app/gui"}},
-    {"GLFW", {"app/gui"}},
-    {"png", {"app/gui"}},
-    {"CLI", {"app"}},
-    {"fmt", {"app"}},
+    {"sqlite3", {"core/storage/database."}},
+    {"zstd", {"core/storage/sample_codec."}},
+    {"openssl", {"core/storage/sha256.", "device/network/"}},
+    {"boost", {"analysis/"}},
+    {"hdf5", {"analysis/export/hdf5_file."}},
+    {"nlohmann", {"experiments/", "analysis/", "app/"}},
+    {"mujoco", {"device/exoskeleton/", "app/gui/"}},
+    {"ceres", {"analysis/fits/ceres_descent."}},
+    {"imgui", {"app/gui/"}},
+    {"GLFW", {"app/gui/window"}},
+    {"png", {"app/gui/picture."}},
+    {"CLI", {"app/command_line/", "app/commands/", "app/main."}},
+    {"fmt", {"app/"}},
 };
 
 struct Include {
@@ -64,45 +172,104 @@ std::vector<Include> includes_of(const fs::path& root, const fs::path& file) {
   return found;
 }
 
-bool is_inside(const std::string& file, const std::set<std::string>& folders) {
-  for (const std::string& folder : folders) {
-    if (file.starts_with(folder + "/")) return true;
-  }
-  return false;
+bool is_inside(const std::string& file, const std::set<std::string>& homes) {
+  return std::ranges::any_of(homes,
+                             [&](const std::string& home) { return file.starts_with(home); });
 }
 
-// The room that holds `path`, or "" for anything outside the house.
-std::string room_of(const std::string& path) {
-  std::string found;
-  for (const auto& [room, allowed] : kMayInclude) {
-    if (path.starts_with(room + "/") && room.size() > found.size()) found = room;
+/// The place of this folder in `kFolders`; one past the end of those that are none of it.
+std::size_t place_of(const std::string& folder) {
+  const auto found =
+      std::ranges::find(kFolders, folder, [](const auto& row) { return row.first; });
+  return static_cast<std::size_t>(found - kFolders.begin());
+}
+
+std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+/// Every source file of the product.
+std::vector<fs::path> sources(const fs::path& root) {
+  std::vector<fs::path> found;
+  for (const std::string room : {"core", "device", "experiments", "analysis", "app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      const fs::path kind = entry.path().extension();
+      if (kind == ".h" || kind == ".cpp") found.push_back(entry.path());
+    }
   }
   return found;
 }
 
-TEST(IncludeRules, DependenciesPointTowardCore) {
+TEST(IncludeRules, AFolderIncludesOnlyWhatItMay) {
   const fs::path root = jnd::test_support::source_folder();
   int includes_checked = 0;
-  for (const std::string folder : {"core", "device", "experiments", "analysis", "app"}) {
-    if (!fs::exists(root / folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-      for (const Include& include : includes_of(root, entry.path())) {
-        ++includes_checked;
-        const std::string here = room_of(include.file);
-        const std::string there = room_of(include.target);
-        EXPECT_TRUE(there.empty() || there == here || kMayInclude.at(here).contains(there))
-            << include.file << ':' << include.line << ": " << here << "/ may not include "
-            << there << '/';
-        for (const auto& [library, homes] : kLibraryHomes) {
-          EXPECT_TRUE(!include.target.starts_with(library) || is_inside(include.file, homes))
-              << include.file << ':' << include.line << ": " << library
-              << " is not allowed here";
-        }
+  for (const fs::path& file : sources(root)) {
+    for (const Include& include : includes_of(root, file)) {
+      ++includes_checked;
+      const std::string here = folder_of(include.file), there = folder_of(include.target);
+      ASSERT_LT(place_of(here), kFolders.size())
+          << include.file << ": give its folder a place in kFolders";
+      EXPECT_TRUE(there == here || place_of(there) == kFolders.size() ||
+                  kFolders[place_of(here)].second.contains(there))
+          << include.file << ':' << include.line << ": " << here << "/ may not include "
+          << there << '/';
+      for (const auto& [library, homes] : kLibraryHomes) {
+        EXPECT_TRUE(!include.target.starts_with(library) || is_inside(include.file, homes))
+            << include.file << ':' << include.line << ": " << library << " is not allowed here";
       }
     }
   }
   EXPECT_GT(includes_checked, 0) << "no sources found under " << root;
+}
+
+TEST(IncludeRules, NoCircleOfFolders) {
+  for (const auto& [folder, others] : kFolders) {
+    for (const std::string& other : others) {
+      EXPECT_LT(place_of(other), place_of(folder))
+          << folder << "/ may include " << other << "/, which does not stand above it";
+    }
+  }
+}
+
+// What is allowed and not used is an entrance that nobody watches.
+TEST(IncludeRules, EveryAllowanceIsUsed) {
+  const fs::path root = jnd::test_support::source_folder();
+  std::map<std::string, std::set<std::string>> used;
+  for (const fs::path& file : sources(root)) {
+    for (const Include& include : includes_of(root, file)) {
+      used[folder_of(include.file)].insert(folder_of(include.target));
+    }
+  }
+  for (const auto& [folder, others] : kFolders) {
+    EXPECT_TRUE(fs::is_directory(root / folder)) << folder;
+    for (const std::string& other : others) {
+      EXPECT_TRUE(used[folder].contains(other)) << folder << "/ includes nothing of " << other;
+    }
+  }
+}
+
+// Files are compiled in units of one folder, so a name that two of them give to different
+// things would be the same thing twice, or hide one behind the other.
+TEST(IncludeRules, NamesOfAFolderAreUniqueInItsUnits) {
+  static const std::regex kName(
+      R"re(^(?:(?:struct|class|enum class) (\w+)|(?:inline |static )?(?:constexpr|const) [^=;(]*?\b(k[A-Z]\w*)\b).*)re");
+  const fs::path root = jnd::test_support::source_folder();
+  std::map<std::string, std::string> files;  // By folder and name.
+  for (const fs::path& file : sources(root)) {
+    if (file.extension() != ".cpp") continue;
+    std::ifstream source(file);
+    bool is_inside_unnamed = false;
+    for (std::string line; std::getline(source, line);) {
+      if (line == "namespace {") is_inside_unnamed = true;
+      if (line == "}  // namespace") is_inside_unnamed = false;
+      std::smatch match;
+      if (!is_inside_unnamed || !std::regex_match(line, match, kName)) continue;
+      const std::string name = match[1].matched ? match[1] : match[2];
+      const std::string here = fs::relative(file, root).generic_string();
+      const auto [known, is_new] = files.emplace(folder_of(here) + " " + name, here);
+      EXPECT_TRUE(is_new || known->second == here)
+          << name << " is in " << known->second << " and in " << here << "; rename one";
+    }
+  }
+  EXPECT_GT(files.size(), 100U);
 }
 
 // A device opened any other way would have no watchdog, no heartbeat or no stop.
@@ -111,14 +278,11 @@ TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   const std::set<std::string> allowed = {
       "device/realtime_thread.h", "device/realtime_thread.cpp", "device/watched_loop.cpp"};
   std::set<std::string> found;
-  for (const std::string folder : {"core", "device", "experiments", "analysis", "app"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-      std::ifstream source(entry.path());
-      for (std::string line; std::getline(source, line);) {
-        if (line.find("start_haptics(") != std::string::npos) {
-          found.insert(fs::relative(entry.path(), root).generic_string());
-        }
+  for (const fs::path& file : sources(root)) {
+    std::ifstream source(file);
+    for (std::string line; std::getline(source, line);) {
+      if (line.find("start_haptics(") != std::string::npos) {
+        found.insert(fs::relative(file, root).generic_string());
       }
     }
   }

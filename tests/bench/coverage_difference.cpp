@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/groups/hierarchical_fit.h"
-#include "analysis/groups/summary.h"
+#include "analysis/hierarchical/hierarchical_fit.h"
+#include "analysis/statistics/summary.h"
 #include "bench/coverage_people.h"
 
 namespace jnd::coverage {

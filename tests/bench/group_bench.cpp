@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/groups/hierarchical_fit.h"
+#include "analysis/hierarchical/hierarchical_fit.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "core/doors/latest_value.h"
-#include "core/doors/spsc_queue.h"
-#include "core/haptic_command.h"
+#include "core/exchange/haptic_command.h"
+#include "core/exchange/latest_value.h"
+#include "core/exchange/spsc_queue.h"
+#include "core/exchange/telemetry.h"
 #include "core/safety/emergency_stop.h"
-#include "core/telemetry.h"
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
 

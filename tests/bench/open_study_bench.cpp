@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/laboratory_run.h"
 #include "app/operator/study_folder.h"
-#include "app/session_setup.h"
+#include "app/session/laboratory_run.h"
+#include "app/session/session_setup.h"
 #include "core/storage/study_store.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

@@ -1,10 +1,10 @@
 #include <benchmark/benchmark.h>
 
 #include "analysis/planning/power_summary.h"
-#include "app/power_study.h"
+#include "app/planning/power_study.h"
 #include "experiments/participants/answer_simulator.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/session.h"
-#include "experiments/study/study_reader.h"
 #include "support/places.h"
 
 namespace jnd::app {

@@ -25,7 +25,7 @@
 #include "experiments/procedures/adaptive_trial.h"
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/places.h"
 
 namespace {

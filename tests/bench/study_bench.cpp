@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "experiments/study/schema_writer.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/schema_writer.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::experiments {
 namespace {

@@ -17,13 +17,13 @@ std::int64_t in_ns(int time_ms) { return std::int64_t{1'000'000} * time_ms; }
 }  // namespace
 
 void ProgramInVirtualTime::start(device::HapticDevice& device) {
-  doors_ = std::make_unique<Doors>();
+  exchange_ = std::make_unique<Exchange>();
   loop_ = std::make_unique<device::HapticLoop>(
       device::HapticLoop::Parameters{}, device,
-      device::HapticLoop::Doors{doors_->commands, doors_->telemetry, stop_, nullptr,
-                                &doors_->heartbeat, &doors_->watchdog});
+      device::HapticLoop::Exchange{exchange_->commands, exchange_->telemetry, stop_, nullptr,
+                                   &exchange_->heartbeat, &exchange_->watchdog});
   watchdog_ = std::make_unique<device::Watchdog>(device::Watchdog::Parameters{}, device,
-                                                 doors_->watchdog);
+                                                 exchange_->watchdog);
   last_tick_ms_ = 0;
   sequence_ = 0;
   oracle_.program_started();
@@ -38,9 +38,9 @@ void ProgramInVirtualTime::kill() {
 void ProgramInVirtualTime::send_medium(double viscosity_pa_s, bool is_broken) {
   core::MediumAmounts medium = core::viscous({.viscosity_pa_s = viscosity_pa_s});
   if (is_broken) medium.damping_n_s_per_m = std::nan("");
-  doors_->commands.publish({.sequence = ++sequence_,
-                            .medium = medium,
-                            .immersion = {.radius_m = 10.0, .depth_m = 10.0}});
+  exchange_->commands.publish({.sequence = ++sequence_,
+                               .medium = medium,
+                               .immersion = {.radius_m = 10.0, .depth_m = 10.0}});
   oracle_.medium_sent(is_broken);
 }
 
@@ -80,7 +80,7 @@ void ProgramInVirtualTime::pass_millisecond(int now_ms) {
   }
   if (!runs()) return;
   if (now_ms % kBeatEvery_ms == 0 && !is_on(Trouble::kWindowStalls, now_ms)) {
-    doors_->heartbeat.beat();
+    exchange_->heartbeat.beat();
     oracle_.window_beat();
   }
   if (now_ms % kLookEvery_ms == 0) watchdog_->look(in_ns(now_ms));

@@ -33,7 +33,7 @@ class ProgramInVirtualTime {
   [[nodiscard]] bool is_within_tick() const noexcept { return is_within_tick_; }
 
  private:
-  struct Doors {
+  struct Exchange {
     core::LatestValue<core::HapticCommand> commands;
     core::LatestValue<core::Telemetry> telemetry;
     core::Heartbeat heartbeat;
@@ -49,7 +49,7 @@ class ProgramInVirtualTime {
   const Schedule& schedule_;
   Oracle& oracle_;
   core::EmergencyStop stop_;
-  std::unique_ptr<Doors> doors_;
+  std::unique_ptr<Exchange> exchange_;
   std::unique_ptr<device::HapticLoop> loop_;
   std::unique_ptr<device::Watchdog> watchdog_;
   std::uint64_t sequence_ = 0;

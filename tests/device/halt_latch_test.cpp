@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "device/device_registry.h"
+#include "device/registry/device_registry.h"
 
 namespace jnd::device {
 namespace halt_latch_test {

@@ -276,9 +276,9 @@ TEST(HapticLoopBadInput, AMagnetThatChattersDoesNotKnock) {
     scene.run(1);
     ASSERT_LT(scene.last_received()[0].norm(), 0.02) << tick;
   }
-  scene.telemetry_door.fetch();
-  EXPECT_EQ(scene.telemetry_door.value().num_detachments[0], 100U);
-  EXPECT_EQ(scene.telemetry_door.value().num_detachments[1], 0U);
+  scene.published_telemetry.fetch();
+  EXPECT_EQ(scene.published_telemetry.value().num_detachments[0], 100U);
+  EXPECT_EQ(scene.published_telemetry.value().num_detachments[1], 0U);
 }
 
 }  // namespace haptic_loop_bad_input_test

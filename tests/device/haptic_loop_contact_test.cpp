@@ -109,8 +109,9 @@ TEST(HapticLoopContact, ABucketHoldsTheHandAndItsFluid) {
   scene.publish();
   scene.device.move_all({0.2, 0.0, 0.0});
   run_safely(scene, 850);  // 17 cm aside: 2 cm behind the wall.
-  scene.telemetry_door.fetch();
-  EXPECT_EQ(scene.telemetry_door.value().sample.immersed_bits, 0b11111) << "still in the fluid";
+  scene.published_telemetry.fetch();
+  EXPECT_EQ(scene.published_telemetry.value().sample.immersed_bits, 0b11111)
+      << "still in the fluid";
   EXPECT_EQ(scene.fault(), Fault::kNone);
   EXPECT_LT(scene.device.last_total_n().x(), -5.0);
 }

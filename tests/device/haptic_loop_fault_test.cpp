@@ -222,7 +222,7 @@ TEST_F(HapticLoopTest, AStopOrABiteInTheMiddleOfATickStillCutsItsForce) {
       core::EmergencyStop pressed;
       core::WatchdogState watchdog;
       HapticLoop watched({.starts_armed = true}, device,
-                         {commands, telemetry_door, pressed, nullptr, nullptr, &watchdog});
+                         {commands, published_telemetry, pressed, nullptr, nullptr, &watchdog});
       device.move_all({0.5, 0.0, 0.0});
       command(core::viscous({.viscosity_pa_s = 10.0}));
       for (int tick = 0; tick < 100; ++tick) watched.tick();

@@ -13,7 +13,7 @@
 
 namespace jnd::device {
 
-/// A loop over a scripted device that may have faults injected, with all its doors.
+/// A loop over a scripted device that may have faults injected, with all that it exchanges.
 class HapticLoopTest : public ::testing::Test {
  protected:
   HapticLoopTest() { make_loop({}); }
@@ -25,7 +25,7 @@ class HapticLoopTest : public ::testing::Test {
     faulty = std::make_unique<FaultInjectingDevice>(device, std::move(faults));
     loop = std::make_unique<HapticLoop>(
         parameters, *faulty,
-        HapticLoop::Doors{commands, telemetry_door, stop, &samples, heartbeat});
+        HapticLoop::Exchange{commands, published_telemetry, stop, &samples, heartbeat});
   }
 
   void command(const core::MediumAmounts& medium, double ramp_s = 0.0) {
@@ -37,8 +37,8 @@ class HapticLoopTest : public ::testing::Test {
   }
 
   const core::Telemetry& telemetry() {
-    telemetry_door.fetch();
-    return telemetry_door.value();
+    published_telemetry.fetch();
+    return published_telemetry.value();
   }
 
   /// The largest force the device has received at any point since `first_tick`.
@@ -55,7 +55,7 @@ class HapticLoopTest : public ::testing::Test {
 
   ScriptedDevice device;
   core::LatestValue<core::HapticCommand> commands;
-  core::LatestValue<core::Telemetry> telemetry_door;
+  core::LatestValue<core::Telemetry> published_telemetry;
   core::EmergencyStop stop;
   core::SpscQueue<core::Sample> samples{8192};
   std::unique_ptr<FaultInjectingDevice> faulty;

@@ -43,7 +43,8 @@ struct LoopScene {
   explicit LoopScene(const std::array<bool, 5>& attached = core::kAllAttached,
                      const HapticLoop::Parameters& parameters = {})
       : device(lowered_hand(attached)),
-        loop(armed(parameters), device, {commands, telemetry_door, stop, nullptr, &heartbeat}) {
+        loop(armed(parameters), device,
+             {commands, published_telemetry, stop, nullptr, &heartbeat}) {
     command.medium =
         core::viscous({.viscosity_pa_s = 5.0}) +
         core::solid(
@@ -97,8 +98,8 @@ struct LoopScene {
   }
 
   core::Fault fault() {
-    telemetry_door.fetch();
-    return telemetry_door.value().fault;
+    published_telemetry.fetch();
+    return published_telemetry.value().fault;
   }
 
   /// What the device received last; free of force before the first tick.
@@ -122,7 +123,7 @@ struct LoopScene {
 
   ScriptedDevice device;
   core::LatestValue<core::HapticCommand> commands;
-  core::LatestValue<core::Telemetry> telemetry_door;
+  core::LatestValue<core::Telemetry> published_telemetry;
   core::EmergencyStop stop;
   core::Heartbeat heartbeat;
   HapticLoop loop;

@@ -145,7 +145,7 @@ TEST_F(HapticLoopTest, RecordsWhatWasMeasuredAndSentInEveryTick) {
 
 TEST_F(HapticLoopTest, CountsTheSamplesThatAFullQueueDropped) {
   core::SpscQueue<core::Sample> small(4);
-  HapticLoop short_of_room({}, device, {commands, telemetry_door, stop, &small});
+  HapticLoop short_of_room({}, device, {commands, published_telemetry, stop, &small});
   for (int i = 0; i < 10; ++i) short_of_room.tick();
   EXPECT_EQ(telemetry().num_dropped_samples, 6U);
 }
@@ -201,7 +201,7 @@ TEST_F(HapticLoopTest, ATickDoesNotAllocateInAnyOfItsStates) {
 TEST_F(HapticLoopTest, ATickWithTheSimulatedHandDoesNotAllocate) {
   if (!test_support::AllocationCounter::is_supported()) GTEST_SKIP();
   LumpedHandDevice hand(LumpedHandDevice::Parameters{.dry_friction_n = 0.3});
-  HapticLoop hand_loop({}, hand, {commands, telemetry_door, stop, &samples});
+  HapticLoop hand_loop({}, hand, {commands, published_telemetry, stop, &samples});
   hand.open();
   const test_support::AllocationCounter counter;
   command(core::water({}), 0.050);

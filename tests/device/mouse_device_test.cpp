@@ -287,9 +287,9 @@ TEST(MouseDevice, OpenedAgainItGoesToThePointerFromTheMiddleWithoutAJerk) {
 }
 
 TEST(MouseDevice, FollowsThePointerOfAnotherThreadThroughADoorOfTheirs) {
-  core::LatestValue<core::PointerPosition> door;
-  MouseDevice mouse(MouseDevice::Parameters{.rate_hz = 20'000.0}, &door);
-  EXPECT_EQ(&mouse.pointer(), &door);
+  core::LatestValue<core::PointerPosition> pointers;
+  MouseDevice mouse(MouseDevice::Parameters{.rate_hz = 20'000.0}, &pointers);
+  EXPECT_EQ(&mouse.pointer(), &pointers);
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
@@ -299,7 +299,7 @@ TEST(MouseDevice, FollowsThePointerOfAnotherThreadThroughADoorOfTheirs) {
       {.priority = 0, .lock_memory = false, .max_spin_s = 0.0, .keep_cpus_awake = false});
   start_haptics(mouse, loop, thread, false);
   for (std::uint64_t sequence = 1; telemetry.value().hand_position_m[0] < 0.19; ++sequence) {
-    door.publish({.sequence = sequence, .x_m = 0.2});
+    pointers.publish({.sequence = sequence, .x_m = 0.2});
     telemetry.fetch();
     ASSERT_EQ(telemetry.value().fault, core::Fault::kNone);
     std::this_thread::yield();

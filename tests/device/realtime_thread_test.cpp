@@ -27,7 +27,7 @@ namespace realtime_thread_test {
 constexpr RealtimeThread::Parameters kModest = {
     .priority = 0, .lock_memory = false, .max_spin_s = 0.0, .keep_cpus_awake = false};
 
-struct Doors {
+struct Exchange {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
@@ -56,17 +56,17 @@ TEST(RealtimeThread, ACpuThatDoesNotExistIsReported) {
 
 TEST(RealtimeThread, TicksUntilItIsStoppedAndEveryTickIsTimed) {
   ScriptedDevice device;
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread thread(kModest);
   EXPECT_TRUE(device.received.empty()) << "nothing moves before start";
   thread.start(loop);
   while (thread.timing().num_ticks() < 20) std::this_thread::yield();
   thread.stop();
   thread.stop();
-  doors.telemetry.fetch();
-  EXPECT_EQ(doors.telemetry.value().num_ticks, thread.timing().num_ticks());
+  exchange.telemetry.fetch();
+  EXPECT_EQ(exchange.telemetry.value().num_ticks, thread.timing().num_ticks());
   EXPECT_EQ(static_cast<std::int64_t>(device.received.size()), thread.timing().num_ticks());
   EXPECT_GE(thread.timing().lateness().percentile_ns(0.0), 0);
   EXPECT_GT(thread.timing().tick_cost().max_ns(), 0);
@@ -79,18 +79,18 @@ TEST(RealtimeThread, TheNumbersOfTheTicksAreTime) {
   device.while_read = [&] {
     if (++num_reads % 35 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(15));
   };
-  Doors doors;
+  Exchange exchange;
   core::SpscQueue<core::Sample> samples(4096);
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop, &samples});
+                  {exchange.commands, exchange.telemetry, exchange.stop, &samples});
   RealtimeThread thread(kModest);
   thread.start(loop);
   while (thread.timing().num_ticks() < 700) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   thread.stop();
-  doors.telemetry.fetch();
-  const core::Telemetry& last = doors.telemetry.value();
+  exchange.telemetry.fetch();
+  const core::Telemetry& last = exchange.telemetry.value();
   EXPECT_GT(last.num_missed_ticks, 200) << "19 times about 14";
   EXPECT_EQ(last.sample.tick + 1, last.num_ticks + last.num_missed_ticks);
   std::optional<core::Sample> first, before;
@@ -118,26 +118,26 @@ std::int64_t clock_that_goes_on_in_sleep() noexcept {
 
 TEST(RealtimeThread, SleepOfTheMachineIsAFault) {
   ScriptedDevice device;
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread::Parameters parameters = kModest;
   parameters.boottime_ns = clock_that_goes_on_in_sleep;
   slept_ns = 7'000'000'000;  // Before it began.
   RealtimeThread thread(parameters);
   thread.start(loop);
   while (thread.timing().num_ticks() < 20) std::this_thread::yield();
-  doors.telemetry.fetch();
-  EXPECT_EQ(doors.telemetry.value().fault, core::Fault::kNone);
+  exchange.telemetry.fetch();
+  EXPECT_EQ(exchange.telemetry.value().fault, core::Fault::kNone);
   slept_ns = 10'000'000'000;
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (doors.telemetry.value().fault == core::Fault::kNone &&
+  while (exchange.telemetry.value().fault == core::Fault::kNone &&
          std::chrono::steady_clock::now() < patience) {
     std::this_thread::yield();
-    doors.telemetry.fetch();
+    exchange.telemetry.fetch();
   }
   thread.stop();
-  EXPECT_EQ(doors.telemetry.value().fault, core::Fault::kSuspended);
+  EXPECT_EQ(exchange.telemetry.value().fault, core::Fault::kSuspended);
 }
 
 TEST(RealtimeThread, ReportsTheCpusItMayRunOn) {
@@ -189,9 +189,9 @@ TEST(RealtimeThread, KeepsTheCpusAwakeWhereItMay) {
 
 TEST(RealtimeThread, KnowsWhatItUsedUp) {
   ScriptedDevice device;
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread thread(kModest);
   thread.start(loop);
   while (thread.timing().num_ticks() < 50) std::this_thread::yield();
@@ -213,9 +213,9 @@ TEST(RealtimeThread, MayGoWithoutEverHavingBeenStartedOrStopped) {
 
 TEST(RealtimeThread, StoppedBeforeItsStartItNeverTicks) {
   ScriptedDevice device;
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread thread(kModest);
   thread.stop();
   thread.start(loop);
@@ -227,9 +227,9 @@ TEST(RealtimeThread, ATickThatTakesTooLongIsCountedAsMissedTicks) {
   ScriptedDevice device;
   FaultInjectingDevice stalling(
       device, {{.first_tick = 5, .injection = Injection::kStall, .magnitude = 0.025}});
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, stalling,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread thread(kModest);
   thread.start(loop);
   while (thread.timing().num_ticks() < 10) std::this_thread::yield();
@@ -241,23 +241,23 @@ TEST(RealtimeThread, ATickThatTakesTooLongIsCountedAsMissedTicks) {
 
 TEST(RealtimeThread, TheArmTakesItsOrdersFromAnotherThread) {
   LumpedHandDevice hand(LumpedHandDevice::Parameters{.rate_hz = 20'000.0});
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true, .rate_hz = 20'000.0}, hand,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   hand.open();
   RealtimeThread thread(kModest);
   thread.start(loop);
-  doors.commands.publish({.sequence = 1, .medium = core::water({})});
+  exchange.commands.publish({.sequence = 1, .medium = core::water({})});
   hand.simulated_hand()->begin_strokes(
       {.amplitude_m = 0.01, .max_speed_m_per_s = 1.0, .num_strokes = 1},
       core::RandomStream(1, "stroke"));
   while (hand.simulated_hand()->strokes_finished() < 1) {
-    doors.telemetry.fetch();
+    exchange.telemetry.fetch();
     std::this_thread::yield();
   }
   thread.stop();
   EXPECT_EQ(hand.simulated_hand()->strokes_finished(), 1);
-  EXPECT_EQ(doors.telemetry.value().fault, core::Fault::kNone);
+  EXPECT_EQ(exchange.telemetry.value().fault, core::Fault::kNone);
 }
 
 TEST(RealtimeThread, NamesTheParameterItRejects) {
@@ -289,9 +289,9 @@ TEST(StartHaptics, ADeviceThatDoesNotStartIsToldAndNothingTicks) {
   ScriptedDevice inner;
   inner.device_capabilities.simulated = true;
   FaultInjectingDevice device(inner, {{.injection = Injection::kOpenFailure}});
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   {
     RealtimeThread thread(kModest);
     try {
@@ -317,9 +317,9 @@ TEST(StartHaptics, ADeviceThatDoesNotStartIsToldAndNothingTicks) {
 
 TEST(StartHaptics, WithoutRealTimeTheMotorsOfARealDeviceStayOff) {
   ScriptedDevice device;
-  Doors doors;
+  Exchange exchange;
   HapticLoop loop({.starts_armed = true}, device,
-                  {doors.commands, doors.telemetry, doors.stop});
+                  {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread thread(kModest);
   EXPECT_THROW(start_haptics(device, loop, thread, false), core::Error);
   EXPECT_EQ(device.num_opened, 0);

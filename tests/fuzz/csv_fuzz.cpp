@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/csv_table.h"
+#include "analysis/data/csv_table.h"
 #include "analysis/fits/fit_data.h"
 #include "core/error.h"
 #include "fuzz/fuzz_check.h"

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/media/force_map.h"
-#include "experiments/study/force_map_file.h"
+#include "experiments/protocol/force_map_file.h"
 #include "fuzz/fuzz_check.h"
 
 namespace {

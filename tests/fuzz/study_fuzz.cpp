@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "experiments/order/counterbalance.h"
+#include "experiments/protocol/starter_study.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/plan.h"
-#include "experiments/study/starter_study.h"
-#include "experiments/study/study_reader.h"
 #include "fuzz/fuzz_check.h"
 
 namespace {

@@ -43,7 +43,7 @@ void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
           {.colour = has_fault ? red : Colour::kSoft});
 }
 
-void draw_hidden(Ui& ui, const Rect& place) {
+void draw_hidden_apparatus(Ui& ui, const Rect& place) {
   ui.card(place);
   draw_notice(ui, place,
               "This study is double-blind: forces, speeds, paths and the apparatus in motion "
@@ -197,7 +197,7 @@ RunViewResult draw_apparatus_view(Ui& ui, const SessionView& view,
   if (view.hides_levels || view.is_alone) {
     state.held.reset();
     state.scopes.choosing.reset();
-    draw_hidden(ui, rest);
+    draw_hidden_apparatus(ui, rest);
   } else {
     has_joints = draw_what_moves(ui, rest, view, sources, state);
   }

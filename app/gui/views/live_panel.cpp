@@ -70,7 +70,7 @@ void draw_path(Ui& ui, const Rect& place, const char* name,
          std::clamp(area.y(hand_up), place.y + 8, place.bottom() - 8), 7, Colour::kBlue);
 }
 
-void draw_hidden(Ui& ui, const Rect& place) {
+void draw_hidden_force(Ui& ui, const Rect& place) {
   ui.card(place);
   Rect inside = place.inset(18);
   ui.heading(inside.take_top(16, 16), "Force on the hand");
@@ -99,7 +99,7 @@ std::string path_words(const std::vector<TracePoint>& trace, const core::PlainVe
 
 void draw_live_panel(Ui& ui, const Rect& place, const SessionView& view,
                      const std::vector<TracePoint>& trace) {
-  if (view.hides_levels) return draw_hidden(ui, place);
+  if (view.hides_levels) return draw_hidden_force(ui, place);
   constexpr float kGap = 16;
   Rect rest = place;
   const float plot_height = std::clamp((place.height - 2 * kGap) * 0.27f, 130.0f, 230.0f);

@@ -4,7 +4,7 @@
 
 #include "app/gui/views/layout.h"
 #include "app/operator/study_words.h"
-#include "app/pseudonym.h"
+#include "app/session/pseudonym.h"
 
 namespace jnd::app::gui {
 namespace {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace results;
 
-constexpr float kLine = 36;
+constexpr float kResultsRowHeight = 36;
 constexpr float kBetweenNumbers = 8;
 
 Colour colour_of(QualityChip::Tone tone) {
@@ -210,7 +210,7 @@ void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, b
     ui.chip(inside.right() - width, place.y + 14, "simulated data", Colour::kAmber);
   }
   const std::vector<ColumnLook> columns = columns_of(results);
-  const float content = kLine * static_cast<float>(results.rows.size() + 1);
+  const float content = kResultsRowHeight * static_cast<float>(results.rows.size() + 1);
   const bool scrolls = content > inside.height - 44;
   const auto padded = [scrolls](Rect line, bool is_head) {
     line.take_left(8);
@@ -222,7 +222,7 @@ void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, b
   inside.take_top(44);
   Rect rows = ui.begin_scroll("participants", inside, content);
   const auto select = [&](std::size_t place_in_list, const std::string& name) {
-    const Rect row = rows.take_top(kLine);
+    const Rect row = rows.take_top(kResultsRowHeight);
     const bool selected = state.participant == place_in_list;
     if (selected) ui.fill(row, Colour::kBlueSoft, 8);
     if (ui.row("participant_" + std::to_string(place_in_list), row, name)) {

@@ -8,7 +8,7 @@
 namespace jnd::app::gui {
 namespace {
 
-constexpr float kLine = 38;
+constexpr float kSessionHeight = 38;
 
 const InterruptedSession* interrupted_in(const StudyFolder& study, std::int64_t session) {
   for (const InterruptedSession& open : study.interrupted) {
@@ -111,7 +111,7 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
     draw_notice(ui, inside, "No session yet. Begin the first one with “New session”.");
     return;
   }
-  const float content = kLine * static_cast<float>(study.sessions.size());
+  const float content = kSessionHeight * static_cast<float>(study.sessions.size());
   constexpr float kHead = 30;
   const bool scrolls = content > inside.height - kHead;
   Rect head = inside;
@@ -122,7 +122,7 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
   move_selection(ui, study, state);
   Rect rows = ui.begin_scroll("sessions", inside, content);
   for (const SessionLine& line : study.sessions) {
-    const Rect row = rows.take_top(kLine);
+    const Rect row = rows.take_top(kSessionHeight);
     draw_session(ui, row, study, line, state);
     ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 #include "app/gui/views/layout.h"
 
 namespace jnd::app::gui {

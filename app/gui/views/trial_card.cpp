@@ -13,7 +13,7 @@ using experiments::AnswerKind;
 using experiments::Direction;
 using experiments::StepSize;
 
-constexpr float kLargeButton = 84;
+constexpr float kAnswerButton = 84;
 constexpr float kSmallButton = 46;
 
 /// An interval of a trial, as requests name it, and what its buttons say.
@@ -96,21 +96,21 @@ class TrialCard {
 
   void add_controls(Stack& stack) {
     if (view_.step != Step::kPresenting) {
-      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_first(place); });
+      stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_first(place); });
       return;
     }
     const bool test = trial_.interval == "test";
     if (trial_.answer == AnswerKind::kYesNo && trial_.can_answer) {
-      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_yes_no(place); });
+      stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_yes_no(place); });
     } else if (trial_.answer == AnswerKind::kInterval && trial_.can_answer) {
-      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_choice(place); });
+      stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_choice(place); });
     } else if (is_typed(trial_.answer) && trial_.can_answer) {
       type_number(ui_, trial_, state_);
-      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_number(place); });
+      stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_number(place); });
     } else if (trial_.answer == AnswerKind::kMatch && test) {
       add_steps(stack);
     } else {
-      stack.add(kLargeButton, 18, [this](const Rect& place) { draw_next(place); });
+      stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_next(place); });
     }
     stack.add(kSmallButton, 0, [this](const Rect& place) { draw_switches(place); });
   }
@@ -228,12 +228,12 @@ class TrialCard {
     constexpr float kWide = 800;
     if (width_ >= kWide) {
       steps.insert(steps.begin() + 2, matches);
-      stack.add(kLargeButton, 14, [this, steps](const Rect& place) {
+      stack.add(kAnswerButton, 14, [this, steps](const Rect& place) {
         draw_button_row(ui_, place, steps, std::min(150.0f, (place.width - 90) / 5));
       });
       return;
     }
-    stack.add(kLargeButton - 26, 10, [this, matches](const Rect& place) {
+    stack.add(kAnswerButton - 26, 10, [this, matches](const Rect& place) {
       draw_button_row(ui_, place, {matches}, 260);
     });
     stack.add(kSmallButton, 10,

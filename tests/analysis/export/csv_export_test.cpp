@@ -10,7 +10,7 @@
 #include <locale>
 #include <set>
 
-#include "analysis/csv_table.h"
+#include "analysis/data/csv_table.h"
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
 #include "core/storage/recording.h"

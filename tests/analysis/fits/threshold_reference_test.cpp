@@ -7,7 +7,7 @@
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/fits/signal_detection.h"
 #include "analysis/reference_values.h"
-#include "analysis/threshold_group.h"
+#include "analysis/results/threshold_group.h"
 #include "support/reference_data.h"
 
 namespace jnd::analysis {

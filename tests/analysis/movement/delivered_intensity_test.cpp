@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analysis/movement/recorded_study.h"
-#include "analysis/study_results.h"
+#include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
 namespace delivered_intensity_test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "analysis/groups/comparison.h"
+#include "analysis/statistics/comparison.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
 #include "support/sanitizer.h"

@@ -5,7 +5,7 @@
 
 #include "analysis/hand_made_study.h"
 #include "analysis/report/figures.h"
-#include "analysis/report/report_words.h"
+#include "analysis/results/report_words.h"
 
 namespace jnd::analysis {
 namespace discrimination_figures_test {

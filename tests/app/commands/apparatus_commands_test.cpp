@@ -7,9 +7,9 @@
 
 #include "app/json_document.h"
 #include "app/sentence.h"
-#include "app/session_setup.h"
+#include "app/session/session_setup.h"
 #include "app/tiny_study.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/json_document.h"
-#include "app/results_output.h"
+#include "app/results/results_output.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"

@@ -15,7 +15,7 @@
 #include "app/sentence.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
-#include "device/device_registry.h"
+#include "device/registry/device_registry.h"
 #include "device/simulated_hand.h"
 #include "support/program.h"
 

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "analysis/person_outcome.h"
-#include "analysis/published.h"
-#include "analysis/published_statistics.h"
-#include "analysis/study_results.h"
+#include "analysis/results/person_outcome.h"
+#include "analysis/results/published.h"
+#include "analysis/results/published_statistics.h"
+#include "analysis/results/study_results.h"
 #include "app/commands/command_fixture.h"
 #include "app/json_document.h"
-#include "app/study_data.h"
+#include "app/results/study_data.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/places.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/schema_writer.h"
+#include "experiments/protocol/schema_writer.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/sanitizer.h"

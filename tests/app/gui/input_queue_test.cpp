@@ -194,7 +194,7 @@ TEST(Chord, IsPrintedAsOnTheKeys) {
   EXPECT_EQ(words({.key = Key::kUp}), "↑");
   EXPECT_EQ(words({.key = Key::kF12}), "F12");
   EXPECT_EQ(words({.key = Key::kPlus, .control = true}), "Ctrl +");
-  EXPECT_EQ(words({}), "");
+  EXPECT_EQ(words(Chord{}), "");
 }
 
 TEST(Chord, ShiftHeldByChanceStillMeansTheLetterButNotBesideControl) {

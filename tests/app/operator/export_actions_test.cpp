@@ -6,7 +6,7 @@
 
 #include "analysis/hand_made_study.h"
 #include "app/operator/simulated_study.h"
-#include "app/study_report.h"
+#include "app/results/study_report.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
 #include "core/storage/export_note.h"

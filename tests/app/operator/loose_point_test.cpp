@@ -184,12 +184,12 @@ TEST_F(LoosePointTest, AnEmergencyStopComesBeforeALooseFinger) {
   const std::int64_t trial = go_on_with_loose_index(2.0, 3.0).trial->trial;
   act(operate::Present{trial, "reference"});
   pass(1.0);
-  doors_.emergency_stop.press();
+  exchange_.emergency_stop.press();
   pass(1.5);
   EXPECT_EQ(view().step, Step::kFault);
   EXPECT_EQ(view().fault_name, "emergency_stop");
   pass(1.0);
-  act(operate::ReleaseStop{doors_.emergency_stop.num_presses()});
+  act(operate::ReleaseStop{exchange_.emergency_stop.num_presses()});
   act(operate::Rearm{});
   pass(1.0);
   EXPECT_EQ(view().step, Step::kReady);

@@ -7,9 +7,9 @@
 
 #include "app/operator/realtime_session_fixture.h"
 #include "core/storage/integrity.h"
-#include "device/device_registry.h"
 #include "device/network/device_server.h"
 #include "device/network/udp_port.h"
+#include "device/registry/device_registry.h"
 
 namespace jnd::app {
 namespace network_session_test {

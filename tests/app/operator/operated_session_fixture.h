@@ -11,10 +11,10 @@
 #include "app/operator/live_trace.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/scope_trace.h"
-#include "app/session_setup.h"
+#include "app/session/session_setup.h"
 #include "app/tiny_study.h"
 #include "experiments/participants/thesis_laboratory.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -51,7 +51,7 @@ class OperatedSessionTest : public ::testing::Test {
                                     .session = session_number_,
                                     .study = *study_,
                                     .laboratory = &laboratory_,
-                                    .doors = doors_,
+                                    .exchange = exchange_,
                                     .trace = &trace_,
                                     .scopes = &scopes_,
                                     .realtime = realtime_,
@@ -167,7 +167,7 @@ class OperatedSessionTest : public ::testing::Test {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   std::filesystem::path folder_ = temporary_.path() / "a.study";
   experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
-  OperatorDoors doors_;
+  OperatorExchange exchange_;
   LiveTrace trace_{LiveTrace::Parameters{}};
   ScopeTrace scopes_{ScopeTrace::Parameters{}};
   std::unique_ptr<experiments::Study> study_;

@@ -244,7 +244,7 @@ TEST_F(OperatedSessionTest, TheEmergencyStopPausesAndTheTrialIsRunAgainAfterArmi
   const std::int64_t trial = run_to_block("comparison").trial->trial;
   act(operate::Present{trial, "reference"});
   pass(0.5);
-  doors_.emergency_stop.press();
+  exchange_.emergency_stop.press();
   pass(0.1);
   SessionView now = view();
   EXPECT_EQ(now.step, Step::kFault);
@@ -256,13 +256,13 @@ TEST_F(OperatedSessionTest, TheEmergencyStopPausesAndTheTrialIsRunAgainAfterArmi
   EXPECT_EQ(act(operate::Rearm{}).refusal, "the emergency stop is pressed: release it first");
   EXPECT_EQ(act(operate::ReleaseStop{now.num_stop_presses - 1}).refusal,
             "the emergency stop was pressed again");
-  EXPECT_TRUE(doors_.emergency_stop.is_pressed());
+  EXPECT_TRUE(exchange_.emergency_stop.is_pressed());
   EXPECT_EQ(act(operate::ReleaseStop{now.num_stop_presses}).step, Step::kFault)
       << "releasing is no arming";
   act(operate::Rearm{});
   pass(0.1);
   now = view();
-  EXPECT_FALSE(doors_.emergency_stop.is_pressed());
+  EXPECT_FALSE(exchange_.emergency_stop.is_pressed());
   EXPECT_EQ(now.step, Step::kReady);
   expect_it_comes_later(trial);
 }

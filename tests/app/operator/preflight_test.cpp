@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "app/machine_checks.h"
 #include "app/operator/simulated_study.h"
 #include "app/operator/study_folder.h"
+#include "app/session/machine_checks.h"
 #include "core/error.h"
 
 namespace jnd::app {

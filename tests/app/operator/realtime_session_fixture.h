@@ -24,7 +24,7 @@ class RealtimeSessionTest : public OperatedSessionTest {
     realtime_ = true;
     window_ = std::thread([this] {
       while (window_is_open_) {
-        doors_.heartbeat.beat();
+        exchange_.heartbeat.beat();
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
     });

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/groups/wilson_interval.h"
 #include "analysis/hand_made_study.h"
+#include "analysis/statistics/wilson_interval.h"
 #include "app/operator/simulated_study.h"
-#include "app/results_output.h"
+#include "app/results/results_output.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 

@@ -25,7 +25,7 @@ class SessionFaultsTest : public OperatedSessionTest {
   }
 
   void stop() {
-    doors_.emergency_stop.press();
+    exchange_.emergency_stop.press();
     pass(0.05);
     EXPECT_EQ(view().step, Step::kFault);
   }
@@ -135,7 +135,7 @@ TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
   EXPECT_TRUE(core::verify(*store_).problems.empty());
 }
 
-/// Left with the stop pressed, by a program that ends: the doors are new ones.
+/// Left with the stop pressed, by a program that ends: the exchange is a new one.
 TEST_F(SessionFaultsTest, AStopHoldsForTheNextSessionAndTheNextStart) {
   stops_ = temporary_.path() / "state";
   open();
@@ -144,7 +144,7 @@ TEST_F(SessionFaultsTest, AStopHoldsForTheNextSessionAndTheNextStart) {
   ASSERT_TRUE(is_stop_remembered(stops_, "lumped"));
   act(operate::Leave{});
   session_.reset();
-  ASSERT_TRUE(doors_.emergency_stop.release(doors_.emergency_stop.num_presses()));
+  ASSERT_TRUE(exchange_.emergency_stop.release(exchange_.emergency_stop.num_presses()));
 
   reopen();
   EXPECT_TRUE(view().stop_pressed);

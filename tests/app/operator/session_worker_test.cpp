@@ -5,11 +5,11 @@
 #include <chrono>
 #include <functional>
 
-#include "app/session_setup.h"
+#include "app/session/session_setup.h"
 #include "app/tiny_study.h"
 #include "core/storage/integrity.h"
 #include "experiments/participants/thesis_laboratory.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {
@@ -38,7 +38,7 @@ class SessionWorkerTest : public ::testing::Test {
                                   .study = std::move(study),
                                   .laboratory = std::move(laboratory),
                                   .allow_no_realtime = true},
-        doors_);
+        exchange_);
   }
 
   /// Beats the heart, as a window does, until a picture is like this.
@@ -46,7 +46,7 @@ class SessionWorkerTest : public ::testing::Test {
       SessionWorker& worker, const std::function<bool(const SessionView&)>& is_so) {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (std::chrono::steady_clock::now() < patience) {
-      doors_.heartbeat.beat();
+      exchange_.heartbeat.beat();
       const auto view = worker.view();
       if (view && is_so(*view)) return view;
       if (worker.over()) break;
@@ -58,7 +58,7 @@ class SessionWorkerTest : public ::testing::Test {
 
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   fs::path folder_ = temporary_.path() / "a.study";
-  OperatorDoors doors_;
+  OperatorExchange exchange_;
 };
 
 TEST_F(SessionWorkerTest, CarriesOutRequestsAndShowsWhatCameOfThem) {
@@ -81,7 +81,7 @@ TEST_F(SessionWorkerTest, IsBehindUntilItsPictureShowsWhatCameOfARequest) {
   EXPECT_TRUE(worker->is_behind() || worker->view()->step == Step::kItem);
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (worker->is_behind() && std::chrono::steady_clock::now() < patience) {
-    doors_.heartbeat.beat();
+    exchange_.heartbeat.beat();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(worker->view()->step, Step::kItem);
@@ -110,7 +110,7 @@ TEST_F(SessionWorkerTest, AWindowThatFallsSilentStopsTheForce) {
   }
   EXPECT_EQ(worker->view()->fault_name, "heartbeat_lost");
   // Who arms it answers again: else the first tick of the armed loop finds the window silent.
-  doors_.heartbeat.beat();
+  exchange_.heartbeat.beat();
   worker->request(operate::Rearm{});
   until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
 }
@@ -130,7 +130,7 @@ TEST_F(SessionWorkerTest, ADeviceThatDoesNotStartIsToldAndNothingIsStored) {
                         .session = session,
                         .study = std::move(study),
                         .allow_no_realtime = true},
-                       doors_);
+                       exchange_);
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!worker.over() && std::chrono::steady_clock::now() < patience) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

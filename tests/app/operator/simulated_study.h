@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <string>
 
-#include "app/laboratory_run.h"
-#include "app/session_setup.h"
+#include "app/session/laboratory_run.h"
+#include "app/session/session_setup.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/thesis_laboratory.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app {

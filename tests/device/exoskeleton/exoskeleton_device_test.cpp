@@ -9,10 +9,10 @@
 
 #include "core/error.h"
 #include "core/random_stream.h"
-#include "device/device_registry.h"
 #include "device/exoskeleton/exoskeleton_options.h"
 #include "device/exoskeleton/mujoco_fixture.h"
 #include "device/haptic_loop.h"
+#include "device/registry/device_registry.h"
 #include "support/allocation_counter.h"
 #include "support/sanitizer.h"
 

@@ -302,7 +302,7 @@ TEST_F(NetworkDeviceTest, ALoopThatStartsLateIsNoFault) {
   device->open();
   loop = std::make_unique<HapticLoop>(
       HapticLoop::Parameters{.starts_armed = true}, *device,
-      HapticLoop::Doors{commands, telemetry_door, stop, nullptr, nullptr});
+      HapticLoop::Exchange{commands, published_telemetry, stop, nullptr, nullptr});
   loop_runs = false;
   run(60);
   loop_runs = true;

@@ -60,7 +60,7 @@ class NetworkTest : public ::testing::Test {
     device->open();
     loop = std::make_unique<HapticLoop>(
         HapticLoop::Parameters{.starts_armed = true}, *device,
-        HapticLoop::Doors{commands, telemetry_door, stop, nullptr, nullptr});
+        HapticLoop::Exchange{commands, published_telemetry, stop, nullptr, nullptr});
     commands.publish({.sequence = 1,
                       .medium = core::viscous({.viscosity_pa_s = 8.0}),
                       .immersion = {.radius_m = 10.0, .depth_m = 10.0},
@@ -124,8 +124,8 @@ class NetworkTest : public ::testing::Test {
   }
 
   [[nodiscard]] core::Fault fault() {
-    telemetry_door.fetch();
-    return telemetry_door.value().fault;
+    published_telemetry.fetch();
+    return published_telemetry.value().fault;
   }
 
   [[nodiscard]] const core::PointVectors& force_now() const { return scripted.received.back(); }
@@ -182,7 +182,7 @@ class NetworkTest : public ::testing::Test {
   std::unique_ptr<NetworkDevice> device;
 
   core::LatestValue<core::HapticCommand> commands;
-  core::LatestValue<core::Telemetry> telemetry_door;
+  core::LatestValue<core::Telemetry> published_telemetry;
   core::EmergencyStop stop;
   std::unique_ptr<HapticLoop> loop;
   std::optional<DeviceKey> key;  ///< Of both sides, from the next `serve` and `make_device` on.

@@ -54,19 +54,20 @@ TEST_F(NetworkHandTest, AFingerThatCameOffIsPutBackThroughABadNetwork) {
   robot.detach(3);
   robot.detach(4);
   run(5);
-  telemetry_door.fetch();
-  EXPECT_EQ(telemetry_door.value().sample.attached_bits, 0b00111);
+  published_telemetry.fetch();
+  EXPECT_EQ(published_telemetry.value().sample.attached_bits, 0b00111);
   lose_every(3, kServer);
   device->simulated_hand()->put_fingers_back();
   run(30);
   network.on_send = nullptr;
   run(1500);
-  telemetry_door.fetch();
-  EXPECT_EQ(telemetry_door.value().sample.attached_bits, 0b11111);
+  published_telemetry.fetch();
+  EXPECT_EQ(published_telemetry.value().sample.attached_bits, 0b11111);
   robot.detach(3);
   run(300);
-  telemetry_door.fetch();
-  EXPECT_EQ(telemetry_door.value().sample.attached_bits, 0b10111) << "asked once, done once";
+  published_telemetry.fetch();
+  EXPECT_EQ(published_telemetry.value().sample.attached_bits, 0b10111)
+      << "asked once, done once";
 }
 
 TEST_F(NetworkHandTest, TheHandMovesAsItWouldWithoutANetwork) {

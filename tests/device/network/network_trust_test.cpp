@@ -117,8 +117,8 @@ TEST_P(NetworkTrustTest, WhateverFaultTheDeviceTellsOfNothingFades) {
       state.fault = static_cast<Fault>(number);
     });
     run(1);
-    telemetry_door.fetch();
-    const core::Telemetry& now = telemetry_door.value();
+    published_telemetry.fetch();
+    const core::Telemetry& now = published_telemetry.value();
     EXPECT_NE(now.fault, Fault::kNone) << number;
     EXPECT_NE(now.fault, Fault::kHeartbeatLost) << "ours alone";
     EXPECT_EQ(now.authority_ratio, 0.0) << number;

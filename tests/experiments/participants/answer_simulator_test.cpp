@@ -7,9 +7,9 @@
 
 #include "experiments/participants/median_person.h"
 #include "experiments/participants/thesis_laboratory.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session.h"
-#include "experiments/study/study_reader.h"
 #include "support/places.h"
 
 namespace jnd::experiments {

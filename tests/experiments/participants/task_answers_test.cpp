@@ -9,8 +9,8 @@
 #include "experiments/procedures/adaptive_trial.h"
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
-#include "experiments/session/stimulus.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/procedures/stimulus.h"
+#include "experiments/protocol/study_reader.h"
 
 // Every task gives back what its simulated participant has, and a criterion shows where theory
 // says it does.

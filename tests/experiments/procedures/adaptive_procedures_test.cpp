@@ -10,7 +10,7 @@
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 #include "support/sanitizer.h"
 
 namespace jnd::experiments {

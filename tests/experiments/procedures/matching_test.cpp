@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/stimulus.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/plan.h"
-#include "experiments/session/stimulus.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
 namespace matching_test {

@@ -4,9 +4,9 @@
 
 #include "experiments/procedures/magnitude_estimation.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/stimulus.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/plan.h"
-#include "experiments/session/stimulus.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
 namespace modulus_test {

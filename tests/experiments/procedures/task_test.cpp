@@ -7,7 +7,7 @@
 #include <set>
 
 #include "experiments/procedures/procedure_registry.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::experiments {
 namespace task_test {

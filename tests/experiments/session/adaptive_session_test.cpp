@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random_stream.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/session_in_memory.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
 namespace adaptive_session_test {

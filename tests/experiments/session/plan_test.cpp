@@ -8,9 +8,9 @@
 #include <map>
 
 #include "core/clock.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/event.h"
 #include "experiments/session/session_in_memory.h"
-#include "experiments/study/study_reader.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::experiments {

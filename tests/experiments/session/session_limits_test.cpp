@@ -27,23 +27,6 @@ Stage rest() {
 const std::vector<Stage> kStages = {block("first", 10), rest(), block("second", 6),
                                     block("third", 5), rest()};
 
-TEST(SessionLimits, TrialsCountFromBreakToBreakOverBlocks) {
-  std::vector<StageInstance> stages;
-  for (const Stage& stage : kStages) stages.push_back({&stage, stage.name});
-  const Stretch longest = longest_stretch(stages);
-  EXPECT_EQ(longest.num_trials, 22);  // (6 + 5) stimuli twice, more than 10 twice.
-  ASSERT_EQ(longest.blocks.size(), 2U);
-  EXPECT_EQ(longest.blocks[0]->name, "second");
-  EXPECT_EQ(longest.blocks[1]->name, "third");
-  EXPECT_EQ(longest_stretch({}).num_trials, 0);
-}
-
-TEST(SessionLimits, ASessionTakesItsStagesTogether) {
-  std::vector<StageInstance> stages;
-  for (const Stage& stage : kStages) stages.push_back({&stage, stage.name});
-  EXPECT_DOUBLE_EQ(expected_session_s(stages), 2 * (10 + 6 + 5) * 10.0 + 2 * 60.0);
-}
-
 TEST(SessionLimits, AnswersCountSinceTheLastBreakThatIsOver) {
   std::vector<const Stage*> stages;
   for (const Stage& stage : kStages) stages.push_back(&stage);

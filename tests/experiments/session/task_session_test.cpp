@@ -3,9 +3,9 @@
 #include <set>
 
 #include "core/error.h"
+#include "experiments/procedures/stimulus.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/session/session_in_memory.h"
-#include "experiments/session/stimulus.h"
-#include "experiments/study/study_reader.h"
 
 namespace jnd::experiments {
 namespace task_session_test {

@@ -5,7 +5,7 @@
 #include "app/gui/headless_ui.h"
 #include "app/gui/views/study_fixtures.h"
 #include "app/tiny_study.h"
-#include "experiments/study/study_reader.h"
+#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app::gui {
 namespace study_view_test {

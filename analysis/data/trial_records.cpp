@@ -1,0 +1,75 @@
+#include "analysis/data/trial_records.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace jnd::analysis {
+namespace {
+
+using ByTrial = std::map<std::int64_t, TrialRecord>;
+
+TrialRecord* find(ByTrial& records, const std::optional<std::int64_t>& trial) {
+  const auto found = trial ? records.find(*trial) : records.end();
+  return found == records.end() ? nullptr : &found->second;
+}
+
+std::optional<double> level_of(const core::DesignRow& row) {
+  if (row.procedure == "magnitude_production") return row.target_percent;
+  return row.procedure == "matching" ? row.reference_intensity : row.intensity;
+}
+
+void add_events(const core::StudyStore& store, std::int64_t session, ByTrial& records) {
+  TrialRecord* under_way = nullptr;
+  for (const core::EventRow& event : store.events(session)) {
+    TrialRecord* const record = find(records, event.trial);
+    if (event.kind == "trial_started") under_way = record;
+    if (event.kind == "fault_raised" && under_way != nullptr) under_way->is_faulted = true;
+    if (event.kind == "trial_answered" || event.kind == "attempt_discarded") {
+      under_way = nullptr;
+    }
+    if (record == nullptr) continue;
+    record->num_undone += event.kind == "answer_undone" ? 1 : 0;
+    record->num_discarded += event.kind == "attempt_discarded" ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+std::vector<TrialRecord> trial_records(const core::StudyStore& store, std::int64_t session) {
+  ByTrial records;
+  std::map<std::int64_t, bool> is_solid;
+  for (const core::DesignRow& row : store.design(session)) {
+    records[row.trial] = {.session = session,
+                          .trial = row.trial,
+                          .block = row.block,
+                          .level = level_of(row),
+                          .is_catch = row.is_catch};
+    is_solid[row.trial] = row.medium == "solid";
+  }
+  for (const core::TrialRow& row : store.trials(session, /*include_excluded=*/true)) {
+    if (TrialRecord* const record = find(records, row.trial)) record->is_set_aside = true;
+  }
+  for (const core::TrialRow& row : store.trials(session)) {
+    if (TrialRecord* const record = find(records, row.trial)) {
+      record->is_answered = true;
+      record->is_set_aside = false;
+    }
+  }
+  std::map<std::pair<std::int64_t, std::string>, bool> has_stroke;  // By trial and interval.
+  for (const core::PresentationRow& row : store.presentations(session)) {
+    TrialRecord* const record = find(records, row.trial);
+    if (record == nullptr || row.interval == "free_space") continue;
+    if (row.limited_ticks > 0) record->is_limited = true;
+    if (!is_solid[row.trial]) has_stroke[{row.trial, row.interval}] |= row.num_strokes > 0;
+  }
+  for (const auto& [presented, has] : has_stroke) {
+    if (!has) records.at(presented.first).is_strokeless = true;
+  }
+  add_events(store, session, records);
+  std::vector<TrialRecord> all;
+  for (auto& [trial, record] : records) all.push_back(std::move(record));
+  return all;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,361 @@
+#include "analysis/hierarchical/hierarchical_fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "analysis/hierarchical/hierarchical_arrangement.h"
+#include "analysis/hierarchical/hierarchical_cautions.h"
+#include "analysis/hierarchical/hierarchical_lapses.h"
+#include "analysis/hierarchical/hierarchical_levels.h"
+#include "analysis/hierarchical/hierarchical_search.h"
+#include "analysis/hierarchical/hierarchical_words.h"
+#include "core/error.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+int usual_num_nodes(int num_random_effects) {
+  constexpr int kNodes[] = {15, 9, 5, 3, 3};
+  return kNodes[num_random_effects - 1];
+}
+
+/// The better of two searches where there is a lapse rate. None is a maximum of its own beside
+/// one with some lapses and steeper curves, and which of them a single search comes to hangs on
+/// nothing but where it starts: the second one starts on the other side of the first one's end,
+/// from the best curves there.
+HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
+                                   const HierarchicalStructure& structure,
+                                   const Eigen::VectorXd& start) {
+  constexpr double kNoLapses = 1e-6, kSomeLapsesAngle = 0.2;  // 2 in a hundred.
+  HierarchicalOptimum first = most_likely(likelihood, start);
+  if (!structure.has_lapses) return first;
+  const bool found_some =
+      first.status == FitStatus::kOk && structure.lapse_rate(first.parameters) > kNoLapses;
+  Eigen::VectorXd other = start;
+  other(structure.angle_at()) = found_some ? 0.0 : kSomeLapsesAngle;
+  HierarchicalOptimum second =
+      most_likely(likelihood, most_likely_with(likelihood, other, structure.angle_at()));
+  const bool is_better =
+      first.status != FitStatus::kOk || second.log_likelihood > first.log_likelihood;
+  return second.status == FitStatus::kOk && is_better ? second : first;
+}
+
+std::optional<double> fraction_at(HierarchicalLink link, double slope_number) {
+  const double slope =
+      link == HierarchicalLink::kLinear ? slope_number : std::exp(slope_number);
+  const double fraction = std::expm1(1.0 / slope);
+  return slope > 0.0 && std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
+}
+
+/// Half the 95 % interval of a number with this variance.
+double reach_of(double variance, int num_participants) {
+  const double n = num_participants;
+  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
+  return t * std::sqrt(variance * n / (n - 1.0));
+}
+
+double pse_of(HierarchicalLink link, double reference, double slope_number, double place) {
+  return reference *
+         std::exp(link == HierarchicalLink::kLinear ? -place / slope_number : place);
+}
+
+/// The pse's interval: on ln pse, for a linear one by the delta method.
+Interval pse_interval(const HierarchicalStructure& structure, const HierarchicalOptimum& found,
+                      int condition, double pse, int num_participants) {
+  const int place_at = structure.place_at(condition);
+  Eigen::VectorXd by_parameter = Eigen::VectorXd::Zero(structure.num_parameters);
+  by_parameter(place_at) = 1.0;
+  if (structure.link == HierarchicalLink::kLinear) {
+    const double slope = found.parameters(condition);
+    by_parameter(place_at) = -1.0 / slope;
+    by_parameter(condition) = found.parameters(place_at) / (slope * slope);
+  }
+  const double reach =
+      reach_of(by_parameter.dot(found.covariance * by_parameter), num_participants);
+  return {pse * std::exp(-reach), pse * std::exp(reach)};
+}
+
+void fill_conditions(HierarchicalFit& fit, const HierarchicalArrangement& all,
+                     const HierarchicalStructure& structure, const HierarchicalOptimum& found,
+                     const HierarchicalOptions& options) {
+  for (int condition = 0; condition < structure.num_conditions; ++condition) {
+    const auto at = static_cast<std::size_t>(condition);
+    HierarchicalCondition one{.condition = all.conditions[at],
+                              .num_participants = all.num_in_condition[at]};
+    one.slope_number = found.parameters(condition);
+    one.slope_standard_error = std::sqrt(found.covariance(condition, condition));
+    one.weber_fraction = fraction_at(options.link, one.slope_number);
+    if (one.num_participants >= 2) {
+      const double reach =
+          reach_of(found.covariance(condition, condition), one.num_participants);
+      one.weber_fraction_ci95 = {fraction_at(options.link, one.slope_number + reach),
+                                 fraction_at(options.link, one.slope_number - reach)};
+    }
+    one.pse = all.reference[at];
+    if (structure.has_places) {
+      const int place_at = structure.place_at(condition);
+      one.place_number = found.parameters(place_at);
+      one.place_standard_error = std::sqrt(found.covariance(place_at, place_at));
+      one.pse = pse_of(options.link, all.reference[at], one.slope_number, one.place_number);
+      one.pse_ci95 = one.num_participants < 2 ? Interval{}
+                                              : pse_interval(structure, found, condition,
+                                                             *one.pse, one.num_participants);
+    }
+    double slope_variance = 0.0;
+    for (const HierarchicalStructure::Loading& loading : structure.loadings) {
+      const double value = found.parameters(loading.parameter);
+      if (loading.number == condition) slope_variance += value * value;
+      if (loading.number == structure.own_place_at(condition)) one.place_sd = std::fabs(value);
+    }
+    one.slope_sd = std::sqrt(slope_variance);
+    for (double* spread : {&one.slope_sd, &one.place_sd}) {
+      if (*spread <= kNoSpread) *spread = 0.0;  // As the note then says.
+    }
+    fit.conditions.push_back(std::move(one));
+  }
+}
+
+/// Of the difference of two slope numbers, the sandwich's; 0 where people's scores are alike
+/// but for rounding.
+double difference_variance(const HierarchicalOptimum& found, Eigen::Index second) {
+  constexpr double kRounding = 1e-12;
+  const double by_model = found.covariance(second, second) + found.covariance(0, 0) -
+                          2.0 * found.covariance(second, 0);
+  const double by_people = (found.influence.row(second) - found.influence.row(0)).squaredNorm();
+  return by_people > kRounding * by_model ? by_people : 0.0;
+}
+
+void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
+                      HierarchicalLink link) {
+  const double sign = link == HierarchicalLink::kLogSlope ? -1.0 : 1.0;
+  for (std::size_t second = 1; second < fit.conditions.size(); ++second) {
+    const auto at = static_cast<Eigen::Index>(second);
+    HierarchicalDifference one{.first = fit.conditions[0].condition,
+                               .second = fit.conditions[second].condition};
+    one.estimate = sign * (found.parameters(at) - found.parameters(0));
+    const double variance = difference_variance(found, at);
+    const int n =
+        std::min(fit.conditions[0].num_participants, fit.conditions[second].num_participants);
+    if (n >= 2 && variance > 0.0) {
+      const double reach = reach_of(variance, n);
+      one.degrees_of_freedom = n - 1.0;
+      one.standard_error = std::sqrt(variance * n / (n - 1.0));
+      one.ci95 = {one.estimate - reach, one.estimate + reach};
+      one.statistic = one.estimate / *one.standard_error;
+      one.p_value = 2.0 * boost::math::cdf(boost::math::complement(
+                              boost::math::students_t(n - 1.0), std::fabs(*one.statistic)));
+    }
+    fit.differences.push_back(std::move(one));
+  }
+}
+
+/// Of the slopes in two conditions.
+void fill_correlation(HierarchicalFit& fit, const HierarchicalStructure& structure,
+                      const HierarchicalOptimum& found) {
+  const bool correlated = structure.num_conditions == 2 && structure.loadings.size() >= 3 &&
+                          structure.loadings[2].number == 1;
+  if (correlated && fit.conditions[0].slope_sd > kNoSpread &&
+      fit.conditions[1].slope_sd > kNoSpread) {
+    const double own = found.parameters(structure.loadings[0].parameter);
+    const double shared = found.parameters(structure.loadings[1].parameter);
+    fit.correlation = std::copysign(1.0, own) * shared / fit.conditions[1].slope_sd;
+  }
+}
+
+void fill_lapse_rate(HierarchicalFit& fit, const HierarchicalStructure& structure,
+                     const HierarchicalOptimum& found, HierarchicalLapses lapses) {
+  if (lapses == HierarchicalLapses::kKnown) fit.lapse_rate = structure.known_lapse_rate;
+  if (!structure.has_lapses) return;
+  constexpr double kManyLapses = 0.1, kNoLapses = 1e-8;
+  fit.lapse_rate = structure.lapse_rate(found.parameters);
+  if (*fit.lapse_rate < kNoLapses) fit.lapse_rate = 0.0;
+  if (*fit.lapse_rate < kManyLapses) return;
+  add_note(fit,
+           "more than one answer in five looks random: somebody may have had another task, or "
+           "turned the answers round");
+}
+
+/// The union of the intervals at both ends of what is left of the lapse rate with that at the
+/// most likely one: the more lapses, the steeper the curve.
+void widen_intervals(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
+  const Interval& left = fit.lapse_rate_with_prior_ci95;
+  for (std::size_t condition = 0; condition < fit.conditions.size(); ++condition) {
+    HierarchicalCondition& one = fit.conditions[condition];
+    if (one.num_participants < 2) continue;
+    const auto at = static_cast<Eigen::Index>(condition);
+    const auto widen = [&](const std::optional<double>& lapse_rate) {
+      const std::optional<double> variance =
+          lapse_rate ? profile.variance_at(*lapse_rate, static_cast<int>(condition))
+                     : std::nullopt;
+      if (!variance) {
+        // As many lapses as leave no curve: as steep as can be.
+        one.weber_fraction_ci95.low.reset();
+        return;
+      }
+      const double slope = profile.at(*lapse_rate).parameters(at);
+      const double reach = reach_of(*variance, one.num_participants);
+      const std::optional<double> low = fraction_at(link, slope + reach);
+      const std::optional<double> high = fraction_at(link, slope - reach);
+      if (one.weber_fraction_ci95.low && low) {
+        one.weber_fraction_ci95.low = std::min(*one.weber_fraction_ci95.low, *low);
+      }
+      if (!high) one.weber_fraction_ci95.high.reset();
+      if (one.weber_fraction_ci95.high && high) {
+        one.weber_fraction_ci95.high = std::max(*one.weber_fraction_ci95.high, *high);
+      }
+    };
+    widen(left.low);
+    widen(left.high);
+  }
+}
+
+/// What answers and prior leave open of the lapse rate, and what that does to the rest.
+void fill_lapse_profile(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
+  fit.lapse_rate_ci95 = profile.interval(false);
+  fit.lapse_rate_with_prior_ci95 = profile.interval(true);
+  fit.lapse_rate_without_prior = profile.without_prior();
+  const LapseProfile::Point& without_prior = profile.at(profile.without_prior());
+  for (std::size_t condition = 0; condition < fit.conditions.size(); ++condition) {
+    fit.conditions[condition].weber_fraction_without_prior =
+        fraction_at(link, without_prior.parameters(static_cast<Eigen::Index>(condition)));
+  }
+  widen_intervals(fit, profile, link);
+}
+
+/// Cautions of levels that are too hard. `profile`: none where there are no lapses to fit.
+void fill_ease(HierarchicalFit& fit, const HierarchicalArrangement& all,
+               const HierarchicalStructure& structure, const HierarchicalOptimum& found,
+               LapseProfile* profile) {
+  constexpr double kSomeLapses = 0.03;
+  for (int condition = 0; condition < structure.num_conditions; ++condition) {
+    HierarchicalCondition& one = fit.conditions[static_cast<std::size_t>(condition)];
+    const LevelEase ease = level_ease(all, structure, found.parameters, condition);
+    one.easy_ratio = ease.easy_ratio;
+    if (!one.weber_fraction || !are_hard(ease)) continue;
+    std::optional<double> with_lapses;
+    if (profile != nullptr && profile->with_prior() < kSomeLapses) {
+      const LapseProfile::Point& point = profile->at(kSomeLapses);
+      if (point.exists) {
+        with_lapses = fraction_at(structure.link, point.parameters(condition));
+      }
+    }
+    one.cautions = {hard_levels(ease, *one.weber_fraction, with_lapses)};
+  }
+}
+
+/// Why a condition's answers have no curve, whatever its pse; "" if nothing forbids one.
+std::string why_no_curve(const HierarchicalArrangement& all) {
+  for (std::size_t condition = 0; condition < all.conditions.size(); ++condition) {
+    const auto& rows = all.pooled[condition];
+    const auto none = [](const AnswerCount& row) { return row.num_yes == 0; };
+    const auto every = [](const AnswerCount& row) { return row.num_yes == row.num_trials; };
+    if (!std::ranges::all_of(rows, none) && !std::ranges::all_of(rows, every)) continue;
+    const std::string& name = all.conditions[condition];
+    return (name.empty() ? "" : name + ": ") +
+           "all alike: everybody's every answer is the same, so nothing tells how fine the "
+           "discrimination is";
+  }
+  return "";
+}
+
+void fill_people(HierarchicalFit& fit, const HierarchicalArrangement& all,
+                 const std::vector<Eigen::VectorXd>& modes, HierarchicalLink link) {
+  for (std::size_t person = 0; person < all.people.size(); ++person) {
+    for (const HierarchicalCell& cell : all.people[person]) {
+      const auto condition = static_cast<std::size_t>(cell.condition);
+      HierarchicalPersonEstimate one{
+          .participant = all.participants[person],
+          .condition = all.conditions[condition],
+          .weber_fraction = fraction_at(link, modes[person](cell.condition))};
+      if (!fit.conditions[condition].weber_fraction) {
+        one.weber_fraction.reset();
+        one.reason = "the condition has no value";
+      } else if (!one.weber_fraction) {
+        one.reason =
+            "the answers do not rise, or so little that the value exceeds the range of "
+            "numbers";
+      } else if (*one.weber_fraction > largest_fraction(all, condition)) {
+        one.cautions = {
+            "beyond the largest stimulus: how large it is hangs on the curve's form and on how "
+            "people differ more than on this person's answers"};
+      }
+      fit.participants.push_back(std::move(one));
+    }
+  }
+}
+
+}  // namespace
+
+HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
+                                 const HierarchicalOptions& options) {
+  core::require(options.guess_rate >= 0.0 && options.guess_rate < 1.0, "guess_rate",
+                "a number from 0 to below 1", options.guess_rate);
+  const double lapse_limit = options.guess_rate > 0.0 ? 1.0 - options.guess_rate : 0.5;
+  core::require(options.lapse_rate >= 0.0 && options.lapse_rate < lapse_limit, "lapse_rate",
+                "a number from 0 that leaves the curve a rise", options.lapse_rate);
+  const HierarchicalArrangement all = arranged(answers);
+  HierarchicalFit fit;
+  fit.guess_rate = options.guess_rate;
+  fit.num_participants = static_cast<int>(all.people.size());
+  const auto num_conditions = static_cast<int>(all.conditions.size());
+  const bool has_orders = std::ranges::count(all.has_orders_in, true) > 0;
+  const int most_conditions = options.slopes == HierarchicalSlopes::kCorrelated         ? 2
+                              : options.pse == HierarchicalPse::kPersonal || has_orders ? 4
+                                                                                        : 8;
+  if (num_conditions > most_conditions) {
+    throw core::Error(
+        "conditions: expected one or two, up to four with shared slopes, or up to eight where "
+        "nobody has a pse or a bias in each, found " +
+        std::to_string(num_conditions));
+  }
+  fit.status = FitStatus::kDegenerate;
+  if (all.yes_at_zero && options.guess_rate == 0.0) {
+    fit.reason =
+        "impossible: a yes at intensity 0 has probability 0 on every curve; leave the trials "
+        "at "
+        "intensity 0 out";
+    return fit;
+  }
+  if (fit.num_participants < 2) {
+    fit.reason = "fewer than two participants with answers: how people differ is unknown";
+    return fit;
+  }
+  fit.reason = why_no_curve(all);
+  if (!fit.reason.empty()) return fit;
+  const HierarchicalStructure structure = structure_of(all, options);
+  fit.num_nodes =
+      options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
+  fit.method = method_words(options, all.has_orders_in, fit.num_nodes);
+  const std::optional<Eigen::VectorXd> start = start_of(all, structure, fit.reason);
+  if (!start) return fit;
+  const HierarchicalLikelihood likelihood(structure, all.people, fit.num_nodes);
+  const HierarchicalOptimum found = better_optimum(likelihood, structure, *start);
+  fit.status = found.status;
+  fit.reason = found.reason;
+  if (found.status != FitStatus::kOk) return fit;
+
+  fit.log_likelihood = found.log_likelihood - structure.log_prior(found.parameters);
+  fill_conditions(fit, all, structure, found, options);
+  fill_differences(fit, found, options.link);
+  fill_correlation(fit, structure, found);
+  const bool has_own_places = options.pse != HierarchicalPse::kCommon &&
+                              (options.pse != HierarchicalPse::kReference || has_orders);
+  note_spreads_at_bounds(fit, has_own_places);
+  fill_lapse_rate(fit, structure, found, options.lapses);
+  std::optional<LapseProfile> profile;
+  if (structure.has_lapses && options.lapse_profile) {
+    profile.emplace(likelihood, structure, *start, found);
+    fill_lapse_profile(fit, *profile, options.link);
+  }
+  leave_out_what_is_not_told(fit);
+  if (fit.status != FitStatus::kOk) return fit;
+  fill_ease(fit, all, structure, found, profile ? &*profile : nullptr);
+  caution_of_misfit(fit, likelihood.misfit_p_value(found.parameters));
+  note_alike_people(fit);
+  fill_people(fit, all, likelihood.modes(found.parameters), options.link);
+  return fit;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,183 @@
+#include "analysis/hierarchical/hierarchical_lapses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jnd::analysis {
+namespace {
+
+/// Half the 95 % quantile of chi-squared with one degree of freedom.
+constexpr double kFall = 1.9207294103470617;
+
+}  // namespace
+
+LapseProfile::LapseProfile(const HierarchicalLikelihood& likelihood,
+                           const HierarchicalStructure& structure, const Eigen::VectorXd& start,
+                           const HierarchicalOptimum& found)
+    : likelihood_(likelihood),
+      structure_(structure),
+      start_(start),
+      with_prior_(structure.lapse_rate(found.parameters)) {
+  const Eigen::VectorXd& at = found.parameters;
+  points_[with_prior_] = {
+      .exists = true,
+      .parameters = at,
+      .log_likelihood = found.log_likelihood - structure.log_prior(at),
+      .rise = with_prior_ > 0.0 ? -structure.log_prior_rise(with_prior_) : 0.0};
+}
+
+/// Newton's method alone where that comes to rest. It cannot leave a spread of 0 where that is
+/// no maximum any more, as there are more lapses: then from people who differ.
+std::optional<Eigen::VectorXd> LapseProfile::sought_from(Eigen::VectorXd start) {
+  const int held = structure_.angle_at();
+  std::optional<Eigen::VectorXd> found = most_likely_near(likelihood_, start, held, inverse_);
+  if (found && is_maximum(*found)) return found;
+  for (const HierarchicalStructure::Loading& one : structure_.loadings) {
+    start(one.parameter) = start_(one.parameter);
+  }
+  inverse_.resize(0, 0);
+  found =
+      most_likely_near(likelihood_, most_likely_with(likelihood_, start, held), held, inverse_);
+  return found && is_maximum(*found) ? found : std::nullopt;
+}
+
+/// Where a spread is 0 the likelihood is level in it, by its being even.
+bool LapseProfile::is_maximum(const Eigen::VectorXd& at) const {
+  constexpr double kNone = 1e-5, kStep = 1e-3;
+  return std::ranges::none_of(structure_.loadings, [&](const auto& one) {
+    if (std::fabs(at(one.parameter)) > kNone) return false;
+    Eigen::VectorXd beside = at;
+    beside(one.parameter) = kStep;
+    return likelihood_(beside) > likelihood_(at) + 1e-9;
+  });
+}
+
+const LapseProfile::Point& LapseProfile::at(double lapse_rate) {
+  const auto known = points_.find(lapse_rate);
+  if (known != points_.end()) return known->second;
+  const auto nearest = std::ranges::min_element(points_, {}, [&](const auto& one) {
+    return one.second.exists ? std::fabs(one.first - lapse_rate)
+                             : std::numeric_limits<double>::infinity();
+  });
+  const int angle_at = structure_.angle_at();
+  Eigen::VectorXd start = nearest->second.parameters;
+  start(angle_at) = std::asin(std::sqrt(lapse_rate / structure_.lapse_limit()));
+  Point point;
+  if (const auto found = sought_from(std::move(start))) {
+    point.exists = true;
+    point.parameters = *found;
+    point.log_likelihood = likelihood_(*found) - structure_.log_prior(*found);
+    if (lapse_rate > 0.0) {
+      point.rise = rise_of(likelihood_, *found)(angle_at) /
+                       (structure_.lapse_limit() * std::sin(2.0 * (*found)(angle_at))) -
+                   structure_.log_prior_rise(lapse_rate);
+    }
+  }
+  return points_[lapse_rate] = std::move(point);
+}
+
+std::optional<double> LapseProfile::variance_at(double lapse_rate, int parameter) {
+  const Point& point = at(lapse_rate);
+  if (!point.exists) return std::nullopt;
+  if (!covariances_.contains(lapse_rate)) {
+    covariances_[lapse_rate] =
+        covariance_without(likelihood_, point.parameters, structure_.angle_at());
+  }
+  const auto& covariance = covariances_.at(lapse_rate);
+  // The angle is the last parameter.
+  return covariance ? std::optional((*covariance)(parameter, parameter)) : std::nullopt;
+}
+
+double LapseProfile::height(double lapse_rate, bool has_prior) {
+  const Point& point = at(lapse_rate);
+  if (!point.exists) return -std::numeric_limits<double>::infinity();
+  return point.log_likelihood + (has_prior ? structure_.log_prior(point.parameters) : 0.0);
+}
+
+double LapseProfile::without_prior() {
+  if (without_prior_) return *without_prior_;
+  // The highest of some, then where the likelihood no longer rises beside it.
+  constexpr double kHardlyAny = 1e-6, kLevel = 1e-4, kNear = 1e-8;
+  for (const double lapse_rate : {0.0, kHardlyAny, 0.01, 0.025, 0.05, 0.1, 0.2}) {
+    const Point& point = at(lapse_rate);
+    if (lapse_rate > with_prior_ && (!point.exists || point.rise < 0.0)) break;
+  }
+  const auto best = std::ranges::max_element(
+      points_, {}, [&](const auto& one) { return height(one.first, false); });
+  double found = best->first;
+  const bool rises = best->first > 0.0 && best->second.rise > 0.0;
+  const bool has_next = std::next(best) != points_.end() && std::next(best)->second.exists;
+  if (rises ? has_next : best->first > kHardlyAny) {
+    // Regula falsi, an end that stays counted half (Illinois).
+    double low = rises ? best->first : std::prev(best)->first;
+    double high = rises ? std::next(best)->first : best->first;
+    double rise_low = at(low).rise, rise_high = at(high).rise;
+    for (int i = 0; i < 60 && high - low > kNear; ++i) {
+      const bool known = rise_low > 0.0 && rise_high < 0.0;
+      const double share = known ? rise_low / (rise_low - rise_high) : 0.5;
+      const double middle = low + share * (high - low);
+      const Point& point = at(middle);
+      if (height(middle, false) > height(found, false)) found = middle;
+      if (!point.exists || std::fabs(point.rise) < kLevel) break;
+      if (point.rise > 0.0) {
+        low = middle;
+        rise_low = point.rise;
+        rise_high *= 0.5;
+      } else {
+        high = middle;
+        rise_high = point.rise;
+        rise_low *= 0.5;
+      }
+    }
+  }
+  without_prior_ = found <= kHardlyAny ? 0.0 : found;
+  return *without_prior_;
+}
+
+std::optional<double> LapseProfile::end(double from, bool has_prior, double direction) {
+  constexpr double kNear = 1e-9, kNearNoCurve = 1e-3, kLevel = 1e-7, kOneStepAway = 2e-3;
+  const double most_lapses = 0.9 * structure_.lapse_limit();
+  const double top = height(from, has_prior);
+  double inside = from;
+  std::optional<double> outside;
+  double next = direction > 0.0 ? from + 0.02 : 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const Point& point = at(next);
+    const double excess = top - height(next, has_prior) - kFall;
+    if (std::fabs(excess) < kLevel) return next;
+    if (excess < 0.0) {
+      if (next == 0.0) return 0.0;
+      if (next == most_lapses) return std::nullopt;
+      inside = next;
+    } else {
+      outside = next;
+    }
+    if (outside && !at(*outside).exists && std::fabs(*outside - inside) < kNearNoCurve) {
+      return std::nullopt;
+    }
+    if (outside && std::fabs(*outside - inside) < kNear) return next;
+    const double rise = point.rise + (has_prior ? structure_.log_prior_rise(next) : 0.0);
+    const double newton = next + excess / rise;
+    const double farthest =
+        outside ? *outside : std::min(most_lapses, from + 3.0 * (next - from));
+    // Newton's method squares the error: the next point needs no fit of its own.
+    if (std::fabs(excess) < kOneStepAway && point.exists && next > 0.0) {
+      return std::clamp(newton, 0.0, most_lapses);
+    }
+    const bool is_between = std::isfinite(newton) && (newton - inside) * direction > 0.0 &&
+                            (farthest - newton) * direction > 0.0;
+    next = is_between && point.exists && next > 0.0 ? newton
+           : outside                                ? 0.5 * (inside + *outside)
+                                                    : farthest;
+  }
+  return next;
+}
+
+Interval LapseProfile::interval(bool has_prior) {
+  const double from = has_prior ? with_prior_ : without_prior();
+  return {from > 0.0 ? end(from, has_prior, -1.0) : std::optional(0.0),
+          end(from, has_prior, 1.0)};
+}
+
+}  // namespace jnd::analysis

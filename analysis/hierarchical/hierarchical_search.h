@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/hierarchical/hierarchical_model.h"
+#include "analysis/statistics/fit_status.h"
+
+namespace jnd::analysis {
+
+struct HierarchicalOptimum {
+  FitStatus status = FitStatus::kNotRun;
+  std::string reason;  ///< "" where there is an optimum.
+  Eigen::VectorXd parameters;
+  Eigen::MatrixXd covariance;  ///< Inverse of the observed information.
+  /// Of each person, a column, on each parameter: covariance times score. The scores' mean,
+  /// which only a prior keeps from 0, is taken off.
+  Eigen::MatrixXd influence;
+  double log_likelihood = 0.0;  ///< And log prior.
+};
+
+/// The largest integrated likelihood (times prior) near `start`: Ceres by Fisher's gradient,
+/// then Newton on the rule's own value, whose derivatives are differences of it. A loading that
+/// ends at 0 is an optimum there: the likelihood is even in it.
+[[nodiscard]] HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
+                                              const Eigen::VectorXd& start);
+
+/// Roughly the largest with one parameter held where it is: a start for the search above.
+[[nodiscard]] Eigen::VectorXd most_likely_with(const HierarchicalLikelihood& likelihood,
+                                               const Eigen::VectorXd& start, Eigen::Index held);
+
+/// Derivatives of log-likelihood and log prior: the exact integral's where there are several
+/// nodes, else by differences.
+[[nodiscard]] Eigen::VectorXd rise_of(const HierarchicalLikelihood& likelihood,
+                                      const Eigen::VectorXd& at);
+
+/// Inverse of the observed information in all parameters but one: a row and a column less.
+/// Absent where the likelihood curves upwards along some direction.
+[[nodiscard]] std::optional<Eigen::MatrixXd> covariance_without(
+    const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at, Eigen::Index held);
+
+/// The largest with one parameter held where it is, by Newton's method from a `start` near it.
+/// `inverse`: of the information thereabouts as of `covariance_without`, or empty; it is
+/// renewed where steps by it do not get smaller. Absent where they never do.
+[[nodiscard]] std::optional<Eigen::VectorXd> most_likely_near(
+    const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& start, Eigen::Index held,
+    Eigen::MatrixXd& inverse);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/data/quantity_unit.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/threshold_group.h"
+#include "analysis/results/threshold_results.h"
+#include "core/psychometric_function.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// Of w where the level that a staircase converges to, and the pse at the reference, are known.
+struct FractionAtTarget {
+  std::optional<double> value;
+  std::string reason;
+};
+
+/// The level answered "yes" with probability p is reference (1 + w)^z(p) on the curve whose pse
+/// is at the reference.
+FractionAtTarget fraction_at_target(double threshold, double reference, double probability) {
+  const double z = core::standard_normal_quantile(probability);
+  constexpr double kFlattest = 0.05;
+  if (std::fabs(z) < kFlattest) {
+    return {.reason = "the staircase converges to 50 %, which is the pse, not a difference"};
+  }
+  const double ratio = std::log(threshold / reference) / z;
+  if (!(ratio > 0.0)) {
+    return {.reason =
+                "the threshold lies on the other side of the reference than where the "
+                "pse at the reference has it"};
+  }
+  return {.value = std::expm1(ratio)};
+}
+
+/// Why what a posterior says may be wrong; "" if it keeps away from the ends of its grids.
+std::string edge_words(const AdaptiveRun& run) {
+  std::string words;
+  for (const std::string& end : run.reached_ends) words += (words.empty() ? "" : " and ") + end;
+  return words.empty() ? ""
+                       : "the posterior reaches " + words +
+                             ", which decides about the value; it has no interval";
+}
+
+std::string percent_words(double probability) {
+  return number_words(100.0 * probability, 1) + " %";
+}
+
+/// One block's section while it is written.
+class AdaptiveWriter {
+ public:
+  AdaptiveWriter(const StudyData& data, const BlockDesign& block)
+      : data_(data), block_(block), section_{.name = block.block + "_" + block.procedure} {}
+
+  [[nodiscard]] ResultsSection finish() && { return std::move(section_); }
+
+  void write_staircase();
+  void write_limits();
+  void write_quest_plus();
+
+ private:
+  /// Runs with something to say; the others are named.
+  [[nodiscard]] std::vector<const AdaptiveRun*> runs() {
+    std::vector<const AdaptiveRun*> found;
+    for (const AdaptiveRun& run : data_.runs) {
+      if (run.block != block_.block) continue;
+      if (run.problem.empty()) {
+        found.push_back(&run);
+        if (run.num_set_aside > 0 && run.procedure != "quest_plus") tell_set_aside(run);
+      } else {
+        section_.excluded.push_back({run.participant, block_.block + ": " + run.problem});
+      }
+    }
+    return found;
+  }
+  void tell_set_aside(const AdaptiveRun& run) {
+    section_.excluded.push_back(
+        {run.participant, block_.block + ": nothing; " +
+                              counted_words(run.num_set_aside, "trial") +
+                              " set aside had decided which came next, and stay in it"});
+  }
+  void tell(const AdaptiveRun& run, const std::string& name, const std::optional<double>& value,
+            const std::string& reason, const Interval& ci95 = {},
+            const std::string& caution = "") {
+    section_.participants.push_back({run.participant, full(name), value, ci95, reason});
+    if (!caution.empty()) section_.participants.back().cautions = {caution};
+  }
+  [[nodiscard]] std::string full(const std::string& name) const {
+    return block_.block + "." + name;
+  }
+  [[nodiscard]] std::string unit() const { return unit_of_quantity(block_.quantity); }
+  void add_level(const std::string& name, const std::string& meaning,
+                 const OwnNumbers& values) {
+    add_geometric_mean(section_, {.name = full(name), .meaning = meaning, .unit = unit()},
+                       values);
+  }
+  void add_fraction(const std::string& name, const std::string& meaning,
+                    const OwnNumbers& values) {
+    add_median_fraction(section_, full(name), {.name = full(name), .meaning = meaning}, values);
+  }
+  void tell_tracks(const AdaptiveRun& run);
+  /// Of the estimates from `first` on: who brought what to an end of the grid.
+  void caution_group(std::size_t first, int num_at_edge, int num_runs);
+  /// What the rules of staircases and of QUEST+ know nothing of.
+  [[nodiscard]] std::string of_both_orders() const {
+    return has_intervals(data_, block_) ? "; too large where people favour an interval, for "
+                                          "both orders are taken for one"
+                                        : "";
+  }
+
+  const StudyData& data_;
+  const BlockDesign& block_;
+  ResultsSection section_;
+};
+
+void AdaptiveWriter::tell_tracks(const AdaptiveRun& run) {
+  if (run.tracks.size() < 2) return;
+  for (const AdaptiveTrack& track : run.tracks) {
+    tell(run, "staircase_threshold_" + std::to_string(track.series), track.threshold,
+         track.threshold ? "" : "fewer than two reversals");
+  }
+}
+
+void AdaptiveWriter::write_staircase() {
+  OwnNumbers thresholds, fractions;
+  std::string rule;
+  double target = 0.5;
+  for (const AdaptiveRun* run : runs()) {
+    rule = run->rule;
+    target = run->target_probability.value_or(target);
+    tell(*run, "staircase_threshold", run->threshold,
+         run->threshold ? "" : "fewer than two reversals in every staircase");
+    tell_tracks(*run);
+    int at_bound = 0;
+    for (const AdaptiveTrack& track : run->tracks) at_bound += track.num_at_bound;
+    if (at_bound > 0) tell(*run, "staircase_reversals_at_bound", at_bound, "");
+    if (!run->threshold) continue;
+    thresholds[run->participant] = *run->threshold;
+    if (!block_.compares()) continue;
+    const FractionAtTarget w =
+        fraction_at_target(*run->threshold, *block_.reference_intensity, target);
+    tell(*run, "staircase_weber_fraction", w.value, w.reason);
+    if (w.value) fractions[run->participant] = *w.value;
+  }
+  if (rule.empty()) return;
+  const std::string more = block_.compares() ? "\"more\"" : "\"yes\"";
+  section_.estimates.push_back(
+      {.name = full("staircase_target_probability"),
+       .value = target,
+       .unit = "1",
+       .meaning = "share of " + more + " at the level that the staircase converges to: " + rule,
+       .n = static_cast<int>(thresholds.size())});
+  add_level("staircase_threshold",
+            "level answered " + more + " in " + percent_words(target) + " (" + rule +
+                "): mean of the last reversals, then of interleaved staircases; geometric mean "
+                "over participants",
+            thresholds);
+  add_fraction("staircase_weber_fraction",
+               "w = (threshold / reference)^(1 / z) - 1 with z = " +
+                   number_words(core::standard_normal_quantile(target), 4) +
+                   " of that share, the pse at the reference: so that (1 + w) is where the "
+                   "curve is 84.13 %; median person" +
+                   of_both_orders(),
+               fractions);
+}
+
+void AdaptiveWriter::write_limits() {
+  OwnNumbers levels, ascending, descending, errors;
+  bool is_logarithmic = true;
+  for (const AdaptiveRun* run : runs()) {
+    is_logarithmic = run->is_logarithmic;
+    const LimitsEstimate& limits = run->limits;
+    const std::string none = "no series in which the answer changed";
+    tell(*run, "limits_threshold", run->threshold, run->threshold ? "" : none);
+    tell(*run, "limits_ascending", limits.ascending, limits.ascending ? "" : none);
+    tell(*run, "limits_descending", limits.descending, limits.descending ? "" : none);
+    tell(*run, "limits_constant_error", limits.constant_error,
+         limits.constant_error ? "" : "no transition in one of the directions");
+    if (run->threshold) levels[run->participant] = *run->threshold;
+    if (limits.ascending) ascending[run->participant] = *limits.ascending;
+    if (limits.descending) descending[run->participant] = *limits.descending;
+    if (limits.constant_error) errors[run->participant] = *limits.constant_error;
+  }
+  const std::string what =
+      block_.compares() ? "a pse, for \"more\" begins at 50 %" : "the absolute threshold";
+  add_level("limits_threshold",
+            "mean of all transitions, " + what + "; geometric mean over participants", levels);
+  add_level("limits_ascending", "mean transition of rising series; geometric mean", ascending);
+  add_level("limits_descending", "mean transition of falling series; geometric mean",
+            descending);
+  if (errors.empty()) return;
+  add_mean(section_,
+           {.name = full("limits_constant_error"),
+            .meaning = std::string("rising less falling series") +
+                       (is_logarithmic ? ", in ln" : "") +
+                       ": above 0 habituation, below 0 expectation; mean over participants",
+            .unit = is_logarithmic ? "1" : unit()},
+           errors);
+  std::vector<double> values;
+  for (const auto& [participant, error] : errors) values.push_back(error);
+  section_.comparisons.push_back({.name = block_.block + ": rising - falling series" +
+                                          (is_logarithmic ? ", ln of the transition" : ""),
+                                  .comparison = one_sample_t_test(values)});
+}
+
+void AdaptiveWriter::write_quest_plus() {
+  std::map<std::string, OwnNumbers> values;
+  int num_at_edge = 0, num_runs = 0;
+  for (const AdaptiveRun* run : runs()) {
+    for (const PosteriorEstimate& one : run->posterior) {
+      const std::string name = "quest_plus_" + one.parameter;
+      tell(*run, name, one.mean, "", {one.low, one.high}, edge_words(*run));
+      values[name][run->participant] = one.mean;
+    }
+    num_at_edge += run->reached_ends.empty() ? 0 : 1;
+    ++num_runs;
+  }
+  for (const auto& [name, own] : values) {
+    const std::size_t first = section_.estimates.size();
+    const std::string end =
+        ": mean of the posterior at the end, with its central 95 % for "
+        "each participant; ";
+    if (name == "quest_plus_weber_fraction") {
+      add_fraction(name,
+                   "w of the curve that is 84.13 % at pse (1 + w)" + end + "median person" +
+                       of_both_orders(),
+                   own);
+    } else if (name == "quest_plus_slope") {
+      add_geometric_mean(section_,
+                         {.name = full(name),
+                          .meaning = "slope 1 / s per ln of intensity" + end +
+                                     "geometric mean over participants"},
+                         own);
+    } else {
+      add_level(name,
+                (name == "quest_plus_pse" ? "pse"
+                                          : "threshold, half way between guesses and "
+                                            "lapses") +
+                    end + "geometric mean over participants",
+                own);
+    }
+    // Of fewer, their own values say so, and the mean of all hardly moves.
+    if (10 * num_at_edge > num_runs) caution_group(first, num_at_edge, num_runs);
+  }
+}
+
+void AdaptiveWriter::caution_group(std::size_t first, int num_at_edge, int num_runs) {
+  const std::string other = block_.compares() ? "weber_fraction_median_person" : "threshold";
+  for (std::size_t i = first; i < section_.estimates.size(); ++i) {
+    Estimate& estimate = section_.estimates[i];
+    estimate.ci95 = {};
+    estimate.cautions = {
+        "of " + std::to_string(num_at_edge) + " of " + counted_words(num_runs, "participant") +
+        " the posterior reaches an end of its grid, which decides about their values; " +
+        full(other) + " rests on the answers alone"};
+  }
+}
+
+}  // namespace
+
+bool is_adaptive(const BlockDesign& block) {
+  return block.procedure == "staircase" || block.procedure == "limits" ||
+         block.procedure == "quest_plus";
+}
+
+bool has_fixed_levels(const BlockDesign& block) {
+  return !is_adaptive(block) || block.procedure == "limits";
+}
+
+ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block) {
+  AdaptiveWriter writer(data, block);
+  if (block.procedure == "staircase") writer.write_staircase();
+  if (block.procedure == "limits") writer.write_limits();
+  if (block.procedure == "quest_plus") writer.write_quest_plus();
+  return std::move(writer).finish();
+}
+
+}  // namespace jnd::analysis

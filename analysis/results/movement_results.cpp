@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <map>
+
+#include "analysis/data/presentation_use.h"
+#include "analysis/results/magnitude_section.h"
+#include "analysis/results/study_results.h"
+
+namespace jnd::analysis {
+namespace {
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+  std::optional<double> core::PresentationRow::*value;
+};
+
+constexpr Quantity kQuantities[] = {
+    {"stroke_width_m", "m", "mean distance between turning points",
+     &core::PresentationRow::stroke_width_m},
+    {"max_speed_m_per_s", "m/s", "mean of the highest speed in each stroke",
+     &core::PresentationRow::max_speed_m_per_s},
+    {"finger_lag_s", "s", "by which thumb, index and middle trail behind the palm",
+     &core::PresentationRow::finger_lag_s},
+};
+
+using Rows = std::vector<core::PresentationRow>;
+using ByParticipant = std::map<std::string, double>;
+
+Rows all_presentations(const ParticipantData& participant) {
+  Rows all;
+  for (const auto& [block, rows] : participant.presentations) {
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return all;
+}
+
+std::int64_t num_stimuli(const Rows& rows) {
+  return std::ranges::count_if(
+      rows, [](const core::PresentationRow& row) { return row.interval != "free_space"; });
+}
+
+/// A device whose points move as one gives no lag, one of layout 2 neither.
+bool anyone_has(const StudyData& data, std::optional<double> core::PresentationRow::*value) {
+  if (value != &core::PresentationRow::finger_lag_s) return true;
+  return std::ranges::any_of(data.participants, [value](const ParticipantData& participant) {
+    return std::ranges::any_of(all_presentations(participant),
+                               [value](const auto& row) { return (row.*value).has_value(); });
+  });
+}
+
+std::string why_missing(const Quantity& quantity, const Rows& rows) {
+  const std::int64_t num_presented = num_stimuli(rows);
+  const std::string name = std::string(quantity.name) + ": ";
+  if (num_presented == 0) return name + "no presentation of a stimulus";
+  return name + "none of " + std::to_string(num_presented) +
+         (num_presented == 1 ? " presentation" : " presentations") + " holds a whole stroke";
+}
+
+/// Everybody over all blocks.
+void add_whole(ResultsSection& section, const StudyData& data, const Quantity& quantity) {
+  std::vector<double> whole;
+  for (const ParticipantData& participant : data.participants) {
+    const Rows rows = all_presentations(participant);
+    if (const auto mean = movement_mean(rows, quantity.value)) {
+      whole.push_back(*mean);
+    } else {
+      section.excluded.push_back({participant.participant, why_missing(quantity, rows)});
+    }
+  }
+  add_mean(section, quantity.name, quantity.meaning, whole, quantity.unit);
+}
+
+/// Mean of a participant's mean over references and mean over tests: with a mean over all
+/// presentations the interval of which more are missing would count less.
+std::optional<double> equal_intervals_mean(const Rows& rows, const Quantity& quantity) {
+  std::map<std::string, Rows> by_interval;
+  for (const core::PresentationRow& row : rows) by_interval[row.interval].push_back(row);
+  const auto reference = movement_mean(by_interval["reference"], quantity.value);
+  const auto test = movement_mean(by_interval["test"], quantity.value);
+  if (!reference || !test) return std::nullopt;
+  return 0.5 * (*reference + *test);
+}
+
+bool has_both_intervals(const StudyData& data, const std::string& block) {
+  bool reference = false;
+  bool test = false;
+  for (const ParticipantData& participant : data.participants) {
+    const auto found = participant.presentations.find(block);
+    if (found == participant.presentations.end()) continue;
+    for (const core::PresentationRow& row : found->second) {
+      reference = reference || row.interval == "reference";
+      test = test || row.interval == "test";
+    }
+  }
+  return reference && test;
+}
+
+/// How a participant's presentations of a block become one number.
+struct Weighing {
+  std::string suffix, meaning, words;  ///< Of names of estimates, of theirs, of comparisons.
+  std::optional<double> (*mean)(const Rows&, const Quantity&);
+};
+
+const Weighing kAsPublished = {"", "", "", [](const Rows& rows, const Quantity& quantity) {
+                                 return movement_mean(rows, quantity.value);
+                               }};
+const Weighing kEqualIntervals = {".equal_intervals", ", references and tests weighed equally",
+                                  ", references and tests weighed equally",
+                                  equal_intervals_mean};
+
+ByParticipant means_of(const StudyData& data, const std::string& block,
+                       const Quantity& quantity, const Weighing& weighing) {
+  ByParticipant means;
+  for (const ParticipantData& participant : data.participants) {
+    const auto found = participant.presentations.find(block);
+    if (found == participant.presentations.end()) continue;
+    if (const auto mean = weighing.mean(found->second, quantity)) {
+      means[participant.participant] = *mean;
+    }
+  }
+  return means;
+}
+
+std::vector<double> values_of(const ByParticipant& means) {
+  std::vector<double> values;
+  for (const auto& [participant, mean] : means) values.push_back(mean);
+  return values;
+}
+
+void compare(ResultsSection& section, const Quantity& quantity, const Weighing& weighing,
+             const std::string& first, const ByParticipant& in_first, const std::string& second,
+             const ByParticipant& in_second) {
+  std::vector<double> a, b, differences;
+  for (const auto& [participant, mean] : in_first) {
+    const auto other = in_second.find(participant);
+    if (other == in_second.end()) continue;
+    a.push_back(mean);
+    b.push_back(other->second);
+    differences.push_back(mean - other->second);
+  }
+  if (differences.empty()) return;  // Blocks of different arms, or that nobody came to.
+  add_mean(section,
+           std::string(quantity.name) + "." + first + "_minus_" + second + weighing.suffix,
+           std::string(quantity.meaning) + ", difference of the two blocks" + weighing.meaning,
+           differences, quantity.unit);
+  const std::string name =
+      first + " - " + second + ": " + quantity.name + weighing.words + ", ";
+  section.comparisons.push_back({name + "paired", paired_t_test(a, b)});
+  if (weighing.suffix.empty()) {
+    section.comparisons.push_back({name + "unpaired", welch_t_test(a, b)});
+  }
+}
+
+/// Of every block, and between each and the next.
+void add_blocks(ResultsSection& section, const StudyData& data, const Quantity& quantity,
+                const Weighing& weighing, const std::vector<std::string>& blocks) {
+  std::map<std::string, ByParticipant> by_block;
+  for (const std::string& block : blocks) {
+    by_block[block] = means_of(data, block, quantity, weighing);
+    add_mean(section, std::string(quantity.name) + "." + block + weighing.suffix,
+             quantity.meaning + weighing.meaning, values_of(by_block[block]), quantity.unit);
+  }
+  for (std::size_t i = 0; i + 1 < blocks.size(); ++i) {
+    compare(section, quantity, weighing, blocks[i], by_block[blocks[i]], blocks[i + 1],
+            by_block[blocks[i + 1]]);
+  }
+}
+
+}  // namespace
+
+std::optional<double> movement_mean(const std::vector<core::PresentationRow>& presentations,
+                                    std::optional<double> core::PresentationRow::*value) {
+  double sum = 0.0;
+  int count = 0;
+  for (const core::PresentationRow& row : presentations) {
+    if (row.interval == "free_space" || row.num_strokes < 1 || !(row.*value)) continue;
+    sum += *(row.*value);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+ResultsSection movement_results(const StudyData& data) {
+  ResultsSection section{.name = "movement"};
+  if (data.blocks.empty()) return section;  // Nothing is presented that could hold no stroke.
+  std::vector<std::string> blocks, with_both;
+  for (const BlockDesign& block : data.blocks) {
+    if (block.medium == "solid") {
+      section.excluded.push_back(
+          {"everyone", block.block + ": strokes, for a solid is pressed, not stroked through"});
+      continue;
+    }
+    blocks.push_back(block.block);
+    if (has_both_intervals(data, block.block)) with_both.push_back(block.block);
+  }
+  if (blocks.empty()) return section;
+  for (const Quantity& quantity : kQuantities) {
+    if (!anyone_has(data, quantity.value)) continue;
+    add_whole(section, data, quantity);
+    add_blocks(section, data, quantity, kAsPublished, blocks);
+    if (!with_both.empty()) add_blocks(section, data, quantity, kEqualIntervals, with_both);
+  }
+  return section;
+}
+
+}  // namespace jnd::analysis

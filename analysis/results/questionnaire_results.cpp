@@ -1,0 +1,185 @@
+#include "analysis/results/questionnaire_results.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "analysis/results/magnitude_section.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr std::string_view kYesAnd = "yes: ";
+
+/// Answers to one item by participant, the last one of each.
+using ItemAnswers = std::map<std::string, std::string>;
+
+ItemAnswers answers_to(const StudyData& data, const QuestionnaireItem& item) {
+  ItemAnswers answers;
+  for (const ParticipantData& participant : data.participants) {
+    for (const core::AnswerRow& row : participant.answers) {
+      if (row.stage == item.stage && row.item == item.name && !row.answer.empty()) {
+        answers[participant.participant] = row.answer;
+      }
+    }
+  }
+  return answers;
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  const bool whole = error == std::errc() && stopped == end && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+std::string prefix_of(const QuestionnaireItem& item) { return "questionnaire." + item.name; }
+
+/// What its steps mean: "rating from 1, the worst, to 10, the best: "; of a scale without a
+/// favourable end what stands at its ends.
+std::string steps_words(const QuestionnaireItem& item) {
+  const std::string last = std::to_string(item.num_steps);
+  if (item.high_is_good) {
+    return "rating from 1, the worst, to " + last + ", the best" +
+           (*item.high_is_good ? ": " : " (turned round: it was asked with 1 as the best): ");
+  }
+  const auto end = [](const std::string& step, const std::string& label) {
+    return label.empty() ? step : step + ", “" + label + "”";
+  };
+  return "step from " + end("1", item.low_label) + ", to " + end(last, item.high_label) + ": ";
+}
+
+/// Everybody's own number; a scale's with 1 as the worst step, where one is.
+std::vector<double> add_own_numbers(ResultsSection& section, const QuestionnaireItem& item,
+                                    const ItemAnswers& answers) {
+  std::vector<double> values;
+  for (const auto& [participant, text] : answers) {
+    std::optional<double> value = number_of(text);
+    if (value && item.kind == "scale" && !item.high_is_good.value_or(true))
+      value = item.num_steps + 1 - *value;
+    section.participants.push_back({participant,
+                                    prefix_of(item),
+                                    value,
+                                    {},
+                                    value ? "" : "expected a number, found \"" + text + "\""});
+    if (value) values.push_back(*value);
+  }
+  return values;
+}
+
+void add(ResultsSection& section, const std::string& name, std::optional<double> value,
+         const std::string& unit, const std::string& meaning, std::size_t num_answered) {
+  section.estimates.push_back({.name = name,
+                               .value = value,
+                               .unit = unit,
+                               .meaning = meaning,
+                               .n = static_cast<int>(num_answered)});
+}
+
+void add_scale(ResultsSection& section, const QuestionnaireItem& item,
+               const ItemAnswers& answers) {
+  const std::vector<double> values = add_own_numbers(section, item, answers);
+  const Summary summary = summary_of(values);
+  const std::string steps = steps_words(item);
+  add_mean(section, prefix_of(item), "mean " + steps + item.question, values);
+  add(section, prefix_of(item) + ".sd", summary.standard_deviation, "1",
+      "standard deviation between participants", values.size());
+  add(section, prefix_of(item) + ".median", summary.median, "1",
+      "median " + steps + item.question, values.size());
+}
+
+void add_number(ResultsSection& section, const QuestionnaireItem& item,
+                const ItemAnswers& answers) {
+  const std::vector<double> values = add_own_numbers(section, item, answers);
+  const std::string unit = item.unit.empty() ? "1" : item.unit;
+  const Summary summary = summary_of(values);
+  add_mean(section, prefix_of(item), "mean: " + item.question, values, unit);
+  add(section, prefix_of(item) + ".sd", summary.standard_deviation, unit,
+      "standard deviation between participants", values.size());
+  if (values.empty()) return;
+  add(section, prefix_of(item) + ".minimum", *std::ranges::min_element(values), unit,
+      "smallest", values.size());
+  add(section, prefix_of(item) + ".maximum", *std::ranges::max_element(values), unit, "largest",
+      values.size());
+}
+
+/// "yes: a glove" counts as "yes".
+std::string counted_answer(const QuestionnaireItem& item, const std::string& text) {
+  return item.kind == "yes_no_which" && text.starts_with(kYesAnd) ? "yes" : text;
+}
+
+void add_counts(ResultsSection& section, const QuestionnaireItem& item,
+                const ItemAnswers& answers) {
+  std::vector<std::string> options = item.options;
+  if (item.kind != "choice") options = {"yes", "no"};
+  for (const auto& [participant, text] : answers) {
+    // An answer of an earlier version of the study, which its last one no longer offers.
+    const std::string given = counted_answer(item, text);
+    if (std::ranges::find(options, given) == options.end()) options.push_back(given);
+  }
+  for (const std::string& option : options) {
+    const auto num = std::ranges::count_if(
+        answers, [&](const auto& one) { return counted_answer(item, one.second) == option; });
+    add(section, prefix_of(item) + "." + option, static_cast<double>(num), "1",
+        "participants who answered \"" + option + "\": " + item.question, answers.size());
+  }
+}
+
+void add_free_answers(ResultsSection& section, const QuestionnaireItem& item,
+                      const ItemAnswers& answers) {
+  for (const auto& [participant, text] : answers) {
+    const bool which = item.kind == "yes_no_which";
+    if (which && !text.starts_with(kYesAnd)) continue;
+    section.free_answers.push_back(
+        {participant, item.name, item.question, which ? text.substr(kYesAnd.size()) : text});
+  }
+}
+
+void add_item(ResultsSection& section, const QuestionnaireItem& item,
+              const ItemAnswers& answers) {
+  if (item.kind == "scale") return add_scale(section, item, answers);
+  if (item.kind == "number") return add_number(section, item, answers);
+  const bool counted =
+      item.kind == "choice" || item.kind == "yes_no" || item.kind == "yes_no_which";
+  if (counted) add_counts(section, item, answers);
+  if (!counted || item.kind == "yes_no_which") add_free_answers(section, item, answers);
+}
+
+/// Who answered nothing in a stage with questions.
+void name_missing(ResultsSection& section, const StudyData& data) {
+  std::vector<std::string> stages;
+  for (const QuestionnaireItem& item : data.items) {
+    if (std::ranges::find(stages, item.stage) == stages.end()) stages.push_back(item.stage);
+  }
+  for (const std::string& stage : stages) {
+    std::vector<ExcludedParticipant> missing;
+    bool any_answers = false;
+    for (const ParticipantData& participant : data.participants) {
+      if (std::ranges::find(participant.answers, stage, &core::AnswerRow::stage) !=
+          participant.answers.end()) {
+        any_answers = true;
+        continue;
+      }
+      name_without_answers(missing, participant, stage);
+    }
+    if (!any_answers && missing.size() > 1) {
+      missing = {{"everyone", "no answers in " + stage}};
+    }
+    section.excluded.insert(section.excluded.end(), missing.begin(), missing.end());
+  }
+}
+
+}  // namespace
+
+ResultsSection questionnaire_results(const StudyData& data) {
+  ResultsSection section{.name = "questionnaires"};
+  for (const QuestionnaireItem& item : data.items) {
+    add_item(section, item, answers_to(data, item));
+  }
+  name_missing(section, data);
+  return section;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,162 @@
+#include "analysis/results/study_results.h"
+
+#include <algorithm>
+
+#include "analysis/results/catch_results.h"
+#include "analysis/results/exploratory_results.h"
+#include "analysis/results/inverted_answers.h"
+#include "analysis/results/missing_values.h"
+#include "analysis/results/primary_results.h"
+#include "analysis/results/published_comparison.h"
+#include "analysis/results/questionnaire_results.h"
+#include "analysis/results/test_families.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/results/trial_losses.h"
+
+namespace jnd::analysis {
+namespace {
+
+std::vector<BlockDesign> blocks_of(const StudyData& data, const std::string& procedure) {
+  std::vector<BlockDesign> found;
+  for (const BlockDesign& block : data.blocks) {
+    if (block.procedure == procedure) found.push_back(block);
+  }
+  return found;
+}
+
+/// What a block has beside a psychometric function over comparisons.
+void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyData& data,
+                            const BlockDesign& block, const ResultsOptions& options) {
+  if (block.detects()) sections.push_back(detection_results(data, block, options));
+  if (block.tells_apart()) sections.push_back(same_different_results(data, block));
+  if (is_adaptive(block)) sections.push_back(adaptive_results(data, block));
+  if (block.compares() && has_intervals(data, block)) {
+    sections.push_back(interval_results(data, block));
+  }
+  if (has_catch_trials(data, block)) sections.push_back(catch_results(data, block));
+}
+
+/// How many trials everybody practised, how many of the last ones were right, and whether that
+/// was enough.
+ResultsSection practice_results(const StudyData& data) {
+  ResultsSection section{.name = "practice"};
+  for (const PracticeRun& run : data.practice) {
+    const auto add = [&](const std::string& name, double value, const std::string& problem) {
+      section.participants.push_back({run.participant,
+                                      run.block + "." + name,
+                                      problem.empty() ? std::optional(value) : std::nullopt,
+                                      {},
+                                      problem});
+    };
+    add("num_trials", run.num_trials, "");
+    add("num_judged", run.num_judged, run.problem);
+    add("num_correct", run.num_correct, run.problem);
+    add("criterion_met", run.criterion_met ? 1.0 : 0.0, run.problem);
+  }
+  return section;
+}
+
+/// The laboratory names an estimate alone, or with its study before a slash where two studies
+/// share the name.
+bool is_named(const std::vector<std::string>& list, const StudyData& data,
+              const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end() ||
+         std::find(list.begin(), list.end(), data.study + "/" + name) != list.end();
+}
+
+/// A block of which every answer was set aside has no numbers, but is not passed over in
+/// silence.
+void add_blocks_set_aside(std::vector<ResultsSection>& sections, const StudyData& data) {
+  for (const BlockDesign& block : data.blocks) {
+    int num_standing = 0, num_set_aside = 0;
+    for (const ParticipantData& participant : data.participants) {
+      const auto in_block = [&](const core::TrialRow& trial) {
+        return trial.block == block.block;
+      };
+      num_standing += static_cast<int>(std::ranges::count_if(participant.trials, in_block));
+      num_set_aside +=
+          static_cast<int>(std::ranges::count_if(participant.excluded_trials, in_block));
+    }
+    if (num_standing > 0 || num_set_aside == 0) continue;
+    const auto found = std::ranges::find(sections, block.block, &ResultsSection::name);
+    ResultsSection& section = found == sections.end()
+                                  ? sections.emplace_back(ResultsSection{.name = block.block})
+                                  : *found;
+    section.excluded.push_back({"everyone", "every answer in " + block.block +
+                                                " is set aside by `jnd exclude`, so that there "
+                                                "is no value"});
+  }
+}
+
+}  // namespace
+
+const Estimate* StudyResults::find(const std::string& name) const {
+  for (const ResultsSection& section : sections) {
+    for (const Estimate& estimate : section.estimates) {
+      if (estimate.name == name) return &estimate;
+    }
+  }
+  return nullptr;
+}
+
+StudyResults results_of(const StudyData& data, const Published& published,
+                        const ResultsOptions& options) {
+  StudyResults results{.study = data.study,
+                       .simulated = data.simulated,
+                       .laboratory = data.laboratory,
+                       .citation = published.citation,
+                       .num_participants = static_cast<int>(data.participants.size()),
+                       .sessions = data.sessions,
+                       .losses = level_losses(data)};
+  const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
+  const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
+  const std::vector<BlockDesign> discriminations = comparing_blocks(data);
+  for (const BlockDesign& block : estimations) {
+    results.sections.push_back(estimation_results(data, block, options));
+  }
+  for (const BlockDesign& block : productions) {
+    results.sections.push_back(production_results(data, block, options));
+  }
+  for (const BlockDesign& block : blocks_of(data, "matching")) {
+    results.sections.push_back(matching_results(data, block, options));
+  }
+  if (estimations.size() == 1 && productions.size() == 1 &&
+      estimations[0].quantity == productions[0].quantity && estimations[0].counts_in_water()) {
+    results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
+  }
+  for (const BlockDesign& block : discriminations) {
+    results.sections.push_back(discrimination_results(data, block, options));
+  }
+  for (const BlockDesign& block : data.blocks) {
+    add_threshold_sections(results.sections, data, block, options);
+  }
+  add_blocks_set_aside(results.sections, data);
+  for (const ComparedBlocks& pair : compared_blocks(discriminations, options.compared)) {
+    results.sections.push_back(discrimination_comparison(data, pair));
+  }
+  results.sections.push_back(movement_results(data));
+  if (ResultsSection exploratory = exploratory_results(data, results.sections);
+      !exploratory.estimates.empty() || !exploratory.comparisons.empty()) {
+    results.sections.push_back(std::move(exploratory));
+  }
+  if (!data.practice.empty()) results.sections.push_back(practice_results(data));
+  if (!data.items.empty()) results.sections.push_back(questionnaire_results(data));
+
+  caution_of_inverted(results, data);
+  explain_missing(results);
+  mark_primary(results, data);
+  add_without_affected(results, data, options);
+  mark_movement_family(results.sections);
+  mark_pairs_family(results.sections, !options.compared.empty());
+  adjust_by_family(results.sections);
+  add_published(results, data, published, options);
+  for (ResultsSection& section : results.sections) {
+    for (Estimate& estimate : section.estimates) {
+      estimate.calibrated = data.simulated && is_named(data.calibrated_on, data, estimate.name);
+      estimate.implied = data.simulated && is_named(data.implied, data, estimate.name);
+    }
+  }
+  return results;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,51 @@
+#include "analysis/results/test_families.h"
+
+#include <map>
+#include <string>
+
+#include "analysis/statistics/multiplicity.h"
+
+namespace jnd::analysis {
+
+void mark_movement_family(std::vector<ResultsSection>& sections) {
+  for (ResultsSection& section : sections) {
+    if (section.name != "movement") continue;
+    for (NamedComparison& named : section.comparisons) {
+      if (named.comparison.kind == Comparison::Kind::kPaired) {
+        named.family = kMovementFamily;
+      } else {
+        named.name += ", sensitivity";
+      }
+    }
+  }
+}
+
+void mark_pairs_family(std::vector<ResultsSection>& sections, bool were_asked_for) {
+  for (ResultsSection& section : sections) {
+    for (NamedComparison& named : section.comparisons) {
+      if (named.primary) named.family = were_asked_for ? kAskedFamily : kPairsFamily;
+    }
+  }
+}
+
+std::string family_note(const NamedComparison& named) {
+  if (named.family == kPairsFamily) return kPairsNote;
+  return named.family == kAskedFamily ? kAskedNote : "";
+}
+
+void adjust_by_family(std::vector<ResultsSection>& sections) {
+  std::map<std::string, std::vector<NamedComparison*>> families;
+  for (ResultsSection& section : sections) {
+    for (NamedComparison& named : section.comparisons) {
+      if (!named.family.empty()) families[named.family].push_back(&named);
+    }
+  }
+  for (const auto& [family, tests] : families) {
+    std::vector<std::optional<double>> p_values;
+    for (const NamedComparison* test : tests) p_values.push_back(test->comparison.p_value);
+    const std::vector<std::optional<double>> adjusted = holm_adjusted(p_values);
+    for (std::size_t i = 0; i < tests.size(); ++i) tests[i]->p_value_holm = adjusted[i];
+  }
+}
+
+}  // namespace jnd::analysis

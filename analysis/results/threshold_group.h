@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "analysis/results/study_results.h"
+
+namespace jnd::analysis {
+
+/// Participants' own values, by pseudonym.
+using OwnNumbers = std::map<std::string, double>;
+
+/// What a group estimate is called: "group_d.threshold" and what that is.
+struct GroupName {
+  std::string name;
+  std::string meaning;
+  std::string unit = "1";
+  std::string suffix;  ///< Behind the name, such as ".with_degenerate".
+  std::string words;   ///< Behind the meaning.
+};
+
+/// Adds the geometric mean of values > 0 with Student's interval in ln, and as NAME_sd_ln the
+/// standard deviation of their ln between people. Nothing without values.
+void add_geometric_mean(ResultsSection& section, const GroupName& group,
+                        const OwnNumbers& values);
+
+/// Adds the median person's Weber fraction as the mean of ln ln(1 + w) has it, with Student's
+/// interval, and the standard deviation of that between people.
+void add_median_fraction(ResultsSection& section, const std::string& block,
+                         const GroupName& group, const OwnNumbers& fractions);
+
+/// Adds the mean with Student's interval.
+void add_mean(ResultsSection& section, const GroupName& group, const OwnNumbers& values);
+
+/// The same of rates: between 0 and 1, however far Student's interval would reach.
+void add_mean_rate(ResultsSection& section, const GroupName& group, const OwnNumbers& rates);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,107 @@
+#include "app/command_line/open_window.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "app/command_line/command.h"
+#include "app/command_line/stop_signals.h"
+#include "app/gui/application/application.h"
+#include "app/gui/scene_painter.h"
+#include "app/gui/window.h"
+#include "core/error.h"
+
+namespace jnd::app {
+
+bool has_display() {
+  const auto is_set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+
+namespace {
+
+/// Opens and closes the participant's window as wanted; one closed by hand is wanted no more.
+void show_participant(gui::Window& window, gui::Application& application, bool& was_open) {
+  if (was_open && !window.second_is_open()) application.hide_participant();
+  if (application.shows_participant() && !window.second_is_open()) {
+    window.open_second("jnd: participant",
+                       [&](gui::Ui& second) { application.draw_participant(second); });
+  } else if (!application.shows_participant() && window.second_is_open()) {
+    window.close_second();
+  }
+  was_open = window.second_is_open();
+}
+
+/// Lets the window and the application know of each other.
+void show(gui::Window& window, const WindowRequest& request) {
+  // Made when the apparatus is first looked at; gone before OpenGL is.
+  std::unique_ptr<gui::ScenePainter> painter;
+  gui::Application application(request, [&window] { window.wake(); });
+  application.paint_scene = [&painter](const gui::SceneRequest& scene) {
+    if (painter == nullptr) painter = std::make_unique<gui::ScenePainter>();
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return painter->paint(scene, std::chrono::duration<double>(now).count());
+  };
+  bool second_was_open = false;
+  window.on_escape = [&] { application.escape(); };
+  window.on_key_changed = [&](gui::Key key, bool is_down) {
+    application.key_changed(key, is_down);
+  };
+  window.on_iteration = [&] {
+    application.beat();
+    if (stop_requested() && !application.closed()) {
+      application.end_soon();
+      window.wake();
+    }
+    if (application.look_beside()) window.wake();
+    window.wants_iterations(application.is_live());
+    window.wants_frames(application.is_live() || application.works());
+  };
+  window.on_mouse_pressed = [&](float x, float y) { application.mouse_pressed(x, y); };
+  window.on_mouse_moved = [&](float x, float y) { application.cursor(x, y); };
+  window.run([&](gui::Ui& ui) {
+    if (window.close_requested()) application.ask_to_close();
+    ui.set_view(application.view_name());
+    application.draw(ui);
+    show_participant(window, application, second_was_open);
+    if (const auto file = application.take_picture_request()) {
+      window.save_picture(*file, std::nullopt, [&, file](const std::string& problem) {
+        application.picture_saved(*file, problem);
+      });
+    }
+    if (application.zoom() != window.zoom()) window.set_zoom(application.zoom());
+    if (application.closed()) window.close();
+  });
+}
+
+}  // namespace
+
+int open_window(const WindowRequest& request) {
+  if (!has_display()) {
+    throw EnvironmentError(
+        "no display was found for the window; use --headless where a command has it, `jnd "
+        "--help` lists what works without one");
+  }
+  try {
+    gui::Window window;
+    stop_on_signals();
+    show(window, request);
+    if (stop_requested()) {
+      std::fputs(
+          "jnd: told to end; every answer is on disk, and a session under way can be resumed\n",
+          stderr);
+    }
+  } catch (const core::Error& error) {
+    const std::string what = error.what();
+    if (what.starts_with("no display was found")) throw EnvironmentError(what);
+    throw;
+  }
+  return kDone;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,123 @@
+#include "app/gui/application/start_contents.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "analysis/results/report_words.h"
+#include "app/operator/study_outline.h"
+#include "app/session/shipped_files.h"
+#include "core/error.h"
+#include "core/storage/backup_mark.h"
+
+namespace jnd::app::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shipped_studies() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(shipped_folder() / "protocols", error)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".json" && !name.ends_with(".schema.json")) {
+      names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The home folder is "~", as a shell writes it.
+std::string path_words(const fs::path& path) {
+  const char* home = std::getenv("HOME");
+  const std::string text = path.string();
+  const std::string begin = home == nullptr ? "" : std::string(home) + "/";
+  return begin.size() > 1 && text.starts_with(begin) ? "~/" + text.substr(begin.size()) : text;
+}
+
+StartModel::Study start_study(const fs::path& path) {
+  StartModel::Study study{.path = path};
+  study.title = path.stem().string();
+  try {
+    if (fs::is_directory(path)) {
+      study.folder = open_study_folder(path);
+      study.title = study.folder->title;
+      study.summary = study.folder->summary();
+    } else {
+      const StudyOutline outline = read_outline(path);
+      if (!outline.title.empty()) study.title = outline.title;
+      study.summary =
+          outline.problems.empty()
+              ? "study file · no session yet"
+              : "draft · " + analysis::counted_words(std::ssize(outline.problems), "problem") +
+                    " in the study file";
+    }
+  } catch (const std::exception& error) {
+    study.summary = error.what();
+  }
+  return study;
+}
+
+/// Studies of one title are told apart by the folder that holds each.
+void tell_namesakes_apart(std::vector<StartModel::Study>& studies) {
+  std::map<std::string, int> num_of_title;
+  for (const StartModel::Study& study : studies) ++num_of_title[study.title];
+  for (StartModel::Study& study : studies) {
+    if (num_of_title[study.title] > 1)
+      study.summary = path_words(study.path) + " · " + study.summary;
+  }
+}
+
+/// Studies first, then their copies, then where else to look.
+int rank_of(FolderEntry::Kind kind) {
+  if (kind == FolderEntry::Kind::kStudyFolder) return 0;
+  return kind == FolderEntry::Kind::kBackup ? 1 : 2;
+}
+
+FolderEntry::Kind kind_of_study(const fs::path& folder) {
+  try {
+    return core::is_backup(folder) ? FolderEntry::Kind::kBackup
+                                   : FolderEntry::Kind::kStudyFolder;
+  } catch (const core::Error&) {
+    return FolderEntry::Kind::kStudyFolder;  // Opening it says what is wrong.
+  }
+}
+
+}  // namespace
+
+StartModel look_around(const RecentStudies& recent, WorkControl& control) {
+  StartModel model{.shipped = shipped_studies(), .version = JND_VERSION};
+  for (const RecentStudy& study : recent.list()) {
+    control.stop_if_cancelled();
+    if (study.exists) model.studies.push_back(start_study(study.path));
+  }
+  tell_namesakes_apart(model.studies);
+  model.machine = look_at_machine();
+  return model;
+}
+
+std::vector<FolderEntry> entries_of(const fs::path& folder) {
+  std::vector<FolderEntry> entries;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".")) continue;
+    if (entry.is_directory(error)) {
+      const bool is_study = fs::exists(entry.path() / "study.sqlite", error);
+      entries.push_back(
+          {entry.path(), is_study ? kind_of_study(entry.path()) : FolderEntry::Kind::kFolder});
+    } else if (entry.path().extension() == ".json") {
+      entries.push_back({entry.path(), FolderEntry::Kind::kStudyFile});
+    }
+  }
+  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
+    return std::pair(rank_of(a.kind), a.path) < std::pair(rank_of(b.kind), b.path);
+  });
+  return entries;
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,245 @@
+#include "app/planning/power_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace jnd::app {
+namespace {
+
+using nlohmann::ordered_json;
+using namespace analysis;
+
+ordered_json number(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+std::optional<double> number_of(const ordered_json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
+constexpr std::pair<PlannedQuantity, const char*> kQuantities[] = {
+    {PlannedQuantity::kWeberFraction, "weber_fraction"},
+    {PlannedQuantity::kEstimationExponent, "estimation_exponent"},
+    {PlannedQuantity::kProductionExponent, "production_exponent"},
+    {PlannedQuantity::kMatch, "match"}};
+
+const char* word_of(PlannedQuantity quantity) {
+  for (const auto& [known, word] : kQuantities) {
+    if (known == quantity) return word;
+  }
+  return "";
+}
+
+PlannedQuantity quantity_of(const std::string& word) {
+  for (const auto& [quantity, known] : kQuantities) {
+    if (word == known) return quantity;
+  }
+  throw core::Error("quantity: expected one of this program's, found another");
+}
+
+ordered_json compare_json(const PowerDesign& design) {
+  if (!design.request.compare) return nullptr;
+  return ordered_json::array({design.request.compare->first, design.request.compare->second});
+}
+
+/// What shards and results have in common.
+ordered_json request_json(const PowerDesign& design) {
+  return {{"study", design.study},
+          {"study_sha256", design.study_sha256},
+          {"laboratory", design.laboratory},
+          {"laboratory_sha256", design.laboratory_sha256},
+          {"program_version", design.program_version},
+          {"simulated", true},
+          {"seed", design.request.seed},
+          {"runs", design.request.num_runs},
+          {"participants", design.request.sizes},
+          {"compare", compare_json(design)},
+          {"null_hypothesis", design.request.null_hypothesis},
+          {"pse", design.request.free_pse ? "free" : "reference"},
+          {"hierarchical", design.request.hierarchical}};
+}
+
+ordered_json to_json(const PlannedPower& power, const PlannedName& name, bool alike) {
+  return {{"name", name.name},
+          {"primary", name.meaning == kPrimaryTest},
+          {"meaning", name.meaning},
+          {"power", power.power},
+          {"power_is", alike ? "false_positive_rate" : "power"},
+          {"power_ci95", {power.power_low, power.power_high}},
+          {"num_significant", power.num_significant},
+          {"num_undefined", power.num_undefined},
+          {"mean_difference", number(power.mean_difference)}};
+}
+
+ordered_json to_json(const PlannedPrecision& precision, const PlannedName& name,
+                     const analysis::PlannedBlock& block) {
+  return {{"name", name.name},
+          {"meaning", name.meaning},
+          {"true_value", number(block.true_value)},
+          {"median", number(precision.median)},
+          {"bias", number(precision.bias)},
+          {"half_width_median", number(precision.half_width_median)},
+          {"half_width_90", number(precision.half_width_90)},
+          {"coverage", number(precision.coverage)},
+          {"coverage_ci95", {precision.coverage_low, precision.coverage_high}},
+          {"degenerate", number(precision.degenerate)},
+          {"num_undefined", precision.num_undefined}};
+}
+
+}  // namespace
+
+ordered_json to_json(const PowerDesign& design) {
+  ordered_json json = request_json(design);
+  json["paired"] = design.analysis.paired;
+  auto blocks = ordered_json::array();
+  for (const analysis::PlannedBlock& block : design.analysis.blocks) {
+    blocks.push_back({{"name", block.name},
+                      {"quantity", word_of(block.quantity)},
+                      {"reference", block.reference},
+                      {"either_interval", block.either_interval},
+                      {"true_value", number(block.true_value)}});
+  }
+  json["blocks"] = std::move(blocks);
+  auto durations = ordered_json::array();
+  for (const PlannedDuration& duration : design.durations) {
+    durations.push_back({duration.mean_s, duration.total_s});
+  }
+  json["durations_s"] = std::move(durations);
+  json["left_out"] = design.left_out;
+  return json;
+}
+
+PowerDesign power_design_of(const ordered_json& json) {
+  PowerDesign design{.study = json.at("study"),
+                     .study_sha256 = json.at("study_sha256"),
+                     .laboratory = json.at("laboratory"),
+                     .laboratory_sha256 = json.at("laboratory_sha256"),
+                     .program_version = json.at("program_version")};
+  PowerRequest& request = design.request;
+  request.sizes = json.at("participants").get<std::vector<int>>();
+  request.num_runs = json.at("runs");
+  request.seed = json.at("seed");
+  request.free_pse = json.at("pse") == "free";
+  request.hierarchical = json.at("hierarchical");
+  request.null_hypothesis = json.at("null_hypothesis");
+  for (const ordered_json& block : json.at("blocks")) {
+    design.analysis.blocks.push_back({.name = block.at("name"),
+                                      .quantity = quantity_of(block.at("quantity")),
+                                      .reference = block.at("reference"),
+                                      .either_interval = block.at("either_interval"),
+                                      .true_value = number_of(block.at("true_value"))});
+  }
+  const auto place_of = [&](const std::string& name) {
+    for (std::size_t place = 0; place < design.analysis.blocks.size(); ++place) {
+      if (design.analysis.blocks[place].name == name) return place;
+    }
+    throw core::Error("compare: expected a block of the shard, found another");
+  };
+  if (!json.at("compare").is_null()) {
+    request.compare = {json.at("compare").at(0), json.at("compare").at(1)};
+    design.analysis.compared = {place_of(request.compare->first),
+                                place_of(request.compare->second)};
+  }
+  design.analysis.paired = json.at("paired");
+  design.analysis.sizes = request.sizes;
+  design.analysis.free_pse = request.free_pse;
+  design.analysis.hierarchical = request.hierarchical;
+  for (const ordered_json& one : json.at("durations_s")) {
+    design.durations.push_back({.mean_s = one.at(0), .total_s = one.at(1)});
+  }
+  design.left_out = json.at("left_out").get<std::vector<std::string>>();
+  constexpr std::int64_t kMostRuns = 1'000'000;
+  if (request.sizes.empty() || design.durations.size() != request.sizes.size() ||
+      request.num_runs < 1 || request.num_runs > kMostRuns) {
+    throw core::Error("design: expected sizes, durations and 1 to 1000000 runs, found others");
+  }
+  return design;
+}
+
+ordered_json to_json(const PlannedRun& run) {
+  auto json = ordered_json::array();
+  for (const PlannedSize& size : run) {
+    auto estimates = ordered_json::array();
+    for (const PlannedEstimate& one : size.estimates) {
+      estimates.push_back({number(one.value), number(one.ci95.low), number(one.ci95.high)});
+    }
+    auto tests = ordered_json::array();
+    for (const PlannedTest& one : size.tests) {
+      tests.push_back({number(one.difference), number(one.p_value)});
+    }
+    json.push_back({{"estimates", std::move(estimates)},
+                    {"tests", std::move(tests)},
+                    {"with_answers", size.num_with_answers},
+                    {"degenerate", size.num_degenerate},
+                    {"at_grid_end", size.num_at_grid_end}});
+  }
+  return json;
+}
+
+PlannedRun planned_run_of(const ordered_json& json, const PlannedAnalysis& analysis) {
+  PlannedRun run;
+  for (const ordered_json& size : json) {
+    PlannedSize& read = run.emplace_back();
+    for (const ordered_json& one : size.at("estimates")) {
+      read.estimates.push_back(
+          {number_of(one.at(0)), {number_of(one.at(1)), number_of(one.at(2))}});
+    }
+    for (const ordered_json& one : size.at("tests")) {
+      read.tests.push_back({number_of(one.at(0)), number_of(one.at(1))});
+    }
+    read.num_with_answers = size.at("with_answers").get<std::vector<int>>();
+    read.num_degenerate = size.at("degenerate").get<std::vector<int>>();
+    read.num_at_grid_end = size.at("at_grid_end").get<std::vector<int>>();
+    if (read.estimates.size() != estimate_names(analysis).size() ||
+        read.tests.size() != test_names(analysis).size() ||
+        read.num_with_answers.size() != analysis.blocks.size() ||
+        read.num_degenerate.size() != analysis.blocks.size() ||
+        read.num_at_grid_end.size() != analysis.blocks.size()) {
+      throw core::Error("run: expected as many numbers as its design asks for, found others");
+    }
+  }
+  if (run.size() != analysis.sizes.size()) {
+    throw core::Error("run: expected every size of its design, found others");
+  }
+  return run;
+}
+
+ordered_json power_result(const PowerDesign& design,
+                          const std::vector<PlannedSummary>& summaries) {
+  const std::vector<PlannedName> tests = test_names(design.analysis);
+  const std::vector<PlannedName> estimates = estimate_names(design.analysis);
+  ordered_json json = request_json(design);
+  json["level"] = kPlannedLevel;
+  const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
+  json["true_difference"] = number(true_difference(design.analysis));
+  json["nothing_differs"] = alike;
+  auto sizes = ordered_json::array();
+  for (std::size_t size = 0; size < summaries.size(); ++size) {
+    const PlannedSummary& summary = summaries[size];
+    ordered_json one = {{"participants", summary.num_participants},
+                        {"duration_per_participant_s", design.durations[size].mean_s},
+                        {"total_duration_s", design.durations[size].total_s},
+                        {"tests", ordered_json::array()},
+                        {"estimates", ordered_json::array()}};
+    for (std::size_t test = 0; test < tests.size(); ++test) {
+      one["tests"].push_back(to_json(summary.tests[test], tests[test], alike));
+    }
+    for (std::size_t estimate = 0; estimate < estimates.size(); ++estimate) {
+      one["estimates"].push_back(to_json(summary.estimates[estimate], estimates[estimate],
+                                         design.analysis.blocks[estimates[estimate].block]));
+    }
+    one["at_grid_end"] = ordered_json::object();
+    for (std::size_t block = 0; block < design.analysis.blocks.size(); ++block) {
+      one["at_grid_end"][design.analysis.blocks[block].name] = summary.at_grid_end[block];
+    }
+    sizes.push_back(std::move(one));
+  }
+  json["sizes"] = std::move(sizes);
+  json["left_out"] = design.left_out;
+  json["warnings"] =
+      planning_doubts(design.analysis, summaries, design.request.null_hypothesis);
+  return json;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "analysis/planning/power_summary.h"
+#include "app/planning/power_study.h"
+
+namespace jnd::app {
+
+/// Everything that says what the runs are about; equal for all shards of one study.
+[[nodiscard]] nlohmann::ordered_json to_json(const PowerDesign& design);
+/// Reads that form back. Throws `core::Error` or a JSON exception for anything else.
+[[nodiscard]] PowerDesign power_design_of(const nlohmann::ordered_json& json);
+
+/// One run, every number as it was computed.
+[[nodiscard]] nlohmann::ordered_json to_json(const analysis::PlannedRun& run);
+[[nodiscard]] analysis::PlannedRun planned_run_of(const nlohmann::ordered_json& json,
+                                                  const analysis::PlannedAnalysis& analysis);
+
+/// What `jnd power --json` prints.
+[[nodiscard]] nlohmann::ordered_json power_result(
+    const PowerDesign& design, const std::vector<analysis::PlannedSummary>& summaries);
+
+}  // namespace jnd::app

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/planning/power_files.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace analysis;
+
+std::string decimals(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4f}", *value) : "-";
+}
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
+
+std::string heading(const PowerDesign& design) {
+  return fmt::format(
+      "{}: {} SIMULATED studies of each size, laboratory \"{}\"{}, seed {}\n", design.study,
+      design.request.num_runs, design.laboratory,
+      design.request.null_hypothesis ? " MADE ALIKE for both blocks (null hypothesis)" : "",
+      design.request.seed);
+}
+
+}  // namespace
+
+std::string power_table(const PowerDesign& design,
+                        const std::vector<PlannedSummary>& summaries) {
+  std::string table = heading(design);
+  const std::vector<PlannedName> tests = test_names(design.analysis);
+  const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
+  if (!tests.empty()) {
+    table += fmt::format("\nTrue difference in ln ln(1 + w): {}{}\n",
+                         decimals(true_difference(design.analysis)),
+                         alike ? ". Nothing differs: the share with p < 0.05 is the rate of "
+                                 "false positives, not a power"
+                               : "");
+  }
+  for (std::size_t test = 0; test < tests.size(); ++test) {
+    table += fmt::format("\n{}{}\n  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", tests[test].name,
+                         tests[test].meaning.empty() ? "" : " (" + tests[test].meaning + ")",
+                         "participants", alike ? "p < 0.05" : "power", "95 % of the share",
+                         "undefined", "difference");
+    for (const PlannedSummary& summary : summaries) {
+      const PlannedPower& power = summary.tests[test];
+      table += fmt::format(
+          "  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", summary.num_participants,
+          percent(power.power),
+          fmt::format("{} .. {}", percent(power.power_low), percent(power.power_high)),
+          power.num_undefined, decimals(power.mean_difference));
+    }
+  }
+  const std::vector<PlannedName> estimates = estimate_names(design.analysis);
+  for (std::size_t estimate = 0; estimate < estimates.size(); ++estimate) {
+    const PlannedName& name = estimates[estimate];
+    table += fmt::format(
+        "\n{}: {}; true value {}\n  {:>12} {:>8} {:>9}  {:>10} {:>10}  {:>9}  {:>10}\n",
+        name.name, name.meaning, decimals(design.analysis.blocks[name.block].true_value),
+        "participants", "median", "bias", "half width", "90 % below", "coverage", "degenerate");
+    for (const PlannedSummary& summary : summaries) {
+      const PlannedPrecision& one = summary.estimates[estimate];
+      table += fmt::format("  {:>12} {:>8} {:>9}  {:>10} {:>10}  {:>9}  {:>10}\n",
+                           summary.num_participants, decimals(one.median), decimals(one.bias),
+                           decimals(one.half_width_median), decimals(one.half_width_90),
+                           one.coverage ? percent(*one.coverage) : "-",
+                           one.degenerate ? percent(*one.degenerate) : "-");
+    }
+  }
+  table += fmt::format("\nExpected duration, as `jnd plan` has it\n  {:>12} {:>22} {:>10}\n",
+                       "participants", "min per participant", "h in all");
+  for (std::size_t size = 0; size < summaries.size(); ++size) {
+    table += fmt::format("  {:>12} {:>22.0f} {:>10.1f}\n", summaries[size].num_participants,
+                         design.durations[size].mean_s / 60.0,
+                         design.durations[size].total_s / 3600.0);
+  }
+  if (!design.left_out.empty()) {
+    table += fmt::format("\nNot planned for, but in the duration: {}\n",
+                         fmt::join(design.left_out, ", "));
+  }
+  for (const std::string& doubt :
+       planning_doubts(design.analysis, summaries, design.request.null_hypothesis)) {
+    table += "\nWARNING: " + doubt + "\n";
+  }
+  return table +
+         "\nHalf width: of the 95 % interval over participants, in the median study, and what "
+         "nine\nstudies in ten stay below. Degenerate: participants without a fit of their "
+         "own.\n";
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/data/adaptive_run.h"
+#include "core/storage/study_store.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+/// What the answers of one participant in one adaptive block come to by its own rule, as plain
+/// data. `trials` in their order, those set aside among them, for the procedure saw them;
+/// `set_aside` of the same length. Participant and block are the caller's to name. A rule that
+/// the answers do not fit is a problem that the run names. Not real time.
+[[nodiscard]] analysis::AdaptiveRun adaptive_run_of(const experiments::Block& block,
+                                                    const std::vector<core::TrialRow>& trials,
+                                                    const std::vector<bool>& set_aside);
+
+}  // namespace jnd::app

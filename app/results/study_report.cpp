@@ -1,0 +1,52 @@
+#include "app/results/study_report.h"
+
+#include "analysis/results/inverted_answers.h"
+#include "app/results/noted_export.h"
+#include "app/results/results_output.h"
+#include "app/results/study_data.h"
+#include "app/session/session_setup.h"
+
+namespace jnd::app {
+namespace {
+
+/// A part of the whole, as a whole of its own.
+std::function<void(double)> part(const std::function<void(double)>& whole, double from,
+                                 double to) {
+  if (!whole) return [](double) {};
+  return [&whole, from, to](double done) { whole(from + (to - from) * done); };
+}
+
+}  // namespace
+
+StudyReport write_study_report(const StudyReportRequest& request) {
+  const auto reading = part(request.on_progress, 0.0, 0.3);
+  const core::StudyStore store(request.folder, core::StudyStore::Mode::kReadOnly);
+  require_unblinded(store);
+  analysis::require_free_folder(request.out);
+  reading(0.0);
+  analysis::StudyData data = load_study_data(store, request.pilot);
+  if (request.leaves_out_inverted) analysis::leave_out_inverted(data);
+  reading(0.2);
+  StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};
+  reading(1.0);
+  const analysis::MovementAnalysis movement =
+      analysis::analyse_movement(store, {.pilot = request.pilot,
+                                         .jobs = request.jobs,
+                                         .on_progress = part(request.on_progress, 0.3, 0.6)});
+  analysis::ReportOptions options = analysis::installed_report_tools();
+  options.jobs = request.jobs;
+  options.on_progress = part(request.on_progress, 0.6, 1.0);
+  const std::string forgotten = noted_export(store, request.out, "report", request.pilot);
+  report.outcome = analysis::write_report({.store = store,
+                                           .data = data,
+                                           .results = report.results,
+                                           .results_options = request.results,
+                                           .movement = movement,
+                                           .program_version = JND_VERSION,
+                                           .pilot = request.pilot},
+                                          request.out, options);
+  if (!forgotten.empty()) report.outcome.problems.push_back(forgotten);
+  return report;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,474 @@
+#include "app/session/apparatus.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "analysis/movement/finger_lag.h"
+#include "app/session/sleep_inhibitor.h"
+#include "core/error.h"
+#include "core/exchange/latest_value.h"
+#include "core/exchange/spsc_queue.h"
+#include "core/safety/fault.h"
+#include "core/storage/recording.h"
+#include "device/exoskeleton/exoskeleton_device.h"
+#include "device/exoskeleton/exoskeleton_options.h"
+#include "device/fault_injection.h"
+#include "device/haptic_loop.h"
+#include "device/lumped_hand_device.h"
+#include "device/mouse_device.h"
+#include "device/registry/device_registry.h"
+#include "device/simulated_hand.h"
+#include "device/watched_loop.h"
+
+namespace jnd::app {
+namespace {
+
+// Powers of two. In real time: at 1 kHz more than half a minute of a storage that is held up.
+// In simulation the samples are taken after each batch, while they are still in the cache.
+constexpr std::size_t kRealtimeQueueCapacity = 32768;
+constexpr std::size_t kSimulatedQueueCapacity = 256;
+
+constexpr std::string_view kLumped = "lumped";
+constexpr std::string_view kExoskeleton = "exoskeleton";
+constexpr std::string_view kMouse = "mouse";
+
+device::StrokingArm::Parameters arm_parameters(const Apparatus::Parameters& parameters,
+                                               const experiments::Laboratory& laboratory) {
+  return {.stiffness_n_per_m = laboratory.arm.stiffness_n_per_m,
+          .damping_n_s_per_m = laboratory.arm.damping_n_s_per_m,
+          .home_z_m = parameters.home_height_m,
+          .home_s = laboratory.arm.home_s};
+}
+
+device::LumpedHandDevice::Parameters lumped_parameters(
+    const Apparatus::Parameters& parameters, const experiments::Laboratory& laboratory) {
+  device::LumpedHandDevice::Parameters device;
+  device.rate_hz = parameters.rate_hz;
+  device.mass_kg = laboratory.device.mass_kg;
+  device.mechanical_viscosity_n_s_per_m = laboratory.device.mechanical_viscosity_n_s_per_m;
+  device.dry_friction_n = laboratory.device.dry_friction_n;
+  device.max_force_per_point_n = laboratory.device.max_force_per_point_n;
+  device.max_total_force_n = laboratory.device.max_total_force_n;
+  device.arm = arm_parameters(parameters, laboratory);
+  return device;
+}
+
+std::unique_ptr<device::HapticDevice> make_device(const Apparatus::Parameters& parameters,
+                                                  const experiments::Laboratory* laboratory) {
+  if (parameters.device == kLumped && laboratory != nullptr) {
+    return std::make_unique<device::LumpedHandDevice>(
+        lumped_parameters(parameters, *laboratory));
+  }
+  if (device::kind_of(parameters.device) == kExoskeleton && laboratory != nullptr) {
+    device::ExoskeletonDevice::Parameters exoskeleton =
+        device::exoskeleton_parameters(device::argument_of(parameters.device));
+    exoskeleton.rate_hz = parameters.rate_hz;
+    exoskeleton.arm = arm_parameters(parameters, *laboratory);
+    return std::make_unique<device::ExoskeletonDevice>(exoskeleton);
+  }
+  if (parameters.device == kMouse) {
+    return std::make_unique<device::MouseDevice>(
+        device::MouseDevice::Parameters{.rate_hz = parameters.rate_hz,
+                                        .height_m = parameters.home_height_m},
+        parameters.exchange != nullptr ? &parameters.exchange->pointer : nullptr);
+  }
+  return device::make_device(parameters.device, parameters.rate_hz);
+}
+
+device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& parameters,
+                                               const experiments::Laboratory* laboratory,
+                                               const device::DeviceCapabilities& device) {
+  device::HapticLoop::Parameters loop;
+  loop.starts_armed = device.simulated;
+  loop.shadows_guards = parameters.shadow_guards;
+  loop.heartbeat_timeout_s = device.heartbeat_timeout_s;
+  loop.force_map = parameters.force_map.get();
+  loop.rate_hz = parameters.rate_hz;
+  loop.first_tick = parameters.first_tick;
+  if (laboratory != nullptr) {
+    loop.limits.per_point_n = laboratory->device.max_force_per_point_n;
+    loop.limits.total_n = laboratory->device.max_total_force_n;
+    loop.limits.slew_n_per_s = laboratory->device.max_slew_n_per_s;
+  }
+  return loop;
+}
+
+/// Takes the device over, or borrows it.
+std::unique_ptr<device::HapticDevice> with_faults(
+    std::unique_ptr<device::HapticDevice>& bare,
+    const std::vector<device::ScheduledFault>& faults) {
+  if (faults.empty()) return std::move(bare);
+  return std::make_unique<device::FaultInjectingDevice>(*bare, faults);
+}
+
+}  // namespace
+
+struct Apparatus::Implementation {
+  Implementation(Parameters the_parameters, const experiments::Laboratory* laboratory)
+      : parameters(std::move(the_parameters)),
+        exchange(parameters.exchange != nullptr ? *parameters.exchange : own_exchange),
+        bare_device(make_device(parameters, laboratory)),
+        device(with_faults(bare_device, parameters.injected_faults)),
+        simulated_hand(device->simulated_hand()),
+        samples(parameters.realtime ? kRealtimeQueueCapacity : kSimulatedQueueCapacity),
+        max_total_force_n(std::min(
+            loop_parameters(parameters, laboratory, device->capabilities()).limits.total_n,
+            device->capabilities().max_total_force_n)),
+        loop(loop_parameters(parameters, laboratory, device->capabilities()), *device,
+             {.commands = commands,
+              .telemetry = telemetry,
+              .emergency_stop = exchange.emergency_stop,
+              .samples = &samples,
+              .heartbeat = parameters.realtime ? &exchange.heartbeat : nullptr,
+              .watchdog = parameters.realtime ? &watchdog_state : nullptr}) {
+    if (parameters.recording) {
+      recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
+    }
+    simulated_clock.advance_ns(parameters.first_time_ns);
+    consumer = {.recording = recording ? &*recording : nullptr,
+                .visit = [this](const core::Sample& sample) {
+                  if (metering) feed_meter(sample);
+                  if (parameters.on_sample) parameters.on_sample(sample);
+                }};
+    if (parameters.realtime) {
+      awake.emplace();
+      storage.emplace(samples, consumer);
+      running.emplace(
+          *device, loop, watchdog_state,
+          device::WatchedLoop::Parameters{.allow_no_realtime = parameters.allow_no_realtime,
+                                          .clear_cpu = true});
+    } else if (!device->capabilities().simulated) {
+      throw core::Error(parameters.device +
+                        ": expected a simulated device, found a real one, which runs in real "
+                        "time alone; add --realtime");
+    } else {
+      device->open();
+    }
+  }
+
+  ~Implementation() {
+    // No force from the loop's last tick on: storage may take its time.
+    if (running) {
+      running->stop();
+    } else {
+      device->close();
+    }
+    storage.reset();
+  }
+
+  /// The sign of life of the thread that a person talks to: the window's own, where there is
+  /// one.
+  void beat() noexcept {
+    if (parameters.exchange == nullptr) exchange.heartbeat.beat();
+  }
+
+  /// A slow disk is no hung program, but whoever waits for it cannot press the emergency stop:
+  /// the heartbeat goes on for a second, then the force fades.
+  std::function<void()> beats_while_waiting() {
+    beat();
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    return [this, patience] {
+      if (std::chrono::steady_clock::now() < patience) beat();
+    };
+  }
+
+  /// Does `work` once every sample up to now has been taken.
+  void after_samples(std::int64_t last_tick, const std::function<void()>& work) {
+    if (storage) return storage->after(last_tick, work, beats_while_waiting());
+    work();
+  }
+
+  /// Of the points that the device has.
+  void feed_lag(const core::Sample& sample) noexcept {
+    constexpr int kNumPalmPoints = 2;
+    constexpr unsigned kPalmBits = 0b00011;
+    const unsigned bits = core::measured_bits(sample);
+    const int num_palm = std::popcount(bits & kPalmBits);
+    const int num_fingers = std::popcount(bits & ~kPalmBits);
+    if (num_palm == 0 || num_fingers == 0) return;
+    Eigen::Vector3d palm_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d palm_velocity_m_per_s = Eigen::Vector3d::Zero();
+    Eigen::Vector3d fingers_m = Eigen::Vector3d::Zero();
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double position_m = sample.tip_position_m[point][axis];
+        if (point < kNumPalmPoints) {
+          palm_m[axis] += position_m / num_palm;
+          palm_velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis] / num_palm;
+        } else {
+          fingers_m[axis] += position_m / num_fingers;
+        }
+      }
+    }
+    lag.feed(fingers_m, palm_m, palm_velocity_m_per_s);
+  }
+
+  void feed_meter(const core::Sample& sample) noexcept {
+    const int num_points = core::num_measured_points(sample);
+    feed_lag(sample);
+    Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
+    Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        position_m[axis] += sample.tip_position_m[point][axis];
+        velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis];
+        force_n[axis] += sample.tip_force_n[point][axis];
+      }
+    }
+    velocity_m_per_s /= num_points;
+    const double num_periods = static_cast<double>(1 + sample.num_missed_before);
+    meter.feed(position_m / num_points, velocity_m_per_s, num_periods * loop.period_s());
+    const double speed_m_per_s = velocity_m_per_s.norm();
+    ++sums.num_ticks;
+    sums.speed_m_per_s += speed_m_per_s;
+    if (speed_m_per_s > 0.0) {
+      sums.rendered_opposing_n -= force_n.dot(velocity_m_per_s) / speed_m_per_s;
+      sums.opposing_n = sums.rendered_opposing_n;
+    }
+    num_metered_strokes.store(meter.num_strokes(), std::memory_order_relaxed);
+  }
+
+  void run_simulated(std::int64_t num_ticks) {
+    for (std::int64_t done = 0; done < num_ticks;) {
+      const auto batch =
+          std::min<std::int64_t>(num_ticks - done, std::int64_t{kSimulatedQueueCapacity});
+      for (std::int64_t i = 0; i < batch; ++i) loop.tick();
+      samples.drain([this](const core::Sample& sample) { consumer.take(sample); });
+      done += batch;
+    }
+    simulated_clock.advance_ns(
+        std::llround(static_cast<double>(num_ticks) * 1e9 / parameters.rate_hz));
+  }
+
+  /// As somebody beside the device asked for. A connection has to be good for a while before it
+  /// may be armed; whatever else is wrong is for a person to look at. Throws `core::Error`.
+  void arm() {
+    constexpr auto kPatience = std::chrono::seconds(10);
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (true) {
+      beat();
+      loop.rearm();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      telemetry.fetch();
+      const core::Telemetry& now = telemetry.value();
+      if (now.arming == core::Arming::kArming || now.arming == core::Arming::kArmed) return;
+      const bool may_come =
+          now.fault == core::Fault::kNotArmed || now.fault == core::Fault::kLinkLost;
+      if (may_come && std::chrono::steady_clock::now() < end) continue;
+      throw core::Error("device: expected to be armed, found: " +
+                        std::string(words(now.fault)));
+    }
+  }
+
+  void run_realtime(std::int64_t until_tick) {
+    while (true) {
+      beat();
+      telemetry.fetch();
+      const core::Telemetry& now = telemetry.value();
+      if (now.fault != core::Fault::kNone || watchdog_state.has_bitten()) return;
+      if (now.num_ticks > 0 && now.sample.tick + 1 >= until_tick) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  Parameters parameters;
+  std::optional<SleepInhibitor> awake;  ///< In real time.
+  OperatorExchange own_exchange;        ///< Used where there is no window.
+  OperatorExchange& exchange;
+  std::unique_ptr<device::HapticDevice> bare_device;  ///< Where faults are injected into it.
+  std::unique_ptr<device::HapticDevice> device;
+  device::SimulatedHand* simulated_hand;  ///< Where a simulated arm moves the hand.
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::SpscQueue<core::Sample> samples;
+  core::WatchdogState watchdog_state;
+  core::Telemetry told_by_watchdog;
+  core::SampleConsumer consumer;
+  double max_total_force_n;
+  device::HapticLoop loop;
+  std::optional<core::RecordingWriter> recording;
+  analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
+  analysis::FingerLag lag;
+  std::optional<double> finger_lag_s;  ///< Of the strokes finished last.
+  core::ContactSums sums;              ///< Since the meter was started.
+  bool metering = false;
+  std::atomic<int> num_metered_strokes{0};
+  std::optional<core::StorageThread> storage;
+  std::optional<device::WatchedLoop> running;
+  core::SimulatedClock simulated_clock;
+  core::SystemClock system_clock;
+  core::HapticCommand command;
+};
+
+Apparatus::Apparatus(const Parameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters, nullptr)) {
+  if (parameters.arm && parameters.realtime && !is_simulated()) implementation_->arm();
+}
+
+Apparatus::Apparatus(const Parameters& parameters, const experiments::Laboratory& laboratory)
+    : implementation_(std::make_unique<Implementation>(parameters, &laboratory)) {
+  if (parameters.arm && parameters.realtime && !is_simulated()) implementation_->arm();
+}
+
+Apparatus::~Apparatus() = default;
+
+void Apparatus::render(const core::MediumAmounts& medium) {
+  Implementation& my = *implementation_;
+  ++my.command.sequence;
+  my.command.medium = medium + my.parameters.surroundings;
+  my.command.immersion = my.parameters.immersion;
+  my.command.ramp_s = my.parameters.ramp_s;
+  my.commands.publish(my.command);
+}
+
+void Apparatus::begin_strokes(const device::StrokePlan& plan,
+                              const core::RandomStream& random) {
+  Implementation& my = *implementation_;
+  if (my.simulated_hand != nullptr) my.simulated_hand->begin_strokes(plan, random);
+}
+
+void Apparatus::put_fingers_back() {
+  if (implementation_->simulated_hand != nullptr) {
+    implementation_->simulated_hand->put_fingers_back();
+  }
+}
+
+void Apparatus::go_home() {
+  Implementation& my = *implementation_;
+  if (my.simulated_hand != nullptr) my.simulated_hand->go_home();
+}
+
+std::int64_t Apparatus::strokes_finished() const noexcept {
+  const Implementation& my = *implementation_;
+  return my.simulated_hand != nullptr ? my.simulated_hand->strokes_finished()
+                                      : num_metered_strokes();
+}
+
+void Apparatus::run_for(double duration_s) {
+  Implementation& my = *implementation_;
+  const auto num_ticks = std::llround(duration_s * my.parameters.rate_hz);
+  if (my.parameters.realtime) {
+    my.run_realtime(next_tick() + num_ticks);
+  } else {
+    my.run_simulated(num_ticks);
+  }
+  const core::Fault fault = telemetry().fault;
+  if (fault != core::Fault::kNone)
+    throw core::Error("haptic loop: " + std::string(words(fault)));
+}
+
+void Apparatus::rearm() { implementation_->loop.rearm(); }
+
+void Apparatus::disarm() { implementation_->loop.disarm(); }
+
+bool Apparatus::shadows_guards() const noexcept {
+  return implementation_->parameters.shadow_guards;
+}
+
+bool Apparatus::is_simulated() const noexcept {
+  return implementation_->device->capabilities().simulated;
+}
+
+std::vector<core::Sample> Apparatus::flight_record() const {
+  const core::FlightRecorder& recorder = implementation_->loop.flight_recorder();
+  return recorder.is_frozen() ? recorder.contents() : std::vector<core::Sample>();
+}
+
+std::int64_t Apparatus::next_tick() const noexcept {
+  Implementation& my = *implementation_;
+  my.telemetry.fetch();
+  const core::Telemetry& now = my.telemetry.value();
+  return now.num_ticks > 0 ? now.sample.tick + 1 : my.parameters.first_tick;
+}
+
+const core::Telemetry& Apparatus::telemetry() const noexcept {
+  Implementation& my = *implementation_;
+  my.telemetry.fetch();
+  const core::Telemetry& told = my.telemetry.value();
+  if (told.fault != core::Fault::kNone || !my.watchdog_state.has_bitten()) return told;
+  // The loop stands still and cannot tell.
+  my.told_by_watchdog = told;
+  my.told_by_watchdog.fault = core::Fault::kWatchdog;
+  my.told_by_watchdog.num_faults = told.num_faults + 1;
+  return my.told_by_watchdog;
+}
+
+bool Apparatus::is_laboratory_hand() const noexcept {
+  return implementation_->parameters.device == kLumped;
+}
+
+int Apparatus::num_contact_points() const noexcept {
+  return std::clamp(implementation_->device->capabilities().num_contact_points, 1,
+                    core::kNumContactPoints);
+}
+
+double Apparatus::max_total_force_n() const noexcept {
+  return implementation_->max_total_force_n;
+}
+
+void Apparatus::meter_strokes() {
+  Implementation& my = *implementation_;
+  my.after_samples(next_tick() - 1, [&my] {
+    (void)my.meter.finish();
+    (void)my.lag.finish();
+    my.sums = {};
+    my.num_metered_strokes = 0;
+    my.metering = true;
+  });
+}
+
+int Apparatus::num_metered_strokes() const noexcept {
+  return implementation_->num_metered_strokes.load(std::memory_order_relaxed);
+}
+
+analysis::StrokeSummary Apparatus::finish_strokes() {
+  Implementation& my = *implementation_;
+  analysis::StrokeSummary summary;
+  my.after_samples(next_tick() - 1, [&] {
+    summary = my.meter.finish();
+    my.finger_lag_s = my.lag.finish();
+    my.num_metered_strokes = 0;
+    my.metering = false;
+  });
+  return summary;
+}
+
+void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
+  Implementation& my = *implementation_;
+  if (my.storage) return my.storage->commit(store, commit, my.beats_while_waiting());
+  my.consumer.commit(store, commit);
+}
+
+std::optional<double> Apparatus::metered_finger_lag_s() const noexcept {
+  return implementation_->finger_lag_s;
+}
+
+const core::ContactSums& Apparatus::metered_sums() const noexcept {
+  return implementation_->sums;
+}
+
+const device::RealtimeThread* Apparatus::realtime_thread() const noexcept {
+  return implementation_->running ? &implementation_->running->thread() : nullptr;
+}
+
+std::string Apparatus::realtime() const {
+  if (!implementation_->running) return "simulated";
+  const device::RealtimeReport& report = implementation_->running->thread().report();
+  return report.scheduler + (report.memory_locked ? ", memory locked" : ", memory not locked");
+}
+
+const core::Clock& Apparatus::clock() const noexcept {
+  if (implementation_->parameters.realtime) return implementation_->system_clock;
+  return implementation_->simulated_clock;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/exchange/telemetry.h"
+
+namespace jnd::app {
+
+/// Which points have to hold the hand: those that did when something began to be felt, until
+/// somebody gives them up. Bits as in `core::Sample::attached_bits`.
+class AttachmentWatch {
+ public:
+  /// Something begins to be felt, by the points that hold now.
+  void begin(const core::Telemetry& now) noexcept;
+  /// The points that held and do not now.
+  [[nodiscard]] std::uint8_t loose_bits(const core::Telemetry& now) const noexcept;
+  /// Those, and the points that came off since `begin` and hold again.
+  [[nodiscard]] std::uint8_t came_off_bits(const core::Telemetry& now) const noexcept;
+  /// The points that do not hold and never did: forgotten, or left out.
+  [[nodiscard]] std::uint8_t absent_bits(const core::Telemetry& now) const noexcept;
+  /// These points are not waited for any more, until they hold again when something begins.
+  void give_up(std::uint8_t given_up) noexcept;
+
+ private:
+  std::uint8_t held_bits_ = 0, given_up_bits_ = 0;
+  decltype(core::Telemetry::num_detachments) num_detachments_{};  ///< At `begin`.
+};
+
+/// "the index finger", "the inner palm and the thumb": for people. "" for no bits.
+[[nodiscard]] std::string words_of_points(std::uint8_t bits);
+/// "came off: index, thumb": as events say why a session paused.
+[[nodiscard]] std::string came_off_reason(std::uint8_t bits);
+
+}  // namespace jnd::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/exchange/latest_value.h"
+#include "core/pointer.h"
+#include "core/safety/emergency_stop.h"
+#include "core/safety/heartbeat.h"
+
+namespace jnd::app {
+
+/// What leads from the window straight to the haptic thread, past every session and every
+/// queue. The window owns it, keeps it alive while an apparatus uses it, and beats the
+/// heartbeat from its own thread: a window that hangs stops the force within 250 ms.
+struct OperatorExchange {
+  core::EmergencyStop emergency_stop;  ///< Pressed from any thread; see `Apparatus::rearm`.
+  core::Heartbeat heartbeat;  ///< At least every 100 ms, as long as there is a session.
+  /// For the device "mouse"; published by one thread alone.
+  core::LatestValue<core::PointerPosition> pointer;
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,132 @@
+#include "app/session/presenter.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+
+#include "experiments/procedures/stimulus.h"
+
+namespace jnd::app {
+
+using namespace experiments;
+
+const PresentationState& Presenter::presentation() const {
+  return session_.state().trial(*session_.state().current_trial()).presentations.back();
+}
+
+void Presenter::begin(const Block& block, const std::string& interval) {
+  session_.begin_presentation(interval, apparatus_.next_tick());
+  amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
+  missed_before_ = apparatus_.telemetry().num_missed_ticks;
+  limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
+  apparatus_.render(amounts_);
+  // The disk may have taken its time: what is felt begins here.
+  switched_tick_ = apparatus_.next_tick();
+  under_way_ = true;
+  measuring_ = false;
+}
+
+bool Presenter::waits_for_ramp() const { return under_way_ && !measuring_; }
+
+bool Presenter::ramp_has_passed() const {
+  if (apparatus_.realtime_thread() == nullptr) return felt_s() >= needs_.ramp_s;
+  // The tick that ran while the command was sent may have missed it, the next one has not.
+  return apparatus_.next_tick() >= switched_tick_ + 2 && apparatus_.telemetry().ramp_finished;
+}
+
+void Presenter::ramp_is_over() {
+  sums_before_ = apparatus_.telemetry().contact_sums;
+  apparatus_.meter_strokes();
+  measuring_ = true;
+}
+
+Presenter::Felt Presenter::end(Afterwards afterwards) {
+  PresentationSummary summary;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  Felt felt{.delivered_damping_n_s_per_m = kUnknown, .device_damping_n_s_per_m = kUnknown};
+  const core::Telemetry last = apparatus_.telemetry();
+  felt.last_tick = apparatus_.next_tick() - 1;
+  felt.duration_s = static_cast<double>(felt.last_tick - switched_tick_) / needs_.rate_hz;
+  if (afterwards == Afterwards::kFreeSpace) apparatus_.render(core::free_space());
+  if (measuring_) {
+    core::ContactSums sums = last.contact_sums - sums_before_;
+    const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
+    // A solid is pressed: what its hand does along the surface is no stroke.
+    const bool is_pressed = amounts_.plane().is_there();
+    if (!is_pressed) {
+      summary.stroke_width_m = strokes.stroke_width_m;
+      summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
+      summary.mean_height_m = strokes.mean_height_m;
+      summary.num_strokes = strokes.num_strokes;
+      summary.finger_lag_s = apparatus_.metered_finger_lag_s();
+    }
+    if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
+    felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
+    // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
+    felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();
+    if (!is_pressed) summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
+  }
+  if (amounts_.is_plain_damping()) {
+    summary.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
+  }
+  felt.num_ticks = felt.last_tick - presentation().first_tick + 1;
+  felt.missed_ticks = last.num_missed_ticks - missed_before_;
+  summary.missed_ticks = felt.missed_ticks;
+  summary.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
+  summary.exposure = exposure_since_last();
+  session_.end_presentation(felt.last_tick, summary);
+  tell_guards();
+  under_way_ = false;
+  measuring_ = false;
+  return felt;
+}
+
+/// Of simulated hands only where the study asks: nothing can happen to them.
+std::optional<core::Exposure> Presenter::exposure_since_last() {
+  if (apparatus_.is_simulated() && !session_.limits().limits_exposure()) return std::nullopt;
+  const core::Exposure now = apparatus_.telemetry().exposure;
+  return now - std::exchange(told_, now);
+}
+
+std::string Presenter::missed_reason(const Felt& felt) const {
+  const auto missed = static_cast<double>(felt.missed_ticks);
+  const auto due = static_cast<double>(felt.num_ticks);
+  if (!(missed > needs_.max_missed_ratio * due)) return "";
+  return fmt::format(
+      "missed ticks: {} of {} never ran, more than the {:g} % that the study "
+      "allows",
+      felt.missed_ticks, felt.num_ticks, 100.0 * needs_.max_missed_ratio);
+}
+
+void Presenter::abandon() {
+  const bool metered = std::exchange(measuring_, false);
+  under_way_ = false;
+  if (metered) (void)apparatus_.finish_strokes();
+}
+
+void Presenter::tell_exposure() {
+  const std::optional<core::Exposure> exposure = exposure_since_last();
+  if (exposure && exposure->force_time_n_s > 0.0) session_.exposed(*exposure);
+  tell_guards();
+}
+
+/// Of a simulated hand in its own time only where somebody wants to know what guards would do.
+void Presenter::tell_guards() {
+  if (apparatus_.realtime_thread() == nullptr && !apparatus_.shadows_guards()) return;
+  const core::GuardCounts now = apparatus_.telemetry().guards;
+  const core::GuardCounts told = std::exchange(told_guards_, now);
+  for (std::size_t i = 0; i < core::kGuards.size(); ++i) {
+    const GuardNoticed noticed{.guard = std::string(core::name(core::kGuards[i])),
+                               .num_warnings = now.num_warnings[i] - told.num_warnings[i],
+                               .num_shadowed = now.num_shadowed[i] - told.num_shadowed[i]};
+    if (noticed.num_warnings + noticed.num_shadowed > 0) session_.guard_noticed(noticed);
+  }
+}
+
+double Presenter::felt_s() const noexcept {
+  if (!under_way_) return 0.0;
+  return static_cast<double>(apparatus_.next_tick() - switched_tick_) / needs_.rate_hz;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,61 @@
+#include "app/session/pseudonym.h"
+
+#include <algorithm>
+
+namespace jnd::app {
+namespace {
+
+constexpr std::size_t kMostLetters = 64;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Letters in lower case, and numbers without the zeros before them; what stood between two
+/// numbers keeps them apart.
+std::string bare(const std::string& participant) {
+  std::string bare;
+  bool in_number = false;
+  bool between = false;
+  for (std::size_t i = 0; i < participant.size(); ++i) {
+    const char c = participant[i];
+    if (!is_digit(c) && !is_letter(c)) {
+      between = true;
+      in_number = false;
+      continue;
+    }
+    if (is_digit(c)) {
+      const bool leads =
+          !in_number && c == '0' && i + 1 < participant.size() && is_digit(participant[i + 1]);
+      if (leads) continue;
+      if (between && !bare.empty() && is_digit(bare.back())) bare += '-';
+    }
+    in_number = is_digit(c);
+    between = false;
+    bare += lower(c);
+  }
+  return bare;
+}
+
+}  // namespace
+
+std::string pseudonym_words() {
+  return "at most " + std::to_string(kMostLetters) + " letters, digits, _, - and .";
+}
+
+bool is_pseudonym(const std::string& text) {
+  return !text.empty() && text.size() <= kMostLetters &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.';
+         });
+}
+
+std::string lookalike(const std::string& participant, const std::vector<std::string>& taken) {
+  const std::string own = bare(participant);
+  for (const std::string& other : taken) {
+    if (other != participant && bare(other) == own) return other;
+  }
+  return "";
+}
+
+}  // namespace jnd::app

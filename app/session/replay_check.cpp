@@ -1,0 +1,128 @@
+#include "app/session/replay_check.h"
+
+#include <set>
+#include <string>
+
+#include "core/error.h"
+#include "experiments/session/session_state.h"
+
+namespace jnd::app {
+namespace {
+
+using experiments::SessionState;
+using experiments::TrialState;
+
+class ReplayCheck {
+ public:
+  ReplayCheck(const core::StudyStore& store, std::int64_t session, core::Integrity& integrity)
+      : store_(store), session_(session), integrity_(integrity) {}
+
+  void run() {
+    for (const core::EventRow& row : store_.events(session_)) {
+      apply(state_, experiments::event_from_row(row));
+    }
+    check_design();
+    check_trials();
+    check_presentations();
+  }
+
+ private:
+  void problem(std::int64_t trial, const std::string& what) {
+    integrity_.problems.push_back(
+        {session_, "trial " + std::to_string(trial) + ": expected its " + what +
+                       " as the log of events has it, found another; one of them is damaged"});
+  }
+  [[nodiscard]] const TrialState* of(std::int64_t trial, const std::string& what) {
+    const auto num_trials = static_cast<std::int64_t>(state_.trials.size());
+    if (trial >= 1 && trial <= num_trials) return &state_.trial(trial);
+    problem(trial, what);
+    return nullptr;
+  }
+
+  void check_design() {
+    std::set<std::int64_t> in_force;
+    for (const core::DesignRow& row : store_.design(session_)) in_force.insert(row.trial);
+    const std::vector<core::DesignRow> design =
+        store_.design(session_, /*include_voided=*/true);
+    if (design.size() != state_.trials.size()) problem(0, "drawn trials");
+    for (const core::DesignRow& row : design) {
+      const TrialState* trial = of(row.trial, "design");
+      if (trial == nullptr) continue;
+      const experiments::PlannedTrial& planned = trial->planned;
+      const bool same =
+          row.stage == trial->stage && row.repetition == planned.repetition &&
+          row.position == planned.position && row.intensity == planned.intensity &&
+          row.reference_intensity == planned.reference_intensity &&
+          row.starting_intensity == planned.starting_intensity &&
+          row.target_percent == planned.target_percent && row.series == planned.series &&
+          row.test_interval == planned.test_interval && row.is_catch == planned.is_catch &&
+          row.sequence.value_or(trial->drawn_sequence) == trial->drawn_sequence &&
+          in_force.contains(row.trial) != trial->is_void;
+      if (!same) problem(row.trial, "design");
+    }
+  }
+
+  void check_trials() {
+    std::set<std::int64_t> excluded;
+    for (std::size_t i = 0; i < state_.trials.size(); ++i) {
+      if (state_.trials[i].excluded) excluded.insert(static_cast<std::int64_t>(i) + 1);
+    }
+    std::set<std::int64_t> in_force;
+    for (const core::TrialRow& row : store_.trials(session_)) in_force.insert(row.trial);
+    std::set<std::int64_t> answered;
+    for (const core::TrialRow& row : store_.trials(session_, /*include_excluded=*/true)) {
+      answered.insert(row.trial);
+      const TrialState* trial = of(row.trial, "answer");
+      if (trial == nullptr) continue;
+      if (row.response != trial->response || row.attempt != trial->attempt) {
+        problem(row.trial, "answer");
+      }
+      if (excluded.contains(row.trial) == in_force.contains(row.trial)) {
+        problem(row.trial, "exclusion");
+      }
+    }
+    for (std::size_t i = 0; i < state_.trials.size(); ++i) {
+      const auto number = static_cast<std::int64_t>(i) + 1;
+      if (state_.trials[i].response.has_value() != answered.contains(number)) {
+        problem(number, "answer");
+      }
+    }
+  }
+
+  void check_presentations() {
+    for (const core::PresentationRow& row : store_.presentations(session_)) {
+      const TrialState* trial = of(row.trial, "presentation");
+      if (trial == nullptr) continue;
+      const auto index = static_cast<std::size_t>(row.presentation) - 1;
+      if (index >= trial->presentations.size()) {
+        problem(row.trial, "presentation");
+        continue;
+      }
+      const experiments::PresentationState& presented = trial->presentations[index];
+      if (row.interval != presented.interval || row.intensity != presented.intensity ||
+          row.first_tick != presented.first_tick || row.last_tick != presented.last_tick) {
+        problem(row.trial, "presentation");
+      }
+    }
+  }
+
+  const core::StudyStore& store_;
+  std::int64_t session_;
+  core::Integrity& integrity_;
+  SessionState state_;
+};
+
+}  // namespace
+
+void check_replay(const core::StudyStore& store, core::Integrity& integrity) {
+  for (const core::SessionRow& row : store.sessions()) {
+    try {
+      ReplayCheck(store, row.session, integrity).run();
+    } catch (const core::Error& error) {
+      integrity.problems.push_back({row.session, error.what()});
+    }
+  }
+  integrity.complete = integrity.problems.empty();
+}
+
+}  // namespace jnd::app

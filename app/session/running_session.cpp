@@ -1,0 +1,155 @@
+#include "app/session/running_session.h"
+
+#include <algorithm>
+
+#include "app/session/session_setup.h"
+#include "core/error.h"
+#include "core/safety/fault.h"
+#include "core/storage/flight_record.h"
+#include "core/storage/recording.h"
+#include "experiments/procedures/stimulus.h"
+
+namespace jnd::app {
+namespace {
+
+using namespace experiments;
+
+/// Where a resumed recording goes on.
+std::int64_t last_recorded_tick(const core::StudyStore& store, std::int64_t session) {
+  const std::filesystem::path file = store.recording_file(session);
+  return std::filesystem::exists(file) ? core::RecordingReader(file).last_tick() : -1;
+}
+
+std::int64_t last_tick_in(const std::vector<core::EventRow>& events) {
+  std::int64_t last = -1;
+  for (const core::EventRow& event : events) {
+    // A first tick was still to come when its event was stored.
+    last = std::max({last, event.first_tick.value_or(0) - 1, event.last_tick.value_or(-1)});
+  }
+  return last;
+}
+
+/// A simulated session goes on in its own time, whenever somebody excluded a trial of it.
+std::int64_t last_time_ns(const std::vector<core::EventRow>& events) {
+  const auto last =
+      std::find_if(events.rbegin(), events.rend(), [](const core::EventRow& event) {
+        return event.kind != "trial_excluded" && event.kind != "trial_included" &&
+               event.kind != "unblinded";
+      });
+  return last == events.rend() ? 0 : last->time_ns;
+}
+
+Cell cell_of_session(const RunningSession::Parameters& running) {
+  return cell_from_text(running.study, running.store.session(running.session).cells);
+}
+
+std::vector<DurationBucket> buckets_of(const device::DurationSummary& durations) {
+  std::vector<DurationBucket> buckets;
+  for (const device::DurationSummary::Bucket& bucket : durations.buckets) {
+    buckets.push_back(
+        {.up_to_ns = bucket.end_ns, .count = static_cast<std::int64_t>(bucket.count)});
+  }
+  return buckets;
+}
+
+}  // namespace
+
+void RunningSession::StoredLog::append(const core::Commit& commit) {
+  try {
+    running_.apparatus_.commit(running_.parameters_.store, commit);
+  } catch (const core::Error& error) {
+    throw StorageError(error.what());
+  }
+  if (running_.parameters_.on_event) running_.parameters_.on_event(commit.event);
+}
+
+RunningSession::RunningSession(const Parameters& parameters)
+    : parameters_(parameters),
+      recorded_samples_(parameters.store.session(parameters.session).recorded),
+      history_(parameters.store.events(parameters.session)),
+      recorded_tick_(last_recorded_tick(parameters.store, parameters.session)),
+      apparatus_(parameters.laboratory != nullptr
+                     ? Apparatus(apparatus_parameters(), *parameters.laboratory)
+                     : Apparatus(apparatus_parameters())),
+      session_({.session = parameters.session,
+                .seed = parameters.store.session(parameters.session).seed,
+                .stages = stages_of_session(parameters.study,
+                                            parameters.store.session(parameters.session).cells),
+                .cell = cell_of_session(parameters),
+                .fields = field_values(parameters.study, cell_of_session(parameters)),
+                .limits = parameters.study.session_limits},
+               history_, log_, apparatus_.clock()) {}
+
+Apparatus::Parameters RunningSession::apparatus_parameters() const {
+  Apparatus::Parameters apparatus = parameters_.apparatus;
+  apparatus.allow_no_realtime |=
+      may_lack_rights(parameters_.store.session(parameters_.session));
+  apparatus.rate_hz = parameters_.study.device.rate_hz;
+  apparatus.ramp_s = parameters_.study.device.ramp_s;
+  apparatus.immersion = parameters_.study.device.immersion;
+  apparatus.surroundings = experiments::surroundings_of(parameters_.study.device);
+  apparatus.force_map = experiments::force_map_of(parameters_.study.device);
+  apparatus.first_tick = std::max(recorded_tick_, last_tick_in(history_)) + 1;
+  apparatus.first_time_ns = last_time_ns(history_);
+  if (recorded_samples_) {
+    apparatus.recording = parameters_.store.recording_file(parameters_.session);
+  }
+  return apparatus;
+}
+
+void RunningSession::begin(const std::string& choice, const std::string& language) {
+  if (session_.state().started) {
+    const std::int64_t last_known = session_.state().last_tick;
+    session_.resume(choice, last_known + 1, std::max(recorded_tick_, last_known));
+  } else {
+    session_.start(language);
+  }
+  const device::RealtimeThread* thread = apparatus_.realtime_thread();
+  if (thread == nullptr || session_.state().ended) return;
+  const device::RealtimeReport& given = thread->report();
+  session_.loop_started({.scheduler = given.scheduler,
+                         .memory_locked = given.memory_locked,
+                         .cpus = given.cpus,
+                         .first_tick = apparatus_.next_tick()});
+}
+
+void RunningSession::keep_timing() {
+  const device::RealtimeThread* thread = apparatus_.realtime_thread();
+  if (thread == nullptr) return;
+  const device::LoopTimingSummary timing = device::summary_of(thread->timing());
+  session_.loop_measured({.num_ticks = timing.num_ticks,
+                          .missed_ticks = timing.missed_ticks,
+                          .num_dropped_samples = static_cast<std::int64_t>(
+                              apparatus_.telemetry().num_dropped_samples),
+                          .max_lateness_ns = timing.lateness.max_ns,
+                          .max_tick_cost_ns = timing.tick_cost.max_ns,
+                          .lateness = buckets_of(timing.lateness),
+                          .tick_cost = buckets_of(timing.tick_cost)});
+}
+
+void RunningSession::keep_arming(const std::string& by) {
+  if (apparatus_.realtime_thread() == nullptr) return;
+  const core::Telemetry& now = apparatus_.telemetry();
+  if (told_arming_ == now.arming) return;
+  told_arming_ = now.arming;
+  std::string cause = apparatus_.is_simulated() ? "simulated device, armed by the program" : by;
+  if (now.arming == core::Arming::kFaulted) cause = name(now.fault);
+  if (now.arming == core::Arming::kDisarmed) cause = "nobody has armed it";
+  session_.arming_changed(std::string(name(now.arming)), cause);
+}
+
+void RunningSession::keep_fault() {
+  const core::Fault fault = apparatus_.telemetry().fault;
+  if (!core::is_failure(fault)) return;
+  session_.fault(std::string(words(fault)));
+  const std::vector<core::Sample> last_second = apparatus_.flight_record();
+  if (last_second.empty()) return;
+  try {
+    core::write_flight_record(parameters_.store.recording_file(parameters_.session),
+                              last_second);
+  } catch (const core::Error& error) {
+    session_.note(error.what());
+  }
+}
+
+}  // namespace jnd::app

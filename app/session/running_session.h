@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/apparatus.h"
+#include "core/safety/fault.h"
+#include "core/storage/study_store.h"
+#include "experiments/session/session.h"
+#include "experiments/study/study.h"
+
+namespace jnd::app {
+
+using core::StorageError;
+
+/// A stored session with its apparatus, from start or resumption to its end or interruption:
+/// what a simulated participant and an operator have in common. Not thread-safe, not real time.
+class RunningSession {
+ public:
+  struct Parameters {
+    core::StudyStore& store;
+    std::int64_t session = 0;  ///< Its row is in the store already.
+    const experiments::Study& study;
+    /// Device, real time and exchange; what the study and the session's log decide is filled
+    /// in.
+    Apparatus::Parameters apparatus;
+    const experiments::Laboratory* laboratory =
+        nullptr;  ///< That of a simulated hand; or none.
+    std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
+  };
+
+  /// Replays the log and starts the apparatus. Throws `Error`.
+  explicit RunningSession(const Parameters& parameters);
+  RunningSession(const RunningSession&) = delete;
+  RunningSession& operator=(const RunningSession&) = delete;
+
+  [[nodiscard]] Apparatus& apparatus() noexcept { return apparatus_; }
+  [[nodiscard]] const Apparatus& apparatus() const noexcept { return apparatus_; }
+  [[nodiscard]] experiments::Session& session() noexcept { return session_; }
+  [[nodiscard]] const experiments::Study& study() const noexcept { return parameters_.study; }
+
+  /// Starts the session in this language, or goes on with it: "repeat", "restart" or "end".
+  void begin(const std::string& choice, const std::string& language = "");
+  /// Stores how punctual the loop has been since it was started; after every stage, so that a
+  /// crash costs one.
+  void keep_timing();
+  /// Stores whether there may be force, where that has changed since it was told last; `by`:
+  /// who armed a real device. Nothing in simulated time.
+  void keep_arming(const std::string& by);
+  /// Stores the fault that the loop has latched, and the last second before it; does nothing
+  /// without one.
+  void keep_fault();
+
+ private:
+  /// Events go through the apparatus, which syncs the recording first.
+  class StoredLog final : public experiments::EventLog {
+   public:
+    explicit StoredLog(RunningSession& running) : running_(running) {}
+    void append(const core::Commit& commit) override;
+
+   private:
+    RunningSession& running_;
+  };
+
+  [[nodiscard]] Apparatus::Parameters apparatus_parameters() const;
+
+  Parameters parameters_;
+  bool recorded_samples_;
+  std::vector<core::EventRow> history_;
+  std::int64_t recorded_tick_;
+  Apparatus apparatus_;
+  std::optional<core::Arming> told_arming_;
+  StoredLog log_{*this};
+  experiments::Session session_;
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,39 @@
+#include "app/session/shipped_files.h"
+
+#include <cstdlib>
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_share(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "protocols", ignored) &&
+         fs::is_directory(folder / "data", ignored);
+}
+
+}  // namespace
+
+fs::path shipped_folder() {
+  if (const char* named = std::getenv("JND_SHARE"); named != nullptr) return named;
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  fs::path installed = program.parent_path().parent_path() / "share" / "jnd";
+  if (is_share(installed)) return installed;
+  return JND_SOURCE_SHARE;
+}
+
+fs::path user_or_shipped(const std::string& name, const std::string& folder) {
+  std::error_code ignored;
+  if (fs::exists(name, ignored)) return name;
+  const fs::path file_name = fs::path(name).filename();
+  for (const fs::path& candidate :
+       {shipped_folder() / folder / file_name,
+        shipped_folder() / folder / (file_name.string() + ".json")}) {
+    if (fs::exists(candidate, ignored)) return candidate;
+  }
+  return name;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,439 @@
+#include "app/session/trial_player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/error.h"
+#include "core/random_stream.h"
+#include "experiments/participants/counting.h"
+#include "experiments/procedures/stimulus.h"
+#include "experiments/procedures/task.h"
+
+namespace jnd::app {
+
+using namespace experiments;
+
+void stop_if_cancelled(const LaboratoryRun& run) {
+  if (run.is_cancelled && run.is_cancelled()) throw Cancelled{};
+}
+
+/// In real time, ends early when the run is asked to stop.
+void TrialPlayer::wait(double duration_s) {
+  if (!run_.realtime) return apparatus_.run_for(duration_s);
+  constexpr double kGlanceS = 0.020;
+  for (double waited_s = 0.0; waited_s < duration_s; waited_s += kGlanceS) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(std::min(kGlanceS, duration_s - waited_s));
+  }
+}
+
+/// Thrown out of the middle of what is felt: these points came off.
+struct TrialPlayer::CameOff {
+  std::uint8_t bits;
+};
+
+/// Thrown after what was felt, which counts for nothing.
+struct TrialPlayer::Missed {
+  std::string reason;
+};
+
+/// Free space again, and the trial later. A machine that cannot keep up does not get better by
+/// asking once more and once more.
+void TrialPlayer::begin_anew(const std::string& reason) {
+  constexpr int kMostInARow = 3;
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  session_.put_off_attempt(reason);
+  presenter_.tell_exposure();
+  if (++num_missed_in_a_row_ < kMostInARow) return;
+  throw core::Error(
+      "haptic loop: expected a machine that keeps its time, found three attempts "
+      "in a row with " +
+      reason +
+      "; close what burdens the machine, look at `jnd doctor`, then resume the "
+      "session");
+}
+
+void TrialPlayer::stop_if_loose() const {
+  const std::uint8_t came_off = attachment_.came_off_bits(apparatus_.telemetry());
+  if (came_off != 0) throw CameOff{came_off};
+}
+
+/// What the experimenter and the person do about it; what was felt counts for nothing.
+void TrialPlayer::put_fingers_back(std::uint8_t loose_bits) {
+  constexpr double kPatienceS = 20.0;
+  constexpr double kGlanceS = 0.020;
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  presenter_.abandon();
+  const std::optional<std::int64_t> trial = session_.state().current_trial();
+  const std::string reason = came_off_reason(loose_bits);
+  if (trial && session_.state().trial(*trial).under_way) session_.put_off_attempt(reason);
+  session_.pause(reason);
+  presenter_.tell_exposure();
+  apparatus_.put_fingers_back();
+  double waited_s = 0.0;
+  while (attachment_.loose_bits(apparatus_.telemetry()) != 0) {
+    stop_if_cancelled(run_);
+    if (waited_s >= kPatienceS) {
+      throw core::Error("device: expected " + words_of_points(loose_bits) +
+                        " to hold again within 20 s, found that it does not; look at the "
+                        "device, then resume the session");
+    }
+    apparatus_.run_for(kGlanceS);
+    waited_s += kGlanceS;
+  }
+  session_.go_on();
+}
+
+void TrialPlayer::explore(const Exploration& exploration) {
+  while (true) {
+    try {
+      return feel(exploration);
+    } catch (const CameOff& off) {
+      put_fingers_back(off.bits);
+    }
+  }
+}
+
+void TrialPlayer::feel(const Exploration& exploration) {
+  stop_if_cancelled(run_);
+  session_.require_exposure_left();
+  attachment_.begin(apparatus_.telemetry());
+  const std::int64_t first_tick = apparatus_.next_tick();
+  apparatus_.render(amounts_of(exploration.setting));
+  StrokeIntent intent = participant_.strokes("");
+  if (exploration.setting.medium == "solid") intent.height_m = -0.005;
+  apparatus_.begin_strokes(
+      plan_of(intent), stroke_stream(0, session_.state().stage, session_.state().num_explored));
+  wait(exploration.duration_s);
+  stop_if_loose();
+  session_.explored(exploration.setting.medium, exploration.setting.intensity, first_tick,
+                    apparatus_.next_tick() - 1);
+  presenter_.tell_exposure();
+}
+
+/// Free space, hand at rest at home.
+void TrialPlayer::rest(double duration_s) {
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  wait(std::max(duration_s, 2.0 * run_.laboratory.arm.home_s));
+}
+
+device::StrokePlan TrialPlayer::plan_of(const StrokeIntent& intent) const {
+  const Laboratory::Movement& habit = run_.laboratory.movement;
+  return {.amplitude_m = intent.amplitude_m,
+          .max_speed_m_per_s = intent.max_speed_m_per_s,
+          .height_m = intent.height_m,
+          .lift_m = intent.lift_m.value_or(habit.lift_m),
+          .amplitude_sd_ratio = habit.stroke_amplitude_sd_ratio,
+          .speed_sd_ratio = habit.stroke_speed_sd_ratio,
+          .height_sd_m = habit.stroke_height_sd_m};
+}
+
+core::RandomStream TrialPlayer::stroke_stream(std::int64_t trial, std::int64_t attempt,
+                                              std::int64_t presentation) const {
+  return {session_.seed(), "stroke", {trial, attempt, presentation}};
+}
+
+/// What a solid gave way with: the regression through the origin of the force on the hand's
+/// depth in it, weighed over the points as the force is.
+class TrialPlayer::StiffnessMeter {
+ public:
+  StiffnessMeter(double surface_m, int num_contact_points)
+      : surface_m_(surface_m), num_contact_points_(num_contact_points) {}
+
+  void look(const core::Telemetry& telemetry) {
+    double depth_m = 0.0;
+    for (int point = 0; point < num_contact_points_; ++point) {
+      const auto place = static_cast<std::size_t>(point);
+      const double height_m = telemetry.sample.tip_position_m[place][2];
+      depth_m += core::kAreaShareRatio[place] * std::max(0.0, surface_m_ - height_m);
+    }
+    depth_m /= core::declared_share_ratio(num_contact_points_);
+    sum_force_depth_ += telemetry.total_force_n[2] * depth_m;
+    sum_depth_depth_ += depth_m * depth_m;
+  }
+  /// In N/m; 0 without contact.
+  [[nodiscard]] double stiffness_n_per_m() const {
+    return sum_depth_depth_ > 0.0 ? std::max(0.0, sum_force_depth_ / sum_depth_depth_) : 0.0;
+  }
+
+ private:
+  double surface_m_;
+  int num_contact_points_;
+  double sum_force_depth_ = 0.0, sum_depth_depth_ = 0.0;
+};
+
+/// Out of whatever is below: who presses a surface enters it from above.
+void TrialPlayer::rise_above(double surface_m) {
+  constexpr double kGlanceS = 0.020, kPatienceS = 10.0;
+  apparatus_.begin_strokes(plan_of(participant_.hover(surface_m)),
+                           stroke_stream(*session_.state().current_trial(), 0, 0));
+  const auto lowest_m = [&] {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto& tip_m : apparatus_.telemetry().sample.tip_position_m) {
+      lowest = std::min<double>(lowest, tip_m[2]);
+    }
+    return lowest;
+  };
+  double waited_s = 0.0;
+  while (lowest_m() <= surface_m && waited_s < kPatienceS) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(kGlanceS);
+    waited_s += kGlanceS;
+    stop_if_loose();
+  }
+}
+
+/// Until the strokes are done and the hand has visibly turned, or far too much time is over.
+void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffness) {
+  constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
+  const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
+  double elapsed_s = 0.0;
+  while (apparatus_.strokes_finished() < intent.num_strokes && elapsed_s < limit_s) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(kGlanceS);
+    elapsed_s += kGlanceS;
+    stop_if_loose();
+    stiffness.look(apparatus_.telemetry());
+  }
+  apparatus_.run_for(intent.turning_s());
+  stop_if_loose();
+  // The arm is done; in a thick fluid the hand trails behind it.
+  constexpr double kLongestTrailS = 1.5;
+  for (double trail_s = 0.0;
+       apparatus_.num_metered_strokes() < intent.num_strokes && trail_s < kLongestTrailS;
+       trail_s += kGlanceS) {
+    stop_if_cancelled(run_);
+    apparatus_.run_for(kGlanceS);
+    stop_if_loose();
+  }
+}
+
+TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
+  attachment_.begin(apparatus_.telemetry());
+  stop_if_loose();
+  const double surface_m = run_.study.device.immersion.origin_z_m;
+  if (block.is_solid()) rise_above(surface_m);
+  presenter_.begin(block, interval);
+  const std::int64_t number = *session_.state().current_trial();
+  const TrialState& trial = session_.state().trial(number);
+  const StrokeIntent intent = block.is_solid()
+                                  ? participant_.presses(block.procedure, surface_m)
+                                  : participant_.strokes(block.procedure);
+  apparatus_.begin_strokes(
+      plan_of(intent), stroke_stream(number, trial.attempt,
+                                     static_cast<std::int64_t>(trial.presentations.size())));
+  apparatus_.run_for(run_.study.device.ramp_s);
+  while (run_.realtime && !presenter_.ramp_has_passed()) {
+    apparatus_.run_for(1.0 / run_.study.device.rate_hz);
+  }
+  presenter_.ramp_is_over();
+  StiffnessMeter stiffness(surface_m, apparatus_.num_contact_points());
+  run_strokes(intent, stiffness);
+  const Presenter::Felt felt = presenter_.end();
+  if (const std::string reason = presenter_.missed_reason(felt); !reason.empty()) {
+    throw Missed{reason};
+  }
+  return {.amount = block.is_solid() ? stiffness.stiffness_n_per_m()
+                                     : felt.delivered_damping_n_s_per_m + device_damping(felt),
+          .last_tick = felt.last_tick,
+          .duration_s = felt.duration_s};
+}
+
+/// What the hand feels besides the medium. The lumped hand's is the laboratory's viscosity: its
+/// dry friction is felt as something else. A device with mechanics of its own adds whatever
+/// opposed the hand.
+double TrialPlayer::device_damping(const Presenter::Felt& felt) const {
+  return apparatus_.is_laboratory_hand() ? run_.laboratory.device.mechanical_viscosity_n_s_per_m
+                                         : felt.device_damping_n_s_per_m;
+}
+
+Moment TrialPlayer::moment(const Block& block) const {
+  const std::int64_t number = *session_.state().current_trial();
+  const TrialState& trial = session_.state().trial(number);
+  // Adaptive procedures have one repetition, as long as it takes.
+  const std::size_t num_pairs =
+      block.intensities.size() * std::max<std::size_t>(1, block.standards.size());
+  const auto per_repetition = static_cast<std::int64_t>(num_pairs) + num_catch_trials(block);
+  return {.trial = number,
+          .attempt = trial.attempt,
+          .presentation = static_cast<std::int64_t>(trial.presentations.size()),
+          .trial_in_block =
+              (trial.planned.repetition - 1) * per_repetition + trial.planned.position};
+}
+
+double TrialPlayer::read(const Felt& felt, const Block& block) const {
+  return participant_.perceiver(block).reading_ln(felt.amount, moment(block));
+}
+
+void TrialPlayer::run_trial(const Block& block) {
+  stop_if_cancelled(run_);
+  const std::int64_t trial = *session_.state().current_trial();
+  rest(block.free_space_between_s);
+  session_.start_trial(apparatus_.next_tick());
+  try {
+    play_trial(block, trial);
+    num_missed_in_a_row_ = 0;
+  } catch (const CameOff& off) {
+    put_fingers_back(off.bits);
+  } catch (const Missed& missed) {
+    begin_anew(missed.reason);
+  }
+}
+
+void TrialPlayer::play_trial(const Block& block, std::int64_t trial) {
+  const TrialForm form = session_.current_form();
+  if (form.adjustable) return adjust(block, trial, form.has_reference);
+  if (form.order_is_drawn) return compare_intervals(block, form.answer);
+  if (form.answer == AnswerKind::kYesNo && !form.has_reference) return detect(block);
+  if (form.answer == AnswerKind::kYesNo) return compare(block);
+  estimate(block, form);
+}
+
+void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
+  double sum_ln = 0.0, standard_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    if (form.has_reference) standard_ln += read(present(block, "reference"), block);
+    felt = present(block, "test");
+    sum_ln += read(felt, block);
+    ++looks;
+  } while (participant_.perceiver(block).looks_again(moment(block)));
+  std::optional<double> previous;
+  if (const auto last = session_.state().last_answered_trial()) {
+    const TrialState& before = session_.state().trial(*last);
+    if (before.stage == session_.state().stage) previous = before.response;
+  }
+  const Perceiver& perceiver = participant_.perceiver(block);
+  double answer = 0.0;
+  if (form.answer == AnswerKind::kPercent) {
+    answer = perceiver.estimate_percent(sum_ln / looks, moment(block), previous);
+  } else {
+    std::optional<double> felt_standard_ln;
+    if (form.has_reference) felt_standard_ln = standard_ln / looks;
+    const auto map = force_map_of(run_.study.device);
+    answer = perceiver.estimate_number(
+        sum_ln / looks, moment(block), previous,
+        counting_of(run_.laboratory, participant_, block, felt_standard_ln, map.get()));
+  }
+  session_.answer(answer, felt.duration_s, felt.last_tick);
+}
+
+/// Whether anything is there, against free space as it is remembered.
+void TrialPlayer::detect(const Block& block) {
+  const Perceiver& perceiver = participant_.perceiver(block);
+  double test_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    felt = present(block, "test");
+    test_ln += read(felt, block);
+    ++looks;
+  } while (perceiver.looks_again(moment(block)));
+  const bool there =
+      perceiver.says_present(test_ln / looks, perceiver.free_space_ln(), moment(block));
+  session_.answer(there ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+}
+
+void TrialPlayer::compare(const Block& block) {
+  double reference_ln = 0.0;
+  double test_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    reference_ln += read(present(block, "reference"), block);
+    felt = present(block, "test");
+    test_ln += read(felt, block);
+    ++looks;
+  } while (participant_.perceiver(block).looks_again(moment(block)));
+  const bool thicker = participant_.perceiver(block).says_thicker(
+      test_ln / looks, reference_ln / looks, moment(block));
+  session_.answer(thicker ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+}
+
+void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
+  const Perceiver& person = participant_.perceiver(block);
+  double first_ln = 0.0;
+  double second_ln = 0.0;
+  int looks = 0;
+  Felt felt;
+  do {
+    first_ln += read(present(block, "first"), block);
+    felt = present(block, "second");
+    second_ln += read(felt, block);
+    ++looks;
+  } while (person.looks_again(moment(block)));
+  first_ln /= looks;
+  second_ln /= looks;
+  const double answer =
+      asked == AnswerKind::kInterval
+          ? (person.says_thicker(second_ln, first_ln, moment(block)) ? 2.0 : 1.0)
+          : (person.says_different(first_ln, second_ln, moment(block)) ? 1.0 : 0.0);
+  session_.answer(answer, felt.duration_s, felt.last_tick);
+}
+
+/// A production; with a reference a matching, in which the person may go back to it.
+void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_reference) {
+  constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
+  const PlannedTrial planned = session_.state().trial(trial).planned;
+  const Perceiver& perceiver = participant_.perceiver(block);
+  double standard_ln = 0.0;
+  int standard_looks = 0;
+  const auto feel_standard = [&] {
+    const double reading_ln = read(present(block, "reference"), block);
+    standard_ln += (reading_ln - standard_ln) / ++standard_looks;
+  };
+  if (has_reference) feel_standard();
+  // What is felt now, with the noise of all looks at this trial averaged: who steps on and on
+  // knows better where they are than who felt it once.
+  double noise_ln = 0.0;
+  int looks = 0;
+  double duration_s = 0.0;
+  Felt felt;
+  const auto look = [&] {
+    felt = present(block, "test");
+    duration_s += felt.duration_s;
+    const double felt_ln = std::log(std::max(felt.amount, 1e-6));
+    noise_ln += read(felt, block) - felt_ln;
+    ++looks;
+    return felt_ln + noise_ln / looks;
+  };
+  double reading_ln = look();
+  const double first_ln = reading_ln;
+  using Wish = Perceiver::Wish;
+  Wish last_wish = Wish::kMatches;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Wish wish =
+        has_reference
+            ? perceiver.wish_to_match(reading_ln, first_ln, standard_ln, moment(block))
+            : perceiver.wish(reading_ln, first_ln, planned.target_percent.value(),
+                             moment(block));
+    if (wish == Wish::kMatches) {
+      if (!has_reference || !perceiver.looks_again(moment(block))) break;
+      feel_standard();
+      reading_ln = look();
+      continue;
+    }
+    // Back and forth over the target by the smallest step: it does not get closer than this.
+    if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
+        (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
+      break;
+    }
+    last_wish = wish;
+    const bool raise = wish == Wish::kRaiseFine || wish == Wish::kRaiseCoarse;
+    const bool coarse = wish == Wish::kRaiseCoarse || wish == Wish::kLowerCoarse;
+    if (!session_.adjust(raise ? Direction::kRaise : Direction::kLower,
+                         coarse ? StepSize::kCoarse : StepSize::kFine)) {
+      break;
+    }
+    reading_ln = look();
+  }
+  session_.answer(0.0, duration_s, felt.last_tick);
+}
+
+}  // namespace jnd::app

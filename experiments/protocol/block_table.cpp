@@ -1,0 +1,143 @@
+#include <algorithm>
+
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/protocol/stage_tables.h"
+#include "experiments/study/medium_quantity.h"
+
+namespace jnd::experiments {
+namespace {
+
+/// What a block can vary: anything but free space.
+std::vector<MediumQuantity> block_media() {
+  std::vector<MediumQuantity> found;
+  for (const MediumQuantity& one : media()) {
+    if (!one.quantity.empty()) found.push_back(one);
+  }
+  return found;
+}
+
+Parameter procedure_parameter() {
+  Parameter parameter{.key = "procedure",
+                      .kind = ValueKind::kString,
+                      .meaning = "How the stimuli are asked about."};
+  for (const Procedure* procedure : procedures()) {
+    parameter.allowed.emplace_back(procedure->name());
+    parameter.meaning += " `" + parameter.allowed.back() + "`: " + procedure->meaning();
+  }
+  return parameter;
+}
+
+Parameter medium_parameter() {
+  Parameter parameter{
+      .key = "medium",
+      .kind = ValueKind::kString,
+      .meaning =
+          "What is felt. `water`: drag that grows with the square of speed, varied by `scale`. "
+          "`viscous`: drag that grows with speed, varied by `viscosity_pa_s`. "
+          "`viscous_stokes`: the same with the constant of a sphere. `water_map`: water with "
+          "the drag and lift of the study's `force_map`. `viscous_schiller_naumann`: viscous "
+          "with the fluid's inertia, up to a Reynolds number (100 speed / viscosity, SI units) "
+          "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand. "
+          "`solid`: a flat surface at the height of a fluid's, pressed instead of stroked, "
+          "varied by `stiffness_n_per_m`."};
+  for (const MediumQuantity& one : block_media()) parameter.allowed.push_back(one.medium);
+  return parameter;
+}
+
+/// The condition's words, where `parameters` has this key already; else nullptr.
+std::vector<std::string>* words_of(std::vector<Parameter>& parameters, const std::string& key,
+                                   std::size_t condition) {
+  const auto known = std::ranges::find(parameters, key, &Parameter::key);
+  return known == parameters.end() ? nullptr : &known->only_where[condition].values;
+}
+
+void add_word(std::vector<std::string>& words, const std::string& word) {
+  if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+}
+
+/// The key as blocks of this medium have it, or blocks with this standard; where another
+/// procedure or a medium of the same quantity has it already, it is theirs, too.
+void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
+             const std::string& procedure, const MediumQuantity& medium) {
+  const std::string name = key.name_for(medium.quantity);
+  if (std::vector<std::string>* known = words_of(parameters, name, 0)) {
+    add_word(*known, procedure);
+    if (key.names_quantity()) add_word(*words_of(parameters, name, 1), medium.medium);
+    return;
+  }
+  Parameter parameter = key.parameter;
+  parameter.key = name;
+  parameter.only_where = {{"procedure", {procedure}}};
+  if (key.names_quantity()) {
+    parameter.unit = medium.unit;
+    parameter.range = medium.range;
+    if (key.is_positive) parameter.range.low_is_open = true;
+    parameter.only_where.push_back(
+        {key.of_standard ? "standard_medium" : "medium", {medium.medium}});
+  }
+  const std::vector<Condition>& more = key.parameter.only_where;
+  parameter.only_where.insert(parameter.only_where.end(), more.begin(), more.end());
+  parameters.push_back(std::move(parameter));
+}
+
+/// Keys that name a quantity first, quantity by quantity.
+std::vector<Parameter> procedure_parameters() {
+  std::vector<Parameter> of_quantities, others;
+  for (const MediumQuantity& medium : block_media()) {
+    for (const Procedure* procedure : procedures()) {
+      for (const BlockKey& key : procedure->keys()) {
+        add_key(key.names_quantity() ? of_quantities : others, key,
+                std::string(procedure->name()), medium);
+      }
+    }
+  }
+  of_quantities.push_back(buoyancy_parameter());
+  of_quantities.push_back(friction_parameter());
+  of_quantities.insert(of_quantities.end(), others.begin(), others.end());
+  return of_quantities;
+}
+
+}  // namespace
+
+const ParameterTable& block_table() {
+  static const ParameterTable kTable = [] {
+    std::vector<Parameter> own = {procedure_parameter(), medium_parameter()};
+    for (Parameter& parameter : procedure_parameters()) own.push_back(std::move(parameter));
+    own.push_back({.key = "instruction",
+                   .kind = ValueKind::kText,
+                   .meaning = "What the participant is told before the block."});
+    own.push_back({.key = "question",
+                   .kind = ValueKind::kText,
+                   .meaning = "What the participant is asked in every trial."});
+    own.push_back({.key = "free_space_between_s",
+                   .kind = ValueKind::kNumber,
+                   .meaning = "Free space before each trial.",
+                   .required = false,
+                   .default_json = "0.0",
+                   .unit = "s",
+                   .range = {0.0, 600.0}});
+    own.push_back({.key = "expected_trial_s",
+                   .kind = ValueKind::kNumber,
+                   .meaning = "How long a trial is expected to take, free space not counted. "
+                              "Only for planning the length of a session; `jnd plan` counts "
+                              "no less than simulated participants feel stimuli.",
+                   .unit = "s",
+                   .range = {0.0, 3600.0, true}});
+    return ParameterTable{
+        .name = "block",
+        .meaning =
+            "One procedure over one varied quantity: the part of a study that gives "
+            "data. The keys that name the quantity carry its unit: `scale` for water, "
+            "`viscosity_pa_s` for viscous fluids, `stiffness_n_per_m` for solids.",
+        .example = R"json({"kind": "block", "name": "thick_fluids",
+  "procedure": "constant_stimuli", "medium": "viscous",
+  "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 5,
+  "instruction": {"en": "First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json",
+        .parameters = stage_parameters("block", std::move(own))};
+  }();
+  return kTable;
+}
+
+}  // namespace jnd::experiments

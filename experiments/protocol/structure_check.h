@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/protocol/study_check.h"
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+
+/// Checks a study file against the parameter tables: unknown and missing keys, keys that do not
+/// belong together, types, ranges, allowed words, and every text in every language. Nothing is
+/// coerced: 5.0 is not a whole number and "5" is not a number. Not real time.
+class StructureCheck : StudyCheck {
+ public:
+  using StudyCheck::StudyCheck;
+
+  void run();
+
+ private:
+  void check_object(const nlohmann::json& object, const std::string& pointer,
+                    const ParameterTable& table);
+  void check_keys(const nlohmann::json& object, const std::string& pointer,
+                  const ParameterTable& table);
+  void check_value(const nlohmann::json& value, const std::string& pointer,
+                   const Parameter& parameter);
+  void check_string(const nlohmann::json& value, const std::string& pointer,
+                    const Parameter& parameter);
+  void check_number(const nlohmann::json& value, const std::string& pointer,
+                    const Parameter& parameter);
+  void check_text(const nlohmann::json& value, const std::string& pointer);
+  void check_list(const nlohmann::json& list, const std::string& pointer,
+                  const Parameter& parameter);
+  void check_stage(const nlohmann::json& stage, const std::string& pointer);
+  void check_arms(const nlohmann::json& arms, const std::string& pointer);
+  void read_languages();
+
+  void report_key(const std::string& pointer, std::string message);
+
+  std::vector<std::string> languages_;  ///< Empty where the file does not say them rightly.
+};
+
+/// A value as it is told to the author: "-1.5", "the text "x"", "a list of 3", "an object".
+[[nodiscard]] std::string found_words(const nlohmann::json& value);
+
+/// [a-z0-9_], 1 to 64 of them: a name is also that of a folder and stands in every row.
+[[nodiscard]] bool is_name(std::string_view text) noexcept;
+
+}  // namespace jnd::experiments

@@ -1,0 +1,369 @@
+#include "experiments/protocol/study_builder.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/protocol/study_table.h"
+#include "experiments/study/medium_quantity.h"
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+/// One checked object: values by key, defaults from the table.
+class ObjectReader {
+ public:
+  ObjectReader(const json& object, const ParameterTable& table)
+      : object_(object), table_(table) {}
+
+  [[nodiscard]] double number(const std::string& key) const { return value(key); }
+  [[nodiscard]] int integer(const std::string& key) const { return value(key); }
+  [[nodiscard]] bool boolean(const std::string& key) const { return value(key); }
+  [[nodiscard]] std::string string(const std::string& key) const {
+    const json found = value(key);
+    return found.is_null() ? "" : found.get<std::string>();
+  }
+  [[nodiscard]] std::optional<double> optional_number(const std::string& key) const {
+    const json found = value(key);
+    return found.is_null() ? std::nullopt : std::optional<double>(found.get<double>());
+  }
+  [[nodiscard]] std::vector<double> numbers(const std::string& key) const { return value(key); }
+  [[nodiscard]] std::vector<std::string> strings(const std::string& key) const {
+    return value(key);
+  }
+  [[nodiscard]] Text text(const std::string& key) const { return to_text(value(key)); }
+  [[nodiscard]] std::map<std::string, std::string> arms(const std::string& key) const {
+    return to_text(value(key));
+  }
+  [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
+  /// Nothing where it is absent and has no default, and for texts.
+  [[nodiscard]] std::optional<Settings::Value> setting(const std::string& key) const {
+    const json found = value(key);
+    if (found.is_null()) return std::nullopt;
+    switch (parameter(key).kind) {
+      case ValueKind::kNumber:
+      case ValueKind::kInteger:
+        return found.get<double>();
+      case ValueKind::kBoolean:
+        return found.get<bool>();
+      case ValueKind::kString:
+        return found.get<std::string>();
+      case ValueKind::kNumbers:
+        return found.get<std::vector<double>>();
+      case ValueKind::kStrings:
+        return found.get<std::vector<std::string>>();
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// Calls `read(object reader, index)` for every object of a list; none where it is absent.
+  template <typename Read>
+  void each_object(const std::string& key, Read read) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) return;
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      read(ObjectReader((*found)[i], nested(key)), i);
+    }
+  }
+  [[nodiscard]] ObjectReader object(const std::string& key) const {
+    static const json kEmpty = json::object();
+    const auto found = object_.find(key);
+    return {found == object_.end() ? kEmpty : *found, nested(key)};
+  }
+  [[nodiscard]] json list(const std::string& key) const {
+    return object_.contains(key) ? object_.at(key) : json::array();
+  }
+
+  static Text to_text(const json& words) {
+    Text text;
+    for (const auto& [language, sentence] : words.items()) {
+      if (language != "comment") text[language] = sentence.get<std::string>();
+    }
+    return text;
+  }
+
+ private:
+  [[nodiscard]] const ParameterTable& nested(const std::string& key) const {
+    return *parameter(key).nested;
+  }
+  [[nodiscard]] const Parameter& parameter(const std::string& key) const {
+    const Parameter* found = table_.find(key);
+    // Asking for a key without a table is a mistake of ours, not of the file.
+    if (found == nullptr) throw std::logic_error(table_.name + ": no parameter " + key);
+    return *found;
+  }
+  [[nodiscard]] json value(const std::string& key) const {
+    const Parameter& known = parameter(key);
+    const auto found = object_.find(key);
+    if (found != object_.end()) return *found;
+    return known.default_json.empty() ? json() : json::parse(known.default_json);
+  }
+
+  const json& object_;
+  const ParameterTable& table_;
+};
+
+MediumSetting setting(const ObjectReader& in) {
+  MediumSetting setting = {.medium = in.string("medium"), .quantity = "", .intensity = 0.0};
+  setting.quantity = quantity_of(setting.medium);
+  if (!setting.quantity.empty()) setting.intensity = in.number(setting.quantity);
+  setting.friction_ratio = in.number("friction_ratio");
+  setting.buoyancy_n = in.number("buoyancy_n");
+  return setting;
+}
+
+std::vector<Exploration> explorations(const ObjectReader& in, const std::string& key) {
+  std::vector<Exploration> found;
+  in.each_object(key, [&](const ObjectReader& item, std::size_t) {
+    found.push_back({.setting = setting(item),
+                     .duration_s = item.number("duration_s"),
+                     .say = item.text("say")});
+  });
+  return found;
+}
+
+Checklist checklist(const ObjectReader& in) {
+  Checklist checklist;
+  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
+    checklist.items.push_back({.text = item.text("text"), .say = item.text("say")});
+  });
+  return checklist;
+}
+
+Consent consent(const ObjectReader& in) {
+  Consent consent = {.paragraphs = {}, .agreement = in.text("agreement")};
+  for (const json& paragraph : in.list("paragraphs")) {
+    consent.paragraphs.push_back(ObjectReader::to_text(paragraph));
+  }
+  return consent;
+}
+
+Practice practice(const ObjectReader& in) {
+  return {.min_correct_ratio = in.number("min_correct_ratio"),
+          .num_trials_judged = in.integer("num_trials_judged"),
+          .max_trials = in.integer("max_trials")};
+}
+
+StimulusOrder stimulus_order(const ObjectReader& in) {
+  using Method = StimulusOrder::Method;
+  const std::string method = in.string("method");
+  StimulusOrder order;
+  order.method = method == "mixed"      ? Method::kMixed
+                 : method == "latin"    ? Method::kLatin
+                 : method == "williams" ? Method::kWilliams
+                                        : Method::kShuffled;
+  if (in.has("max_in_a_row")) order.max_in_a_row = in.integer("max_in_a_row");
+  order.min_distance = in.integer("min_distance");
+  if (in.has("not_first")) order.not_first = in.numbers("not_first");
+  return order;
+}
+
+Block block(const ObjectReader& in) {
+  Block block;
+  block.procedure = in.string("procedure");
+  block.medium = in.string("medium");
+  block.quantity = quantity_of(block.medium);
+  block.buoyancy_n = in.number("buoyancy_n");
+  block.friction_ratio = in.number("friction_ratio");
+  block.instruction = in.text("instruction");
+  block.question = in.text("question");
+  block.yes_label = in.text("yes_label");
+  block.no_label = in.text("no_label");
+  block.first_label = in.text("first_label");
+  block.second_label = in.text("second_label");
+  const std::vector<BlockKey> keys = procedure_named(block.procedure).keys();
+  if (std::ranges::any_of(keys, &BlockKey::of_standard)) {
+    block.standard_medium = in.string("standard_medium");
+    if (block.standard_medium == "none") block.standard_medium.clear();
+  }
+  const std::string standard_quantity = quantity_of(block.standard_medium);
+  for (const BlockKey& key : keys) {
+    if (key.of_standard && standard_quantity.empty()) continue;
+    if (auto value =
+            in.setting(key.name_for(key.of_standard ? standard_quantity : block.quantity))) {
+      block.settings.set(key.parameter.key, std::move(*value));
+    }
+  }
+  block.intensities = block.settings.numbers("");
+  block.free_space_between_s = in.number("free_space_between_s");
+  block.expected_trial_s = in.number("expected_trial_s");
+  if (in.has("order")) block.order = stimulus_order(in.object("order"));
+  if (in.has("repetitions")) block.repetitions = in.integer("repetitions");
+  block.standards = block.settings.numbers("standard");
+  block.target_percent = block.settings.numbers("target_percent");
+  block.coarse_step = block.settings.number("coarse_step", 0.0);
+  block.fine_step = block.settings.number("fine_step", 0.0);
+  block.max_intensity = block.settings.optional_number("max");
+  block.reference_intensity = block.settings.optional_number("reference");
+  block.feedback = in.boolean("feedback");
+  if (in.has("practice")) block.practice = practice(in.object("practice"));
+  return block;
+}
+
+PostExperiment post_experiment(const ObjectReader& in) {
+  PostExperiment stage;
+  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
+    stage.items.push_back({.name = item.string("name"),
+                           .setting = setting(item),
+                           .instruction = item.text("instruction"),
+                           .question = item.text("question"),
+                           .answer = item.string("answer"),
+                           .num_words = item.has("num_words") ? item.integer("num_words") : 0});
+  });
+  return stage;
+}
+
+std::vector<Option> options(const ObjectReader& in) {
+  std::vector<Option> found;
+  in.each_object("options", [&](const ObjectReader& option, std::size_t) {
+    found.push_back({.value = option.string("value"), .label = option.text("label")});
+  });
+  return found;
+}
+
+Questionnaire questionnaire(const ObjectReader& in) {
+  Questionnaire stage = {.instruction = in.text("instruction"), .items = {}};
+  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
+    QuestionnaireItem read;
+    read.name = item.string("name");
+    read.kind = item.string("kind");
+    read.question = item.text("question");
+    read.required = item.boolean("required");
+    read.unit = item.string("unit");
+    read.minimum = item.optional_number("minimum");
+    read.maximum = item.optional_number("maximum");
+    read.options = options(item);
+    read.num_steps = item.integer("num_steps");
+    read.low_label = item.text("low_label");
+    read.high_label = item.text("high_label");
+    if (item.has("high_is_good")) read.high_is_good = item.boolean("high_is_good");
+    stage.items.push_back(std::move(read));
+  });
+  return stage;
+}
+
+class StageBuilder {
+ public:
+  explicit StageBuilder(const LocatedJson& file) : file_(file) {}
+
+  [[nodiscard]] std::vector<Stage> stages(const json& list, const std::string& pointer) const {
+    std::vector<Stage> built;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      built.push_back(stage(list[i], pointer + '/' + std::to_string(i)));
+    }
+    return built;
+  }
+
+ private:
+  [[nodiscard]] Stage stage(const json& object, const std::string& pointer) const {
+    const ObjectReader in(object, *stage_table(object.at("kind").get<std::string>()));
+    const std::string kind = in.string("kind");
+    Stage stage;
+    stage.name = in.string("name");
+    stage.title = in.text("title");
+    if (kind != "counterbalance") stage.only_for = in.arms("only_for");
+    stage.line = file_.value_position(pointer).line;
+    if (kind == "checklist") stage.content = checklist(in);
+    if (kind == "consent") stage.content = consent(in);
+    if (kind == "explore") {
+      stage.content = Explore{in.text("instruction"), explorations(in, "media")};
+    }
+    if (kind == "training") {
+      stage.content = Training{in.text("instruction"), explorations(in, "examples")};
+    }
+    if (kind == "block") stage.content = block(in);
+    if (kind == "break") stage.content = Break{in.text("instruction"), in.number("duration_s")};
+    if (kind == "post_experiment") stage.content = post_experiment(in);
+    if (kind == "questionnaire") stage.content = questionnaire(in);
+    if (kind == "counterbalance") stage.content = counterbalance(in, pointer);
+    return stage;
+  }
+
+  [[nodiscard]] Counterbalance counterbalance(const ObjectReader& in,
+                                              const std::string& pointer) const {
+    Counterbalance content;
+    using Method = Counterbalance::Method;
+    const std::string method = in.string("method");
+    content.method = method == "order"   ? Method::kOrder
+                     : method == "latin" ? Method::kLatin
+                                         : Method::kOneOf;
+    content.stratify_by = in.string("stratify_by");
+    in.each_object("arms", [&](const ObjectReader& arm, std::size_t index) {
+      const std::string at = pointer + "/arms/" + std::to_string(index) + "/stages";
+      content.arms.push_back({arm.string("name"), stages(arm.list("stages"), at)});
+    });
+    content.between = stages(in.list("between"), pointer + "/between");
+    return content;
+  }
+
+  const LocatedJson& file_;
+};
+
+DeviceNeeds device_needs(const ObjectReader& in) {
+  DeviceNeeds needs;
+  needs.min_contact_points = in.integer("min_contact_points");
+  needs.rate_hz = in.number("rate_hz");
+  needs.ramp_s = in.number("ramp_s");
+  needs.max_missed_ratio = in.number("max_missed_ratio");
+  const ObjectReader immersion = in.object("immersion");
+  if (const auto radius_m = immersion.optional_number("radius_m")) {
+    needs.immersion.radius_m = *radius_m;
+  }
+  if (const auto depth_m = immersion.optional_number("depth_m")) {
+    needs.immersion.depth_m = *depth_m;
+  }
+  needs.immersion.origin_x_m = immersion.number("origin_x_m");
+  needs.immersion.origin_y_m = immersion.number("origin_y_m");
+  needs.immersion.origin_z_m = immersion.number("origin_z_m");
+  needs.wall_stiffness_n_per_m =
+      immersion.optional_number("wall_stiffness_n_per_m").value_or(0.0);
+  needs.wall_friction_ratio = immersion.number("wall_friction_ratio");
+  in.each_object("force_map", [&](const ObjectReader& row, std::size_t) {
+    needs.force_map.push_back({.angle_of_attack_rad = row.number("angle_of_attack_rad"),
+                               .speed_m_per_s = row.number("speed_m_per_s"),
+                               .drag_coefficient = row.number("drag_coefficient"),
+                               .lift_coefficient = row.number("lift_coefficient")});
+  });
+  return needs;
+}
+
+}  // namespace
+
+Study build_study(const LocatedJson& file, std::string text) {
+  const ObjectReader in(file.root(), study_table());
+  Study study;
+  study.format = in.integer("format");
+  study.name = in.string("name");
+  study.languages = in.strings("languages");
+  study.title = in.text("title");
+  study.description = in.text("description");
+  study.authors = in.strings("authors");
+  study.citation = in.string("citation");
+  study.device = device_needs(in.object("device"));
+  const std::string blinding = in.string("blinding");
+  study.blinding = blinding == "double"        ? Blinding::kDouble
+                   : blinding == "participant" ? Blinding::kParticipant
+                                               : Blinding::kNone;
+  const ObjectReader limits = in.object("session_limits");
+  study.session_limits.max_duration_s = limits.optional_number("max_duration_s");
+  study.session_limits.max_force_time_n_s = limits.optional_number("max_force_time_n_s");
+  study.session_limits.max_under_force_s = limits.optional_number("max_under_force_s");
+  if (limits.has("max_trials_without_break")) {
+    study.session_limits.max_trials_without_break = limits.integer("max_trials_without_break");
+  }
+  in.each_object("participant_fields", [&](const ObjectReader& field, std::size_t) {
+    study.participant_fields.push_back({.name = field.string("name"),
+                                        .question = field.text("question"),
+                                        .options = options(field)});
+  });
+  study.stages = StageBuilder(file).stages(in.list("stages"), "/stages");
+  study.text = std::move(text);
+  return study;
+}
+
+}  // namespace jnd::experiments

@@ -1,0 +1,100 @@
+#include "experiments/protocol/task_rules.h"
+
+#include <algorithm>
+#include <string>
+
+#include "experiments/protocol/study_check.h"
+#include "experiments/study/rule_values.h"
+#include "experiments/study/stage_walk.h"
+
+namespace jnd::experiments {
+namespace {
+
+using nlohmann::json;
+
+class TaskRules : StudyCheck {
+ public:
+  using StudyCheck::StudyCheck;
+
+  void run() {
+    is_double_blind_ = word(file_.root(), "blinding") == "double";
+    for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
+      if (word(stage, "kind") == "block") check_block(stage, pointer + '/');
+    });
+  }
+
+ private:
+  void check_block(const json& block, const std::string& at) {
+    if (word(block, "task") == "same_different") check_same_different(block, at);
+    const auto feedback = block.find("feedback");
+    if (is_double_blind_ && feedback != block.end() && *feedback == true) {
+      report(at + "feedback",
+             "expected false, as the study is double-blind and whoever hears which answers are "
+             "right learns the levels, found true");
+    }
+    if (block.contains("practice")) check_practice(block, at);
+  }
+
+  void check_same_different(const json& block, const std::string& at) {
+    const std::string procedure = word(block, "procedure");
+    if (procedure == "staircase" || procedure == "limits" || procedure == "quest_plus") {
+      report(at + "task", "expected `reminder`, `yes_no` or `two_interval`, as `" + procedure +
+                              "` cannot follow how often the same is called different, found "
+                              "`same_different`; `constant_stimuli` can ask so");
+      return;
+    }
+    const json* catch_trials = number(block, "catch_trials");
+    if (catch_trials != nullptr && *catch_trials == 0) {
+      report(at + "catch_trials",
+             "expected 1 or more, as without trials that are the same nobody can be seen to "
+             "call them different, found 0");
+    }
+    const std::string quantity = quantity_of(word(block, "medium"));
+    const json* reference = number(block, "reference_" + quantity);
+    const json& tests = list(block, quantity);
+    if (reference == nullptr) return;
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      if (tests[i] != *reference) continue;
+      report(at + quantity + '/' + std::to_string(i),
+             "expected a stimulus that differs from the reference, found the reference, " +
+                 tests[i].dump() + "; `catch_trials` are the trials that are the same");
+    }
+  }
+
+  void check_practice(const json& block, const std::string& at) {
+    const json& practice = object_at(block, "practice");
+    const json* judged = number(practice, "num_trials_judged");
+    const json* most = number(practice, "max_trials");
+    if (most == nullptr) return;
+    const std::string pointer = at + "practice/max_trials";
+    if (judged != nullptr && *most < *judged) {
+      report(pointer, "expected a whole number >= `num_trials_judged` (" + judged->dump() +
+                          "), found " + most->dump());
+    }
+    const json* repetitions = number(block, "repetitions");
+    if (word(block, "procedure") != "constant_stimuli" || repetitions == nullptr) return;
+    const std::size_t num_tests = list(block, quantity_of(word(block, "medium"))).size();
+    const double num_trials = repetitions->get<double>() * (static_cast<double>(num_tests) +
+                                                            num_catch_trials(block, num_tests));
+    if (num_tests > 0 && most->get<double>() > num_trials) {
+      report(pointer, "expected at most the trials of all `repetitions` (" +
+                          plain_number(num_trials) + "), found " + most->dump());
+    }
+  }
+
+  bool is_double_blind_ = false;
+};
+
+}  // namespace
+
+void check_task_rules(const LocatedJson& file, std::vector<StudyProblem>& problems) {
+  TaskRules(file, problems).run();
+}
+
+double num_catch_trials(const json& block, std::size_t num_tests) {
+  const bool half = word(block, "task") == "same_different";
+  return std::max(
+      0.0, number_or(block, "catch_trials", half ? static_cast<double>(num_tests) : 0.0));
+}
+
+}  // namespace jnd::experiments
