@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 const std::string kBlindStudy = R"json({
   "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
   "authors": ["A. Author"], "blinding": "double", "comment": "treacly",
-  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05, "max_missed_ratio": 1.0},
   "stages": [
     {"kind": "training", "name": "training", "instruction": {"en": "Feel."},
      "examples": [{"medium": "viscous", "viscosity_pa_s": 0.1371, "duration_s": 0.2}]},

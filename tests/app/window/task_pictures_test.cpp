@@ -7,7 +7,7 @@ namespace task_pictures_test {
 const std::string kTasks = R"json({
   "format": 1, "name": "tasks", "languages": ["en"], "title": {"en": "Every task"},
   "authors": ["A. Author"], "blinding": "none",
-  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05, "max_missed_ratio": 1.0},
   "participant_fields": [
     {"name": "handedness", "question": {"en": "Which hand do you use for most things?"},
      "options": [{"value": "right", "label": {"en": "the right"}},

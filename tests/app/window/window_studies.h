@@ -4,13 +4,14 @@
 
 namespace jnd::app {
 
-/// A study of these stages: JSON objects, separated by commas.
+/// A study of these stages: JSON objects, separated by commas. A trial counts however many
+/// ticks were missed, for the display is computed by the same processor.
 inline std::string study_of(const std::string& stages, const std::string& blinding = "none") {
   return R"json({
   "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
   "authors": ["A. Author"], "blinding": ")json" +
          blinding + R"json(",
-  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05, "max_missed_ratio": 1.0},
   "stages": [)json" +
          stages + "]}";
 }
