@@ -396,23 +396,25 @@ TEST_F(LaboratoryRunTest, RefusesASessionThatIsNotInTheStore) {
   EXPECT_THROW((void)run_laboratory(plan), core::Error);
 }
 
-/// A device that holds the loop up now and then, each time for a tenth of a second: more than a
-/// hundredth of any presentation.
-std::vector<device::ScheduledFault> stalls(std::int64_t every_ticks, std::int64_t num_ticks) {
+/// A device that holds the loop up at these ticks, each time for so long.
+std::vector<device::ScheduledFault> stalls(const std::vector<std::int64_t>& ticks, double s) {
   std::vector<device::ScheduledFault> faults;
-  for (std::int64_t tick = every_ticks; tick < num_ticks; tick += every_ticks) {
+  for (const std::int64_t tick : ticks) {
     faults.push_back(
-        {.first_tick = tick, .injection = device::Injection::kStall, .magnitude = 0.1});
+        {.first_tick = tick, .injection = device::Injection::kStall, .magnitude = s});
   }
   return faults;
 }
 
+// More is allowed than a busy machine misses by itself, and the stalls in the first
+// presentation miss more than that: two attempts are left for what may still go wrong.
 TEST_F(LaboratoryRunTest, ATrialWithTooManyMissedTicksIsRepeated) {
+  study_.device.max_missed_ratio = 0.25;
   const auto store = store_with_session("missed");
   LaboratoryRun held_up = run_of(*store);
   held_up.realtime = true;
   bool answered = false;
-  held_up.injected_faults = stalls(500, 3000);
+  held_up.injected_faults = stalls({900, 950, 1000, 1050, 1100, 1150, 1200, 1250}, 0.08);
   held_up.is_cancelled = [&] { return answered; };
   held_up.on_event = [&](const core::EventRow& event) {
     answered |= event.kind == "trial_answered";
@@ -427,7 +429,7 @@ TEST_F(LaboratoryRunTest, ATrialWithTooManyMissedTicksIsRepeated) {
   EXPECT_GE(num_discarded, 1);
   ASSERT_EQ(store->trials(1).size(), 1U);
   for (const core::PresentationRow& row : store->presentations(1)) {
-    EXPECT_LE(row.missed_ticks, (row.last_tick - row.first_tick + 1) / 100);
+    EXPECT_LE(row.missed_ticks, (row.last_tick - row.first_tick + 1) / 4);
   }
   const core::Integrity integrity = core::verify(*store);
   EXPECT_TRUE(integrity.complete);
@@ -438,7 +440,9 @@ TEST_F(LaboratoryRunTest, AMachineThatNeverKeepsItsTimeEndsTheRun) {
   const auto store = store_with_session("held_up");
   LaboratoryRun held_up = run_of(*store);
   held_up.realtime = true;
-  held_up.injected_faults = stalls(300, 100'000);
+  std::vector<std::int64_t> ticks;
+  for (std::int64_t tick = 300; tick < 100'000; tick += 300) ticks.push_back(tick);
+  held_up.injected_faults = stalls(ticks, 0.1);
   try {
     (void)run(*store, held_up);
     ADD_FAILURE() << "it went on and on";
