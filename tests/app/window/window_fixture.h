@@ -70,7 +70,10 @@ class WindowTest : public ::testing::Test {
       });
     }
     window_->use("present");
-    window_->wait_until("the test", [](const Screen& now) { return now.shows("felt for"); });
+    // The words alone may still be those of the reference.
+    window_->wait_until("the test", [](const Screen& now) {
+      return now.shows("felt for") && !now.offers("present");
+    });
   }
   void wait_for_trial(int number) {
     window_->wait_until("trial " + std::to_string(number), [&](const Screen& now) {
