@@ -53,8 +53,6 @@ struct AdaptiveRun {
   bool is_logarithmic = false;  ///< Means are taken in ln of the level.
   /// Of a staircase: "1 up, 2 down", and the probability of "yes" that it converges to.
   std::string rule;
-  /// Of any: "2 staircases, 1 up 2 down, each to 10 reversals or 60 trials; starting at ...".
-  std::string design;
   std::optional<double> target_probability;
   std::vector<AdaptiveTrack> tracks;
   std::optional<double> threshold;  ///< Mean over tracks, or of all transitions.

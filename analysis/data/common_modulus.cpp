@@ -21,10 +21,11 @@ void multiply(ParticipantData& participant, const std::string& block, double fac
 }  // namespace
 
 void bring_to_common_modulus(StudyData& data, BlockDesign& block) {
-  if (block.procedure != "magnitude_estimation" || block.counts_in_water()) return;
-  if (block.protocol.modulus == "standard") {
+  if (!block.estimates() || block.counts_in_water()) return;
+  if (!block.counts_in_own_numbers()) {
+    const double modulus_value = block.written.settings.number("modulus_value", kPercent);
     for (ParticipantData& participant : data.participants) {
-      multiply(participant, block.block, kPercent / block.protocol.modulus_value);
+      multiply(participant, block.block, kPercent / modulus_value);
     }
     return;
   }

@@ -37,7 +37,7 @@ std::vector<ComparedBlocks> asked_for(const std::vector<BlockDesign>& blocks,
 }
 
 bool measure_alike(const BlockDesign& one, const BlockDesign& other) {
-  return one.procedure == other.procedure && one.protocol.task == other.protocol.task;
+  return one.procedure == other.procedure && task_of(one.written) == task_of(other.written);
 }
 
 }  // namespace

@@ -1,74 +1,65 @@
 #include "analysis/data/questionnaire_items.h"
 
 #include <algorithm>
+#include <variant>
 
-#include "analysis/data/json_fields.h"
+#include "analysis/data/stored_studies.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::analysis {
 namespace {
 
-using nlohmann::json;
-
-constexpr int kDefaultSteps = 10;  ///< What the format says of a scale without `num_steps`.
-
-/// The objects in a list; none where there is no list.
-std::vector<json> objects_at(const json& object, const char* key) {
-  std::vector<json> objects;
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_array()) return objects;
-  std::copy_if(found->begin(), found->end(), std::back_inserter(objects),
-               [](const json& one) { return one.is_object(); });
-  return objects;
+void add_options(QuestionnaireItem& item, const std::vector<experiments::Option>& options) {
+  for (const experiments::Option& option : options) {
+    item.options.push_back(option.value);
+    item.option_labels.push_back(in_english(option.label));
+  }
 }
 
-QuestionnaireItem item_of(const json& object, const std::string& stage, const char* kind_key) {
+QuestionnaireItem item_of(const std::string& stage,
+                          const experiments::QuestionnaireItem& written) {
   QuestionnaireItem item{.stage = stage,
-                         .name = string_at(object, "name"),
-                         .kind = string_at(object, kind_key),
-                         .question = text_at(object, "question"),
-                         .unit = string_at(object, "unit")};
-  for (const json& option : objects_at(object, "options")) {
-    item.options.push_back(string_at(option, "value"));
-    item.option_labels.push_back(text_at(option, "label"));
-  }
+                         .name = written.name,
+                         .kind = written.kind,
+                         .question = in_english(written.question),
+                         .unit = written.unit};
+  add_options(item, written.options);
   if (item.kind != "scale") return item;
-  item.low_label = text_at(object, "low_label");
-  item.high_label = text_at(object, "high_label");
-  const auto steps = object.find("num_steps");
-  item.num_steps =
-      steps != object.end() && steps->is_number_integer() ? steps->get<int>() : kDefaultSteps;
-  const auto good = object.find("high_is_good");
-  if (good != object.end() && good->is_boolean()) item.high_is_good = good->get<bool>();
+  item.low_label = in_english(written.low_label);
+  item.high_label = in_english(written.high_label);
+  item.num_steps = written.num_steps;
+  item.high_is_good = written.high_is_good;
   return item;
-}
-
-void add_items(const json& stages_or_arms, const char* key,
-               std::vector<QuestionnaireItem>& items) {
-  for (const json& stage : objects_at(stages_or_arms, key)) {
-    const std::string kind = string_at(stage, "kind");
-    if (kind == "questionnaire" || kind == "post_experiment") {
-      for (const json& object : objects_at(stage, "items")) {
-        items.push_back(item_of(object, string_at(stage, "name"),
-                                kind == "questionnaire" ? "kind" : "answer"));
-      }
-    }
-    for (const char* nested : {"arms", "stages", "between"}) add_items(stage, nested, items);
-  }
 }
 
 }  // namespace
 
-std::vector<QuestionnaireItem> questionnaire_items(const json& protocol) {
+std::vector<QuestionnaireItem> questionnaire_items(const experiments::Study& study) {
   std::vector<QuestionnaireItem> items;
-  add_items(protocol, "stages", items);
+  for_each_stage(study.stages, [&](const experiments::Stage& stage) {
+    if (const auto* form = std::get_if<experiments::Questionnaire>(&stage.content)) {
+      for (const auto& written : form->items) items.push_back(item_of(stage.name, written));
+    }
+    if (const auto* after = std::get_if<experiments::PostExperiment>(&stage.content)) {
+      for (const experiments::PostExperimentItem& written : after->items) {
+        items.push_back({.stage = stage.name,
+                         .name = written.name,
+                         .kind = written.answer,
+                         .question = in_english(written.question)});
+      }
+    }
+  });
   return items;
 }
 
-std::vector<QuestionnaireItem> participant_fields(const json& protocol) {
+std::vector<QuestionnaireItem> participant_fields(const experiments::Study& study) {
   std::vector<QuestionnaireItem> fields;
-  for (const json& object : objects_at(protocol, "participant_fields")) {
-    fields.push_back(item_of(object, kFieldsStage, "kind"));
-    fields.back().kind = "choice";
+  for (const experiments::ParticipantField& written : study.participant_fields) {
+    fields.push_back({.stage = kFieldsStage,
+                      .name = written.name,
+                      .kind = "choice",
+                      .question = in_english(written.question)});
+    add_options(fields.back(), written.options);
   }
   return fields;
 }

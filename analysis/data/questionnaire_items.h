@@ -1,9 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "experiments/study/study.h"
 
 namespace jnd::analysis {
 
@@ -25,16 +26,16 @@ struct QuestionnaireItem {
   std::string low_label, high_label;  ///< Of a scale: what stands at its ends.
 };
 
-/// The questions of a study file in their order, those of every arm among them. What does not
-/// look like a question is passed over: the reader of study files has checked it.
+/// The questions of a study in their order, those of every arm among them.
 [[nodiscard]] std::vector<QuestionnaireItem> questionnaire_items(
-    const nlohmann::json& protocol);
+    const experiments::Study& study);
 
 /// Stage that answers are stored under which were known before the session.
 inline constexpr char kFieldsStage[] = "participant";
 
 /// What is asked of participants before a session, as choices of that stage.
-[[nodiscard]] std::vector<QuestionnaireItem> participant_fields(const nlohmann::json& protocol);
+[[nodiscard]] std::vector<QuestionnaireItem> participant_fields(
+    const experiments::Study& study);
 
 /// Adds the items that are new; one of the same stage and name is replaced, so that the last
 /// version of a study file is in force.

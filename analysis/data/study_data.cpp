@@ -5,9 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/data/adaptive_runs.h"
 #include "analysis/data/common_modulus.h"
-#include "analysis/data/protocol_stages.h"
+#include "analysis/data/practice_runs.h"
+#include "analysis/data/stored_studies.h"
 #include "core/error.h"
+#include "experiments/order/counterbalance.h"
+#include "experiments/procedures/magnitude_estimation.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/study/medium_quantity.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::analysis {
 namespace {
@@ -46,25 +53,66 @@ MissingSessions missing_sessions(const core::StudyStore& store, bool with_pilots
   return missing;
 }
 
+std::set<std::string> all_stages(const experiments::Study& study) {
+  std::set<std::string> names;
+  for_each_stage(study.stages,
+                 [&](const experiments::Stage& stage) { names.insert(stage.name); });
+  return names;
+}
+
+/// Those of a session in these cells; where they are none of the study, nothing is hidden.
+std::set<std::string> stages_in(const experiments::Study& study, const std::string& cells) {
+  try {
+    std::set<std::string> names;
+    for (const experiments::StageInstance& one :
+         stages_of(study, experiments::cell_from_text(study, cells))) {
+      names.insert(one.stage->name);
+    }
+    return names;
+  } catch (const core::Error&) {
+    return all_stages(study);
+  }
+}
+
 /// What the study has and no session of each participant does.
-void find_other_arms(StudyData& data, const core::StudyStore& store, bool with_pilots) {
-  std::map<std::string, json> protocols;
+void find_other_arms(StudyData& data, const core::StudyStore& store, StoredStudies& studies,
+                     bool with_pilots) {
   std::set<std::string> all;
   std::map<std::string, std::set<std::string>> own;
   for (const core::SessionRow& session : store.sessions()) {
     if (session.pilot && !with_pilots) continue;
-    json& protocol = protocols[session.protocol_sha256];
-    if (protocol.is_null()) {
-      protocol = json::parse(store.protocol(session.protocol_sha256).text, nullptr, false);
-      all.merge(stage_names(protocol));
-    }
-    own[session.participant].merge(stage_names_of(protocol, session.cells));
+    const experiments::Study& study = studies.study(session.protocol_sha256);
+    all.merge(all_stages(study));
+    own[session.participant].merge(stages_in(study, session.cells));
   }
   for (ParticipantData& participant : data.participants) {
     std::ranges::set_difference(
         all, own[participant.participant],
         std::inserter(participant.of_other_arms, participant.of_other_arms.end()));
   }
+}
+
+/// Places of the stages in their study file.
+std::map<std::string, int> places_in(const experiments::Study& study) {
+  std::map<std::string, int> places;
+  for_each_stage(study.stages, [&](const experiments::Stage& stage) {
+    places[stage.name] = static_cast<int>(places.size());
+  });
+  return places;
+}
+
+/// Once its rows are known. A block that the study file has not, as of a study made by hand, is
+/// what its rows say.
+void say_what_it_measures(BlockDesign& block) {
+  if (block.written.procedure.empty()) {
+    block.written.procedure = block.procedure;
+    block.written.medium = block.medium;
+    block.written.quantity = block.quantity;
+    block.written.reference_intensity = block.reference_intensity;
+  }
+  const experiments::Procedure& procedure = experiments::procedure_named(block.procedure);
+  block.measures = procedure.measures(block.written);
+  block.rule = procedure.rule();
 }
 
 }  // namespace
@@ -77,11 +125,29 @@ std::vector<core::TrialRow> ParticipantData::trials_in(const std::string& block)
   return found;
 }
 
+bool BlockDesign::counts_in_water() const {
+  return modulus_of(written) == experiments::Modulus::kWater;
+}
+
+bool BlockDesign::counts_in_standard() const {
+  return modulus_of(written) == experiments::Modulus::kStandard;
+}
+
+bool BlockDesign::counts_in_own_numbers() const {
+  return modulus_of(written) == experiments::Modulus::kFree;
+}
+
+std::string BlockDesign::standard_quantity() const {
+  return experiments::quantity_of(written.standard_medium);
+}
+
 StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   StudyData data;
   const std::string place = store.folder().string();
   std::map<std::string, BlockDesign> blocks;
-  std::map<std::string, std::map<std::string, ProtocolBlock>> protocols;  // By SHA-256.
+  StoredStudies studies(store);
+  std::set<std::string> hashes;
+  std::map<std::string, int> places;
   std::set<std::string> devices;
   for (const core::SessionRow& session : store.sessions()) {
     if (session.pilot && !with_pilots) continue;
@@ -89,15 +155,15 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
     data.simulated = data.simulated || session.simulated;
     devices.insert(session.device);
     data.device = devices.size() == 1 ? session.device : "";
-    const auto [its_protocol, is_new] = protocols.try_emplace(session.protocol_sha256);
-    if (is_new) {
-      const json protocol =
-          parsed(store.protocol(session.protocol_sha256).text, place + ": protocol");
-      merge_items(data.items, questionnaire_items(protocol));
-      its_protocol->second = protocol_blocks(protocol);
+    const std::string& hash = session.protocol_sha256;
+    if (hashes.insert(hash).second) {
+      merge_items(data.items, questionnaire_items(studies.study(hash)));
+      for (const auto& [stage, its_place] : places_in(studies.study(hash))) {
+        places[stage] = its_place;
+      }
     }
-    const auto is_practice = [&blocks = its_protocol->second](const std::string& block) {
-      return blocks[block].is_practice;
+    const auto is_practice = [&](const std::string& block) {
+      return studies.block(hash, block).practice.has_value();
     };
     if (!session.laboratory.empty()) {
       const json laboratory = parsed(session.laboratory, place + ": laboratory");
@@ -118,7 +184,7 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
                .num_trials = std::max(block.num_trials, ++num_trials[row.block]),
                .reference_intensity = block.reference_intensity,
                .medium = row.medium,
-               .protocol = its_protocol->second[row.block]};
+               .written = studies.block(hash, row.block)};
     }
     ParticipantData& participant = of(data.participants, session.participant);
     if (!session.cells.empty()) participant.cells = session.cells;
@@ -155,18 +221,21 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   if (data.participants.empty()) {
     throw core::Error(place + ": expected sessions with participants, found none to analyse");
   }
-  data.study =
-      parsed(store.protocol(data.protocol_sha256).text, place + ": protocol").value("name", "");
+  data.written = studies.study(data.protocol_sha256);
+  data.study = data.written.name;
   std::sort(data.participants.begin(), data.participants.end(),
             [](const ParticipantData& a, const ParticipantData& b) {
               return a.participant < b.participant;
             });
   for (auto& [name, block] : blocks) data.blocks.push_back(std::move(block));
   std::ranges::stable_sort(data.blocks, {},
-                           [](const BlockDesign& block) { return block.protocol.place; });
+                           [&](const BlockDesign& block) { return places[block.block]; });
+  for (BlockDesign& block : data.blocks) say_what_it_measures(block);
   data.sessions = missing_sessions(store, with_pilots);
-  find_other_arms(data, store, with_pilots);
+  find_other_arms(data, store, studies, with_pilots);
   for (BlockDesign& block : data.blocks) bring_to_common_modulus(data, block);
+  add_practice_runs(data, store, studies);
+  add_adaptive_runs(data);
   return data;
 }
 

@@ -8,12 +8,16 @@
 #include <vector>
 
 #include "analysis/data/adaptive_run.h"
-#include "analysis/data/protocol_blocks.h"
 #include "analysis/data/questionnaire_items.h"
 #include "analysis/data/trial_records.h"
 #include "core/storage/study_store.h"
+#include "experiments/procedures/procedure.h"
+#include "experiments/study/study.h"
 
 namespace jnd::analysis {
+
+using experiments::AdaptiveRule;
+using experiments::Measure;
 
 /// Somebody whose answers a section of the results leaves out.
 struct ExcludedParticipant {
@@ -49,24 +53,41 @@ struct BlockDesign {
   std::int64_t num_trials = 0;  ///< For one participant; the most of any, where they differ.
   std::optional<double> reference_intensity;
   std::string medium{};
-  ProtocolBlock protocol{};
+  Measure measures = Measure::kComparison;
+  AdaptiveRule rule = AdaptiveRule::kNone;
+  experiments::Block written{};  ///< As the study file has it.
   /// Where everybody chose their own numbers: by participant, ln of the number that their
   /// answers were divided by.
   std::map<std::string, double> own_log_moduli{};
 
-  /// An estimation in percent of water, which numbers of others compare with.
-  [[nodiscard]] bool counts_in_water() const { return protocol.modulus == "water_is_100"; }
-  /// Of every test stimulus it is asked whether it is more than a reference: its answers have a
-  /// psychometric function, whatever procedure chose the stimuli.
+  [[nodiscard]] bool estimates() const { return measures == Measure::kMagnitude; }
+  [[nodiscard]] bool produces() const { return measures == Measure::kProducedMagnitude; }
+  [[nodiscard]] bool matches() const { return measures == Measure::kMatch; }
+  /// Its answers have a psychometric function, whatever procedure chose the stimuli. Not where
+  /// no trial with the reference was answered.
   [[nodiscard]] bool compares() const {
-    return reference_intensity && protocol.task != "same_different" &&
-           protocol.task != "yes_no" && procedure != "magnitude_estimation" &&
-           procedure != "magnitude_production" && procedure != "matching";
+    return measures == Measure::kComparison && reference_intensity;
   }
-  /// The test alone, and whether it is felt.
-  [[nodiscard]] bool detects() const { return protocol.task == "yes_no"; }
-  /// "Same" or "different" of two stimuli.
-  [[nodiscard]] bool tells_apart() const { return protocol.task == "same_different"; }
+  [[nodiscard]] bool detects() const { return measures == Measure::kDetection; }
+  [[nodiscard]] bool tells_apart() const { return measures == Measure::kDifference; }
+  [[nodiscard]] bool is_adaptive() const { return rule != AdaptiveRule::kNone; }
+  /// Whether the study file lists the levels, so that everybody has answers at each; the other
+  /// procedures go where the answers lead, with one or two at a level.
+  [[nodiscard]] bool has_fixed_levels() const {
+    return !is_adaptive() || rule == AdaptiveRule::kLimits;
+  }
+  /// An estimation in percent of water, which numbers of others compare with.
+  [[nodiscard]] bool counts_in_water() const;
+  /// An estimation in numbers that a standard was given.
+  [[nodiscard]] bool counts_in_standard() const;
+  /// An estimation in numbers of everybody's own.
+  [[nodiscard]] bool counts_in_own_numbers() const;
+  /// "scale": what its standards are; "" for a block without a standard.
+  [[nodiscard]] std::string standard_quantity() const;
+  /// Whether a test can equal the standard in number: both are of one quantity.
+  [[nodiscard]] bool standard_is_of_its_quantity() const {
+    return standard_quantity() == quantity;
+  }
 };
 
 /// How one participant's practice ended.
@@ -99,16 +120,16 @@ struct StudyData {
   bool delivered = false;  ///< Intensities are those that came out, not those commanded.
   MissingSessions sessions;
   std::vector<ParticipantData> participants;  ///< By pseudonym.
+  experiments::Study written;                 ///< The study file of the last session.
   std::vector<BlockDesign> blocks;            ///< In the order of the study file.
   std::vector<QuestionnaireItem> items;       ///< In the order of the study file.
-  /// Of blocks whose procedure has a rule of its own; by whoever reads that from the study
-  /// file.
-  std::vector<AdaptiveRun> runs;
-  std::vector<PracticeRun> practice;  ///< By the same.
+  std::vector<AdaptiveRun> runs;  ///< Of blocks whose procedure has a rule of its own.
+  std::vector<PracticeRun> practice;
 };
 
 /// Reads the folder's database. Nothing is computed yet, but that answers of an estimation come
-/// in percent of their modulus (`bring_to_common_modulus`). Throws `Error` for a damaged study.
+/// in percent of their modulus (`bring_to_common_modulus`), and what the rules of adaptive
+/// blocks and of practice make of the answers. Throws `Error` for a damaged study.
 /// `with_pilots`: pilot sessions as well.
 [[nodiscard]] StudyData load_study(const core::StudyStore& store, bool with_pilots = false);
 

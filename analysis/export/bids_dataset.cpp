@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/data/json_fields.h"
+#include "analysis/data/stored_studies.h"
 #include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
 
@@ -20,11 +20,11 @@ std::string joined(const std::vector<std::string>& texts) {
 
 std::string title_of(const BidsDataset& dataset) {
   std::vector<std::string> titles;
-  for (const core::ProtocolRow& protocol : dataset.protocols) {
-    const ordered_json json = object_in<ordered_json>(protocol.text);
-    std::string title = text_at(json, "title");
-    if (title.empty()) title = text_at(json, "name");
-    if (title.empty()) title = protocol.file_name;
+  for (std::size_t i = 0; i < dataset.studies.size(); ++i) {
+    const experiments::Study& study = dataset.studies[i];
+    std::string title = in_english(study.title);
+    if (title.empty()) title = study.name;
+    if (title.empty()) title = dataset.protocols[i].file_name;
     if (std::ranges::find(titles, title) == titles.end()) titles.push_back(title);
   }
   return (dataset.simulated ? "SIMULATED: " : "") + joined(titles);
@@ -32,13 +32,8 @@ std::string title_of(const BidsDataset& dataset) {
 
 std::vector<std::string> authors_of(const BidsDataset& dataset) {
   std::vector<std::string> authors;
-  for (const core::ProtocolRow& protocol : dataset.protocols) {
-    const ordered_json json = object_in<ordered_json>(protocol.text);
-    const auto found = json.find("authors");
-    if (found == json.end() || !found->is_array()) continue;
-    for (const ordered_json& author : *found) {
-      if (!author.is_string()) continue;
-      const std::string name = author.get<std::string>();
+  for (const experiments::Study& study : dataset.studies) {
+    for (const std::string& name : study.authors) {
       if (std::ranges::find(authors, name) == authors.end()) authors.push_back(name);
     }
   }
@@ -109,8 +104,8 @@ std::string readme(const fs::path& folder, const BidsDataset& dataset) {
         "nobody "
         "was asked.\n\n";
   }
-  for (const core::ProtocolRow& protocol : dataset.protocols) {
-    const std::string about = text_at(object_in<ordered_json>(protocol.text), "description");
+  for (const experiments::Study& study : dataset.studies) {
+    const std::string about = in_english(study.description);
     if (!about.empty()) text += about + "\n\n";
   }
   text +=

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/storage/study_store.h"
+#include "experiments/study/study.h"
 
 namespace jnd::analysis {
 
@@ -16,6 +17,7 @@ struct BidsDataset {
   std::vector<core::SessionRow> sessions;
   std::map<std::string, std::string> subjects;  ///< Label of every pseudonym, without "sub-".
   std::vector<core::ProtocolRow> protocols;     ///< Study files of the sessions, each once.
+  std::vector<experiments::Study> studies;      ///< What they say, in the same order.
   bool simulated = false;
   bool trials = false;                ///< There is a task of trials,
   bool explored = false;              ///< one of explored media.

@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 BidsDataset dataset_of(const core::StudyStore& store, const ExportOptions& options) {
+  StoredStudies studies(store);
   BidsDataset dataset{.sessions = exported_sessions(store, options),
                       .recordings = options.recordings,
                       .program_version = options.program_version};
@@ -37,6 +38,7 @@ BidsDataset dataset_of(const core::StudyStore& store, const ExportOptions& optio
     dataset.simulated |= row.simulated;
     if (hashes.insert(row.protocol_sha256).second) {
       dataset.protocols.push_back(store.protocol(row.protocol_sha256));
+      dataset.studies.push_back(studies.study(row.protocol_sha256));
     }
   }
   dataset.subjects = bids_labels(participants);

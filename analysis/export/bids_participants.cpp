@@ -148,10 +148,9 @@ void write_bids_sessions(const fs::path& folder, const std::string& subject,
 void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
                              const core::StudyStore& store) {
   std::vector<QuestionnaireItem> items, fields;
-  for (const core::ProtocolRow& row : dataset.protocols) {
-    const nlohmann::json protocol = nlohmann::json::parse(row.text, nullptr, false);
-    merge_items(items, questionnaire_items(protocol));
-    merge_items(fields, participant_fields(protocol));
+  for (const experiments::Study& study : dataset.studies) {
+    merge_items(items, questionnaire_items(study));
+    merge_items(fields, participant_fields(study));
   }
   std::vector<std::string> names = {"participant_id", "pseudonym", "data_origin",
                                     "num_sessions"};

@@ -76,12 +76,12 @@ class CsvExport {
 
  private:
   void find_fields() {
+    StoredStudies studies(store_);
     std::vector<QuestionnaireItem> fields;
     std::set<std::string> seen;
     for (const core::SessionRow& session : sessions_) {
       if (!seen.insert(session.protocol_sha256).second) continue;
-      const std::string text = store_.protocol(session.protocol_sha256).text;
-      merge_items(fields, participant_fields(nlohmann::json::parse(text, nullptr, false)));
+      merge_items(fields, participant_fields(studies.study(session.protocol_sha256)));
     }
     std::vector<std::string> taken;
     for (const CsvColumn& column : participant_columns()) taken.emplace_back(column.name);

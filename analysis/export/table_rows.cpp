@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/data/protocol_blocks.h"
-
 namespace jnd::analysis {
 namespace {
 
@@ -48,16 +46,15 @@ std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
   std::vector<std::int64_t> standing;
   for (const core::TrialRow& row : store.trials(session)) standing.push_back(row.sequence);
   std::sort(standing.begin(), standing.end());
-  const std::string protocol = store.protocol(store.session(session).protocol_sha256).text;
-  std::map<std::string, ProtocolBlock> blocks =
-      protocol_blocks(nlohmann::json::parse(protocol, nullptr, false));
+  const std::string hash = store.session(session).protocol_sha256;
+  StoredStudies studies(store);
   std::vector<ExportedTrial> trials;
   for (core::TrialRow& row : store.trials(session, true)) {
     const bool stands = std::binary_search(standing.begin(), standing.end(), row.sequence);
-    const ProtocolBlock& block = blocks[row.block];
+    const experiments::Block& block = studies.block(hash, row.block);
     trials.push_back({.row = std::move(row),
                       .excluded = !stands,
-                      .is_practice = block.is_practice,
+                      .is_practice = block.practice.has_value(),
                       .standard_medium = block.standard_medium});
   }
   return trials;
@@ -81,8 +78,7 @@ std::vector<ExportedPresentation> exported_presentations(
 const std::vector<QuestionnaireItem>& StudyQuestions::of(const core::SessionRow& session) {
   const auto [found, is_new] = by_hash_.try_emplace(session.protocol_sha256);
   if (is_new) {
-    const std::string text = store_.protocol(session.protocol_sha256).text;
-    found->second = questionnaire_items(nlohmann::json::parse(text, nullptr, false));
+    found->second = questionnaire_items(studies_.study(session.protocol_sha256));
   }
   return found->second;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/data/questionnaire_items.h"
+#include "analysis/data/stored_studies.h"
 #include "analysis/export/exported_recording.h"
 #include "analysis/export/table_writer.h"
 #include "core/storage/study_store.h"
@@ -26,11 +27,11 @@ struct ExportedTrial {
 /// The questions of study files, each file read once.
 class StudyQuestions {
  public:
-  explicit StudyQuestions(const core::StudyStore& store) : store_(store) {}
+  explicit StudyQuestions(const core::StudyStore& store) : studies_(store) {}
   [[nodiscard]] const std::vector<QuestionnaireItem>& of(const core::SessionRow& session);
 
  private:
-  const core::StudyStore& store_;
+  StoredStudies studies_;
   std::map<std::string, std::vector<QuestionnaireItem>> by_hash_;
 };
 

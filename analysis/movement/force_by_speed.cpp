@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "experiments/procedures/stimulus.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -10,17 +13,20 @@ constexpr double kClassWidthMPerS = 0.02;
 constexpr std::size_t kNumClasses = 100;  // Up to 2 m/s; whatever is faster joins the last one.
 constexpr double kMinTicks = 20.0;
 
-std::optional<core::MediumAmounts> amounts_of(const std::string& medium, double intensity) {
+/// Drag that needs no more than the hand's motion: no lift, no force map, no surface.
+bool is_drag_alone(core::MediumAmounts amounts) {
+  amounts.quadratic_kg_per_m = amounts.damping_n_s_per_m = amounts.inertial_n = 0.0;
+  return std::ranges::all_of(core::kAmounts,
+                             [&](const auto amount) { return amounts.*amount == 0.0; });
+}
+
+std::optional<core::MediumAmounts> known_amounts(const std::string& medium, double intensity) {
   if (!(intensity >= 0.0) || !std::isfinite(intensity)) return std::nullopt;
-  if (medium == "free_space") return core::free_space();
-  if (medium == "water") return core::water({.scale = intensity});
-  if (medium == "viscous") return core::viscous({.viscosity_pa_s = intensity});
-  if (medium == "viscous_stokes") {
-    return core::viscous(
-        {.viscosity_pa_s = intensity, .shape = core::ViscousDrag::Shape::kSphere});
-  }
-  if (medium == "viscous_schiller_naumann") {
-    return core::viscous_inertial({.viscosity_pa_s = intensity});
+  try {
+    const core::MediumAmounts amounts = experiments::amounts_of(medium, intensity);
+    if (is_drag_alone(amounts)) return amounts;
+  } catch (const core::Error&) {
+    // A medium that is not known to this version.
   }
   return std::nullopt;
 }
@@ -32,7 +38,7 @@ CommandedForce::CommandedForce(const std::string& medium, double intensity,
   if (damping_n_s_per_m) {
     amounts_ = core::MediumAmounts{.damping_n_s_per_m = *damping_n_s_per_m};
   } else {
-    amounts_ = amounts_of(medium, intensity);
+    amounts_ = known_amounts(medium, intensity);
   }
   is_plain_damping_ = amounts_ && amounts_->is_plain_damping();
 }

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "analysis/data/json_fields.h"
-#include "analysis/data/protocol_blocks.h"
+#include "analysis/data/stored_studies.h"
 
 namespace jnd::analysis {
 namespace {
@@ -26,11 +26,10 @@ std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
                                            std::int64_t session) {
   std::map<std::int64_t, TrialPlan> plans;
   std::map<std::string, std::set<double>> levels;
-  const std::string protocol = store.protocol(store.session(session).protocol_sha256).text;
-  std::map<std::string, ProtocolBlock> blocks =
-      protocol_blocks(json::parse(protocol, nullptr, /*allow_exceptions=*/false));
+  const std::string hash = store.session(session).protocol_sha256;
+  StoredStudies studies(store);
   for (core::DesignRow& row : store.design(session)) {
-    if (blocks[row.block].is_practice) continue;
+    if (studies.block(hash, row.block).practice) continue;
     for (const std::optional<double>& level : {row.intensity, row.reference_intensity}) {
       if (level) levels[row.block].insert(*level);
     }
@@ -38,7 +37,7 @@ std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
   }
   for (auto& [trial, plan] : plans) {
     plan.levels = levels[plan.design.block];
-    plan.standard_medium = blocks[plan.design.block].standard_medium;
+    plan.standard_medium = studies.block(hash, plan.design.block).standard_medium;
   }
   return plans;
 }
@@ -118,8 +117,7 @@ std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
 }
 
 double ramp_s_of(const core::StudyStore& store, const core::SessionRow& session) {
-  return number_at(store.protocol(session.protocol_sha256).text, "/device/ramp_s")
-      .value_or(0.050);
+  return StoredStudies(store).study(session.protocol_sha256).device.ramp_s;
 }
 
 std::optional<double> surface_height_m_of(const core::SessionRow& session) {

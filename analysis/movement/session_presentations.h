@@ -22,7 +22,7 @@ struct PlannedPresentation {
                                                                 std::int64_t session,
                                                                 bool explored);
 
-/// Time that a change of the medium takes, as the session's study says: 50 ms unless it does.
+/// Time that a change of the medium takes, as the session's study says.
 [[nodiscard]] double ramp_s_of(const core::StudyStore& store, const core::SessionRow& session);
 
 /// Height of z = 0 above the floor in a simulated laboratory; nothing with persons.

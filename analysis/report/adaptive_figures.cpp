@@ -88,7 +88,7 @@ std::string axes(const std::vector<PlottedRun>& runs, const BlockDesign& block) 
   return words;
 }
 
-Panel panel_of(const PlottedRun& plotted, const FigureTable& table) {
+Panel panel_of(const BlockDesign& block, const PlottedRun& plotted, const FigureTable& table) {
   const AdaptiveRun& run = *plotted.run;
   std::string title = run.participant;
   if (run.threshold) title += "   " + number_words(run.threshold);
@@ -105,7 +105,7 @@ Panel panel_of(const PlottedRun& plotted, const FigureTable& table) {
     const int series = plotted.first_series + i;
     panel.plot += (i > 0 ? ", " : "") + from_table(table) +
                   "'trial':" + if_series(series, "level") + " with linespoints lt " +
-                  std::to_string(run.procedure == "staircase" ? i % 7 + 1 : 1) +
+                  std::to_string(block.rule == AdaptiveRule::kStaircase ? i % 7 + 1 : 1) +
                   " lw 1 pt 7 ps 0.25, " + from_table(table) +
                   "'trial':" + if_series(series, "reversal") + " with points lt 5 pt 6 ps 0.55";
   }
@@ -115,11 +115,11 @@ Panel panel_of(const PlottedRun& plotted, const FigureTable& table) {
 std::string caption_of(const std::vector<PlottedRun>& runs, const BlockDesign& block) {
   std::string words = "Level of every trial. ";
   const AdaptiveRun& run = *runs.front().run;
-  if (run.procedure == "staircase") {
+  if (block.rule == AdaptiveRule::kStaircase) {
     words += "A line is a staircase (" + run.rule +
              "), circles are its reversals; the horizontal line is the mean of the last "
              "reversals of all staircases, whose value stands in the title";
-  } else if (run.procedure == "limits") {
+  } else if (block.rule == AdaptiveRule::kLimits) {
     words +=
         "A line is a series; the horizontal line is the mean of all transitions, whose "
         "value stands in the title";
@@ -130,9 +130,10 @@ std::string caption_of(const std::vector<PlottedRun>& runs, const BlockDesign& b
   return words + ".";
 }
 
-std::string title_of(const AdaptiveRun& run) {
-  if (run.procedure == "staircase") return "Staircases";
-  return run.procedure == "limits" ? "Series of the method of limits" : "Stimuli of QUEST+";
+std::string title_of(const BlockDesign& block) {
+  if (block.rule == AdaptiveRule::kStaircase) return "Staircases";
+  if (block.rule == AdaptiveRule::kLimits) return "Series of the method of limits";
+  return "Stimuli of QUEST+";
 }
 
 std::vector<Figure> block_figures(const FigureSource& source, const BlockDesign& block,
@@ -143,17 +144,16 @@ std::vector<Figure> block_figures(const FigureSource& source, const BlockDesign&
   for (std::size_t first = 0; first < runs.size(); first += kPanels) {
     const std::size_t end = std::min(first + kPanels, runs.size());
     const std::string part = first == 0 ? "" : "_" + std::to_string(first / kPanels + 1);
-    Figure figure{
-        .name = file_word(block.block) + "_tracks" + part,
-        .section = block.block + "_" + block.procedure,
-        .title = title_of(*runs.front().run) + ", " + source.words.title_of(block.block),
-        .caption = caption_of(runs, block),
-        .tables = {table}};
+    Figure figure{.name = file_word(block.block) + "_tracks" + part,
+                  .section = block.block + "_" + block.procedure,
+                  .title = title_of(block) + ", " + source.titles.title_of(block.block),
+                  .caption = caption_of(runs, block),
+                  .tables = {table}};
     PanelGrid grid{
         .num_columns = 3, .x_title = "Trial", .y_title = quantity_axis(block.quantity)};
     std::vector<Panel> panels;
     for (std::size_t i = first; i < end; ++i) {
-      panels.push_back(panel_of(runs[i], table));
+      panels.push_back(panel_of(block, runs[i], table));
       if (i == first) panels.back().before += axes(runs, block);
     }
     figure.height_in = grid_height_in(grid, panels.size(), 1.3);

@@ -66,10 +66,10 @@ std::string law_title(const FigureSource& source, const std::string& name,
   return name + ": k = " + number_words(k->value, 3) + ", a = " + number_words(a->value, 3);
 }
 
-const BlockDesign* only_block(const StudyData& data, const std::string& procedure) {
+const BlockDesign* only_block(const StudyData& data, bool (BlockDesign::*measure)() const) {
   const BlockDesign* found = nullptr;
   for (const BlockDesign& block : data.blocks) {
-    if (block.procedure != procedure) continue;
+    if (!(block.*measure)()) continue;
     if (found != nullptr) return nullptr;
     found = &block;
   }
@@ -79,8 +79,8 @@ const BlockDesign* only_block(const StudyData& data, const std::string& procedur
 }  // namespace
 
 std::vector<Figure> combined_figures(const FigureSource& source) {
-  const BlockDesign* const estimation = only_block(source.data, "magnitude_estimation");
-  const BlockDesign* const production = only_block(source.data, "magnitude_production");
+  const BlockDesign* const estimation = only_block(source.data, &BlockDesign::estimates);
+  const BlockDesign* const production = only_block(source.data, &BlockDesign::produces);
   if (estimation == nullptr || production == nullptr) return {};
   const Measured estimated = measured(source, *estimation);
   const Measured produced = measured(source, *production);

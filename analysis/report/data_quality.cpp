@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/data/json_fields.h"
+#include "analysis/data/stored_studies.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
@@ -136,16 +137,11 @@ std::string minutes_of(double duration_s) {
 
 /// What the study itself asks of nobody.
 void check_limit(const core::StudyStore& store, SessionQuality& quality) {
-  const json protocol = json::parse(store.protocol(quality.session.protocol_sha256).text,
-                                    nullptr, /*allow_exceptions=*/false);
-  const json::json_pointer place("/session_limits/max_duration_s");
-  if (!protocol.is_object() || !protocol.contains(place) || !protocol[place].is_number()) {
-    return;
-  }
-  const auto most_s = protocol[place].get<double>();
-  if (quality.duration_s <= most_s) return;
+  const experiments::Study& study = StoredStudies(store).study(quality.session.protocol_sha256);
+  const std::optional<double> most_s = study.session_limits.max_duration_s;
+  if (!most_s || quality.duration_s <= *most_s) return;
   quality.remarks.push_back("took " + minutes_of(quality.duration_s) + ", of at most " +
-                            minutes_of(most_s) + " that the study allows");
+                            minutes_of(*most_s) + " that the study allows");
 }
 
 void check_recording(const core::StudyStore& store, SessionQuality& quality) {

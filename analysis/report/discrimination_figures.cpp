@@ -43,15 +43,15 @@ struct BlockAnswers {
   double reference = 0.0;
   std::vector<OwnAnswers> participants;  ///< Those who answered.
   std::vector<double> levels;            ///< Ascending.
-  bool has_fixed_levels = true;          ///< See `has_fixed_levels`.
+  bool has_fixed_levels = true;          ///< See `BlockDesign`.
   bool frees = false;                    ///< The primary value has the pse free.
 };
 
 BlockAnswers answers_of(const FigureSource& source, const BlockDesign& block) {
   BlockAnswers all{.block = block.block,
-                   .title = source.words.title_of(block.block),
+                   .title = source.titles.title_of(block.block),
                    .quantity = block.quantity,
-                   .has_fixed_levels = has_fixed_levels(block),
+                   .has_fixed_levels = block.has_fixed_levels(),
                    .frees = source.section(block.block) != nullptr &&
                             source.section(block.block)->own_fractions_free_pse};
   std::map<double, int> levels;

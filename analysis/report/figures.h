@@ -6,7 +6,7 @@
 #include "analysis/data/study_data.h"
 #include "analysis/movement/movement_analysis.h"
 #include "analysis/report/figure.h"
-#include "analysis/report/study_words.h"
+#include "analysis/report/study_titles.h"
 #include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
@@ -15,7 +15,7 @@ namespace jnd::analysis {
 struct FigureSource {
   const StudyData& data;
   const StudyResults& results;
-  const StudyWords& words;
+  const StudyTitles& titles;
 
   /// Nullptr if there is none of this name.
   [[nodiscard]] const ResultsSection* section(const std::string& name) const;

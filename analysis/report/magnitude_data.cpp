@@ -27,9 +27,9 @@ std::map<double, std::vector<std::pair<std::string, double>>> MagnitudeData::by_
 
 MagnitudeData magnitude_data(const FigureSource& source, const BlockDesign& block) {
   MagnitudeData data{.block = block.block,
-                     .title = source.words.title_of(block.block),
+                     .title = source.titles.title_of(block.block),
                      .quantity = block.quantity,
-                     .is_production = block.procedure == "magnitude_production"};
+                     .is_production = block.produces()};
   for (const ParticipantData& participant : source.data.participants) {
     MagnitudeData::Own own{.participant = participant.participant};
     for (const core::TrialRow& trial : participant.trials_in(block.block)) {

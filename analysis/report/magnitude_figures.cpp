@@ -288,8 +288,7 @@ std::optional<Figure> ratios_figure(const MagnitudeData& data) {
 std::vector<Figure> magnitude_figures(const FigureSource& source) {
   std::vector<Figure> figures;
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure != "magnitude_estimation" &&
-        block.procedure != "magnitude_production") {
+    if (!block.estimates() && !block.produces()) {
       continue;
     }
     const MagnitudeData data = magnitude_data(source, block);

@@ -123,20 +123,20 @@ std::string caption_of(const BlockMatches& matches, bool has_identity) {
 
 Figure figure_of(const FigureSource& source, BlockMatches matches) {
   const BlockDesign& block = matches.block;
-  const bool has_identity = block.protocol.standard_quantity == block.quantity;
+  const bool has_identity = block.standard_is_of_its_quantity();
   const AxisRange standards = axis_range(matches.standards, /*logarithmic=*/true);
   const AxisRange shown = shown_matches(matches);
   Figure figure{.name = file_word(block.block) + "_matches",
                 .section = block.block,
-                .title = "Matches, " + source.words.title_of(block.block),
+                .title = "Matches, " + source.titles.title_of(block.block),
                 .caption = caption_of(matches, has_identity),
                 .width_in = 5.2,
                 .height_in = 3.6};
   figure.plot = "  set logscale xy\n  set xrange " + range_words(standards) +
                 "\n  set yrange " + range_words(shown) + "\n" + log_tics("x", standards) +
                 log_tics("y", shown) + "  set xlabel " +
-                gnuplot_quoted(axis_words("Standard", block.protocol.standard_quantity,
-                                          block.protocol.standard_medium)) +
+                gnuplot_quoted(axis_words("Standard", block.standard_quantity(),
+                                          block.written.standard_medium)) +
                 "\n  set ylabel " +
                 gnuplot_quoted(axis_words("Match", block.quantity, block.medium)) +
                 "\n  set key top left reverse Left samplen 2\n  plot ";
@@ -165,7 +165,7 @@ Figure figure_of(const FigureSource& source, BlockMatches matches) {
 std::vector<Figure> matching_figures(const FigureSource& source) {
   std::vector<Figure> figures;
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure != "matching") continue;
+    if (!block.matches()) continue;
     BlockMatches matches = matches_of(source, block);
     if (matches.standards.empty()) continue;
     figures.push_back(figure_of(source, std::move(matches)));

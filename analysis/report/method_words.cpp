@@ -44,19 +44,10 @@ class MethodWriter {
   void add(const std::string& topic, const std::string& text) {
     if (!text.empty()) topics_.emplace_back(topic, text);
   }
-  [[nodiscard]] bool has_procedure(const std::string& procedure) const {
-    return std::ranges::any_of(source_.data.blocks, [&](const BlockDesign& one) {
-      return one.procedure == procedure;
-    });
+  [[nodiscard]] bool any_block(bool (BlockDesign::*measure)() const) const {
+    return std::ranges::any_of(source_.data.blocks, measure);
   }
-  [[nodiscard]] bool has_modulus(const std::string& modulus) const {
-    return std::ranges::any_of(source_.data.blocks, [&](const BlockDesign& one) {
-      return one.procedure == "magnitude_estimation" && one.protocol.modulus == modulus;
-    });
-  }
-  [[nodiscard]] bool discriminates() const {
-    return std::ranges::any_of(source_.data.blocks, &BlockDesign::compares);
-  }
+  [[nodiscard]] bool discriminates() const { return any_block(&BlockDesign::compares); }
   /// Somebody answers the wrong way round, and is in the numbers or left out for it.
   [[nodiscard]] bool any_inverted() const {
     return std::ranges::any_of(source_.data.participants,
@@ -68,7 +59,7 @@ class MethodWriter {
            });
   }
   [[nodiscard]] bool has_magnitudes() const {
-    return has_procedure("magnitude_estimation") || has_procedure("magnitude_production");
+    return any_block(&BlockDesign::estimates) || any_block(&BlockDesign::produces);
   }
 
   const ReportSource& source_;
@@ -191,17 +182,17 @@ void MethodWriter::write_power_laws() {
                      "Unless a name says otherwise, k and a are of nonlinear least "
                      "squares of S, through the arithmetic means over participants, every mean "
                      "of equal weight";
-  if (has_procedure("magnitude_estimation"))
+  if (any_block(&BlockDesign::estimates))
     text +=
         "; means at intensity 0 are left out, where k I^a is 0 for every k and every a > 0, so "
         "that they tell nothing of either";
   text += ".";
-  if (has_modulus("standard")) {
+  if (any_block(&BlockDesign::counts_in_standard)) {
     text +=
         " Where a standard was felt that had a number, magnitudes are ratios to it, not to "
         "water.";
   }
-  if (has_modulus("free")) {
+  if (any_block(&BlockDesign::counts_in_own_numbers)) {
     text +=
         " Where everybody chose their own numbers, each participant’s answers are divided by "
         "the geometric mean of their answers to the stimuli that all answered (" +
@@ -209,7 +200,7 @@ void MethodWriter::write_power_laws() {
         ") before anything else: exponents are as they were, k has no meaning, and nothing is "
         "compared in percent of water.";
   }
-  if (has_procedure("magnitude_production")) {
+  if (any_block(&BlockDesign::produces)) {
     text +=
         " Production: the magnitude asked for over the mean intensity set, as in Schmidt "
         "(2018); "
@@ -234,7 +225,7 @@ void MethodWriter::write_power_laws() {
 }
 
 void MethodWriter::write_matching() {
-  if (!has_procedure("matching")) return;
+  if (!any_block(&BlockDesign::matches)) return;
   add("Matching",
       "Method of adjustment (as in " + cite("Bergmann Tiest et al. 2013") +
           "): a match is the intensity at which the comparison was said to feel like the "
@@ -250,7 +241,7 @@ void MethodWriter::write_matching() {
 
 void MethodWriter::write_groups() {
   std::string text;
-  if (discriminates() || has_magnitudes() || has_procedure("matching")) {
+  if (discriminates() || has_magnitudes() || any_block(&BlockDesign::matches)) {
     text =
         "Group intervals: participants are drawn anew with replacement, " +
         std::to_string(source_.results_options.num_resamples) + " times (seed " +

@@ -29,7 +29,7 @@ ShownCondition shown_condition(const FigureSource& source, const ConditionMoveme
   }
   ShownCondition one{
       .name = condition.block.empty() ? condition.medium : condition.block,
-      .title = condition.block.empty() ? medium : source.words.short_title_of(condition.block),
+      .title = condition.block.empty() ? medium : source.titles.short_title_of(condition.block),
       .movement = &condition};
   if (!condition.intensity || condition.medium == "free_space") return one;
   const std::string amount = shortest_words(*condition.intensity);

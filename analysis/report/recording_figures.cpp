@@ -79,7 +79,7 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
   const AxisRange x_range = column_range(table, 3);
   std::vector<Panel> panels;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const std::string title = blocks[b].empty() ? "" : source.words.short_title_of(blocks[b]);
+    const std::string title = blocks[b].empty() ? "" : source.titles.short_title_of(blocks[b]);
     for (const bool from_above : {true, false}) {
       Panel panel{.title = title + (from_above ? ", from above" : ", from the front")};
       const AxisRange range = at_least(column_range(table, from_above ? 4 : 5), kLeastWidthM);
@@ -158,7 +158,7 @@ std::optional<Figure> force_figure(const FigureSource& source, const MovementAna
   const AxisRange speeds{0.0, column_range(table, 3).high};
   std::vector<Panel> panels;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    Panel panel{.title = source.words.short_title_of(blocks[b]),
+    Panel panel{.title = source.titles.short_title_of(blocks[b]),
                 .before = small_tics("x", speeds) + "  set xrange " + range_words(speeds) +
                           "\n  set yrange [0:*]\n"};
     panel.plot = "plot ";

@@ -7,7 +7,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/report_pdf.h"
 #include "analysis/report/run_tool.h"
-#include "analysis/report/study_words.h"
+#include "analysis/report/study_titles.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -87,9 +87,8 @@ ReportOptions installed_report_tools() {
 }
 
 std::vector<Figure> figures_of(const ReportSource& source) {
-  const StudyWords words =
-      study_words_of(source.store.protocol(source.data.protocol_sha256).text);
-  const FigureSource from{.data = source.data, .results = source.results, .words = words};
+  const StudyTitles titles = titles_of(source.data.written);
+  const FigureSource from{.data = source.data, .results = source.results, .titles = titles};
   std::vector<Figure> figures;
   std::set<std::string> names;
   const auto add = [&](std::vector<Figure> more) {

@@ -98,10 +98,10 @@ std::string contents(const HtmlText& html) {
   return text + "</ul></nav>\n";
 }
 
-std::string front(const ReportSource& source, const StudyWords& words) {
-  std::string text = "<h1>" + html_escaped(words.title) + "</h1>\n<p class=\"authors\">";
+std::string front(const ReportSource& source, const std::string& title) {
+  std::string text = "<h1>" + html_escaped(title) + "</h1>\n<p class=\"authors\">";
   std::string authors;
-  for (const std::string& author : words.authors) {
+  for (const std::string& author : source.data.written.authors) {
     authors += (authors.empty() ? "Study by " : ", ") + author;
   }
   if (!authors.empty()) authors += ". ";
@@ -125,11 +125,10 @@ std::string front(const ReportSource& source, const StudyWords& words) {
 
 std::string report_html(const ReportSource& source, const std::vector<Figure>& figures,
                         const std::vector<DrawnFigure>& drawn) {
-  const StudyWords words =
-      study_words_of(source.store.protocol(source.data.protocol_sha256).text);
+  const StudyTitles titles = titles_of(source.data.written);
   const std::vector<core::SessionRow> sessions = analysed_sessions(source);
   const std::vector<SessionQuality> quality = session_quality(source.store, sessions);
-  const ChapterSource chapters{source, words, sessions, quality};
+  const ChapterSource chapters{source, titles, sessions, quality};
   const bool simulated = source.results.simulated;
   HtmlText html;
   FigureChapters figure_chapters(html, figures, drawn, source.results);
@@ -140,18 +139,18 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   write_data_quality(html, chapters);
   html.heading(2, "Results");
   for (const ResultsSection& section : source.results.sections) {
-    html.heading(3, section_title(words, section.name));
+    html.heading(3, section_title(titles, section.name));
     write_section(html, source.data, source.results, section);
-    if (section.name == "movement") write_movement(html, source, words);
+    if (section.name == "movement") write_movement(html, source, titles);
     figure_chapters.write_section(section.name);
   }
   figure_chapters.write_others();
   figure_chapters.write_list();
   write_provenance(html, chapters);
   write_references(html, chapters);
-  return html_document(words.title,
+  return html_document(titles.study,
                        simulated ? "SIMULATED data" : (source.pilot ? "PILOT data" : ""),
-                       front(source, words) + contents(html) + html.text());
+                       front(source, titles.study) + contents(html) + html.text());
 }
 
 }  // namespace jnd::analysis

@@ -6,11 +6,13 @@
 #include <set>
 
 #include "analysis/data/quantity_unit.h"
+#include "analysis/data/stored_studies.h"
 #include "analysis/report/method_words.h"
 #include "analysis/results/report_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
 #include "core/storage/sha256.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::analysis {
 namespace {
@@ -28,21 +30,22 @@ std::string joined(const std::set<double>& numbers, const std::string& unit) {
 }
 
 std::string reference_words(const BlockDesign& block, const std::set<double>& references) {
-  const ProtocolBlock& protocol = block.protocol;
-  if (protocol.standard_medium.empty()) {
+  if (block.written.standard_medium.empty()) {
     return "reference " + joined(references, quantity_unit(block.quantity));
   }
-  return "standard " + quantity_words(protocol.standard_quantity) + " " +
-         joined(references, quantity_unit(protocol.standard_quantity)) + " of the medium “" +
-         protocol.standard_medium + "”" +
-         (protocol.modulus == "standard"
-              ? ", which counts as " + shortest_words(protocol.modulus_value)
+  const std::string quantity = block.standard_quantity();
+  return "standard " + quantity_words(quantity) + " " +
+         joined(references, quantity_unit(quantity)) + " of the medium “" +
+         block.written.standard_medium + "”" +
+         (block.counts_in_standard()
+              ? ", which counts as " +
+                    shortest_words(block.written.settings.number("modulus_value"))
               : "");
 }
 
 /// How many trials people ran. Where the answers decide it, as the data have it.
 std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
-  if (!is_adaptive(block)) return counted_words(block.num_trials, "trial") + " a participant";
+  if (!block.is_adaptive()) return counted_words(block.num_trials, "trial") + " a participant";
   const auto count = [&](const std::vector<core::TrialRow>& trials) {
     return std::ranges::count(trials, block.block, &core::TrialRow::block);
   };
@@ -61,21 +64,20 @@ std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
          shortest_words(most);
 }
 
-std::string practice_words(const PracticeWords& practice) {
-  const auto list = [](const std::vector<double>& numbers) {
-    return std::set<double>(numbers.begin(), numbers.end());
-  };
-  const std::string unit = quantity_unit(practice.quantity);
-  std::string words = "practice, no data; " + procedure_words(practice.procedure, practice.task,
-                                                              practice.interval_order);
-  if (!practice.quantity.empty()) words += "; " + quantity_words(practice.quantity);
-  if (!practice.levels.empty()) words += "; levels " + joined(list(practice.levels), unit);
-  if (!practice.references.empty()) {
-    words += "; reference " + joined(list(practice.references), unit);
+std::string practice_words(const experiments::Block& block) {
+  const experiments::Practice& practice = *block.practice;
+  const std::string unit = quantity_unit(block.quantity);
+  std::string words =
+      "practice, no data; " + procedure_words(block) + "; " + quantity_words(block.quantity);
+  if (!block.intensities.empty()) {
+    words += "; levels " +
+             joined(std::set(block.intensities.begin(), block.intensities.end()), unit);
   }
-  words += practice.feedback
-               ? "; participants were told after every answer whether it was right"
-               : "; without feedback";
+  if (block.reference_intensity) {
+    words += "; reference " + joined(std::set{*block.reference_intensity}, unit);
+  }
+  words += block.feedback ? "; participants were told after every answer whether it was right"
+                          : "; without feedback";
   return words + "; until " +
          shortest_words(std::round(1000.0 * practice.min_correct_ratio) / 10.0) +
          " % of the last " + counted_words(practice.num_trials_judged, "answer") +
@@ -102,12 +104,11 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
     }
   }
   const std::string unit = quantity_unit(block.quantity);
-  std::string words =
-      procedure_words(block.procedure, block.protocol.task, block.protocol.interval_order);
+  std::string words = procedure_words(block.written);
   if (!block.quantity.empty()) words += "; " + quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
   constexpr std::size_t kMostListed = 20;
-  const bool are_listed = has_fixed_levels(block) && intensities.size() <= kMostListed;
+  const bool are_listed = block.has_fixed_levels() && intensities.size() <= kMostListed;
   if (!intensities.empty() && !are_listed) {
     words += "; " + counted_words(std::ssize(intensities), "level") + " from " +
              number_words(*intensities.begin()) + " to " + number_words(*intensities.rbegin()) +
@@ -116,26 +117,26 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
     words += "; levels " + joined(intensities, unit);
   }
   if (!references.empty()) words += "; " + reference_words(block, references);
-  if (block.protocol.modulus == "free") words += "; numbers of everybody’s own choice";
+  if (block.counts_in_own_numbers()) words += "; numbers of everybody’s own choice";
   if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");
   if (!starts.empty()) words += "; starting from " + joined(starts, unit);
   words += "; ";
-  if (has_fixed_levels(block)) words += counted_words(repetitions, "repetition") + ", ";
+  if (block.has_fixed_levels()) words += counted_words(repetitions, "repetition") + ", ";
   return words + num_trials_words(data, block) + ".";
 }
 
 std::string design_words(const ChapterSource& source) {
-  const StudyWords& words = source.words;
-  std::string text = words.description;
+  const experiments::Study& study = source.report.data.written;
+  std::string text = in_english(study.description);
   if (!text.empty() && !text.ends_with('.')) text += ".";
   // Where nothing is asked there is nothing to be blind to.
-  if (!words.blinding.empty() && !source.report.data.blocks.empty()) {
-    text += " Blinding: " +
-            (words.blinding == "double"
-                 ? std::string("double; the levels were unblinded before this report")
-             : words.blinding == "participant"
-                 ? std::string("single, the participant did not know the levels")
-                 : words.blinding) +
+  if (!source.report.data.blocks.empty()) {
+    text += std::string(" Blinding: ") +
+            (study.blinding == experiments::Blinding::kDouble
+                 ? "double; the levels were unblinded before this report"
+             : study.blinding == experiments::Blinding::kParticipant
+                 ? "single, the participant did not know the levels"
+                 : "none") +
             ".";
   }
   std::map<std::string, int> cells;
@@ -182,11 +183,13 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
   html.heading(2, "Methods");
   html.paragraph_about("Study", design_words(source));
   std::vector<std::string> blocks;
-  for (const PracticeWords& practice : source.words.practice) {
-    blocks.push_back(source.words.title_of(practice.block) + ": " + practice_words(practice));
-  }
+  for_each_stage(source.report.data.written.stages, [&](const experiments::Stage& stage) {
+    const auto* block = std::get_if<experiments::Block>(&stage.content);
+    if (block == nullptr || !block->practice) return;
+    blocks.push_back(source.titles.title_of(stage.name) + ": " + practice_words(*block));
+  });
   for (const BlockDesign& block : source.report.data.blocks) {
-    blocks.push_back(source.words.title_of(block.block) + ": " +
+    blocks.push_back(source.titles.title_of(block.block) + ": " +
                      block_words(source.report.data, block));
   }
   html.list(blocks);
@@ -194,9 +197,8 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
   for (const auto& [topic, text] : method_words(source.report).topics) {
     html.paragraph_about(topic, text);
   }
-  if (!source.words.citation.empty()) {
-    html.paragraph_about("After", source.words.citation);
-  }
+  const std::string& citation = source.report.data.written.citation;
+  if (!citation.empty()) html.paragraph_about("After", citation);
 }
 
 void write_references(HtmlText& html, const ChapterSource& source) {

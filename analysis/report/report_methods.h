@@ -3,14 +3,14 @@
 #include "analysis/report/data_quality.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
-#include "analysis/report/study_words.h"
+#include "analysis/report/study_titles.h"
 
 namespace jnd::analysis {
 
 /// Whatever the chapters of a report say something about.
 struct ChapterSource {
   const ReportSource& report;
-  const StudyWords& words;
+  const StudyTitles& titles;
   const std::vector<core::SessionRow>& sessions;  ///< Sessions that are analysed.
   const std::vector<SessionQuality>& quality;     ///< Quality of these sessions.
 };

@@ -125,9 +125,9 @@ void write_explored(HtmlText& html, const std::vector<ExploredMedium>& media) {
 
 }  // namespace
 
-void write_movement(HtmlText& html, const ReportSource& source, const StudyWords& words) {
+void write_movement(HtmlText& html, const ReportSource& source, const StudyTitles& titles) {
   const std::vector<ExploredMedium> media =
-      explored_media({source.data, source.results, words}, source.movement);
+      explored_media({source.data, source.results, titles}, source.movement);
   if (presentation_uses(source.data).empty()) {
     html.paragraph(
         source.data.blocks.empty()

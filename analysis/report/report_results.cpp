@@ -273,7 +273,7 @@ ResultsSection primary_comparisons(const StudyResults& results) {
 
 }  // namespace
 
-std::string section_title(const StudyWords& words, const std::string& name) {
+std::string section_title(const StudyTitles& titles, const std::string& name) {
   constexpr std::pair<std::string_view, const char*> kEndings[] = {
       {"_staircase", ": staircases"},
       {"_limits", ": method of limits"},
@@ -281,16 +281,16 @@ std::string section_title(const StudyWords& words, const std::string& name) {
       {"_intervals", ": order of the intervals"},
       {"_catch_trials", ": catch trials"}};
   for (const auto& [ending, title] : kEndings) {
-    if (words.titles.contains(name) || !name.ends_with(ending)) continue;
-    return section_title(words, name.substr(0, name.size() - ending.size())) + title;
+    if (titles.stages.contains(name) || !name.ends_with(ending)) continue;
+    return section_title(titles, name.substr(0, name.size() - ending.size())) + title;
   }
   const std::string between = "_against_";
   const std::size_t at = name.find(between);
   if (at != std::string::npos) {
-    return words.short_title_of(name.substr(0, at)) + " against " +
-           words.short_title_of(name.substr(at + between.size()));
+    return titles.short_title_of(name.substr(0, at)) + " against " +
+           titles.short_title_of(name.substr(at + between.size()));
   }
-  std::string title = words.title_of(name);
+  std::string title = titles.title_of(name);
   if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') {
     title[0] = static_cast<char>(title[0] - 'a' + 'A');
   }

@@ -2,7 +2,7 @@
 
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
-#include "analysis/report/study_words.h"
+#include "analysis/report/study_titles.h"
 
 namespace jnd::analysis {
 
@@ -24,9 +24,9 @@ void write_questionnaires(HtmlText& html, const StudyData& data, const ResultsSe
 
 /// On how many presentations width and speed rest, with cautions; strokes in media explored
 /// outside of trials.
-void write_movement(HtmlText& html, const ReportSource& source, const StudyWords& words);
+void write_movement(HtmlText& html, const ReportSource& source, const StudyTitles& titles);
 
 /// "Group D against Group E": a section's name to readers.
-[[nodiscard]] std::string section_title(const StudyWords& words, const std::string& name);
+[[nodiscard]] std::string section_title(const StudyTitles& titles, const std::string& name);
 
 }  // namespace jnd::analysis

@@ -76,7 +76,7 @@ std::vector<Figure> stroke_figures(const FigureSource& source) {
                     "'position':" + if_series(static_cast<int>(b) + 1, quantity.name) +
                     " with points lt " + type + " ps 0.8";
       if (panels.empty()) {
-        panel.plot += " title " + gnuplot_quoted(source.words.short_title_of(block));
+        panel.plot += " title " + gnuplot_quoted(source.titles.short_title_of(block));
       }
       const Estimate* const mean =
           source.results.find(std::string(quantity.name) + "." + block);

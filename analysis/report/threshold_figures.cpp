@@ -26,7 +26,7 @@ struct BlockCurves {
   const BlockDesign& block;
   std::vector<OwnCurve> participants;
   AxisRange range;
-  bool has_fixed_levels = true;  ///< See `has_fixed_levels`.
+  bool has_fixed_levels = true;  ///< See `BlockDesign`.
 };
 
 std::optional<double> own_value(const FigureSource& source, const std::string& block,
@@ -59,7 +59,7 @@ void add_difference_curve(const FigureSource& source, const BlockDesign& block, 
 }
 
 BlockCurves curves_of(const FigureSource& source, const BlockDesign& block) {
-  BlockCurves curves{.block = block, .has_fixed_levels = has_fixed_levels(block)};
+  BlockCurves curves{.block = block, .has_fixed_levels = block.has_fixed_levels()};
   std::vector<ExcludedParticipant> without_answers;
   std::vector<double> intensities;
   for (ThresholdAnswers& answers :
@@ -130,7 +130,7 @@ Figure figure_of(const FigureSource& source, const BlockCurves& curves, std::siz
   const std::string part = first == 0 ? "" : "_" + std::to_string(first / kPanels + 1);
   Figure figure{.name = file_word(block.block) + "_participants" + part,
                 .section = block.block,
-                .title = "Answers of every participant, " + source.words.title_of(block.block),
+                .title = "Answers of every participant, " + source.titles.title_of(block.block),
                 .tables = {answers_table(curves), curves_table(curves)}};
   PanelGrid grid{.num_columns = 5,
                  .x_title = quantity_axis(block.quantity),

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "analysis/data/quantity_unit.h"
+#include "analysis/results/block_words.h"
 #include "analysis/results/threshold_results.h"
 
 namespace jnd::analysis {
@@ -23,8 +25,8 @@ bool has_catch_trials(const StudyData& data, const std::string& block) {
 void add_threshold_methods(
     const StudyData& data, const std::function<std::string(const std::string&)>& cite,
     const std::function<void(const std::string&, const std::string&)>& add) {
-  const auto has = [&](const std::string& procedure) {
-    return any(data, [&](const BlockDesign& block) { return block.procedure == procedure; });
+  const auto has = [&](AdaptiveRule rule) {
+    return any(data, [&](const BlockDesign& block) { return block.rule == rule; });
   };
   if (any(data, &BlockDesign::detects)) {
     std::string text =
@@ -59,7 +61,7 @@ void add_threshold_methods(
   }
   std::string with_feedback;
   for (const BlockDesign& block : data.blocks) {
-    if (block.protocol.feedback) {
+    if (block.written.feedback) {
       with_feedback += (with_feedback.empty() ? "" : ", ") + block.block;
     }
   }
@@ -74,11 +76,14 @@ void add_threshold_methods(
         "that met the criterion (criterion_met, 1 or 0). Practice is no data.");
   }
   for (const BlockDesign& block : data.blocks) {
-    const auto run = std::ranges::find(data.runs, block.block, &AdaptiveRun::block);
-    if (run == data.runs.end() || run->design.empty()) continue;
-    add("Levels of " + block.block, run->design + ".");
+    const bool is_told =
+        std::ranges::find(data.runs, block.block, &AdaptiveRun::block) != data.runs.end() &&
+        !(block.written.settings == experiments::Settings{});
+    if (!is_told) continue;
+    add("Levels of " + block.block,
+        adaptive_design_words(block.written, quantity_unit(block.quantity)) + ".");
   }
-  if (has("staircase")) {
+  if (has(AdaptiveRule::kStaircase)) {
     add("Staircases",
         "The level fell after “yes” and rose after “no” by the rule given with each estimate "
         "(transformed up-down, " +
@@ -91,7 +96,7 @@ void add_threshold_methods(
             "the point of subjective equality to be at the reference: the same definition of w "
             "as that of the psychometric function.");
   }
-  if (has("limits")) {
+  if (has(AdaptiveRule::kLimits)) {
     add("Method of limits",
         "Levels rose or fell until the answer changed; a transition lies half way, in the "
         "scale "
@@ -101,7 +106,7 @@ void add_threshold_methods(
             "people stay with their answer (habituation), below 0 they change it early "
             "(expectation).");
   }
-  if (has("quest_plus")) {
+  if (has(AdaptiveRule::kQuestPlus)) {
     add("QUEST+",
         "Each stimulus was the one whose answer was expected to tell the most (" +
             cite("Watson 2017") +
@@ -113,7 +118,7 @@ void add_threshold_methods(
             "highest, as a normal density is at the end of its central 95 %), the grid decides "
             "about the values: they have no interval, and a caution.");
   }
-  if (any(data, is_adaptive) && any(data, &BlockDesign::compares)) {
+  if (any(data, &BlockDesign::is_adaptive) && any(data, &BlockDesign::compares)) {
     add("Raw answers of adaptive blocks",
         "Psychometric functions are fitted to them as to constant stimuli; levels that follow "
         "from answers make such fits slightly steep.");
@@ -144,7 +149,7 @@ void add_threshold_methods(
             "both are t tests against 0.");
   }
   if (any(data, [](const BlockDesign& block) {
-        return block.detects() || block.tells_apart() || is_adaptive(block);
+        return block.detects() || block.tells_apart() || block.is_adaptive();
       })) {
     add("Thresholds of the group",
         "Geometric means over participants with Student’s t intervals in ln, and the standard "

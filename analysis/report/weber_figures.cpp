@@ -34,7 +34,7 @@ std::string pse_words(const FigureSource& source, const std::vector<BlockDesign>
   std::size_t num_free = 0;
   for (const BlockDesign& block : blocks) {
     if (!source.section(block.block)->own_fractions_free_pse) continue;
-    free_titles += (num_free++ > 0 ? ", " : "") + source.words.short_title_of(block.block);
+    free_titles += (num_free++ > 0 ? ", " : "") + source.titles.short_title_of(block.block);
   }
   if (num_free == 0) return "at the reference";
   return num_free == blocks.size() ? "free" : "at the reference, free in " + free_titles;
@@ -124,11 +124,11 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
     plot += (b > 0 ? ", " : "") + from_table(table) +
             "'position':" + if_series(series, "weber_fraction") + ":" + low + ":" + high +
             " with yerrorbars lt " + type + " dt 1 pt " + (b == 0 ? "7" : "5") +
-            " ps 0.6 title " + gnuplot_quoted(source.words.short_title_of(blocks[b].block)) +
+            " ps 0.6 title " + gnuplot_quoted(source.titles.short_title_of(blocks[b].block)) +
             ", " + from_table(table) +
             "'position_other_pse':" + if_series(series, "weber_fraction_other_pse") +
             " with points lt " + type + " pt " + (b == 0 ? "6" : "4") + " ps 0.6 title " +
-            gnuplot_quoted(source.words.short_title_of(blocks[b].block) +
+            gnuplot_quoted(source.titles.short_title_of(blocks[b].block) +
                            (source.section(blocks[b].block)->own_fractions_free_pse
                                 ? ", PSE at the reference"
                                 : ", PSE free"));
@@ -147,7 +147,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
       "free or at the reference. ";
   for (const BlockDesign& block : blocks) {
     const FitsBorne borne = fits_borne(*source.section(block.block), block.block);
-    figure.caption += source.words.short_title_of(block.block) + ": " +
+    figure.caption += source.titles.short_title_of(block.block) + ": " +
                       std::to_string(borne.num_rejected) + " of " +
                       counted_words(borne.num_fits, "fit") +
                       " with the PSE at the reference rejected by the answers. ";
@@ -177,7 +177,7 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
       group.values.emplace_back(person, *own->value * *reference);
       values.push_back(*own->value * *reference);
     }
-    titles.push_back(source.words.short_title_of(block.block));
+    titles.push_back(source.titles.short_title_of(block.block));
     groups.push_back(std::move(group));
   }
   if (values.empty()) return std::nullopt;

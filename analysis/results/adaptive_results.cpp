@@ -66,7 +66,8 @@ class AdaptiveWriter {
       if (run.block != block_.block) continue;
       if (run.problem.empty()) {
         found.push_back(&run);
-        if (run.num_set_aside > 0 && run.procedure != "quest_plus") tell_set_aside(run);
+        if (run.num_set_aside > 0 && block_.rule != AdaptiveRule::kQuestPlus)
+          tell_set_aside(run);
       } else {
         section_.excluded.push_back({run.participant, block_.block + ": " + run.problem});
       }
@@ -258,20 +259,11 @@ void AdaptiveWriter::caution_group(std::size_t first, int num_at_edge, int num_r
 
 }  // namespace
 
-bool is_adaptive(const BlockDesign& block) {
-  return block.procedure == "staircase" || block.procedure == "limits" ||
-         block.procedure == "quest_plus";
-}
-
-bool has_fixed_levels(const BlockDesign& block) {
-  return !is_adaptive(block) || block.procedure == "limits";
-}
-
 ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block) {
   AdaptiveWriter writer(data, block);
-  if (block.procedure == "staircase") writer.write_staircase();
-  if (block.procedure == "limits") writer.write_limits();
-  if (block.procedure == "quest_plus") writer.write_quest_plus();
+  if (block.rule == AdaptiveRule::kStaircase) writer.write_staircase();
+  if (block.rule == AdaptiveRule::kLimits) writer.write_limits();
+  if (block.rule == AdaptiveRule::kQuestPlus) writer.write_quest_plus();
   return std::move(writer).finish();
 }
 

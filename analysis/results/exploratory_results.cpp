@@ -87,7 +87,7 @@ std::optional<double> previous_stimulus_slope(const Trials& trials) {
 
 std::vector<Effect> effects_of(const BlockDesign& block) {
   const std::string unit = unit_of_quantity(block.quantity);
-  if (block.procedure == "magnitude_production") {
+  if (block.produces()) {
     return {{"starting_value_slope",
              "how far the set value follows the starting value of the adjustment, within a "
              "target: 0 not at all, 1 wholly",
@@ -98,7 +98,7 @@ std::vector<Effect> effects_of(const BlockDesign& block) {
                return drift_per_ten_trials(trials, &core::TrialRow::target_percent);
              }}};
   }
-  if (block.procedure == "magnitude_estimation") {
+  if (block.estimates()) {
     return {
         {"drift_per_ten_trials",
          "change of the answer over ten trials, relative to its mean for the stimulus", "1",
@@ -183,7 +183,7 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
     for (const auto& [parameter, words] :
          {std::pair{"k", "ln k"}, {"a", "a"}, {"weber_fraction", "ln ln(1 + w)"}}) {
       // Numbers of everybody's own choice: k is as they chose them.
-      if (parameter == std::string("k") && block.protocol.modulus == "free") continue;
+      if (parameter == std::string("k") && block.counts_in_own_numbers()) continue;
       Outcome outcome{.name = std::string(words) + " of " + block.block};
       for (const ResultsSection& section : sections) {
         for (const ParticipantEstimate& own : section.participants) {

@@ -36,7 +36,7 @@ std::vector<InvertedAnswers> inverted_in(const StudyData& data, const BlockDesig
 std::vector<InvertedAnswers> falling_magnitudes_in(const StudyData& data,
                                                    const BlockDesign& block) {
   std::vector<InvertedAnswers> found;
-  const bool is_production = block.procedure == "magnitude_production";
+  const bool is_production = block.produces();
   for (const ParticipantData& participant : data.participants) {
     std::vector<double> x, answers;
     for (const core::TrialRow& trial : participant.trials_in(block.block)) {
@@ -57,9 +57,7 @@ std::vector<InvertedAnswers> falling_magnitudes_in(const StudyData& data,
   return found;
 }
 
-bool has_magnitudes(const BlockDesign& block) {
-  return block.procedure == "magnitude_estimation" || block.procedure == "magnitude_production";
-}
+bool has_magnitudes(const BlockDesign& block) { return block.estimates() || block.produces(); }
 
 std::string test_words(const InvertedAnswers& one) {
   if (!one.is_estimation && !one.is_production) return falling_words(one.p_value);

@@ -134,15 +134,15 @@ std::map<double, std::vector<double>> by_x(const std::vector<Means>& participant
 /// What a magnitude of 1 is.
 std::string unit_words(const BlockDesign& design) {
   if (design.counts_in_water()) return "water being 1";
-  return design.protocol.modulus == "standard" ? "the standard being 1"
-                                               : "everybody's own modulus being 1";
+  return design.counts_in_standard() ? "the standard being 1"
+                                     : "everybody's own modulus being 1";
 }
 
 /// Who chose their own numbers says nothing by their size; how they relate is all there is.
 void add_moduli(ResultsSection& section, const BlockDesign& design, const MagnitudeBlock& block,
                 const ResultsOptions& options) {
   if (design.counts_in_water()) return;
-  if (design.protocol.modulus == "standard") {
+  if (design.counts_in_standard()) {
     section.excluded.push_back({"everyone", design.block +
                                                 ": comparisons in percent of water, for "
                                                 "magnitudes are ratios to the standard"});

@@ -76,7 +76,7 @@ class MatchingSection {
     if (matches_.empty()) return std::move(section_);
     add_matches();
     add_overall();
-    if (design_.protocol.standard_quantity == design_.quantity) add_ratio();
+    if (design_.standard_is_of_its_quantity()) add_ratio();
     add_matching_function();
     add_own("match_sd_ln",
             "standard deviation of ln(match) about its mean at each standard, within a "
@@ -101,9 +101,9 @@ class MatchingSection {
 
  private:
   [[nodiscard]] std::string standard_words(double standard) const {
-    const std::string unit = unit_of_quantity(design_.protocol.standard_quantity);
+    const std::string unit = unit_of_quantity(design_.standard_quantity());
     return number_text(standard) + (unit == "1" ? "" : " " + unit) + " of " +
-           design_.protocol.standard_medium;
+           design_.written.standard_medium;
   }
 
   void add_matches() {

@@ -56,10 +56,10 @@ std::vector<PersonOutcome> person_outcomes(const StudyData& data) {
   }
   for (const BlockDesign& block : data.blocks) {
     if (block.compares()) add_counts(data, block, people);
-    if (block.procedure == "magnitude_production") {
+    if (block.produces()) {
       add_means(production_block(data, block), block.block, people);
     }
-    if (block.procedure != "magnitude_estimation" || !block.counts_in_water()) continue;
+    if (!block.estimates() || !block.counts_in_water()) continue;
     add_means(estimation_block(data, block), block.block, people);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       outcomes[i].numbers.merge(

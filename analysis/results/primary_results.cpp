@@ -9,25 +9,24 @@ namespace {
 
 /// Ends of names, after the block's.
 std::vector<std::string> primary_names(const BlockDesign& block) {
-  if (block.procedure == "magnitude_estimation") {
+  if (block.estimates()) {
     // Everybody's own numbers: their size means nothing.
-    if (block.protocol.modulus == "free") return {".a"};
+    if (block.counts_in_own_numbers()) return {".a"};
     return {".k", ".a"};
   }
-  if (block.procedure == "magnitude_production") return {".k", ".a"};
-  if (block.procedure == "matching") {
-    const bool of_one_quantity = block.protocol.standard_quantity == block.quantity;
-    return of_one_quantity ? std::vector<std::string>{".ratio_to_standard"}
-                           : std::vector<std::string>{".k", ".a"};
+  if (block.produces()) return {".k", ".a"};
+  if (block.matches()) {
+    return block.standard_is_of_its_quantity() ? std::vector<std::string>{".ratio_to_standard"}
+                                               : std::vector<std::string>{".k", ".a"};
   }
-  if (block.procedure == "limits" && block.compares()) {
+  if (block.rule == AdaptiveRule::kLimits && block.compares()) {
     return {".limits_threshold", ".weber_fraction_median_person"};
   }
-  if (block.procedure == "limits") return {".limits_threshold"};
+  if (block.rule == AdaptiveRule::kLimits) return {".limits_threshold"};
   // Of any procedure the same, as the tests between blocks have it.
   if (block.compares()) return {".weber_fraction_median_person"};
-  if (block.procedure == "quest_plus") return {".quest_plus_threshold"};
-  if (block.procedure == "staircase") return {".staircase_threshold"};
+  if (block.rule == AdaptiveRule::kQuestPlus) return {".quest_plus_threshold"};
+  if (block.rule == AdaptiveRule::kStaircase) return {".staircase_threshold"};
   if (block.detects()) return {".threshold"};
   if (block.tells_apart()) return {".weber_fraction"};
   return {};

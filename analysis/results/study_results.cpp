@@ -1,6 +1,7 @@
 #include "analysis/results/study_results.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "analysis/results/catch_results.h"
 #include "analysis/results/exploratory_results.h"
@@ -16,11 +17,10 @@
 namespace jnd::analysis {
 namespace {
 
-std::vector<BlockDesign> blocks_of(const StudyData& data, const std::string& procedure) {
+std::vector<BlockDesign> blocks_that(bool (BlockDesign::*measure)() const,
+                                     const StudyData& data) {
   std::vector<BlockDesign> found;
-  for (const BlockDesign& block : data.blocks) {
-    if (block.procedure == procedure) found.push_back(block);
-  }
+  std::ranges::copy_if(data.blocks, std::back_inserter(found), measure);
   return found;
 }
 
@@ -29,7 +29,7 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
                             const BlockDesign& block, const ResultsOptions& options) {
   if (block.detects()) sections.push_back(detection_results(data, block, options));
   if (block.tells_apart()) sections.push_back(same_different_results(data, block));
-  if (is_adaptive(block)) sections.push_back(adaptive_results(data, block));
+  if (block.is_adaptive()) sections.push_back(adaptive_results(data, block));
   if (block.compares() && has_intervals(data, block)) {
     sections.push_back(interval_results(data, block));
   }
@@ -108,8 +108,8 @@ StudyResults results_of(const StudyData& data, const Published& published,
                        .num_participants = static_cast<int>(data.participants.size()),
                        .sessions = data.sessions,
                        .losses = level_losses(data)};
-  const std::vector<BlockDesign> estimations = blocks_of(data, "magnitude_estimation");
-  const std::vector<BlockDesign> productions = blocks_of(data, "magnitude_production");
+  const std::vector<BlockDesign> estimations = blocks_that(&BlockDesign::estimates, data);
+  const std::vector<BlockDesign> productions = blocks_that(&BlockDesign::produces, data);
   const std::vector<BlockDesign> discriminations = comparing_blocks(data);
   for (const BlockDesign& block : estimations) {
     results.sections.push_back(estimation_results(data, block, options));
@@ -117,7 +117,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
   for (const BlockDesign& block : productions) {
     results.sections.push_back(production_results(data, block, options));
   }
-  for (const BlockDesign& block : blocks_of(data, "matching")) {
+  for (const BlockDesign& block : blocks_that(&BlockDesign::matches, data)) {
     results.sections.push_back(matching_results(data, block, options));
   }
   if (estimations.size() == 1 && productions.size() == 1 &&

@@ -21,13 +21,6 @@ namespace jnd::analysis {
 /// BLOCK_limits or BLOCK_quest_plus.
 [[nodiscard]] ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block);
 
-/// Whether the block's procedure has such a rule.
-[[nodiscard]] bool is_adaptive(const BlockDesign& block);
-
-/// Whether the study file lists the levels, so that everybody has answers at each; the other
-/// procedures go where the answers lead, with one or two at a level.
-[[nodiscard]] bool has_fixed_levels(const BlockDesign& block);
-
 /// Where the test comes in the first or in the second interval: how much more often the second
 /// one is chosen, and how far apart the pses of both orders lie. Section BLOCK_intervals.
 [[nodiscard]] ResultsSection interval_results(const StudyData& data, const BlockDesign& block);

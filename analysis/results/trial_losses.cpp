@@ -41,11 +41,9 @@ std::set<std::pair<std::int64_t, std::int64_t>> affected_trials(
 /// The section that holds the block's primary values, as far as they rest on its answers alone.
 ResultsSection section_of(const StudyData& data, const BlockDesign& block,
                           const ResultsOptions& options) {
-  if (block.procedure == "magnitude_estimation")
-    return estimation_results(data, block, options);
-  if (block.procedure == "magnitude_production")
-    return production_results(data, block, options);
-  if (block.procedure == "matching") return matching_results(data, block, options);
+  if (block.estimates()) return estimation_results(data, block, options);
+  if (block.produces()) return production_results(data, block, options);
+  if (block.matches()) return matching_results(data, block, options);
   ResultsSection section;
   if (block.compares()) {
     add_primary_estimate(section, data, block, options);
@@ -172,8 +170,8 @@ void add_without_affected(StudyResults& results, const StudyData& data,
   const BlockDesign* estimation = nullptr;
   const BlockDesign* production = nullptr;
   for (const BlockDesign& block : left.blocks) {
-    if (block.procedure == "magnitude_estimation") estimation = &block;
-    if (block.procedure == "magnitude_production") production = &block;
+    if (block.estimates()) estimation = &block;
+    if (block.produces()) production = &block;
     if (!blocks.contains(block.block)) continue;
     const ResultsSection without = section_of(left, block, options);
     for (ResultsSection& section : results.sections) {

@@ -197,7 +197,7 @@ TrendDispersions trend_dispersions(const std::vector<DiscriminationAnswers>& all
 
 void add_trial_trends(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
                       const BlockDesign& block, const ResultsOptions& options) {
-  if (is_adaptive(block)) {
+  if (block.is_adaptive()) {
     section.excluded.push_back(
         {"everyone",
          block.block + ": no tests of changes over the trials, for the answers led to the "

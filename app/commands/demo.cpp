@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "analysis/data/study_data.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/open_window.h"
 #include "app/command_line/option_checks.h"
@@ -11,7 +12,6 @@
 #include "app/commands/commands.h"
 #include "app/commands/predictive_option.h"
 #include "app/results/results_output.h"
-#include "app/results/study_data.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
@@ -40,7 +40,7 @@ struct DemoOptions {
 analysis::StudyResults compared_results(const fs::path& folder,
                                         const PredictiveOption& predictive) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-  const analysis::StudyData data = load_study_data(store);
+  const analysis::StudyData data = analysis::load_study(store);
   const std::optional<analysis::PredictivePeople> people =
       people_asked_for(predictive, store, data);
   return results_of_data(data, {}, people ? &*people : nullptr);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "analysis/data/study_data.h"
 #include "analysis/export/bids_export.h"
 #include "analysis/export/csv_export.h"
 #include "analysis/export/hdf5_export.h"
@@ -11,7 +12,6 @@
 #include "app/commands/commands.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
-#include "app/results/study_data.h"
 #include "app/session/session_setup.h"
 #include "core/error.h"
 
@@ -30,7 +30,7 @@ std::string results_text(const core::StudyStore& store) {
   const std::vector<core::SessionRow> sessions = store.sessions();
   const bool any = std::any_of(sessions.begin(), sessions.end(),
                                [](const core::SessionRow& row) { return !row.pilot; });
-  return any ? json_text(results_json(results_of_data(load_study_data(store)))) : "";
+  return any ? json_text(results_json(results_of_data(analysis::load_study(store)))) : "";
 }
 
 std::vector<std::string> stage_names_of(const core::StudyStore& store,

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/results/block_words.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/commands.h"
@@ -19,7 +20,6 @@
 #include "app/operator/study_words.h"
 #include "app/planning/plan_lapses.h"
 #include "app/planning/plan_statistics.h"
-#include "app/results/block_words.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
 #include "app/session/stability_limits.h"
@@ -134,7 +134,7 @@ ordered_json to_json(const experiments::PlannedTrial& trial) {
 
 /// Whether the answers decide how many trials the block has.
 bool answers_decide(const experiments::Block& block) {
-  return length_is_expected(block) || block.practice;
+  return analysis::length_is_expected(block) || block.practice;
 }
 
 ordered_json to_json(const experiments::ParticipantPlan& plan,
@@ -236,18 +236,19 @@ void print_order(const experiments::PlannedBlock& block) {
   fmt::print("    {}: {}{} trials{}\n", block.stage->name,
              content.practice ? "practice, at most " : "",
              content.practice ? std::to_string(block.num_trials)
-                              : trials_to_expect(content, block.num_trials),
+                              : analysis::trials_to_expect(content, block.num_trials),
              matches ? "; standards, and where each match starts" : "");
-  if (length_is_expected(content)) {
-    fmt::print(
-        "      {}; {}\n", adaptive_words(content),
-        fmt::join(adaptive_level_words(content, analysis::quantity_unit(content.quantity)),
-                  "; "));
+  if (analysis::length_is_expected(content)) {
+    fmt::print("      {}; {}\n", analysis::adaptive_words(content),
+               fmt::join(analysis::adaptive_level_words(
+                             content, analysis::quantity_unit(content.quantity)),
+                         "; "));
     return;
   }
   if (content.practice) {
-    fmt::print("      levels {}\n",
-               list_of(content.intensities, analysis::quantity_unit(content.quantity)));
+    fmt::print(
+        "      levels {}\n",
+        analysis::list_of(content.intensities, analysis::quantity_unit(content.quantity)));
     return;
   }
   int repetition = 0;
@@ -257,7 +258,7 @@ void print_order(const experiments::PlannedBlock& block) {
       fmt::print("{}      {}:", trial.position == 1 && repetition > 1 ? "\n" : "", repetition);
       if (trial.target_percent) fmt::print(" to {:g} %, from", *trial.target_percent);
     }
-    fmt::print(" {}", stimulus_words(trial));
+    fmt::print(" {}", analysis::stimulus_words(trial));
   }
   fmt::print("\n");
 }

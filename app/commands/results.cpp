@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/data/study_data.h"
 #include "analysis/movement/delivered_intensity.h"
 #include "analysis/movement/recorded_results.h"
 #include "analysis/results/inverted_answers.h"
@@ -16,7 +17,6 @@
 #include "app/commands/inverted_option.h"
 #include "app/commands/predictive_option.h"
 #include "app/results/results_output.h"
-#include "app/results/study_data.h"
 #include "app/session/session_setup.h"
 
 namespace jnd::app {
@@ -44,7 +44,7 @@ int run_results(ResultsOptions options) {
   options.results.compared = compared_names(options.compare);
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  analysis::DeliveredStudy study{.data = load_study_data(store)};
+  analysis::DeliveredStudy study{.data = analysis::load_study(store)};
   if (options.delivered) study = analysis::with_delivered(std::move(study.data), store);
   if (options.inverted == "out") analysis::leave_out_inverted(study.data);
   const std::optional<analysis::PredictivePeople> people =

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/results/block_words.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/session_words.h"
 #include "app/operator/study_outline.h"
 #include "app/operator/trial_intervals.h"
-#include "app/results/block_words.h"
 #include "core/safety/fault.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
@@ -235,7 +235,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
     // By what was answered: a trial that was put off comes later than its number.
     if (other.response || other.is_void) ++view.in_block;
   }
-  if (length_is_expected(*block()) || block()->practice) {
+  if (analysis::length_is_expected(*block()) || block()->practice) {
     view.num_is_expected = true;
     view.num_in_block = std::max(view.num_in_block, expected_trials(*block()));
   }

@@ -95,14 +95,7 @@ std::optional<double> whole_movement(const ParticipantData& participant,
   return analysis::movement_mean(all, column);
 }
 
-bool is_magnitude(const BlockDesign& block) {
-  return block.procedure == "magnitude_estimation" || block.procedure == "magnitude_production";
-}
-
-/// Whether match and standard have one quantity.
-bool has_ratio(const BlockDesign& block) {
-  return block.protocol.standard_quantity == block.quantity;
-}
+bool is_magnitude(const BlockDesign& block) { return block.estimates() || block.produces(); }
 
 /// "w Group D", "a estimation": the number, then what tells it from the others of its kind.
 std::string column_title(const ResultsSource& source, const BlockDesign& block) {
@@ -111,12 +104,12 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
       [&](const BlockDesign& other) { return other.procedure == block.procedure; });
   std::string title = short_title(source.title(block.block));
   if (block.detects()) return title;
-  if (block.procedure == "matching") {
-    return (has_ratio(block) ? "ratio " : "a ") + title;
+  if (block.matches()) {
+    return (block.standard_is_of_its_quantity() ? "ratio " : "a ") + title;
   }
   if (!is_magnitude(block)) return "w " + title;
   if (same > 1) return "a " + title;
-  return block.procedure == "magnitude_estimation" ? "a estimation" : "a production";
+  return block.estimates() ? "a estimation" : "a production";
 }
 
 /// The participants' own estimate that stands for the primary value of the block, within its
@@ -125,7 +118,7 @@ std::string column_estimate(const ResultsSource& source, const BlockDesign& bloc
   if (block.compares() && has_free_pse(source, block)) return ".weber_fraction_free_pse";
   if (block.compares() || block.tells_apart()) return ".weber_fraction";
   if (block.detects()) return ".threshold";
-  if (block.procedure == "matching") return has_ratio(block) ? ".ratio_to_standard" : ".a";
+  if (block.matches()) return block.standard_is_of_its_quantity() ? ".ratio_to_standard" : ".a";
   return is_magnitude(block) ? ".a" : "";
 }
 
@@ -186,7 +179,7 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
     if (is_magnitude(block)) {
       add_box(exponent, label, own_values(source, block.block, block.block + ".a"));
     }
-    if (block.procedure == "matching") add_matches(source, block, match);
+    if (block.matches()) add_matches(source, block, match);
     add_box(stroke, label,
             movement_values(source, block.block, &core::PresentationRow::stroke_width_m));
     add_box(speed, label,

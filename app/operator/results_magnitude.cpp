@@ -213,8 +213,8 @@ std::vector<Magnitude> magnitudes_of(const ResultsSource& source) {
   std::vector<const BlockDesign*> estimations;
   std::vector<const BlockDesign*> productions;
   for (const BlockDesign& block : source.data.blocks) {
-    if (block.procedure == "magnitude_estimation") estimations.push_back(&block);
-    if (block.procedure == "magnitude_production") productions.push_back(&block);
+    if (block.estimates()) estimations.push_back(&block);
+    if (block.produces()) productions.push_back(&block);
   }
   // The two that results combine stand in one figure.
   if (estimations.size() == 1 && productions.size() == 1 &&

@@ -10,15 +10,15 @@
 #include <map>
 #include <set>
 
+#include "analysis/data/study_data.h"
 #include "analysis/fits/bounded_interval.h"
+#include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
-#include "app/results/block_words.h"
 #include "app/results/published_words.h"
 #include "app/results/results_output.h"
 #include "app/results/statistic_words.h"
-#include "app/results/study_data.h"
 #include "app/session/session_setup.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
@@ -166,7 +166,7 @@ std::map<std::string, std::int64_t> expected_trials(const experiments::Study& st
   for (const experiments::Stage* stage : stages_of_session(study, row.cells)) {
     const auto* block = std::get_if<experiments::Block>(&stage->content);
     if (block == nullptr || block->practice) continue;
-    expected[stage->name] = is_over && length_is_expected(*block)
+    expected[stage->name] = is_over && analysis::length_is_expected(*block)
                                 ? drawn[stage->name]
                                 : experiments::expected_trials(*block);
   }
@@ -325,7 +325,7 @@ const analysis::ParticipantEstimate* ResultsSource::own(const std::string& secti
 ResultsModel results_model(const std::filesystem::path& folder, WorkControl& control) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  const analysis::StudyData data = load_study_data(store);
+  const analysis::StudyData data = analysis::load_study(store);
   const experiments::Study study = study_in(store);
   control.progress(0.1);
   control.stop_if_cancelled();

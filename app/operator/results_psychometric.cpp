@@ -11,6 +11,7 @@
 #include "analysis/statistics/wilson_interval.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
+#include "experiments/procedures/task.h"
 
 namespace jnd::app {
 namespace {
@@ -157,14 +158,15 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
                                                 const BlockDesign& block) {
   const analysis::ResultsSection* section = source.section(block.block);
   if (section == nullptr) return std::nullopt;
-  Discrimination figure{
-      .block = block.block,
-      .title = source.title(block.block),
-      .quantity = quantity_words(block.quantity),
-      .unit = analysis::quantity_unit(block.quantity),
-      .answer = block.protocol.task == "two_interval" ? "test chosen" : "“yes”",
-      .has_fixed_levels = analysis::has_fixed_levels(block),
-      .has_free_pse = section->own_fractions_free_pse};
+  Discrimination figure{.block = block.block,
+                        .title = source.title(block.block),
+                        .quantity = quantity_words(block.quantity),
+                        .unit = analysis::quantity_unit(block.quantity),
+                        .answer = task_of(block.written) == experiments::Task::kTwoInterval
+                                      ? "test chosen"
+                                      : "“yes”",
+                        .has_fixed_levels = block.has_fixed_levels(),
+                        .has_free_pse = section->own_fractions_free_pse};
   Counts all;
   std::map<std::string, Counts> own;
   for (const ParticipantData& participant : source.data.participants) {

@@ -45,7 +45,7 @@ Shown shown_of(const BlockDesign& block, const std::string& section) {
     return block.detects() ? Shown{section, block.block + ".threshold"}
                            : Shown{section, block.block + ".weber_fraction", true};
   }
-  if (block.procedure != "quest_plus") {
+  if (block.rule != experiments::AdaptiveRule::kQuestPlus) {
     return {section, block.block + "." + block.procedure + "_threshold"};
   }
   return block.detects() ? Shown{section, block.block + ".quest_plus_threshold"}
@@ -140,7 +140,7 @@ Threshold threshold_of(const ResultsSource& source, const BlockDesign& block) {
           .quantity = quantity_words(block.quantity),
           .unit = analysis::quantity_unit(block.quantity),
           .answer = block.tells_apart() ? "“different”" : "“yes”",
-          .has_fixed_levels = analysis::has_fixed_levels(block),
+          .has_fixed_levels = block.has_fixed_levels(),
           .reference = block.reference_intensity};
 }
 
@@ -210,7 +210,7 @@ std::vector<Threshold> thresholds_of(const ResultsSource& source) {
     if (block.detects() || block.tells_apart()) {
       if (auto figure = answers_of(source, block)) figures.push_back(std::move(*figure));
     }
-    if (analysis::is_adaptive(block)) {
+    if (block.is_adaptive()) {
       if (auto figure = tracks_of(source, block)) figures.push_back(std::move(*figure));
     }
   }

@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
+#include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
 #include "app/operator/study_words.h"
-#include "app/results/block_words.h"
 #include "app/session/session_setup.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
@@ -92,7 +92,7 @@ class Interruption {
   /// Where answers decide, those drawn so far are not all there will be.
   static void expect_trials(const experiments::Stage& stage, InterruptedSession& session) {
     const auto* block = std::get_if<experiments::Block>(&stage.content);
-    if (block == nullptr || !(length_is_expected(*block) || block->practice)) return;
+    if (block == nullptr || !(analysis::length_is_expected(*block) || block->practice)) return;
     session.num_is_expected = true;
     session.num_trials = std::max(session.num_trials, experiments::expected_trials(*block));
   }

@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "analysis/data/quantity_unit.h"
+#include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
-#include "app/results/block_words.h"
 #include "app/session/session_setup.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
@@ -131,11 +131,11 @@ class Outliner {
     const Procedure& procedure = procedure_named(block.procedure);
     const int num_trials = expected_trials(block);
     const bool adjusts = procedure.form(block).adjustable;
-    const std::string trials =
-        trials_to_expect(block, num_trials) + (num_trials == 1 ? " trial" : " trials");
+    const std::string trials = analysis::trials_to_expect(block, num_trials) +
+                               (num_trials == 1 ? " trial" : " trials");
     const std::size_t count = block.intensities.size();
-    if (length_is_expected(block)) {
-      line.what = adaptive_words(block) + ": " + trials;
+    if (analysis::length_is_expected(block)) {
+      line.what = analysis::adaptive_words(block) + ": " + trials;
     } else if (adjusts && !block.standards.empty()) {
       line.what = counted_words(count, "starting value") + " for " +
                   counted_words(block.standards.size(), "standard") + ": " + trials;
@@ -160,29 +160,31 @@ class Outliner {
     }
     const std::string unit = analysis::quantity_unit(block.quantity);
     const std::string name = unit.empty() ? quantity_words(block.quantity) + " " : "";
-    if (length_is_expected(block)) {
-      for (const std::string& words : adaptive_level_words(block, unit)) {
+    if (analysis::length_is_expected(block)) {
+      for (const std::string& words : analysis::adaptive_level_words(block, unit)) {
         line.details.push_back(name_words(block.medium, false) + ", " + name + words);
       }
     } else {
       line.details.push_back(name_words(block.medium, false) + ", " + name +
-                             list_of(block.intensities, unit));
+                             analysis::list_of(block.intensities, unit));
     }
     if (block.reference_intensity) {
-      line.details.push_back("reference " + name + list_of({*block.reference_intensity}, unit));
+      line.details.push_back("reference " + name +
+                             analysis::list_of({*block.reference_intensity}, unit));
     }
     if (!block.standards.empty()) {
       const std::string quantity = quantity_of(block.standard_medium);
       const std::string its_unit = analysis::quantity_unit(quantity);
       line.details.push_back("standard " + name_words(block.standard_medium, false) + ", " +
                              (its_unit.empty() ? quantity_words(quantity) + " " : "") +
-                             list_of(block.standards, its_unit));
+                             analysis::list_of(block.standards, its_unit));
     }
     if (!block.target_percent.empty()) {
-      line.details.push_back("targets " + list_of(block.target_percent, "%"));
+      line.details.push_back("targets " + analysis::list_of(block.target_percent, "%"));
     }
     if (adjusts) {
-      line.details.push_back("steps of " + list_of({block.coarse_step, block.fine_step}, unit));
+      line.details.push_back("steps of " +
+                             analysis::list_of({block.coarse_step, block.fine_step}, unit));
     }
   }
   void describe(const Break& rest, OutlineStage& line) const {
@@ -241,9 +243,9 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
   if (block.practice) {
     return line + fmt::format("practice, at most {} trials", planned.num_trials);
   }
-  if (length_is_expected(block)) {
-    return line + trials_to_expect(block, planned.num_trials) + " trials, " +
-           adaptive_words(block);
+  if (analysis::length_is_expected(block)) {
+    return line + analysis::trials_to_expect(block, planned.num_trials) + " trials, " +
+           analysis::adaptive_words(block);
   }
   double target = -1.0;
   bool first = true;
@@ -253,7 +255,7 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
       line += fmt::format("{}to {:g} % from ", first ? "" : "; ", target);
       first = true;
     }
-    line += (first ? "" : ", ") + stimulus_words(trial);
+    line += (first ? "" : ", ") + analysis::stimulus_words(trial);
     first = false;
   }
   const std::string unit = analysis::quantity_unit(block.quantity);

@@ -11,11 +11,12 @@
 
 #include "analysis/data/quantity_unit.h"
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/results/block_words.h"
 #include "app/command_line/json_text.h"
-#include "app/results/block_words.h"
 #include "core/error.h"
 #include "core/psychometric_function.h"
 #include "experiments/participants/median_person.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
 
@@ -33,10 +34,9 @@ struct Asked {
 };
 
 bool is_compared(const Block& block) {
-  return !block.practice && !length_is_expected(block) && !block.intensities.empty() &&
-         block.reference_intensity.value_or(0.0) > 0.0 &&
-         block.procedure == "constant_stimuli" &&
-         (task_of(block) == Task::kReminder || task_of(block) == Task::kTwoInterval);
+  return !block.practice && !analysis::length_is_expected(block) &&
+         !block.intensities.empty() && block.reference_intensity.value_or(0.0) > 0.0 &&
+         procedure_named(block.procedure).measures(block) == Measure::kComparison;
 }
 
 std::vector<Asked> asked_in(const std::vector<ParticipantPlan>& plans) {

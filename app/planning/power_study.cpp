@@ -86,7 +86,7 @@ PlannedPerson person_of(const PlannedAnalysis& analysis,
       person[place] = answers_of(block.trials, analysis.blocks[place].quantity);
       const auto& written = std::get<Block>(block.stage->content);
       person[place].at_grid_end =
-          written.procedure == "quest_plus" &&
+          procedure_named(written.procedure).rule() == AdaptiveRule::kQuestPlus &&
           !procedure_named(written.procedure).caution(written, block.trials).empty();
     }
   }

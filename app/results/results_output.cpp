@@ -5,11 +5,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "analysis/data/study_data.h"
 #include "analysis/results/published_comparison.h"
 #include "app/command_line/command.h"
 #include "app/results/predictive_studies.h"
 #include "app/results/published_words.h"
-#include "app/results/study_data.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
@@ -135,7 +135,7 @@ analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  return results_of_data(load_study_data(store), options);
+  return results_of_data(analysis::load_study(store), options);
 }
 
 analysis::StudyResults results_of_data(const analysis::StudyData& data,

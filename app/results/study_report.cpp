@@ -1,9 +1,9 @@
 #include "app/results/study_report.h"
 
+#include "analysis/data/study_data.h"
 #include "analysis/results/inverted_answers.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
-#include "app/results/study_data.h"
 #include "app/session/session_setup.h"
 
 namespace jnd::app {
@@ -24,7 +24,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   require_unblinded(store);
   analysis::require_free_folder(request.out);
   reading(0.0);
-  analysis::StudyData data = load_study_data(store, request.pilot);
+  analysis::StudyData data = analysis::load_study(store, request.pilot);
   if (request.leaves_out_inverted) analysis::leave_out_inverted(data);
   reading(0.2);
   StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};

@@ -113,6 +113,10 @@ std::vector<BlockKey> ConstantStimuli::keys() const {
 
 TrialForm ConstantStimuli::form(const Block& block) const { return form_of(task_of(block)); }
 
+Measure ConstantStimuli::measures(const Block& block) const {
+  return measure_of(task_of(block));
+}
+
 std::optional<double> ConstantStimuli::right_response(const Block& block,
                                                       const PlannedTrial& trial) const {
   return experiments::right_response(task_of(block), trial);

@@ -11,9 +11,11 @@ namespace jnd::experiments {
 class ConstantStimuli final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }
+  [[nodiscard]] std::string words() const override { return "method of constant stimuli"; }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] Measure measures(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;

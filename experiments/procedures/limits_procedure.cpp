@@ -87,6 +87,10 @@ std::vector<BlockKey> LimitsProcedure::keys() const {
 
 TrialForm LimitsProcedure::form(const Block& block) const { return form_of(task_of(block)); }
 
+Measure LimitsProcedure::measures(const Block& block) const {
+  return measure_of(task_of(block));
+}
+
 std::optional<double> LimitsProcedure::right_response(const Block& block,
                                                       const PlannedTrial& trial) const {
   return experiments::right_response(task_of(block), trial);

@@ -23,9 +23,11 @@ class MagnitudeEstimation final : public Procedure {
   [[nodiscard]] std::string_view name() const noexcept override {
     return "magnitude_estimation";
   }
+  [[nodiscard]] std::string words() const override { return "magnitude estimation"; }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] Measure measures(const Block&) const override { return Measure::kMagnitude; }
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;

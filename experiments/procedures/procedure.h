@@ -47,17 +47,33 @@ struct TrialForm {
   bool order_is_drawn = false;
 };
 
+/// What the answers of a block are about, which decides how they are analysed.
+enum class Measure {
+  kMagnitude,          ///< How strong each stimulus feels, in numbers: a power law.
+  kProducedMagnitude,  ///< How strong a stimulus has to be for each number: a power law.
+  kMatch,              ///< How strong it has to be to equal a standard: points of equality.
+  kComparison,         ///< Whether it is more than a reference: a psychometric function.
+  kDetection,          ///< Whether it is felt at all: an absolute threshold.
+  kDifference,         ///< Whether it differs from a reference: how far the two must be apart.
+};
+
+/// By which rule answers decide what is presented next.
+enum class AdaptiveRule { kNone, kStaircase, kLimits, kQuestPlus };
+
 /// How a block asks: which trials, in which order, answered how. Stateless: what was drawn and
 /// answered is passed in, and randomness comes from the stream, so a session can be replayed.
 class Procedure {
  public:
   virtual ~Procedure() = default;
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+  /// As a sentence calls it: "method of limits".
+  [[nodiscard]] virtual std::string words() const = 0;
   /// In a sentence, for who chooses one.
   [[nodiscard]] virtual std::string meaning() const = 0;
   /// What a block with it has besides the keys of every block, in the order of the reference.
   [[nodiscard]] virtual std::vector<BlockKey> keys() const = 0;
   [[nodiscard]] virtual TrialForm form(const Block& block) const = 0;
+  [[nodiscard]] virtual Measure measures(const Block& block) const = 0;
   /// The trials to be run next, once all of `answered` are; none when the block is finished.
   /// Throws `Error` if the block lacks what the procedure needs.
   [[nodiscard]] virtual std::vector<PlannedTrial> draw_next(
@@ -88,8 +104,9 @@ class Procedure {
                                             const std::vector<AnsweredTrial>&) const {
     return "";
   }
-  /// Whether the answers decide how many trials there are.
-  [[nodiscard]] virtual bool adapts() const noexcept { return false; }
+  [[nodiscard]] virtual AdaptiveRule rule() const noexcept { return AdaptiveRule::kNone; }
+  /// Whether the answers decide what is presented, and how many trials there are.
+  [[nodiscard]] bool adapts() const noexcept { return rule() != AdaptiveRule::kNone; }
   /// How many trials to expect, for progress and planning; no more than `most_trials`.
   [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
   /// How many there can be, with as many catch trials as are to be expected among them.

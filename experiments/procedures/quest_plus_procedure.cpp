@@ -144,6 +144,10 @@ std::vector<BlockKey> QuestPlusProcedure::keys() const {
 
 TrialForm QuestPlusProcedure::form(const Block& block) const { return form_of(task_of(block)); }
 
+Measure QuestPlusProcedure::measures(const Block& block) const {
+  return measure_of(task_of(block));
+}
+
 std::optional<double> QuestPlusProcedure::right_response(const Block& block,
                                                          const PlannedTrial& trial) const {
   return experiments::right_response(task_of(block), trial);

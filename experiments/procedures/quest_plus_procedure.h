@@ -12,9 +12,11 @@ namespace jnd::experiments {
 class QuestPlusProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "quest_plus"; }
+  [[nodiscard]] std::string words() const override { return "QUEST+ (Watson 2017)"; }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] Measure measures(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
@@ -25,7 +27,7 @@ class QuestPlusProcedure final : public Procedure {
   void check(const Block& block) const override;
   [[nodiscard]] std::string caution(const Block& block,
                                     const std::vector<AnsweredTrial>& answered) const override;
-  [[nodiscard]] bool adapts() const noexcept override { return true; }
+  [[nodiscard]] AdaptiveRule rule() const noexcept override { return AdaptiveRule::kQuestPlus; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
 };
 

@@ -125,6 +125,10 @@ std::vector<BlockKey> StaircaseProcedure::keys() const {
 
 TrialForm StaircaseProcedure::form(const Block& block) const { return form_of(task_of(block)); }
 
+Measure StaircaseProcedure::measures(const Block& block) const {
+  return measure_of(task_of(block));
+}
+
 std::optional<double> StaircaseProcedure::right_response(const Block& block,
                                                          const PlannedTrial& trial) const {
   return experiments::right_response(task_of(block), trial);

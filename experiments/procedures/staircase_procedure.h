@@ -10,9 +10,11 @@ namespace jnd::experiments {
 class StaircaseProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "staircase"; }
+  [[nodiscard]] std::string words() const override { return "staircase"; }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
+  [[nodiscard]] Measure measures(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
@@ -22,7 +24,7 @@ class StaircaseProcedure final : public Procedure {
   [[nodiscard]] std::optional<double> feedback_response(
       const Block& block, const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
-  [[nodiscard]] bool adapts() const noexcept override { return true; }
+  [[nodiscard]] AdaptiveRule rule() const noexcept override { return AdaptiveRule::kStaircase; }
   [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
   [[nodiscard]] int most_trials(const Block& block) const noexcept override;
 };

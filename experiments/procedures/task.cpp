@@ -27,6 +27,11 @@ TrialForm form_of(Task task) noexcept {
   };
 }
 
+Measure measure_of(Task task) noexcept {
+  if (task == Task::kYesNo) return Measure::kDetection;
+  return task == Task::kSameDifferent ? Measure::kDifference : Measure::kComparison;
+}
+
 std::optional<double> right_response(Task task, const PlannedTrial& trial) {
   if (task == Task::kYesNo) return trial.is_catch ? 0.0 : 1.0;
   if (!trial.intensity || !trial.reference_intensity) return std::nullopt;

@@ -20,6 +20,8 @@ enum class Task {
 /// As the block names it; without a name a reminder, or yes-no where there is no reference.
 [[nodiscard]] Task task_of(const Block& block);
 [[nodiscard]] TrialForm form_of(Task task) noexcept;
+/// What the answers to such a question are about.
+[[nodiscard]] Measure measure_of(Task task) noexcept;
 
 /// The response that is right, as stored: the test is more, is there, is different from the
 /// reference. None where two stimuli are compared that are equal.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/error.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/protocol/study_table.h"
 #include "experiments/study/medium_quantity.h"
@@ -14,26 +15,28 @@ namespace {
 
 using nlohmann::json;
 
-/// One checked object: values by key, defaults from the table.
+/// One object: values by key, defaults from the table. What is absent without a default is 0,
+/// false or empty; in a checked study that is nowhere but where it may be.
 class ObjectReader {
  public:
   ObjectReader(const json& object, const ParameterTable& table)
       : object_(object), table_(table) {}
 
-  [[nodiscard]] double number(const std::string& key) const { return value(key); }
-  [[nodiscard]] int integer(const std::string& key) const { return value(key); }
-  [[nodiscard]] bool boolean(const std::string& key) const { return value(key); }
+  [[nodiscard]] double number(const std::string& key) const { return get<double>(key); }
+  [[nodiscard]] int integer(const std::string& key) const { return get<int>(key); }
+  [[nodiscard]] bool boolean(const std::string& key) const { return get<bool>(key); }
   [[nodiscard]] std::string string(const std::string& key) const {
-    const json found = value(key);
-    return found.is_null() ? "" : found.get<std::string>();
+    return get<std::string>(key);
   }
   [[nodiscard]] std::optional<double> optional_number(const std::string& key) const {
     const json found = value(key);
     return found.is_null() ? std::nullopt : std::optional<double>(found.get<double>());
   }
-  [[nodiscard]] std::vector<double> numbers(const std::string& key) const { return value(key); }
+  [[nodiscard]] std::vector<double> numbers(const std::string& key) const {
+    return get<std::vector<double>>(key);
+  }
   [[nodiscard]] std::vector<std::string> strings(const std::string& key) const {
-    return value(key);
+    return get<std::vector<std::string>>(key);
   }
   [[nodiscard]] Text text(const std::string& key) const { return to_text(value(key)); }
   [[nodiscard]] std::map<std::string, std::string> arms(const std::string& key) const {
@@ -96,6 +99,11 @@ class ObjectReader {
     // Asking for a key without a table is a mistake of ours, not of the file.
     if (found == nullptr) throw std::logic_error(table_.name + ": no parameter " + key);
     return *found;
+  }
+  template <typename T>
+  [[nodiscard]] T get(const std::string& key) const {
+    const json found = value(key);
+    return found.is_null() ? T{} : found.get<T>();
   }
   [[nodiscard]] json value(const std::string& key) const {
     const Parameter& known = parameter(key);
@@ -183,7 +191,9 @@ Block block(const ObjectReader& in) {
   }
   const std::string standard_quantity = quantity_of(block.standard_medium);
   for (const BlockKey& key : keys) {
+    // Without a medium there is no amount of it.
     if (key.of_standard && standard_quantity.empty()) continue;
+    if (key.of_quantity && block.quantity.empty()) continue;
     if (auto value =
             in.setting(key.name_for(key.of_standard ? standard_quantity : block.quantity))) {
       block.settings.set(key.parameter.key, std::move(*value));
@@ -261,8 +271,12 @@ class StageBuilder {
 
  private:
   [[nodiscard]] Stage stage(const json& object, const std::string& pointer) const {
-    const ObjectReader in(object, *stage_table(object.at("kind").get<std::string>()));
-    const std::string kind = in.string("kind");
+    const std::string kind = object.at("kind").get<std::string>();
+    const ParameterTable* table = stage_table(kind);
+    if (table == nullptr) {
+      throw core::Error(pointer + "/kind: expected a kind of stage, found `" + kind + "`");
+    }
+    const ObjectReader in(object, *table);
     Stage stage;
     stage.name = in.string("name");
     stage.title = in.text("title");

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/error.h"
 #include "experiments/protocol/drawing_rules.h"
 #include "experiments/protocol/level_doubts.h"
 #include "experiments/protocol/limit_rules.h"
@@ -103,6 +104,21 @@ Study read_study_text(const std::string& text, const std::string& file_name) {
 
 Study read_stored_study(const std::string& text, const std::string& file_name) {
   return read_text(text, file_name, Begun::kYes);
+}
+
+Study study_as_written(const std::string& text, const std::string& file_name) {
+  std::vector<StudyProblem> problems;
+  const LocatedJson file(text, file_name, problems);
+  if (!file.usable()) throw ProtocolError(std::move(problems));
+  if (!file.root().is_object()) {
+    throw core::Error(file_name + ": expected a study, found no JSON object");
+  }
+  try {
+    return build_study(file, text);
+  } catch (const nlohmann::json::exception& error) {
+    throw core::Error(file_name + ": expected a study, found " + error.what() +
+                      "; was it begun with a later version?");
+  }
 }
 
 Study read_study(const fs::path& file) {

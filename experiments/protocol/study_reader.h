@@ -22,6 +22,12 @@ namespace jnd::experiments {
 /// there, to be gone on with and told of.
 [[nodiscard]] Study read_stored_study(const std::string& text, const std::string& file_name);
 
+/// What that text says, without a question whether this version of the program would run it: of
+/// answers that are there, everything has to be told. What is missing has its default or is
+/// empty. Throws `Error` where the text is no JSON object, or holds something that a study has
+/// not.
+[[nodiscard]] Study study_as_written(const std::string& text, const std::string& file_name);
+
 /// Every problem, without throwing; empty for a sound study.
 [[nodiscard]] std::vector<StudyProblem> study_problems(const std::filesystem::path& file);
 [[nodiscard]] std::vector<StudyProblem> study_text_problems(const std::string& text,

@@ -9,8 +9,9 @@ namespace jnd::analysis {
 namespace common_modulus_test {
 
 std::string protocol(const std::string& keys) {
-  return R"({"name": "by_hand", "stages": [{"kind": "block", "name": "estimation", )" + keys +
-         "}]}";
+  return R"({"name": "by_hand", "stages": [{"kind": "block", "name": "estimation",
+    "procedure": "magnitude_estimation", )" +
+         keys + "}]}";
 }
 
 void estimate(HandMadeStudy& study, double intensity, double number) {

@@ -49,7 +49,7 @@ TEST(ComparedBlocks, OfOtherProceduresHaveNoPrimaryTestUnlessNoneHas) {
             (Names{"aq", "ab!", "qb"}));
   EXPECT_EQ(pairs({block("a"), block("q", "quest_plus")}), Names{"aq!"});
   BlockDesign intervals = block("i");
-  intervals.protocol.task = "two_interval";
+  intervals.written.settings.set("task", "two_interval");
   EXPECT_EQ(pairs({block("a"), intervals, block("b")}), (Names{"ai", "ab!", "ib"}));
 }
 

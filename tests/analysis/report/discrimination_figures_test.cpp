@@ -29,8 +29,8 @@ std::vector<Figure> figures_of(const std::string& procedure, int num_levels) {
   }
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
-  const StudyWords words;
-  return discrimination_figures({.data = data, .results = results, .words = words});
+  const StudyTitles titles;
+  return discrimination_figures({.data = data, .results = results, .titles = titles});
 }
 
 bool draws(const Figure& figure, const std::string& part) {
@@ -68,11 +68,11 @@ struct SomePeople {
     }
   }
   [[nodiscard]] FigureSource source() const {
-    return {.data = data, .results = results, .words = words};
+    return {.data = data, .results = results, .titles = titles};
   }
   int num_people = 0;
   HandMadeStudy study;
-  StudyWords words;
+  StudyTitles titles;
   StudyData data = {};
   StudyResults results = {};
 };

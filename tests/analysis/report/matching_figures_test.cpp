@@ -7,15 +7,15 @@ namespace jnd::analysis {
 namespace matching_figures_test {
 
 constexpr char kViscous[] = R"({"name": "by_hand", "stages": [{"kind": "block",
-  "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [2, 8]}]})";
+  "name": "match", "procedure": "matching", "standard_medium": "viscous", "standard_viscosity_pa_s": [2, 8]}]})";
 constexpr char kWater[] = R"({"name": "by_hand", "stages": [{"kind": "block",
-  "name": "match", "standard_medium": "water", "standard_scale": [2, 8]}]})";
+  "name": "match", "procedure": "matching", "standard_medium": "water", "standard_scale": [2, 8]}]})";
 
 std::vector<Figure> figures_of(const HandMadeStudy& study) {
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
-  const StudyWords words;
-  return matching_figures({.data = data, .results = results, .words = words});
+  const StudyTitles titles;
+  return matching_figures({.data = data, .results = results, .titles = titles});
 }
 
 /// Geometric means 2 and 8 of the first, who matches, 8 and 32 of the second.

@@ -8,11 +8,11 @@ namespace recording_conditions_test {
 std::string title_of(const std::string& medium, double intensity) {
   const StudyData data;
   const StudyResults results;
-  const StudyWords words;
+  const StudyTitles titles;
   ConditionMovement condition;
   condition.medium = medium;
   condition.intensity = intensity;
-  return shown_condition({.data = data, .results = results, .words = words}, condition).title;
+  return shown_condition({.data = data, .results = results, .titles = titles}, condition).title;
 }
 
 TEST(RecordingConditions, EveryMediumThatWasExploredHasItsUnit) {

@@ -22,9 +22,9 @@ using test_support::read_file;
 
 constexpr char kProtocol[] = R"json({"name": "by_hand", "title": {"de": "Von Hand",
   "en": "By <hand>"}, "authors": ["A. & B."], "blinding": "participant", "stages": [
-  {"kind": "block", "name": "estimation", "title": {"en": "How strong"}},
+  {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation", "title": {"en": "How strong"}},
   {"kind": "counterbalance", "name": "order", "arms": [{"name": "one", "stages": [
-    {"kind": "block", "name": "group_d", "title": {"en": "Group D: thin"}}]}]}]})json";
+    {"kind": "block", "name": "group_d", "procedure": "constant_stimuli", "title": {"en": "Group D: thin"}}]}]}]})json";
 
 const std::string kLaboratory = R"({"name": "test"})";
 
@@ -235,11 +235,11 @@ TEST_F(ReportTest, HasTheFiguresThatThereAreDataForAndTheirTables) {
 
 TEST_F(ReportTest, WordsOfTheThesisStandInItsOwnStudiesAlone) {
   const StudyData data = load_study(study_.store());
-  const StudyWords words;
+  const StudyTitles titles;
   const auto figure_of = [&](const std::string& citation) {
     const StudyResults results =
         results_of(data, {.citation = citation}, {.num_resamples = 50});
-    return weber_figures({.data = data, .results = results, .words = words}).at(1);
+    return weber_figures({.data = data, .results = results, .titles = titles}).at(1);
   };
   const Figure thesis = figure_of("Schmidt, A. (2018). Viscosity Perception.");
   EXPECT_EQ(thesis.name, "absolute_thresholds");
@@ -273,11 +273,13 @@ TEST_F(ReportTest, TellsBothNumbersOfTwoGroupsAndOneOfPairs) {
 
 TEST_F(ReportTest, OfAdaptiveBlocksTellsWhatWasRunAndOfPracticeWhatItWas) {
   HandMadeStudy study(R"json({"name": "by_hand", "stages": [
-    {"kind": "block", "name": "warm_up", "procedure": "constant_stimuli",
+    {"kind": "block", "name": "warm_up", "procedure": "constant_stimuli", "medium": "viscous",
      "task": "two_interval", "feedback": true, "viscosity_pa_s": [16, 4],
      "reference_viscosity_pa_s": 8,
      "practice": {"min_correct_ratio": 0.8, "num_trials_judged": 5, "max_trials": 20}},
-    {"kind": "block", "name": "thicker"}]})json");
+    {"kind": "block", "name": "thicker", "procedure": "staircase", "medium": "viscous",
+     "reference_viscosity_pa_s": 8, "start_viscosity_pa_s": [12],
+     "lowest_viscosity_pa_s": 1, "highest_viscosity_pa_s": 64, "step_ratio": [2]}]})json");
   for (const auto& [name, num] : {std::pair("P01", 4), std::pair("P02", 7)}) {
     (void)study.add(name, false, kLaboratory);
     for (int i = 0; i < num; ++i) {
@@ -310,11 +312,11 @@ TEST_F(ReportTest, OfAdaptiveBlocksTellsWhatWasRunAndOfPracticeWhatItWas) {
 
 TEST_F(ReportTest, MethodsTellHowTheOrderOfTheIntervalsCameAboutAndLeaveNoGap) {
   HandMadeStudy study(R"json({"name": "by_hand", "stages": [
-    {"kind": "block", "name": "warm_up", "procedure": "staircase", "task": "two_interval",
+    {"kind": "block", "name": "warm_up", "procedure": "staircase", "medium": "viscous", "task": "two_interval",
      "interval_order": "balanced", "reference_viscosity_pa_s": 8,
      "start_viscosity_pa_s": [12], "lowest_viscosity_pa_s": 8.1,
      "practice": {"min_correct_ratio": 0.8, "num_trials_judged": 5, "max_trials": 20}},
-    {"kind": "block", "name": "thicker", "task": "two_interval",
+    {"kind": "block", "name": "thicker", "procedure": "constant_stimuli", "task": "two_interval",
      "interval_order": "balanced"}]})json");
   (void)study.add("P01", false, kLaboratory);
   study.compare_ten("thicker", 8);
@@ -360,7 +362,7 @@ TEST_F(ReportTest, ScalesWithoutABetterEndHaveATableOfTheirOwn) {
 
 TEST_F(ReportTest, WhoAnswersTheWrongWayRoundIsNamedBesideEveryNumberThatHasThem) {
   HandMadeStudy study(R"json({"name": "by_hand", "stages": [
-    {"kind": "block", "name": "thicker"}]})json");
+    {"kind": "block", "name": "thicker", "procedure": "constant_stimuli"}]})json");
   for (int i = 1; i <= 5; ++i) {
     (void)study.add("P0" + std::to_string(i), false, kLaboratory);
     study.compare_ten("thicker", i == 5 ? 1 : 8 + i % 2);

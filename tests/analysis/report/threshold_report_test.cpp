@@ -16,6 +16,7 @@ class ThresholdReportTest : public ::testing::Test {
   ThresholdReportTest() : study_(kFeltProtocol) {
     add_felt_answers(study_);
     data_ = load_study(study_.store());
+    data_.runs.clear();  // By hand instead.
     for (const char* name : {"P01", "P02"}) {
       data_.runs.push_back(
           {.participant = name,
@@ -33,13 +34,13 @@ class ThresholdReportTest : public ::testing::Test {
     results_ = results_of(data_, {}, {.num_resamples = 50});
   }
   [[nodiscard]] FigureSource source() const {
-    return {.data = data_, .results = results_, .words = words_};
+    return {.data = data_, .results = results_, .titles = titles_};
   }
 
   HandMadeStudy study_;
   StudyData data_;
   StudyResults results_;
-  StudyWords words_;
+  StudyTitles titles_;
 };
 
 TEST_F(ThresholdReportTest, DrawsEveryonesAnswersAndTheCurvesThatExist) {
@@ -100,12 +101,12 @@ TEST_F(ThresholdReportTest, ANumberThatMayBeWrongSaysSoBesideIt) {
 }
 
 TEST_F(ThresholdReportTest, SectionsOfAProcedureAreTitledByIt) {
-  StudyWords words;
-  words.titles["felt"] = "Least viscosity";
-  EXPECT_EQ(section_title(words, "felt_staircase"), "Least viscosity: staircases");
-  EXPECT_EQ(section_title(words, "felt_intervals"), "Least viscosity: order of the intervals");
-  words.titles["felt_limits"] = "A block of its own";
-  EXPECT_EQ(section_title(words, "felt_limits"), "A block of its own");
+  StudyTitles titles;
+  titles.stages["felt"] = "Least viscosity";
+  EXPECT_EQ(section_title(titles, "felt_staircase"), "Least viscosity: staircases");
+  EXPECT_EQ(section_title(titles, "felt_intervals"), "Least viscosity: order of the intervals");
+  titles.stages["felt_limits"] = "A block of its own";
+  EXPECT_EQ(section_title(titles, "felt_limits"), "A block of its own");
 }
 
 TEST_F(ThresholdReportTest, MethodsTellWhatTheStudyHasAndNothingElse) {

@@ -17,8 +17,16 @@ ResultsSection adjusted(const StudyData& data, const std::vector<ResultsSection>
   return all.front();
 }
 
-const BlockDesign kEstimation = {"estimation", "magnitude_estimation", "scale", 9};
-const BlockDesign kProduction = {"production", "magnitude_production", "scale", 9};
+const BlockDesign kEstimation = {.block = "estimation",
+                                 .procedure = "magnitude_estimation",
+                                 .quantity = "scale",
+                                 .num_trials = 9,
+                                 .measures = Measure::kMagnitude};
+const BlockDesign kProduction = {.block = "production",
+                                 .procedure = "magnitude_production",
+                                 .quantity = "scale",
+                                 .num_trials = 9,
+                                 .measures = Measure::kProducedMagnitude};
 
 double own(const ResultsSection& section, const std::string& participant,
            const std::string& name) {
@@ -185,7 +193,7 @@ TEST(ExploratoryResults, AnArmOfOneIsNotComparedAndSaysSo) {
 
 TEST(ExploratoryResults, TheSizeOfNumbersThatPeopleChoseIsNotCompared) {
   BlockDesign free = kEstimation;
-  free.protocol.modulus = "free";
+  free.written.settings.set("modulus", "free");
   const ResultsSection section = of_cells(free, {"sex=f", "sex=f", "sex=m", "sex=m"});
   EXPECT_EQ(section.comparisons.size(), 2U);
   EXPECT_NE(section.comparisons.front().name.find(": a of estimation"), std::string::npos);

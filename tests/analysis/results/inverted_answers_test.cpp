@@ -96,7 +96,7 @@ TEST(InvertedAnswers, LeftOutOnRequestAreNamedAndShownBesides) {
 
 TEST(InvertedAnswers, WhoFeelsNothingWhereThereIsMoreIsNamed) {
   HandMadeStudy study(R"({"name": "by_hand", "stages": [
-    {"kind": "block", "name": "felt", "task": "yes_no"}]})");
+    {"kind": "block", "name": "felt", "procedure": "constant_stimuli", "task": "yes_no"}]})");
   for (int i = 1; i <= 2; ++i) {
     study.add("P0" + std::to_string(i));
     for (int trial = 0; trial < 20; ++trial) {

@@ -18,8 +18,16 @@ const json& reference() { return test_support::reference_data("magnitudes/magnit
 
 StudyData invented_study() {
   StudyData data{.study = "invented"};
-  data.blocks = {{"magnitude_estimation", "magnitude_estimation", "scale", 27},
-                 {"magnitude_production", "magnitude_production", "scale", 27}};
+  data.blocks = {{.block = "magnitude_estimation",
+                  .procedure = "magnitude_estimation",
+                  .quantity = "scale",
+                  .num_trials = 27,
+                  .measures = Measure::kMagnitude},
+                 {.block = "magnitude_production",
+                  .procedure = "magnitude_production",
+                  .quantity = "scale",
+                  .num_trials = 27,
+                  .measures = Measure::kProducedMagnitude}};
   for (const json& person : reference().at("people")) {
     ParticipantData participant{.participant = person.at("participant"),
                                 .cells = person.at("cells")};

@@ -12,8 +12,16 @@ namespace jnd::analysis {
 namespace magnitude_results_test {
 
 constexpr ResultsOptions kQuick = {.num_resamples = 100, .seed = 1};
-const BlockDesign kEstimation = {"estimation", "magnitude_estimation", "scale", 9};
-const BlockDesign kProduction = {"production", "magnitude_production", "scale", 9};
+const BlockDesign kEstimation = {.block = "estimation",
+                                 .procedure = "magnitude_estimation",
+                                 .quantity = "scale",
+                                 .num_trials = 9,
+                                 .measures = Measure::kMagnitude};
+const BlockDesign kProduction = {.block = "production",
+                                 .procedure = "magnitude_production",
+                                 .quantity = "scale",
+                                 .num_trials = 9,
+                                 .measures = Measure::kProducedMagnitude};
 
 core::TrialRow estimated(double intensity, double percent, std::int64_t repetition = 1) {
   return {.block = "estimation",

@@ -10,11 +10,12 @@
 namespace jnd::analysis {
 namespace matching_results_test {
 
-constexpr char kToWater[] = R"({"name": "by_hand", "stages": [{"kind": "counterbalance",
-  "arms": [{"name": "one", "stages": [{"kind": "block", "name": "match",
+constexpr char kToWater[] =
+    R"({"name": "by_hand", "stages": [{"kind": "counterbalance", "name": "order",
+  "arms": [{"name": "one", "stages": [{"kind": "block", "name": "match", "procedure": "matching",
     "standard_medium": "water", "standard_scale": [1, 4]}]}]}]})";
 constexpr char kWithinViscous[] = R"({"name": "by_hand", "stages": [{"kind": "block",
-  "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [2]}]})";
+  "name": "match", "procedure": "matching", "standard_medium": "viscous", "standard_viscosity_pa_s": [2]}]})";
 
 StudyResults results(const HandMadeStudy& study) {
   return results_of(load_study(study.store()), {}, {.num_resamples = 100});
@@ -117,8 +118,8 @@ TEST(MatchingResults, AMatchIsNoComparisonWithAReference) {
   const StudyData data = load_study(study.store());
   ASSERT_EQ(data.blocks.size(), 1U);
   EXPECT_FALSE(data.blocks.front().compares());
-  EXPECT_EQ(data.blocks.front().protocol.standard_medium, "water");
-  EXPECT_EQ(data.blocks.front().protocol.standard_quantity, "scale");
+  EXPECT_EQ(data.blocks.front().written.standard_medium, "water");
+  EXPECT_EQ(data.blocks.front().standard_quantity(), "scale");
 }
 
 }  // namespace matching_results_test

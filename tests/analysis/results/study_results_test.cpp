@@ -245,13 +245,14 @@ TEST(StudyResults, WhoLacksABlockIsNamedThere) {
 }
 
 /// Every kind of block and a form in an arm of their own.
-constexpr char kArms[] = R"({"name": "by_hand", "stages": [
+constexpr char kArms[] = R"({"name": "by_hand", "participant_fields": [
+   {"name": "sex", "options": [{"value": "female"}, {"value": "male"}]}], "stages": [
   {"kind": "counterbalance", "name": "oil", "method": "one_of", "arms": [
-    {"name": "thin", "stages": [{"kind": "block", "name": "thin_oil"},
-      {"kind": "block", "name": "estimation"}]},
-    {"name": "thick", "stages": [{"kind": "block", "name": "thick_oil"},
-      {"kind": "block", "name": "production"}, {"kind": "block", "name": "match"},
-      {"kind": "block", "name": "felt", "task": "yes_no"}]}]},
+    {"name": "thin", "stages": [{"kind": "block", "name": "thin_oil", "procedure": "constant_stimuli"},
+      {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation"}]},
+    {"name": "thick", "stages": [{"kind": "block", "name": "thick_oil", "procedure": "constant_stimuli"},
+      {"kind": "block", "name": "production", "procedure": "magnitude_production"}, {"kind": "block", "name": "match", "procedure": "matching"},
+      {"kind": "block", "name": "felt", "procedure": "constant_stimuli", "task": "yes_no"}]}]},
   {"kind": "questionnaire", "name": "about", "only_for": {"oil": "thick"},
    "items": [{"name": "tired", "kind": "yes_no"}]}]})";
 

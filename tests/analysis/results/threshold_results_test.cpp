@@ -8,6 +8,7 @@
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/found_results.h"
 #include "analysis/hand_made_study.h"
+#include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::analysis {
 namespace threshold_results_test {
@@ -15,9 +16,9 @@ namespace threshold_results_test {
 constexpr ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
 
 const char* const kProtocol = R"json({"name": "by_hand", "stages": [
-  {"kind": "block", "name": "felt", "task": "yes_no"},
-  {"kind": "counterbalance", "arms": [{"name": "a", "stages": [
-    {"kind": "block", "name": "pairs", "task": "same_different"}]}]}]})json";
+  {"kind": "block", "name": "felt", "procedure": "constant_stimuli", "task": "yes_no"},
+  {"kind": "counterbalance", "name": "order", "arms": [{"name": "a", "stages": [
+    {"kind": "block", "name": "pairs", "procedure": "constant_stimuli", "task": "same_different"}]}]}]})json";
 
 /// So many answers at one level, of which so many were "yes".
 struct Level {
@@ -164,7 +165,8 @@ StudyData adaptive_study(const std::string& procedure) {
   data.blocks.push_back({.block = "stairs",
                          .procedure = procedure,
                          .quantity = "viscosity_pa_s",
-                         .reference_intensity = 8.0});
+                         .reference_intensity = 8.0,
+                         .rule = experiments::procedure_named(procedure).rule()});
   return data;
 }
 

@@ -162,7 +162,7 @@ TEST(TrialLosses, OtherBlocksKeepTheirAnswers) {
 
 TEST(TrialLosses, WhatARuleMadeOfThemHasNothingToSayWithoutThem) {
   HandMadeStudy study(R"json({"name": "by_hand", "stages": [
-    {"kind": "block", "name": "felt", "task": "yes_no"}]})json");
+    {"kind": "block", "name": "felt", "procedure": "staircase", "task": "yes_no"}]})json");
   study.add("P01");
   for (int i = 0; i < 10; ++i) {
     core::TrialRow row = trial_at(0.1 * (1 + i % 3), i % 3 > 1, "felt");
@@ -172,6 +172,7 @@ TEST(TrialLosses, WhatARuleMadeOfThemHasNothingToSayWithoutThem) {
     study.move({.presentation = 1, .interval = "test", .num_strokes = i == 0 ? 0 : 1});
   }
   StudyData data = load_study(study.store());
+  data.runs.clear();  // By hand instead.
   data.runs.push_back({.participant = "P01",
                        .block = "felt",
                        .procedure = "staircase",

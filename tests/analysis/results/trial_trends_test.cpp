@@ -8,6 +8,7 @@
 
 #include "analysis/results/test_families.h"
 #include "core/error.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "support/reference_data.h"
 
 namespace jnd::analysis {
@@ -127,7 +128,10 @@ TEST(TrialTrends, WhereAnswersLeadToTheLevelsThereAreNoTestsAndWhyIsSaid) {
   for (const char* procedure : {"staircase", "quest_plus", "limits"}) {
     ResultsSection section;
     add_trial_trends(section, people_of(reference().at("cases").front()),
-                     {.block = "e", .procedure = procedure}, {});
+                     {.block = "e",
+                      .procedure = procedure,
+                      .rule = experiments::procedure_named(procedure).rule()},
+                     {});
     EXPECT_TRUE(section.comparisons.empty()) << procedure;
     ASSERT_EQ(section.excluded.size(), 1U);
     EXPECT_NE(section.excluded.front().reason.find("the answers led to the levels"),

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/data/study_data.h"
 #include "analysis/results/person_outcome.h"
 #include "analysis/results/published.h"
 #include "analysis/results/published_statistics.h"
 #include "analysis/results/study_results.h"
 #include "app/commands/command_fixture.h"
 #include "app/json_document.h"
-#include "app/results/study_data.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/places.h"
@@ -34,7 +34,7 @@ TEST_F(PredictiveCommandTest, OurEstimatesOfPublishedNamesAreThePublishedStatist
             .exit_code,
         0);
     const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-    const analysis::StudyData data = load_study_data(store);
+    const analysis::StudyData data = analysis::load_study(store);
     const analysis::Published published =
         analysis::published_for(study, test_support::source_folder() / "data" / "published");
     const analysis::StudyResults results =

@@ -14,6 +14,7 @@ class ResultsThresholdsTest : public ::testing::Test {
   ResultsThresholdsTest() : study_(analysis::kFeltProtocol) {
     analysis::add_felt_answers(study_);
     data_ = analysis::load_study(study_.store());
+    data_.runs.clear();  // By hand instead.
     data_.runs.push_back({.participant = "P01",
                           .block = "felt",
                           .procedure = "staircase",
@@ -80,7 +81,7 @@ TEST_F(ResultsThresholdsTest, TheTableHasAColumnOfThresholds) {
 
 TEST(ResultsBoxes, OfMatchesStandByTheirStandardsFromTheLeast) {
   analysis::HandMadeStudy study(R"({"name": "by_hand", "stages": [{"kind": "block",
-    "name": "match", "standard_medium": "viscous", "standard_viscosity_pa_s": [16, 2]}]})");
+    "name": "match", "procedure": "matching", "standard_medium": "viscous", "standard_viscosity_pa_s": [16, 2]}]})");
   for (const char* person : {"P01", "P02", "P03"}) {
     study.add(person);
     for (const double standard : {16.0, 2.0}) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "analysis/data/study_data.h"
 #include "analysis/results/study_results.h"
-#include "app/results/study_data.h"
 #include "app/session/laboratory_run.h"
 #include "app/session/replay_check.h"
 #include "app/session/session_setup.h"
@@ -133,7 +133,7 @@ TEST_F(TaskRunTest, TheLogTellsWhatFeedbackWasGiven) {
 TEST_F(TaskRunTest, AnalysesGetNeitherPracticeNorCatchTrials) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   simulate();
-  const analysis::StudyData data = load_study_data(store_);
+  const analysis::StudyData data = analysis::load_study(store_);
   std::map<std::string, analysis::BlockDesign> blocks;
   for (const analysis::BlockDesign& block : data.blocks) blocks[block.block] = block;
   EXPECT_FALSE(blocks.contains("practice"));
@@ -204,7 +204,7 @@ TEST_F(TaskRunTest, PracticeOfEverySessionIsKeptAlsoWhereItWasBrokenOff) {
   };
   plan.is_cancelled = [&] { return num_answers == 2; };
   EXPECT_FALSE(run_laboratory(plan).ended);
-  const analysis::StudyData data = load_study_data(store_);
+  const analysis::StudyData data = analysis::load_study(store_);
   ASSERT_EQ(data.practice.size(), 2U);
   EXPECT_EQ(data.practice[0].problem, "");
   EXPECT_EQ(data.practice[1].participant, "P02");

@@ -11,11 +11,13 @@ namespace jnd::experiments {
 class RoughThreshold final : public Procedure {
  public:
   std::string_view name() const noexcept override { return "rough_threshold"; }
+  std::string words() const override { return "rough threshold"; }
   std::string meaning() const override {
     return "Stimuli from the weakest up, until two in a row are felt.";
   }
   std::vector<BlockKey> keys() const override { return {stimuli_key()}; }
   TrialForm form(const Block&) const override { return {.answer = AnswerKind::kYesNo}; }
+  Measure measures(const Block&) const override { return Measure::kDetection; }
 
   std::vector<PlannedTrial> draw_next(const Block& block,
                                       const std::vector<AnsweredTrial>& answered,

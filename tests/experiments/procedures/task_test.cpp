@@ -51,6 +51,24 @@ std::vector<AnsweredTrial> answered_one_by_one(const Block& block, std::size_t n
   return answered;
 }
 
+TEST(Task, DecidesWhatABlockMeasuresWhicheverProcedureChoosesItsStimuli) {
+  for (const char* name : {"constant_stimuli", "limits", "staircase", "quest_plus"}) {
+    const Procedure& procedure = procedure_named(name);
+    Block block{.procedure = name};
+    for (const auto& [task, measure] : {std::pair("reminder", Measure::kComparison),
+                                        {"two_interval", Measure::kComparison},
+                                        {"yes_no", Measure::kDetection},
+                                        {"same_different", Measure::kDifference}}) {
+      block.settings.set("task", task);
+      EXPECT_EQ(procedure.measures(block), measure) << name << ' ' << task;
+    }
+    EXPECT_EQ(procedure.adapts(), name != std::string("constant_stimuli"));
+  }
+  EXPECT_EQ(procedure_named("magnitude_estimation").measures({}), Measure::kMagnitude);
+  EXPECT_EQ(procedure_named("magnitude_production").measures({}), Measure::kProducedMagnitude);
+  EXPECT_EQ(procedure_named("matching").measures({}), Measure::kMatch);
+}
+
 TEST(Task, SaysHowATrialIsAnswered) {
   EXPECT_EQ(form_of(Task::kReminder).answer, AnswerKind::kYesNo);
   EXPECT_FALSE(form_of(Task::kReminder).order_is_drawn);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/error.h"
 #include "tests/experiments/protocol/broken_study.h"
 
 namespace jnd::experiments {
@@ -245,6 +246,57 @@ TEST(StudyReader, EitherReadsOrRefusesAStudyWithAnyValueReplaced) {
       text.replace(at + 2, end - at - 2, value);
       if (study_text_problems(text, "x").empty()) {
         EXPECT_NO_THROW(static_cast<void>(read_study_text(text, "x"))) << text.substr(at, 40);
+      }
+    }
+  }
+}
+
+TEST(StudyReader, WhatIsWrittenIsReadThoughTheRulesWouldRefuseIt) {
+  // Two rules broken, as by a version that came to be stricter: the answers are still there.
+  const std::string text = broken(R"("languages": ["en", "de"])", R"("languages": ["en"])");
+  EXPECT_THROW((void)read_study_text(text, "x.json"), ProtocolError);
+  const Study study = study_as_written(text, "x.json");
+  EXPECT_EQ(study.title.at("de"), "Heil");
+  ASSERT_EQ(study.stages.size(), 4u);
+  EXPECT_EQ(std::get<Block>(study.stages[1].content).intensities.size(), 3u);
+  EXPECT_EQ(study_as_written(kSoundStudy, "x.json").stages.size(), 4u);
+}
+
+TEST(StudyReader, WhatIsMissingInAWrittenStudyIsEmptyOrHasItsDefault) {
+  const Study study = study_as_written(
+      R"json({"name": "least", "stages": [{"kind": "block", "name": "one",
+        "procedure": "constant_stimuli"}, {"kind": "questionnaire", "name": "form",
+        "items": [{"name": "age"}]}]})json",
+      "x.json");
+  EXPECT_EQ(study.name, "least");
+  EXPECT_TRUE(study.title.empty());
+  EXPECT_EQ(study.device.ramp_s, 0.05);
+  const auto& block = std::get<Block>(study.stages.at(0).content);
+  EXPECT_EQ(block.settings.word("task"), "reminder");
+  EXPECT_TRUE(block.intensities.empty());
+  EXPECT_EQ(std::get<Questionnaire>(study.stages.at(1).content).items.at(0).name, "age");
+}
+
+TEST(StudyReader, WhatIsNoStudyIsRefusedInASentence) {
+  for (const char* text :
+       {"", "3", "[]", "{", R"({"stages": 3})", R"({"stages": [3]})", R"({"stages": [{}]})",
+        R"({"stages": [{"kind": "dance"}]})", R"({"title": 3, "authors": 7})",
+        R"({"stages": [{"kind": "block", "name": "b", "procedure": "guess"}]})"}) {
+    EXPECT_THROW((void)study_as_written(text, "x.json"), core::Error) << text;
+  }
+}
+
+TEST(StudyReader, AWrittenStudyWithAnyValueReplacedIsReadOrRefused) {
+  for (const std::string value : {"null", "[]", "{}", "-1", "\"\"", "[[{}]]", "1e308"}) {
+    for (std::size_t at = kSoundStudy.find(": "); at != std::string::npos;
+         at = kSoundStudy.find(": ", at + 1)) {
+      const std::size_t end = kSoundStudy.find_first_of(",}]\n", at + 2);
+      std::string text = kSoundStudy;
+      text.replace(at + 2, end - at - 2, value);
+      try {
+        (void)study_as_written(text, "x");
+      } catch (const core::Error&) {
+        // In a sentence.
       }
     }
   }

@@ -6,7 +6,7 @@
 #include "experiments/procedures/procedure.h"
 #include "experiments/study/study.h"
 
-namespace jnd::app {
+namespace jnd::analysis {
 
 /// "1, 2, 4 Pa s".
 [[nodiscard]] std::string list_of(const std::vector<double>& values, const std::string& unit);
@@ -33,4 +33,4 @@ namespace jnd::app {
 [[nodiscard]] std::string adaptive_design_words(const experiments::Block& block,
                                                 const std::string& unit);
 
-}  // namespace jnd::app
+}  // namespace jnd::analysis

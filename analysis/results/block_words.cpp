@@ -1,4 +1,4 @@
-#include "app/results/block_words.h"
+#include "analysis/results/block_words.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,9 @@
 #include "analysis/results/report_words.h"
 #include "experiments/procedures/procedure_registry.h"
 
-namespace jnd::app {
+namespace jnd::analysis {
 namespace {
 
-using analysis::counted_words;
 using experiments::Block;
 using experiments::Settings;
 
@@ -88,4 +87,4 @@ std::string adaptive_design_words(const Block& block, const std::string& unit) {
   return words;
 }
 
-}  // namespace jnd::app
+}  // namespace jnd::analysis

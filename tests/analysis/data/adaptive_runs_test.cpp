@@ -1,4 +1,4 @@
-#include "app/results/adaptive_runs.h"
+#include "analysis/data/adaptive_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,9 @@
 
 #include "experiments/protocol/study_reader.h"
 
-namespace jnd::app {
+namespace jnd::analysis {
 namespace adaptive_runs_test {
 
-using analysis::AdaptiveRun;
 using experiments::Block;
 
 /// A study whose one block has these keys besides those of every block.
@@ -60,17 +59,13 @@ TEST(AdaptiveRuns, AStaircaseIsTheMeanOfItsLastReversalsAndOfThoseInterleaved) {
                                                      {4, false, 2}});
   EXPECT_EQ(run.problem, "");
   EXPECT_EQ(run.rule, "1 up, 1 down; Levitt 1971");
-  EXPECT_EQ(
-      run.design,
-      "2 staircases, 1 up 1 down, each to 10 reversals or 60 trials, the last 2 reversals "
-      "averaged; from 1 to 64 Pa s; starting at 16, 4 Pa s; steps by the factors 2");
   EXPECT_NEAR(*run.target_probability, 0.5, 1e-12);
   EXPECT_TRUE(run.is_logarithmic);
   ASSERT_EQ(run.tracks.size(), 2U);
   EXPECT_NEAR(*run.tracks[0].threshold, std::sqrt(8.0 * 16.0), 1e-9);
   EXPECT_NEAR(*run.tracks[1].threshold, std::sqrt(8.0 * 4.0), 1e-9);
   EXPECT_NEAR(*run.threshold, 8.0, 1e-9);
-  const analysis::TrackPoint& turned = run.tracks[0].points[1];
+  const TrackPoint& turned = run.tracks[0].points[1];
   EXPECT_EQ(turned.trial, 3) << "in the block";
   EXPECT_TRUE(turned.is_reversal);
   EXPECT_TRUE(turned.is_averaged);
@@ -170,4 +165,4 @@ TEST(AdaptiveRuns, AnswersThatDoNotFollowTheRuleAreAProblemNamed) {
 }
 
 }  // namespace adaptive_runs_test
-}  // namespace jnd::app
+}  // namespace jnd::analysis

@@ -1,25 +1,22 @@
-#include "app/results/adaptive_runs.h"
+#include "analysis/data/adaptive_runs.h"
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <stdexcept>
 #include <string>
-
-#include "analysis/data/quantity_unit.h"
-#include "app/results/block_words.h"
 
 #include "core/error.h"
 #include "experiments/adaptive/level_scale.h"
 #include "experiments/procedures/adaptive_trial.h"
 #include "experiments/procedures/limits_procedure.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/quest_plus_procedure.h"
 #include "experiments/procedures/staircase_procedure.h"
 
-namespace jnd::app {
+namespace jnd::analysis {
 namespace {
 
-using analysis::AdaptiveRun;
-using analysis::AdaptiveTrack;
-using analysis::TrackPoint;
 using namespace experiments;
 
 /// A trial that moved the procedure, and where it stands in the block.
@@ -164,27 +161,77 @@ void run_quest_plus(const Block& block, const std::vector<LevelTrial>& trials,
   }
 }
 
+struct BlockTrials {
+  std::vector<core::TrialRow> rows;
+  std::vector<bool> set_aside;
+};
+
+/// A participant's trials in a block, session by session, in their order.
+std::map<std::int64_t, BlockTrials> trials_by_session(const ParticipantData& participant,
+                                                      const std::string& block) {
+  std::vector<std::pair<core::TrialRow, bool>> all;
+  for (const core::TrialRow& row : participant.trials) all.emplace_back(row, false);
+  for (const core::TrialRow& row : participant.catch_trials) all.emplace_back(row, false);
+  for (const core::TrialRow& row : participant.excluded_trials) all.emplace_back(row, true);
+  std::ranges::sort(all, {}, [](const auto& one) { return one.first.trial; });
+  std::map<std::int64_t, BlockTrials> sessions;
+  for (auto& [row, set_aside] : all) {
+    if (row.block != block) continue;
+    BlockTrials& own = sessions[row.session];
+    own.set_aside.push_back(set_aside);
+    own.rows.push_back(std::move(row));
+  }
+  return sessions;
+}
+
 }  // namespace
 
 AdaptiveRun adaptive_run_of(const Block& block, const std::vector<core::TrialRow>& trials,
                             const std::vector<bool>& set_aside) {
-  AdaptiveRun run{
-      .procedure = block.procedure,
-      .design = adaptive_design_words(block, analysis::quantity_unit(block.quantity)),
-      .num_set_aside = static_cast<int>(std::ranges::count(set_aside, true))};
+  AdaptiveRun run{.procedure = block.procedure,
+                  .num_set_aside = static_cast<int>(std::ranges::count(set_aside, true))};
   const std::vector<LevelTrial> own = level_trials(trials, set_aside);
   if (own.empty()) {
     run.problem = "no answers";
     return run;
   }
   try {
-    if (block.procedure == "staircase") run_staircases(block, own, run);
-    if (block.procedure == "limits") run_limits(block, own, run);
-    if (block.procedure == "quest_plus") run_quest_plus(block, own, run);
+    switch (procedure_named(block.procedure).rule()) {
+      case AdaptiveRule::kStaircase:
+        run_staircases(block, own, run);
+        break;
+      case AdaptiveRule::kLimits:
+        run_limits(block, own, run);
+        break;
+      case AdaptiveRule::kQuestPlus:
+        run_quest_plus(block, own, run);
+        break;
+      case AdaptiveRule::kNone:
+        break;
+    }
   } catch (const core::Error& error) {
     run.problem = std::string("the answers do not follow the block's rule, ") + error.what();
   }
   return run;
 }
 
-}  // namespace jnd::app
+void add_adaptive_runs(StudyData& data) {
+  for (const BlockDesign& design : data.blocks) {
+    if (!design.is_adaptive()) continue;
+    for (const ParticipantData& participant : data.participants) {
+      for (const auto& [session, trials] : trials_by_session(participant, design.block)) {
+        AdaptiveRun run{.procedure = design.procedure};
+        try {
+          run = adaptive_run_of(design.written, trials.rows, trials.set_aside);
+        } catch (const std::logic_error& error) {
+          run.problem = std::string("its study file lacks a key of the rule, ") + error.what();
+        }
+        run.participant = participant.participant;
+        run.block = design.block;
+        data.runs.push_back(std::move(run));
+      }
+    }
+  }
+}
+
+}  // namespace jnd::analysis

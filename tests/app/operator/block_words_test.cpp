@@ -1,4 +1,4 @@
-#include "app/results/block_words.h"
+#include "analysis/results/block_words.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +34,16 @@ TEST(BlockWords, AStaircaseTellsItsRuleAndWhereItsLevelsLie) {
                 "viscous, steps by the factors 1.5, 1.25", "reference 8 Pa s"}));
 }
 
+TEST(BlockWords, AllOfItStandsInOneLineOfAReport) {
+  const experiments::Study study = study_with(kStaircase);
+  EXPECT_EQ(
+      analysis::adaptive_design_words(
+          std::get<experiments::Block>(study.stages.front().content), "Pa s"),
+      "2 staircases, 1 up 2 down, each to 10 reversals or 60 trials, the last 6 reversals "
+      "averaged; from 1 to 30 Pa s; starting at 16, 4 Pa s; steps by the factors 1.5, "
+      "1.25");
+}
+
 TEST(BlockWords, LimitsAndQuestPlusTellTheirLevels) {
   const StudyOutline limits = outline_of(study_with(R"json("procedure": "limits",
     "task": "yes_no", "viscosity_pa_s": [1, 2, 4, 8], "num_series": 6)json"));
@@ -49,8 +59,8 @@ TEST(BlockWords, WhereTheDesignDecidesTheNumberIsNoGuess) {
   const experiments::Study study = study_with(R"json("procedure": "constant_stimuli",
     "viscosity_pa_s": [4, 16], "reference_viscosity_pa_s": 8, "repetitions": 3)json");
   const auto& block = std::get<experiments::Block>(study.stages.front().content);
-  EXPECT_FALSE(length_is_expected(block));
-  EXPECT_EQ(trials_to_expect(block, 6), "6");
+  EXPECT_FALSE(analysis::length_is_expected(block));
+  EXPECT_EQ(analysis::trials_to_expect(block, 6), "6");
   EXPECT_EQ(outline_of(study).stages[0].what, "2 stimuli, 3 times: 6 trials");
 }
 
