@@ -1,4 +1,5 @@
 #include "analysis/data/presentation_use.h"
+#include "experiments/study/media.h"
 
 #include <map>
 #include <set>
@@ -60,7 +61,7 @@ bool is_used(const core::PresentationRow& row) {
 std::vector<PresentationUse> presentation_uses(const StudyData& data) {
   std::vector<PresentationUse> uses;
   for (const BlockDesign& block : data.blocks) {
-    if (block.medium == "solid") continue;  // Pressed: it can hold no stroke.
+    if (experiments::is_pressed(block.medium)) continue;  // Pressed: it can hold no stroke.
     for (const auto& [interval, levels] : levels_by_interval(data, block.block)) {
       const bool by_level = levels.size() <= kMostUsedLevels;
       for (const auto& [level, sum] : sums_of(data, block.block, interval, by_level)) {

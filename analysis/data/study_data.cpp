@@ -13,7 +13,7 @@
 #include "experiments/order/counterbalance.h"
 #include "experiments/procedures/magnitude_estimation.h"
 #include "experiments/procedures/procedure_registry.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::analysis {

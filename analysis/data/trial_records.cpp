@@ -15,8 +15,9 @@ TrialRecord* find(ByTrial& records, const std::optional<std::int64_t>& trial) {
 }
 
 std::optional<double> level_of(const core::DesignRow& row) {
-  if (row.procedure == "magnitude_production") return row.target_percent;
-  return row.procedure == "matching" ? row.reference_intensity : row.intensity;
+  if (row.target_percent) return row.target_percent;
+  // Where the test is adjusted, a standard is the level.
+  return row.starting_intensity ? row.reference_intensity : row.intensity;
 }
 
 void add_events(const core::StudyStore& store, std::int64_t session, ByTrial& records) {
@@ -38,14 +39,14 @@ void add_events(const core::StudyStore& store, std::int64_t session, ByTrial& re
 
 std::vector<TrialRecord> trial_records(const core::StudyStore& store, std::int64_t session) {
   ByTrial records;
-  std::map<std::int64_t, bool> is_solid;
+  std::map<std::int64_t, bool> is_pressed;
   for (const core::DesignRow& row : store.design(session)) {
     records[row.trial] = {.session = session,
                           .trial = row.trial,
                           .block = row.block,
                           .level = level_of(row),
                           .is_catch = row.is_catch};
-    is_solid[row.trial] = row.medium == "solid";
+    is_pressed[row.trial] = experiments::is_pressed(row.medium);
   }
   for (const core::TrialRow& row : store.trials(session, /*include_excluded=*/true)) {
     if (TrialRecord* const record = find(records, row.trial)) record->is_set_aside = true;
@@ -61,7 +62,7 @@ std::vector<TrialRecord> trial_records(const core::StudyStore& store, std::int64
     TrialRecord* const record = find(records, row.trial);
     if (record == nullptr || row.interval == "free_space") continue;
     if (row.limited_ticks > 0) record->is_limited = true;
-    if (!is_solid[row.trial]) has_stroke[{row.trial, row.interval}] |= row.num_strokes > 0;
+    if (!is_pressed[row.trial]) has_stroke[{row.trial, row.interval}] |= row.num_strokes > 0;
   }
   for (const auto& [presented, has] : has_stroke) {
     if (!has) records.at(presented.first).is_strokeless = true;

@@ -7,9 +7,6 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr char kProduction[] = "magnitude_production";
-constexpr char kMatching[] = "matching";
-
 struct Mean {
   double sum = 0.0;
   int count = 0;
@@ -71,8 +68,8 @@ class BlockReplacement {
   bool replace(core::TrialRow& trial) const {
     if (!trial.intensity) return false;
     if (*trial.intensity == 0.0) return true;
-    if (trial.procedure == kProduction) return replace_production(trial);
-    if (trial.procedure == kMatching) return replace_matching(trial);
+    if (trial.target_percent) return replace_production(trial);
+    if (trial.starting_intensity) return replace_matching(trial);
     const auto level = levels_.find(*trial.intensity);
     if (level == levels_.end()) return false;
     double intensity = *level->second.value();

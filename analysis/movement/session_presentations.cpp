@@ -7,6 +7,7 @@
 
 #include "analysis/data/json_fields.h"
 #include "analysis/data/stored_studies.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -107,7 +108,7 @@ std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
   for (const core::PresentationRow& row : store.presentations(session)) {
     const auto plan = plans.find(row.trial);
     // A solid is pressed, which nothing here is about.
-    if (plan == plans.end() || plan->second.design.medium == "solid") continue;
+    if (plan == plans.end() || experiments::is_pressed(plan->second.design.medium)) continue;
     all.push_back(planned(row, plan->second));
   }
   if (explored) add_explored(store, session, all);

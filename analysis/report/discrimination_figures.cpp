@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/report/figures.h"
@@ -12,6 +11,7 @@
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -359,7 +359,7 @@ Figure group_figure(const FigureSource& source, const BlockDesign& block,
       counted_words(std::ssize(answers.participants), "participant") + " at each level" +
       (answers.has_fixed_levels ? ", cut at 0 and 1. " : ". ") +
       "Dashed, vertical: the reference, " + number_words(answers.reference) + " " +
-      quantity_unit(answers.quantity) +
+      experiments::quantity_unit(answers.quantity) +
       (has_curve && !by_order && is_of_thesis(source.results)
            ? ", and where the curve through everybody’s answers reaches 84.13 %."
            : ".");

@@ -2,11 +2,11 @@
 #include <map>
 #include <set>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/report_words.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -94,8 +94,8 @@ BlockMatches matches_of(const FigureSource& source, const BlockDesign& block) {
 
 std::string axis_words(const std::string& what, const std::string& quantity,
                        const std::string& medium) {
-  const std::string unit = quantity_unit(quantity);
-  return what + ": " + quantity_words(quantity) +
+  const std::string unit = experiments::quantity_unit(quantity);
+  return what + ": " + experiments::quantity_words(quantity) +
          (medium.empty() ? "" : " of “" + medium + "”") +
          (unit.empty() ? "" : " [" + unit + "]");
 }

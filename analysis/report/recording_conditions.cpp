@@ -1,8 +1,8 @@
 #include "analysis/report/recording_conditions.h"
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/report_words.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -15,9 +15,7 @@ std::string quantity_of(const FigureSource& source, const ConditionMovement& con
   for (const BlockDesign& block : source.data.blocks) {
     if (block.block == condition.block) return block.quantity;
   }
-  // As of the media of a study file; of what is left the intensity is a factor.
-  if (condition.medium.starts_with("viscous")) return "viscosity_pa_s";
-  return condition.medium == "solid" ? "stiffness_n_per_m" : "";
+  return experiments::quantity_of(condition.medium);
 }
 
 }  // namespace
@@ -33,7 +31,7 @@ ShownCondition shown_condition(const FigureSource& source, const ConditionMoveme
       .movement = &condition};
   if (!condition.intensity || condition.medium == "free_space") return one;
   const std::string amount = shortest_words(*condition.intensity);
-  const std::string unit = quantity_unit(quantity_of(source, condition));
+  const std::string unit = experiments::quantity_unit(quantity_of(source, condition));
   one.name = file_word(one.name + "_" + amount);
   one.title += unit.empty() ? ", scale " + amount : ", " + amount + " " + unit;
   return one;

@@ -5,13 +5,13 @@
 #include <map>
 #include <set>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/data/stored_studies.h"
 #include "analysis/report/method_words.h"
 #include "analysis/results/report_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
 #include "core/storage/sha256.h"
+#include "experiments/study/media.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::analysis {
@@ -31,11 +31,11 @@ std::string joined(const std::set<double>& numbers, const std::string& unit) {
 
 std::string reference_words(const BlockDesign& block, const std::set<double>& references) {
   if (block.written.standard_medium.empty()) {
-    return "reference " + joined(references, quantity_unit(block.quantity));
+    return "reference " + joined(references, experiments::quantity_unit(block.quantity));
   }
   const std::string quantity = block.standard_quantity();
-  return "standard " + quantity_words(quantity) + " " +
-         joined(references, quantity_unit(quantity)) + " of the medium “" +
+  return "standard " + experiments::quantity_words(quantity) + " " +
+         joined(references, experiments::quantity_unit(quantity)) + " of the medium “" +
          block.written.standard_medium + "”" +
          (block.counts_in_standard()
               ? ", which counts as " +
@@ -66,9 +66,9 @@ std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
 
 std::string practice_words(const experiments::Block& block) {
   const experiments::Practice& practice = *block.practice;
-  const std::string unit = quantity_unit(block.quantity);
-  std::string words =
-      "practice, no data; " + procedure_words(block) + "; " + quantity_words(block.quantity);
+  const std::string unit = experiments::quantity_unit(block.quantity);
+  std::string words = "practice, no data; " + procedure_words(block) + "; " +
+                      experiments::quantity_words(block.quantity);
   if (!block.intensities.empty()) {
     words += "; levels " +
              joined(std::set(block.intensities.begin(), block.intensities.end()), unit);
@@ -103,9 +103,9 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
       repetitions = std::max(repetitions, trial.repetition);
     }
   }
-  const std::string unit = quantity_unit(block.quantity);
+  const std::string unit = experiments::quantity_unit(block.quantity);
   std::string words = procedure_words(block.written);
-  if (!block.quantity.empty()) words += "; " + quantity_words(block.quantity);
+  if (!block.quantity.empty()) words += "; " + experiments::quantity_words(block.quantity);
   if (!media.empty()) words += " of the medium “" + joined(media) + "”";
   constexpr std::size_t kMostListed = 20;
   const bool are_listed = block.has_fixed_levels() && intensities.size() <= kMostListed;

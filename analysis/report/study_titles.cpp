@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/data/stored_studies.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/task.h"
+#include "experiments/study/media.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::analysis {
@@ -35,19 +35,12 @@ StudyTitles titles_of(const experiments::Study& study) {
   return titles;
 }
 
-std::string quantity_words(const std::string& quantity) {
-  if (quantity == "scale") return "scaling factor";
-  if (quantity == "viscosity_pa_s") return "viscosity";
-  if (quantity == "stiffness_n_per_m") return "stiffness";
-  return in_words(quantity);
-}
-
 std::string quantity_axis(const std::string& quantity) {
-  std::string words = quantity_words(quantity);
+  std::string words = experiments::quantity_words(quantity);
   if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') {
     words[0] = static_cast<char>(words[0] - 'a' + 'A');
   }
-  const std::string unit = quantity_unit(quantity);
+  const std::string unit = experiments::quantity_unit(quantity);
   return unit.empty() ? words : words + " [" + unit + "]";
 }
 

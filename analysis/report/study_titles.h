@@ -22,8 +22,6 @@ struct StudyTitles {
 
 /// "test first" of "test_first".
 [[nodiscard]] std::string in_words(std::string name);
-/// "viscosity", "scaling factor": what varies, from the quantity's name.
-[[nodiscard]] std::string quantity_words(const std::string& quantity);
 /// "Viscosity [Pa s]", for an axis.
 [[nodiscard]] std::string quantity_axis(const std::string& quantity);
 /// "method of constant stimuli as a two-interval task (order drawn)": a block's procedure, with

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
@@ -11,6 +10,7 @@
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
 #include "core/psychometric_function.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -40,7 +40,7 @@ void add_detection_curve(const FigureSource& source, const BlockDesign& block, O
   const auto threshold = own_value(source, block.block, who, "threshold");
   const auto spread = own_value(source, block.block, who, "spread_ln");
   if (!threshold || !spread) return;
-  own.value = number_words(threshold, 3) + " " + quantity_unit(block.quantity);
+  own.value = number_words(threshold, 3) + " " + experiments::quantity_unit(block.quantity);
   own.probability = [mean = std::log(*threshold), sd = *spread](double intensity) {
     return core::standard_normal_cdf((std::log(intensity) - mean) / sd);
   };

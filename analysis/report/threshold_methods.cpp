@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/results/block_words.h"
 #include "analysis/results/threshold_results.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -81,7 +81,7 @@ void add_threshold_methods(
         !(block.written.settings == experiments::Settings{});
     if (!is_told) continue;
     add("Levels of " + block.block,
-        adaptive_design_words(block.written, quantity_unit(block.quantity)) + ".");
+        adaptive_design_words(block.written, experiments::quantity_unit(block.quantity)) + ".");
   }
   if (has(AdaptiveRule::kStaircase)) {
     add("Staircases",

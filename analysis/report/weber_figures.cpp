@@ -2,12 +2,12 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/report/box_plot.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/discrimination_own_values.h"
 #include "analysis/results/report_words.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -182,7 +182,7 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
   }
   if (values.empty()) return std::nullopt;
   const std::string& quantity = blocks.front().quantity;
-  const std::string unit = quantity_unit(quantity);
+  const std::string unit = experiments::quantity_unit(quantity);
   const bool of_thesis = is_of_thesis(source.results);
   Figure figure{
       .name = of_thesis ? "absolute_thresholds" : "difference_thresholds",

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/results/report_words.h"
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
 #include "core/psychometric_function.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -89,7 +89,9 @@ class AdaptiveWriter {
   [[nodiscard]] std::string full(const std::string& name) const {
     return block_.block + "." + name;
   }
-  [[nodiscard]] std::string unit() const { return unit_of_quantity(block_.quantity); }
+  [[nodiscard]] std::string unit() const {
+    return experiments::unit_of_quantity(block_.quantity);
+  }
   void add_level(const std::string& name, const std::string& meaning,
                  const OwnNumbers& values) {
     add_geometric_mean(section_, {.name = full(name), .meaning = meaning, .unit = unit()},

@@ -1,11 +1,11 @@
 #include <cmath>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/detection_fit.h"
 #include "analysis/results/threshold_answers.h"
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -39,7 +39,7 @@ class Detection {
   }
 
   void add_group(ResultsSection& section) const {
-    const std::string unit = unit_of_quantity(block_.quantity);
+    const std::string unit = experiments::unit_of_quantity(block_.quantity);
     const auto name = [&](const std::string& what) { return block_.block + "." + what; };
     add_geometric_mean(
         section,
@@ -147,7 +147,7 @@ void add_with_excluded_trials(ResultsSection& section, const StudyData& data,
   add_geometric_mean(section,
                      {.name = block.block + ".threshold",
                       .meaning = "intensity felt in 50 %: geometric mean",
-                      .unit = unit_of_quantity(block.quantity),
+                      .unit = experiments::unit_of_quantity(block.quantity),
                       .suffix = ".with_excluded_trials",
                       .words = "; with the trials that were set aside"},
                      thresholds);

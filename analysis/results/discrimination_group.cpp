@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/fits/psychometric_warnings.h"
 #include "analysis/results/report_words.h"
 #include "analysis/statistics/summary.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -69,7 +69,9 @@ void add(const Target& target, Estimate estimate, const std::string& name,
   target.section.estimates.push_back(std::move(estimate));
 }
 
-std::string unit_of(const BlockDesign& block) { return unit_of_quantity(block.quantity); }
+std::string unit_of(const BlockDesign& block) {
+  return experiments::unit_of_quantity(block.quantity);
+}
 
 void no_value(const Target& target, const std::string& name, const std::string& reason) {
   target.section.excluded.push_back(

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/data/running_numbers.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/test_families.h"
 #include "analysis/statistics/within_slope.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -86,7 +86,7 @@ std::optional<double> previous_stimulus_slope(const Trials& trials) {
 }
 
 std::vector<Effect> effects_of(const BlockDesign& block) {
-  const std::string unit = unit_of_quantity(block.quantity);
+  const std::string unit = experiments::unit_of_quantity(block.quantity);
   if (block.produces()) {
     return {{"starting_value_slope",
              "how far the set value follows the starting value of the adjustment, within a "

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "analysis/data/magnitude_means.h"
-#include "analysis/data/quantity_unit.h"
 #include "analysis/results/magnitude_fits.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -221,8 +221,8 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
         return geometric_mean(curves.of(drawn, solver));
       },
       options);
-  add_extrapolation(section, parts, curves, intensities, unit_of_quantity(estimation.quantity),
-                    options);
+  add_extrapolation(section, parts, curves, intensities,
+                    experiments::unit_of_quantity(estimation.quantity), options);
   add_own_power_laws(section, "combined", parts.estimated.names, [&](std::size_t i) {
     PowerFit own = between(curves_of(parts, {i}, Solver::kCeres), intensities, Solver::kCeres);
     // Residuals between two curves say nothing of the answers' spread.

@@ -3,11 +3,11 @@
 #include <map>
 
 #include "analysis/data/magnitude_means.h"
-#include "analysis/data/quantity_unit.h"
 #include "analysis/results/magnitude_fits.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
 #include "analysis/results/trial_correlations.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -192,13 +192,14 @@ void add_set_intensities(ResultsSection& section, const BlockDesign& design,
                          const MagnitudeBlock& block) {
   for (const auto& [target, values] : by_x(block.means)) {
     add_mean(section, "set_intensity." + percent_name(target) + "_percent",
-             "mean set value for this target", values, unit_of_quantity(design.quantity));
+             "mean set value for this target", values,
+             experiments::unit_of_quantity(design.quantity));
   }
   for (const auto& [target, logs] : by_x(block.log_means)) {
     add_geometric_mean(section,
                        "set_intensity." + percent_name(target) + "_percent.geometric_mean",
                        "geometric mean of the set values for this target", logs,
-                       unit_of_quantity(design.quantity));
+                       experiments::unit_of_quantity(design.quantity));
   }
 }
 

@@ -1,11 +1,11 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/results/magnitude_fits.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
 #include "analysis/statistics/within_slope.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
@@ -101,7 +101,7 @@ class MatchingSection {
 
  private:
   [[nodiscard]] std::string standard_words(double standard) const {
-    const std::string unit = unit_of_quantity(design_.standard_quantity());
+    const std::string unit = experiments::unit_of_quantity(design_.standard_quantity());
     return number_text(standard) + (unit == "1" ? "" : " " + unit) + " of " +
            design_.written.standard_medium;
   }
@@ -120,7 +120,7 @@ class MatchingSection {
                          "geometric mean of the participants' geometric means of what they "
                          "matched to the standard " +
                              standard_words(standard),
-                         logs, unit_of_quantity(design_.quantity));
+                         logs, experiments::unit_of_quantity(design_.quantity));
     }
   }
 
@@ -140,7 +140,7 @@ class MatchingSection {
     }
     add_geometric_mean(section_, design_.block + ".match",
                        "geometric mean of the participants' matches over all standards", logs,
-                       unit_of_quantity(design_.quantity));
+                       experiments::unit_of_quantity(design_.quantity));
   }
 
   /// The constant error, as a ratio: of each participant the mean over standards in ln.

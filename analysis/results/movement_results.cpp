@@ -187,7 +187,7 @@ ResultsSection movement_results(const StudyData& data) {
   if (data.blocks.empty()) return section;  // Nothing is presented that could hold no stroke.
   std::vector<std::string> blocks, with_both;
   for (const BlockDesign& block : data.blocks) {
-    if (block.medium == "solid") {
+    if (experiments::is_pressed(block.medium)) {
       section.excluded.push_back(
           {"everyone", block.block + ": strokes, for a solid is pressed, not stroked through"});
       continue;

@@ -1,5 +1,5 @@
 #include "experiments/session/plan.h"
-#include "analysis/data/quantity_unit.h"
+#include "experiments/study/media.h"
 
 #include <fmt/format.h>
 
@@ -241,14 +241,14 @@ void print_order(const experiments::PlannedBlock& block) {
   if (analysis::length_is_expected(content)) {
     fmt::print("      {}; {}\n", analysis::adaptive_words(content),
                fmt::join(analysis::adaptive_level_words(
-                             content, analysis::quantity_unit(content.quantity)),
+                             content, experiments::quantity_unit(content.quantity)),
                          "; "));
     return;
   }
   if (content.practice) {
     fmt::print(
         "      levels {}\n",
-        analysis::list_of(content.intensities, analysis::quantity_unit(content.quantity)));
+        analysis::list_of(content.intensities, experiments::quantity_unit(content.quantity)));
     return;
   }
   int repetition = 0;

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "experiments/procedures/stimulus.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 
@@ -72,7 +73,8 @@ struct OperatedSession::Act {
     my.feeling_ =
         Feeling{.first_tick = my.running_.apparatus().next_tick(), .setting = medium->setting};
     my.running_.apparatus().render(amounts_of(medium->setting));
-    my.move_simulated_hand(medium->setting.medium == "solid" ? kTouchingM : -0.15);
+    my.move_simulated_hand(experiments::is_pressed(medium->setting.medium) ? kTouchingM
+                                                                           : -0.15);
   }
 
   void operator()(const operate::FinishMedium&) const {
@@ -109,7 +111,7 @@ struct OperatedSession::Act {
     }
     end_presentation();
     my.presenter_.begin(*my.block(), present.interval);
-    const bool is_pressed = my.block()->is_solid() && present.interval != "free_space";
+    const bool is_pressed = my.block()->is_pressed() && present.interval != "free_space";
     my.move_simulated_hand(is_pressed ? kTouchingM : -0.15);
   }
 

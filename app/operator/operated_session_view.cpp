@@ -13,6 +13,7 @@
 #include "experiments/procedures/task.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session_limits.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 
@@ -224,7 +225,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
                  .answer = form.answer,
                  .has_reference = form.has_reference,
                  .adjustable = form.adjustable,
-                 .is_solid = block()->is_solid(),
+                 .is_solid = block()->is_pressed(),
                  .order_is_drawn = form.order_is_drawn};
   view.num_in_block = 0;
   view.in_block = 1;
@@ -359,9 +360,9 @@ void OperatedSession::describe_loop(SessionView& view) const {
                        .has_walls = parameters_.study.device.wall_stiffness_n_per_m > 0.0};
   view.loop.num_limited_ticks = view.telemetry.num_limited_ticks;
   if (!hides_levels_) {
-    const bool presses = presenter_.under_way() && block() != nullptr && block()->is_solid();
+    const bool presses = presenter_.under_way() && block() != nullptr && block()->is_pressed();
     view.surroundings.surface_is_solid =
-        presses || (feeling_ && feeling_->setting.medium == "solid");
+        presses || (feeling_ && experiments::is_pressed(feeling_->setting.medium));
     return;
   }
   // Speed and force tell the level; within the limits or not is all that may be known.

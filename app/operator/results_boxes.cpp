@@ -3,10 +3,10 @@
 #include <map>
 #include <set>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/statistics/summary.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 namespace {
@@ -72,7 +72,7 @@ void add_matches(const ResultsSource& source, const BlockDesign& block, BoxFigur
   const auto num_blocks =
       std::ranges::count(source.data.blocks, "matching", &BlockDesign::procedure);
   const std::string title = short_title(source.title(block.block));
-  const std::string unit = analysis::quantity_unit(block.quantity);
+  const std::string unit = experiments::quantity_unit(block.quantity);
   figure.unit = figure.unit.empty() || figure.unit == unit ? unit : "";
   std::vector<std::pair<double, std::string>> standards;
   const std::map<std::string, Values> matches = matches_of(source, block.block);
@@ -195,8 +195,9 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
 void add_table(const ResultsSource& source, ResultsModel& model) {
   for (const BlockDesign& block : source.data.blocks) {
     if (column_estimate(source, block).empty()) continue;
-    model.columns.push_back({column_title(source, block),
-                             block.detects() ? analysis::quantity_unit(block.quantity) : ""});
+    model.columns.push_back(
+        {column_title(source, block),
+         block.detects() ? experiments::quantity_unit(block.quantity) : ""});
   }
   model.columns.push_back({"Stroke", "m"});
   model.columns.push_back({"Speed", "m/s"});

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/power_fit.h"
 #include "analysis/statistics/summary.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "core/power_function.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 namespace {
@@ -171,8 +171,8 @@ Magnitude magnitude_of(const ResultsSource& source,
     if (block == nullptr) continue;
     const std::string title = source.title(block->block);
     magnitude.title = title + (magnitude.title.empty() ? "" : " and " + magnitude.title);
-    magnitude.quantity = quantity_words(block->quantity);
-    magnitude.unit = analysis::quantity_unit(block->quantity);
+    magnitude.quantity = experiments::quantity_words(block->quantity);
+    magnitude.unit = experiments::quantity_unit(block->quantity);
   }
   if (estimation != nullptr) magnitude.estimation_block = estimation->block;
   if (production != nullptr) magnitude.production_block = production->block;

@@ -5,13 +5,13 @@
 #include <limits>
 #include <tuple>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "experiments/procedures/task.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 namespace {
@@ -160,8 +160,8 @@ std::optional<Discrimination> discrimination_of(const ResultsSource& source,
   if (section == nullptr) return std::nullopt;
   Discrimination figure{.block = block.block,
                         .title = source.title(block.block),
-                        .quantity = quantity_words(block.quantity),
-                        .unit = analysis::quantity_unit(block.quantity),
+                        .quantity = experiments::quantity_words(block.quantity),
+                        .unit = experiments::quantity_unit(block.quantity),
                         .answer = task_of(block.written) == experiments::Task::kTwoInterval
                                       ? "test chosen"
                                       : "“yes”",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/results/threshold_answers.h"
@@ -14,6 +13,7 @@
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "core/psychometric_function.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 namespace {
@@ -137,8 +137,8 @@ std::vector<Point> curve_of(const ResultsSource& source, const BlockDesign& bloc
 Threshold threshold_of(const ResultsSource& source, const BlockDesign& block) {
   return {.block = block.block,
           .title = source.title(block.block),
-          .quantity = quantity_words(block.quantity),
-          .unit = analysis::quantity_unit(block.quantity),
+          .quantity = experiments::quantity_words(block.quantity),
+          .unit = experiments::quantity_unit(block.quantity),
           .answer = block.tells_apart() ? "“different”" : "“yes”",
           .has_fixed_levels = block.has_fixed_levels(),
           .reference = block.reference_intensity};

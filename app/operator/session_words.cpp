@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "analysis/data/quantity_unit.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 namespace {
@@ -198,7 +198,7 @@ std::string number_words(double value) {
 
 std::string level_words(const std::string& quantity, double intensity) {
   if (quantity == "scale") return "scale " + number_words(intensity);
-  const std::string unit = analysis::quantity_unit(quantity);
+  const std::string unit = experiments::quantity_unit(quantity);
   return number_words(intensity) + (unit.empty() ? "" : ' ' + unit);
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
 #include "app/session/session_setup.h"
@@ -16,7 +15,7 @@
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/protocol/study_reader.h"
 #include "experiments/session/plan.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::app {
@@ -158,8 +157,9 @@ class Outliner {
       line.details.emplace_back("levels hidden: double-blind");
       return;
     }
-    const std::string unit = analysis::quantity_unit(block.quantity);
-    const std::string name = unit.empty() ? quantity_words(block.quantity) + " " : "";
+    const std::string unit = experiments::quantity_unit(block.quantity);
+    const std::string name =
+        unit.empty() ? name_words(block.quantity) + " " : "";
     if (analysis::length_is_expected(block)) {
       for (const std::string& words : analysis::adaptive_level_words(block, unit)) {
         line.details.push_back(name_words(block.medium, false) + ", " + name + words);
@@ -174,10 +174,11 @@ class Outliner {
     }
     if (!block.standards.empty()) {
       const std::string quantity = quantity_of(block.standard_medium);
-      const std::string its_unit = analysis::quantity_unit(quantity);
-      line.details.push_back("standard " + name_words(block.standard_medium, false) + ", " +
-                             (its_unit.empty() ? quantity_words(quantity) + " " : "") +
-                             analysis::list_of(block.standards, its_unit));
+      const std::string its_unit = experiments::quantity_unit(quantity);
+      line.details.push_back(
+          "standard " + name_words(block.standard_medium, false) + ", " +
+          (its_unit.empty() ? name_words(quantity) + " " : "") +
+          analysis::list_of(block.standards, its_unit));
     }
     if (!block.target_percent.empty()) {
       line.details.push_back("targets " + analysis::list_of(block.target_percent, "%"));
@@ -258,7 +259,7 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
     line += (first ? "" : ", ") + analysis::stimulus_words(trial);
     first = false;
   }
-  const std::string unit = analysis::quantity_unit(block.quantity);
+  const std::string unit = experiments::quantity_unit(block.quantity);
   return line + (unit.empty() ? "" : " " + unit);
 }
 

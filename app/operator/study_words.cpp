@@ -77,12 +77,6 @@ std::string words_of(const MediumSetting& setting) {
   return medium + ", " + level_words(setting.quantity, setting.intensity);
 }
 
-std::string quantity_words(const std::string& quantity) {
-  if (quantity == "viscosity_pa_s") return "viscosity";
-  if (quantity == "stiffness_n_per_m") return "stiffness";
-  return name_words(quantity, false);
-}
-
 std::string duration_words(double duration_s) {
   if (!(duration_s >= 0.0) || duration_s > 1e9) return "unknown";
   if (duration_s < 59.5) return fmt::format("{:.0f} s", duration_s);

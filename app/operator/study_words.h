@@ -34,8 +34,6 @@ namespace jnd::app {
 
 /// "water, scale 2", "free space", "viscous, 8 Pa s".
 [[nodiscard]] std::string words_of(const experiments::MediumSetting& setting);
-/// "scale", "viscosity": what a quantity is called.
-[[nodiscard]] std::string quantity_words(const std::string& quantity);
 /// "1 h 5 min", "25 min", "40 s".
 [[nodiscard]] std::string duration_words(double duration_s);
 

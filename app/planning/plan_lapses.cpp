@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "analysis/data/quantity_unit.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/results/block_words.h"
 #include "app/command_line/json_text.h"
@@ -19,6 +18,7 @@
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 namespace {
@@ -82,7 +82,7 @@ std::optional<PlannedLapses> lapses_of(const Asked& asked, const Laboratory& lab
                                        const core::ForceMap* map) {
   constexpr double kVeryEasy = 2.5;
   const auto& block = std::get<Block>(asked.stage->content);
-  if (block.is_solid() && !laboratory.pressing) return std::nullopt;
+  if (block.is_pressed() && !laboratory.pressing) return std::nullopt;
   PlannedLapses lapses{.block = asked.stage->name, .quantity = block.quantity};
   const double reference = *block.reference_intensity;
   try {
@@ -153,7 +153,7 @@ void print(const std::vector<PlannedLapses>& lapses) {
         "large; add levels up to {:.3g} or from {:.3g} {}, which are right in 99 %\n",
         one.block, one.weber_fraction, 100.0 * one.easiest_ratio, kLapseRate,
         100.0 * one.fraction_change, one.easy_low, one.easy_high,
-        analysis::quantity_unit(one.quantity));
+        experiments::quantity_unit(one.quantity));
   }
 }
 

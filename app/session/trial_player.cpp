@@ -10,6 +10,7 @@
 #include "experiments/participants/counting.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
+#include "experiments/study/media.h"
 
 namespace jnd::app {
 
@@ -105,7 +106,7 @@ void TrialPlayer::feel(const Exploration& exploration) {
   const std::int64_t first_tick = apparatus_.next_tick();
   apparatus_.render(amounts_of(exploration.setting));
   StrokeIntent intent = participant_.strokes("");
-  if (exploration.setting.medium == "solid") intent.height_m = -0.005;
+  if (is_pressed(exploration.setting.medium)) intent.height_m = -0.005;
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(0, session_.state().stage, session_.state().num_explored));
   wait(exploration.duration_s);
@@ -217,11 +218,11 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   attachment_.begin(apparatus_.telemetry());
   stop_if_loose();
   const double surface_m = run_.study.device.immersion.origin_z_m;
-  if (block.is_solid()) rise_above(surface_m);
+  if (block.is_pressed()) rise_above(surface_m);
   presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
-  const StrokeIntent intent = block.is_solid()
+  const StrokeIntent intent = block.is_pressed()
                                   ? participant_.presses(block.procedure, surface_m)
                                   : participant_.strokes(block.procedure);
   apparatus_.begin_strokes(
@@ -238,8 +239,9 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   if (const std::string reason = presenter_.missed_reason(felt); !reason.empty()) {
     throw Missed{reason};
   }
-  return {.amount = block.is_solid() ? stiffness.stiffness_n_per_m()
-                                     : felt.delivered_damping_n_s_per_m + device_damping(felt),
+  return {.amount = block.is_pressed()
+                        ? stiffness.stiffness_n_per_m()
+                        : felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
           .duration_s = felt.duration_s};
 }

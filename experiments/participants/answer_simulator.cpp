@@ -31,7 +31,7 @@ class BlockPlayer {
         seed_(session_seed),
         block_(block),
         form_(procedure_named(block.procedure).form(block)),
-        strokes_(block.is_solid()
+        strokes_(block.is_pressed()
                      ? participant.presses(block.procedure, device.immersion.origin_z_m)
                      : participant.strokes(block.procedure)),
         presentation_s_(device.ramp_s + strokes_.duration_s()),
@@ -59,13 +59,13 @@ class BlockPlayer {
     felt_s_ += presentation_s_;
     const core::MediumAmounts medium = amounts_of(setting_of(block_, interval, intensity));
     double delivered = medium.damping_n_s_per_m;
-    if (!medium.is_plain_damping() && !block_.is_solid()) {
+    if (!medium.is_plain_damping() && !block_.is_pressed()) {
       delivered = calculated_stroke(laboratory_, strokes_.amplitude_m, drawn_speed_m_per_s(),
                                     medium, map_)
                       .delivered_damping_n_s_per_m;
     }
-    felt_ = block_.is_solid() ? medium.plane_stiffness_n_per_m
-                              : delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
+    felt_ = block_.is_pressed() ? medium.plane_stiffness_n_per_m
+                                : delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
     return perceiver_.reading_ln(felt_, moment_);
   }
 

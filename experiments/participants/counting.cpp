@@ -12,7 +12,7 @@ namespace {
 double remembered_ln(const Laboratory& laboratory, const SimulatedParticipant& participant,
                      const Block& block, const core::ForceMap* map) {
   const double standard = block.standards.at(0);
-  if (block.is_solid()) return std::log(standard);
+  if (block.is_pressed()) return std::log(standard);
   const StrokeIntent strokes = participant.strokes(block.procedure);
   const CalculatedStroke stroke =
       calculated_stroke(laboratory, strokes.amplitude_m, strokes.max_speed_m_per_s,

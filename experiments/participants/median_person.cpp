@@ -66,7 +66,7 @@ class Felt {
 double median_weber_fraction(const Laboratory& laboratory, const Block& block,
                              const core::ForceMap* map) {
   const Felt felt(laboratory, block, map);
-  if (block.is_solid()) return laboratory.pressing.value().weber_fraction;
+  if (block.is_pressed()) return laboratory.pressing.value().weber_fraction;
   const double reference = *block.reference_intensity;
   const double wanted = (1.0 + laboratory.perceiver.weber_fraction) * felt(reference);
   double high = 2.0 * reference;
@@ -77,7 +77,7 @@ double median_weber_fraction(const Laboratory& laboratory, const Block& block,
 double median_curve_fraction(const Laboratory& laboratory, const Block& block,
                              const core::ForceMap* map) {
   const double up = median_weber_fraction(laboratory, block, map);
-  if (block.is_solid()) return up;
+  if (block.is_pressed()) return up;
   const Felt felt(laboratory, block, map);
   const double reference = *block.reference_intensity;
   const double wanted = felt(reference) / (1.0 + laboratory.perceiver.weber_fraction);

@@ -40,7 +40,7 @@ class SimulatedParticipant {
   [[nodiscard]] const Person& person() const noexcept { return person_; }
   /// In this block: of a solid what is felt is its stiffness, else a damping.
   [[nodiscard]] const Perceiver& perceiver(const Block& block) const {
-    return block.is_solid() ? pressing_perceiver_.value() : perceiver_;
+    return block.is_pressed() ? pressing_perceiver_.value() : perceiver_;
   }
 
   /// Where the hand rests, workspace frame.

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/order_table.h"
 
 namespace jnd::experiments {
@@ -176,8 +176,8 @@ std::vector<BlockKey> standard_keys() {
                                 .required = false,
                                 .default_json = R"("none")",
                                 .allowed = {"none"}}};
-  for (const MediumQuantity& one : media()) {
-    if (!one.quantity.empty()) medium.parameter.allowed.push_back(one.medium);
+  for (const Medium& one : media()) {
+    if (!one.quantity.empty()) medium.parameter.allowed.push_back(one.name);
   }
   BlockKey standards{.parameter = {.key = "standard",
                                    .kind = ValueKind::kNumbers,

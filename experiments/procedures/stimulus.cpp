@@ -2,48 +2,25 @@
 
 #include "core/error.h"
 #include "experiments/procedures/task.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
-namespace {
-
-core::SolidParameters passive_solid(double stiffness_n_per_m, double friction_ratio) {
-  // Enough damping to be passive at 1 kHz: more than stiffness times half a period.
-  return {.stiffness_n_per_m = stiffness_n_per_m,
-          .damping_n_s_per_m = 0.001 * stiffness_n_per_m,
-          .friction_ratio = friction_ratio};
-}
-
-}  // namespace
-
 core::MediumAmounts amounts_of(const std::string& medium, double intensity) {
   return amounts_of({.medium = medium, .quantity = "", .intensity = intensity});
 }
 
 core::MediumAmounts amounts_of(const MediumSetting& setting) {
-  const std::string& medium = setting.medium;
-  const double intensity = setting.intensity;
-  const core::MediumAmounts buoyant = core::buoyant(setting.buoyancy_n);
-  if (medium == "free_space") return core::free_space();
-  if (medium == "water") return core::water({.scale = intensity}) + buoyant;
-  if (medium == "water_map") return core::mapped_water({.scale = intensity}) + buoyant;
-  if (medium == "viscous") return core::viscous({.viscosity_pa_s = intensity}) + buoyant;
-  if (medium == "viscous_stokes") {
-    return core::viscous(
-               {.viscosity_pa_s = intensity, .shape = core::ViscousDrag::Shape::kSphere}) +
-           buoyant;
+  const Medium* medium = find_medium(setting.medium);
+  if (medium == nullptr) {
+    std::vector<std::string> names;
+    for (const Medium& known : media()) names.push_back(known.name);
+    throw core::Error("medium: expected " + one_of_words(names) + ", found `" + setting.medium +
+                      "`");
   }
-  if (medium == "viscous_schiller_naumann") {
-    return core::viscous_inertial({.viscosity_pa_s = intensity}) + buoyant;
-  }
-  if (medium == "viscous_ellipsoid") {
-    return core::ellipsoid({.viscosity_pa_s = intensity}) + buoyant;
-  }
-  if (medium == "solid") return core::solid(passive_solid(intensity, setting.friction_ratio));
-  std::vector<std::string> names;
-  for (const MediumQuantity& known : media()) names.push_back(known.medium);
-  throw core::Error("medium: expected " + one_of_words(names) + ", found `" + medium + "`");
+  const core::MediumAmounts amounts = medium->amounts(setting);
+  const bool is_fluid = !medium->quantity.empty() && !medium->is_pressed;
+  return is_fluid ? amounts + core::buoyant(setting.buoyancy_n) : amounts;
 }
 
 MediumSetting setting_of(const Block& block, const std::string& interval, double intensity) {
@@ -62,8 +39,10 @@ MediumSetting setting_of(const Block& block, const std::string& interval, double
 
 core::MediumAmounts surroundings_of(const DeviceNeeds& needs) {
   if (needs.wall_stiffness_n_per_m == 0.0) return core::free_space();
-  return core::container(
-      passive_solid(needs.wall_stiffness_n_per_m, needs.wall_friction_ratio));
+  // As passive as a surface, see `media`.
+  return core::container({.stiffness_n_per_m = needs.wall_stiffness_n_per_m,
+                          .damping_n_s_per_m = 0.001 * needs.wall_stiffness_n_per_m,
+                          .friction_ratio = needs.wall_friction_ratio});
 }
 
 std::unique_ptr<const core::ForceMap> force_map_of(const DeviceNeeds& needs) {

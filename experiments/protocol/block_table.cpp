@@ -2,15 +2,15 @@
 
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/protocol/stage_tables.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 
 namespace jnd::experiments {
 namespace {
 
 /// What a block can vary: anything but free space.
-std::vector<MediumQuantity> block_media() {
-  std::vector<MediumQuantity> found;
-  for (const MediumQuantity& one : media()) {
+std::vector<Medium> block_media() {
+  std::vector<Medium> found;
+  for (const Medium& one : media()) {
     if (!one.quantity.empty()) found.push_back(one);
   }
   return found;
@@ -40,7 +40,7 @@ Parameter medium_parameter() {
           "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand. "
           "`solid`: a flat surface at the height of a fluid's, pressed instead of stroked, "
           "varied by `stiffness_n_per_m`."};
-  for (const MediumQuantity& one : block_media()) parameter.allowed.push_back(one.medium);
+  for (const Medium& one : block_media()) parameter.allowed.push_back(one.name);
   return parameter;
 }
 
@@ -58,22 +58,22 @@ void add_word(std::vector<std::string>& words, const std::string& word) {
 /// The key as blocks of this medium have it, or blocks with this standard; where another
 /// procedure or a medium of the same quantity has it already, it is theirs, too.
 void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
-             const std::string& procedure, const MediumQuantity& medium) {
+             const std::string& procedure, const Medium& medium) {
   const std::string name = key.name_for(medium.quantity);
   if (std::vector<std::string>* known = words_of(parameters, name, 0)) {
     add_word(*known, procedure);
-    if (key.names_quantity()) add_word(*words_of(parameters, name, 1), medium.medium);
+    if (key.names_quantity()) add_word(*words_of(parameters, name, 1), medium.name);
     return;
   }
   Parameter parameter = key.parameter;
   parameter.key = name;
   parameter.only_where = {{"procedure", {procedure}}};
   if (key.names_quantity()) {
-    parameter.unit = medium.unit;
+    parameter.unit = quantity_unit(medium.quantity);
     parameter.range = medium.range;
     if (key.is_positive) parameter.range.low_is_open = true;
     parameter.only_where.push_back(
-        {key.of_standard ? "standard_medium" : "medium", {medium.medium}});
+        {key.of_standard ? "standard_medium" : "medium", {medium.name}});
   }
   const std::vector<Condition>& more = key.parameter.only_where;
   parameter.only_where.insert(parameter.only_where.end(), more.begin(), more.end());
@@ -83,7 +83,7 @@ void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
 /// Keys that name a quantity first, quantity by quantity.
 std::vector<Parameter> procedure_parameters() {
   std::vector<Parameter> of_quantities, others;
-  for (const MediumQuantity& medium : block_media()) {
+  for (const Medium& medium : block_media()) {
     for (const Procedure* procedure : procedures()) {
       for (const BlockKey& key : procedure->keys()) {
         add_key(key.names_quantity() ? of_quantities : others, key,

@@ -9,7 +9,7 @@
 #include "experiments/protocol/reference_introduction.h"
 #include "experiments/protocol/study_table.h"
 #include "experiments/protocol/written_data.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
@@ -233,10 +233,11 @@ class ReferenceWriter {
     text_ +=
         "## media\n\nWhat can be felt, as `medium`, and the key that says how much of it.\n\n";
     text_ += heading_row({"medium", "key", "unit", "range", "meaning of the key"});
-    for (const MediumQuantity& medium : media()) {
+    for (const Medium& medium : media()) {
       const Parameter quantity = {.range = medium.range};
-      text_ += row({'`' + medium.medium + '`',
-                    medium.quantity.empty() ? "none" : '`' + medium.quantity + '`', medium.unit,
+      text_ += row({'`' + medium.name + '`',
+                    medium.quantity.empty() ? "none" : '`' + medium.quantity + '`',
+                    quantity_unit(medium.quantity),
                     medium.quantity.empty() ? "" : range_words(quantity), medium.meaning});
     }
     text_ += '\n';

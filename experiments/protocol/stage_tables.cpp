@@ -1,6 +1,6 @@
 #include "experiments/protocol/stage_tables.h"
 #include "experiments/protocol/study_table.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 
 #include <iterator>
 #include <map>
@@ -252,20 +252,20 @@ std::vector<Parameter> setting_parameters(std::vector<Parameter> own) {
   std::vector<Parameter> parameters = {
       {.key = "medium", .kind = ValueKind::kString, .meaning = "What is felt."}};
   std::map<std::string, std::size_t> index_of;  // Two media may share a quantity.
-  for (const MediumQuantity& entry : media()) {
-    parameters.front().allowed.push_back(entry.medium);
+  for (const Medium& entry : media()) {
+    parameters.front().allowed.push_back(entry.name);
     if (entry.quantity.empty()) continue;
     if (const auto known = index_of.find(entry.quantity); known != index_of.end()) {
-      parameters[known->second].only_where.front().values.push_back(entry.medium);
+      parameters[known->second].only_where.front().values.push_back(entry.name);
       continue;
     }
     index_of[entry.quantity] = parameters.size();
     parameters.push_back({.key = entry.quantity,
                           .kind = ValueKind::kNumber,
                           .meaning = "How much of it: " + entry.meaning + ".",
-                          .unit = entry.unit,
+                          .unit = quantity_unit(entry.quantity),
                           .range = entry.range,
-                          .only_where = {{"medium", {entry.medium}}}});
+                          .only_where = {{"medium", {entry.name}}}});
   }
   parameters.push_back(friction_parameter());
   parameters.push_back(buoyancy_parameter());
@@ -284,9 +284,8 @@ Parameter friction_parameter() {
 
 Parameter buoyancy_parameter() {
   Condition fluid = {"medium", {}};
-  for (const MediumQuantity& entry : media()) {
-    if (!entry.quantity.empty() && entry.medium != "solid")
-      fluid.values.push_back(entry.medium);
+  for (const Medium& entry : media()) {
+    if (!entry.quantity.empty() && !entry.is_pressed) fluid.values.push_back(entry.name);
   }
   return {
       .key = "buoyancy_n",

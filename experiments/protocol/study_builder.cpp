@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/protocol/study_table.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {

@@ -16,7 +16,7 @@
 #include "experiments/protocol/standard_rules.h"
 #include "experiments/protocol/study_check.h"
 #include "experiments/protocol/task_rules.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/rule_values.h"
 #include "experiments/study/shown_text.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <variant>
 
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/shown_text.h"
 

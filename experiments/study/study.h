@@ -109,7 +109,7 @@ struct Block {
   Settings settings;                    ///< The procedure's own keys, all of them.
 
   /// A surface that is pressed, not a fluid that is stroked through.
-  [[nodiscard]] bool is_solid() const { return medium == "solid"; }
+  [[nodiscard]] bool is_pressed() const;
 };
 
 struct Break {

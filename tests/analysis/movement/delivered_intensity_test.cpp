@@ -78,6 +78,7 @@ TEST(DeliveredIntensity, OfAProductionIsThatOfTheValueSet) {
                                      .block = "d",
                                      .procedure = "magnitude_production",
                                      .intensity = 1.2,
+                                     .target_percent = 100.0,
                                      .response = 1.2};
   const StudyData data = one_person(
       {production},

@@ -228,7 +228,7 @@ TEST(ResultsModel, MagnitudesHaveBothMeansWithTheirSpread) {
   ASSERT_EQ(model.magnitudes.size(), 1U);
   const Magnitude& figure = model.magnitudes.front();
   EXPECT_EQ(figure.title, "Estimation and Production");
-  EXPECT_EQ(figure.quantity, "scale");
+  EXPECT_EQ(figure.quantity, "scaling factor");
   ASSERT_EQ(figure.pooled.estimation.size(), 2U);
   // The participants' own means are 2 and 8: mean 5, sd 3 sqrt 2, geometric mean 4.
   const Mean& first = figure.pooled.estimation[0];

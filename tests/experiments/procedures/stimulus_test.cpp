@@ -5,18 +5,18 @@
 #include <string>
 
 #include "core/error.h"
-#include "experiments/study/medium_quantity.h"
+#include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
 namespace stimulus_test {
 
 TEST(Stimulus, EveryMediumOfTheTableHasItsAmounts) {
-  for (const MediumQuantity& medium : media()) {
-    const core::MediumAmounts amounts = amounts_of(medium.medium, 2.0);
+  for (const Medium& medium : media()) {
+    const core::MediumAmounts amounts = amounts_of(medium.name, 2.0);
     bool is_something = false;
     for (const auto amount : core::kAmounts) is_something |= amounts.*amount != 0.0;
-    EXPECT_EQ(is_something, !medium.quantity.empty()) << medium.medium;
+    EXPECT_EQ(is_something, !medium.quantity.empty()) << medium.name;
   }
 }
 

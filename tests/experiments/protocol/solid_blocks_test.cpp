@@ -50,7 +50,7 @@ TEST(SolidBlocks, EveryProcedureCanAskAboutStiffness) {
         << name << ": " << to_string(study_text_problems(text, "s.json").front());
     const Study study = read_study_text(text, "s.json");
     const Block& block = std::get<Block>(study.stages.front().content);
-    EXPECT_TRUE(block.is_solid());
+    EXPECT_TRUE(block.is_pressed());
     EXPECT_EQ(block.quantity, "stiffness_n_per_m");
     core::RandomStream stream(1, "order");
     EXPECT_FALSE(procedure->draw_next(block, {}, stream).empty()) << name;
