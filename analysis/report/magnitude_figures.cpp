@@ -72,13 +72,9 @@ Figure curves_figure(const FigureSource& source, const MagnitudeData& data) {
   }
   figure.plot +=
       from_table(group) +
-      (data.is_production ? "'intensity':'magnitude':'low':'high' with xyerrorbars "
+      (data.is_production ? "'intensity':'magnitude':'low':'high' with xerrorbars "
                           : "'intensity':'magnitude':'low':'high' with yerrorbars ") +
       "ls 11 lc rgb '#0072B2' ps 0.9 title 'mean ± sd'\n";
-  if (data.is_production) {
-    const std::string wrong = "with xyerrorbars";
-    figure.plot.replace(figure.plot.find(wrong), wrong.size(), "with xerrorbars");
-  }
   figure.caption =
       std::string(data.is_production ? "Intensities that were set for each magnitude asked for"
                                      : "Magnitudes that were told at each intensity") +

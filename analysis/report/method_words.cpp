@@ -7,6 +7,7 @@
 #include "analysis/report/literature.h"
 #include "analysis/report/test_methods.h"
 #include "analysis/report/threshold_methods.h"
+#include "analysis/results/inverted_answers.h"
 
 namespace jnd::analysis {
 namespace {
@@ -52,11 +53,7 @@ class MethodWriter {
   [[nodiscard]] bool any_inverted() const {
     return std::ranges::any_of(source_.data.participants,
                                [](const auto& one) { return !one.left_out.empty(); }) ||
-           std::ranges::any_of(source_.results.sections, [](const ResultsSection& section) {
-             return std::ranges::any_of(section.cautions, [](const Caution& one) {
-               return one.caution.find("wrong way round") != std::string::npos;
-             });
-           });
+           !inverted_answers(source_.data).empty();
   }
   [[nodiscard]] bool has_magnitudes() const {
     return any_block(&BlockDesign::estimates) || any_block(&BlockDesign::produces);

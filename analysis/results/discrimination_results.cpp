@@ -146,13 +146,15 @@ ResultsSection discrimination_comparison(const StudyData& data, const ComparedBl
   const std::string pair = first.block + " - " + second.block + ": ";
   const bool frees = primary_pse(first_answers, second_answers) == HierarchicalPse::kPersonal;
   for (const bool free_pse : {frees, !frees}) {
+    const bool is_primary = free_pse == frees && has_primary;
     section.comparisons.push_back(
-        {pair + "ln ln(1 + w) of the median person, hierarchical, " +
-             (free_pse ? "pse free" : "pse at the reference") +
-             (free_pse == frees && has_primary ? " (primary)" : " (secondary)"),
-         median_person_difference(
+        {.name = pair + "ln ln(1 + w) of the median person, hierarchical, " +
+                 (free_pse ? "pse free" : "pse at the reference") +
+                 (is_primary ? " (primary)" : " (secondary)"),
+         .comparison = median_person_difference(
              first_answers, first, second_answers, second,
-             free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference)});
+             free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference),
+         .primary = is_primary});
   }
   for (const bool free_pse : {false, true}) {
     add_own_fractions(section, first_answers, first, second_answers, second, free_pse);

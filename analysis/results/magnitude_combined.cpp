@@ -149,7 +149,9 @@ struct OwnExponents {
 };
 
 void compare_exponents(ResultsSection& section, const OwnExponents& own,
-                       const std::string& words) {
+                       const std::string& regression, bool is_primary) {
+  const std::string words =
+      "production as " + regression + (is_primary ? " (primary)" : " (secondary)");
   const std::string pair = "own exponents, estimation - production, " + words + ": ";
   section.comparisons.push_back(
       {pair + "paired t", paired_t_test(own.estimation, own.production)});
@@ -176,8 +178,8 @@ void compare_exponents(ResultsSection& section, const BothParts& parts) {
          own.estimation.a ? "own exponents: none of the production, " + turned.reason
                           : "own exponents: none of the estimation, " + own.estimation.reason});
   }
-  compare_exponents(section, primary, "production as I on S (primary)");
-  compare_exponents(section, secondary, "production as S on I (secondary)");
+  compare_exponents(section, primary, "I on S", /*is_primary=*/true);
+  compare_exponents(section, secondary, "S on I", /*is_primary=*/false);
 }
 
 void name_missing(ResultsSection& section, const StudyData& data, const MagnitudeBlock& has,

@@ -66,9 +66,6 @@ void mark_primary(StudyResults& results, const StudyData& data) {
     for (Estimate& estimate : section.estimates) {
       estimate.primary = is_primary(estimate.name, data);
     }
-    for (NamedComparison& named : section.comparisons) {
-      named.primary = named.name.ends_with("(primary)");
-    }
     mark_own(section, data);
   }
 }
