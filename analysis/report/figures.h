@@ -50,7 +50,7 @@ struct FigureSource {
 [[nodiscard]] std::vector<Figure> matching_figures(const FigureSource& source);
 
 /// The power laws of both and between them (fig. 4c, D.4, D.15).
-[[nodiscard]] std::vector<Figure> combined_figures(const FigureSource& source);
+[[nodiscard]] std::vector<Figure> power_law_figures(const FigureSource& source);
 
 /// Published values among simulated studies where those are known, else ours over published,
 /// estimate by estimate.

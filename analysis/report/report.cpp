@@ -99,7 +99,7 @@ std::vector<Figure> figures_of(const ReportSource& source) {
   add(published_figures(from));
   add(magnitude_figures(from));
   add(matching_figures(from));
-  add(combined_figures(from));
+  add(power_law_figures(from));
   add(discrimination_figures(from));
   add(threshold_figures(from));
   add(adaptive_figures(from));

@@ -9,7 +9,7 @@
 
 #include "analysis/export/unfinished_folder.h"
 #include "analysis/report/figure_files.h"
-#include "analysis/report/power_figure.h"
+#include "analysis/report/study_power_figure.h"
 #include "analysis/report/run_tool.h"
 #include "app/command_line/json_text.h"
 #include "app/planning/power_json.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/adaptive/limits.h"
+#include "experiments/adaptive/method_of_limits.h"
 #include "experiments/procedures/procedure.h"
 
 namespace jnd::experiments {

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "experiments/protocol/drawing_rules.h"
 #include "experiments/protocol/level_doubts.h"
-#include "experiments/protocol/limit_rules.h"
+#include "experiments/protocol/session_limit_rules.h"
 #include "experiments/protocol/located_json.h"
 #include "experiments/protocol/structure_check.h"
 #include "experiments/protocol/study_builder.h"
@@ -72,7 +72,7 @@ LocatedJson checked(const std::string& text, const std::string& file_name,
     if (problems.empty()) {
       const Study study = build_study(file, text);
       check_drawing(file, study, problems, begun == Begun::kNo);
-      check_limit_rules(file, study, problems);
+      check_session_limit_rules(file, study, problems);
     }
   }
   std::stable_sort(problems.begin(), problems.end(),

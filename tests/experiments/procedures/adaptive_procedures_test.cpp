@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/psychometric_function.h"
-#include "experiments/adaptive/limits.h"
+#include "experiments/adaptive/method_of_limits.h"
 #include "experiments/procedures/adaptive_trial.h"
 #include "experiments/procedures/limits_procedure.h"
 #include "experiments/procedures/procedure_registry.h"

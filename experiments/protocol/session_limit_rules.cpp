@@ -1,4 +1,4 @@
-#include "experiments/protocol/limit_rules.h"
+#include "experiments/protocol/session_limit_rules.h"
 
 #include <algorithm>
 #include <string>
@@ -27,7 +27,7 @@ std::string words_of(const Stretch& stretch) {
 
 }  // namespace
 
-void check_limit_rules(const LocatedJson& file, const Study& study,
+void check_session_limit_rules(const LocatedJson& file, const Study& study,
                        std::vector<StudyProblem>& problems) {
   const SessionLimits& limits = study.session_limits;
   if (!limits.max_duration_s && !limits.max_trials_without_break) return;

@@ -1,4 +1,4 @@
-#include "experiments/adaptive/limits.h"
+#include "experiments/adaptive/method_of_limits.h"
 
 #include <gtest/gtest.h>
 

@@ -78,7 +78,7 @@ const BlockDesign* only_block(const StudyData& data, bool (BlockDesign::*measure
 
 }  // namespace
 
-std::vector<Figure> combined_figures(const FigureSource& source) {
+std::vector<Figure> power_law_figures(const FigureSource& source) {
   const BlockDesign* const estimation = only_block(source.data, &BlockDesign::estimates);
   const BlockDesign* const production = only_block(source.data, &BlockDesign::produces);
   if (estimation == nullptr || production == nullptr) return {};

@@ -1,4 +1,4 @@
-#include "analysis/report/power_figure.h"
+#include "analysis/report/study_power_figure.h"
 
 #include <algorithm>
 
