@@ -63,7 +63,7 @@ struct NamedComparison {
   Comparison comparison;
   /// Adjusted by Holm (1979) for the tests of its family; absent where none was made.
   std::optional<double> p_value_holm;
-  std::string family;  ///< "exploratory, movement"; "" with a test that stands alone.
+  std::string family;    ///< "exploratory, movement"; "" with a test that stands alone.
   bool primary = false;  ///< It answers what the study asks of its blocks together.
   std::vector<std::string> cautions{};  ///< Why it may be wrong for these data, one each.
 };

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "analysis/export/bids_text.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
-#include "app/commands/commands.h"
 #include "core/clock.h"
 #include "core/storage/study_store.h"
 

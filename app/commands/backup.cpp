@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/progress_bar.h"
-#include "app/commands/commands.h"
 #include "core/clock.h"
 #include "core/storage/backup.h"
 

@@ -10,11 +10,11 @@
 #include <thread>
 #include <vector>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
-#include "app/commands/commands.h"
 #include "app/session/device_run.h"
 #include "app/session/person_bench.h"
 #include "app/session/session_setup.h"

@@ -11,8 +11,8 @@
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/comparison_data.h"
 #include "analysis/statistics/multiplicity.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "app/commands/fit_words.h"
 #include "app/results/statistic_words.h"
 

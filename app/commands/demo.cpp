@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "analysis/data/study_data.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/open_window.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
-#include "app/commands/commands.h"
 #include "app/commands/predictive_option.h"
 #include "app/results/results_output.h"
 #include "app/session/session_setup.h"

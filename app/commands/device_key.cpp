@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "core/error.h"
 #include "device/network/device_key.h"
 

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/stop_signals.h"
-#include "app/commands/commands.h"
 #include "app/session/session_setup.h"
 #include "core/error.h"
 #include "device/network/device_key.h"

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "app/session/machine_checks.h"
 
 namespace jnd::app {

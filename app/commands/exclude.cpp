@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/command.h"
 #include "app/command_line/option_checks.h"
-#include "app/commands/commands.h"
 #include "app/session/reopened_session.h"
 #include "core/error.h"
 

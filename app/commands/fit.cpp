@@ -10,8 +10,8 @@
 
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "app/commands/fit_group.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_weber.h"

@@ -13,8 +13,8 @@
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
 #include "analysis/statistics/fit_status.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "app/commands/fit_words.h"
 
 /// What `jnd fit weber` and `jnd fit power` share: a table, of which each group is fitted.

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
 #include "core/hand.h"

@@ -7,10 +7,10 @@
 #include <string>
 #include <thread>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/stop_signals.h"
-#include "app/commands/commands.h"
 #include "app/session/device_run.h"
 #include "app/session/session_setup.h"
 #include "core/error.h"

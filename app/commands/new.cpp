@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/usage_message.h"
-#include "app/commands/commands.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
 #include "experiments/protocol/schema_writer.h"

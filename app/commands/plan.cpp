@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "analysis/results/block_words.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
-#include "app/commands/commands.h"
 #include "app/commands/field_options.h"
 #include "app/operator/study_words.h"
 #include "app/planning/plan_lapses.h"

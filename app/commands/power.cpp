@@ -5,11 +5,11 @@
 #include <string>
 
 #include "analysis/report/report.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
-#include "app/commands/commands.h"
 #include "app/commands/compare_option.h"
 #include "app/commands/participant_list.h"
 #include "app/planning/power_files.h"

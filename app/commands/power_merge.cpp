@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/report/report.h"
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
 #include "app/planning/power_files.h"
 
 namespace jnd::app {

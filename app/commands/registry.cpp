@@ -1,23 +1,36 @@
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+
+// clang-format off
+// Every subcommand by the name of its function `add_NAME`, in the order of `jnd --help`.
+#define JND_EVERY_SUBCOMMAND(ADD)                                          \
+  /* A first look. */                                                      \
+  ADD(demo)                                                                \
+  /* Writing a study. */                                                   \
+  ADD(validate) ADD(schema) ADD(new) ADD(plan) ADD(power) ADD(power_merge) \
+  /* Running it. */                                                        \
+  ADD(run) ADD(simulate) ADD(resume)                                       \
+  /* Keeping it, and acts on what is kept. */                              \
+  ADD(verify) ADD(backup) ADD(restore)                                     \
+  ADD(exclude) ADD(unblind) ADD(withdraw) ADD(adverse_event)               \
+  /* What came of it. */                                                   \
+  ADD(results) ADD(report) ADD(export)                                     \
+  /* Other people's data. */                                               \
+  ADD(fit) ADD(compare)                                                    \
+  /* The apparatus. */                                                     \
+  ADD(force) ADD(loop) ADD(devices) ADD(doctor) ADD(stability)             \
+  ADD(characterize) ADD(device_simulator) ADD(device_key)
+// clang-format on
 
 namespace jnd::app {
 
+#define JND_DECLARE(name) void add_##name(CLI::App& program, Invocation& invocation);
+JND_EVERY_SUBCOMMAND(JND_DECLARE)
+#undef JND_DECLARE
+
 const std::vector<Registration>& registrations() {
-  static const std::vector<Registration> kAll = {
-      add_demo,  // A first look.
-      add_validate,      add_schema,       add_new,
-      add_plan,          add_power,        add_power_merge,  // Writing a study.
-      add_run,           add_simulate,     add_resume,       // Running it.
-      add_verify,        add_backup,       add_restore,      // Keeping it.
-      add_exclude,       add_unblind,      add_withdraw,
-      add_adverse_event,                                // Acts on what is kept.
-      add_results,       add_report,       add_export,  // What came of it.
-      add_fit,           add_compare,                   // Other people's data.
-      add_force,         add_loop,         add_devices,
-      add_doctor,  // The apparatus.
-      add_stability,     add_characterize, add_device_simulator,
-      add_device_key,
-  };
+#define JND_LIST(name) add_##name,
+  static const std::vector<Registration> kAll = {JND_EVERY_SUBCOMMAND(JND_LIST)};
+#undef JND_LIST
   return kAll;
 }
 

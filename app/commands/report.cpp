@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
-#include "app/commands/commands.h"
 #include "app/commands/compare_option.h"
 #include "app/commands/inverted_option.h"
 #include "app/results/study_report.h"

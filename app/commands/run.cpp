@@ -10,12 +10,12 @@
 #include <string>
 #include <thread>
 
+#include "app/command_line/command.h"
 #include "app/command_line/open_window.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/command_line/usage_message.h"
-#include "app/commands/commands.h"
 #include "app/commands/field_options.h"
 #include "app/session/laboratory_run.h"
 #include "app/session/pseudonym.h"

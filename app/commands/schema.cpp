@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
 #include "experiments/protocol/reference_writer.h"
 #include "experiments/protocol/schema_writer.h"
 

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
-#include "app/commands/commands.h"
 #include "app/commands/field_options.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
 #include "app/operator/export_actions.h"
 
 namespace jnd::app {

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
-#include "app/commands/commands.h"
 #include "app/commands/device_check.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "app/session/replay_check.h"
 #include "core/storage/integrity.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "analysis/export/bids_text.h"
+#include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/commands.h"
 #include "core/clock.h"
 #include "core/storage/study_store.h"
 #include "core/storage/withdrawal.h"

@@ -158,8 +158,7 @@ class Outliner {
       return;
     }
     const std::string unit = experiments::quantity_unit(block.quantity);
-    const std::string name =
-        unit.empty() ? name_words(block.quantity) + " " : "";
+    const std::string name = unit.empty() ? name_words(block.quantity) + " " : "";
     if (analysis::length_is_expected(block)) {
       for (const std::string& words : analysis::adaptive_level_words(block, unit)) {
         line.details.push_back(name_words(block.medium, false) + ", " + name + words);
@@ -175,10 +174,9 @@ class Outliner {
     if (!block.standards.empty()) {
       const std::string quantity = quantity_of(block.standard_medium);
       const std::string its_unit = experiments::quantity_unit(quantity);
-      line.details.push_back(
-          "standard " + name_words(block.standard_medium, false) + ", " +
-          (its_unit.empty() ? name_words(quantity) + " " : "") +
-          analysis::list_of(block.standards, its_unit));
+      line.details.push_back("standard " + name_words(block.standard_medium, false) + ", " +
+                             (its_unit.empty() ? name_words(quantity) + " " : "") +
+                             analysis::list_of(block.standards, its_unit));
     }
     if (!block.target_percent.empty()) {
       line.details.push_back("targets " + analysis::list_of(block.target_percent, "%"));

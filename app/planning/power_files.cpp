@@ -9,8 +9,8 @@
 
 #include "analysis/export/unfinished_folder.h"
 #include "analysis/report/figure_files.h"
-#include "analysis/report/study_power_figure.h"
 #include "analysis/report/run_tool.h"
+#include "analysis/report/study_power_figure.h"
 #include "app/command_line/json_text.h"
 #include "app/planning/power_json.h"
 #include "core/error.h"

@@ -28,7 +28,7 @@ std::string words_of(const Stretch& stretch) {
 }  // namespace
 
 void check_session_limit_rules(const LocatedJson& file, const Study& study,
-                       std::vector<StudyProblem>& problems) {
+                               std::vector<StudyProblem>& problems) {
   const SessionLimits& limits = study.session_limits;
   if (!limits.max_duration_s && !limits.max_trials_without_break) return;
   double longest_s = 0.0;

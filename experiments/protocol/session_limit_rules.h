@@ -11,6 +11,6 @@ namespace jnd::experiments {
 /// Holds what participants are expected to do against the limits of their study: its duration,
 /// trials from break to break. For a study that is sound otherwise. Not real time.
 void check_session_limit_rules(const LocatedJson& file, const Study& study,
-                       std::vector<StudyProblem>& problems);
+                               std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments
