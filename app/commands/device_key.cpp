@@ -49,7 +49,7 @@ void add_device_key(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "device-key", "Draws a key that a program and a device on another machine share");
-  command->add_option("name", options->name, "Of the key: letters, digits, \"-\" and \"_\"")
+  command->add_option("name", options->name, R"(Of the key: letters, digits, "-" and "_")")
       ->required();
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback([options, &invocation] {

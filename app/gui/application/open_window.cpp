@@ -42,11 +42,11 @@ void show(gui::Window& window, const WindowRequest& request) {
   // Made when the apparatus is first looked at; gone before OpenGL is.
   std::unique_ptr<gui::ScenePainter> painter;
   gui::Application application(request, [&window] { window.wake(); });
-  application.paint_scene = [&painter](const gui::SceneRequest& scene) {
+  application.set_scene_painter([&painter](const gui::SceneRequest& scene) {
     if (painter == nullptr) painter = std::make_unique<gui::ScenePainter>();
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return painter->paint(scene, std::chrono::duration<double>(now).count());
-  };
+  });
   bool second_was_open = false;
   window.on_escape = [&] { application.escape(); };
   window.on_key_changed = [&](gui::Key key, bool is_down) {

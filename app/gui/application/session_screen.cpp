@@ -1,16 +1,14 @@
-// A session in the window: from its start or resumption to the check and copy after it.
+#include "app/gui/application/session_screen.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
-#include "app/gui/application/application.h"
 #include "app/operator/remembered_stop.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
-#include "core/clock.h"
-#include "core/error.h"
+#include "device/haptic_device.h"
 #include "device/registry/device_registry.h"
-#include "experiments/protocol/study_reader.h"
 
 namespace jnd::app::gui {
 
@@ -28,45 +26,36 @@ std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& devic
 
 }  // namespace
 
-void Application::start_tour() {
-  const fs::path folder = default_study_folder("short_tour");
-  const fs::path file = user_or_shipped("short_tour", "protocols");
-  create_study_folder(file, folder);
-  open_folder(folder);
-  seed_ = static_cast<std::uint64_t>(core::SystemClock().now_ns());
-  prepare_state_.language = study_->languages.front();
-  prepare_state_.fields.clear();
-  start_session("P01", "mouse");
-}
-
-void Application::start_session(const std::string& participant, const std::string& device) {
-  auto store =
-      std::make_unique<core::StudyStore>(folder_->folder, core::StudyStore::Mode::kReadWrite);
+void SessionScreen::start(const NewSession& session) {
+  const experiments::Study& study = study_.study();
+  auto store = std::make_unique<core::StudyStore>(study_.folder().folder,
+                                                  core::StudyStore::Mode::kReadWrite);
   const std::unique_ptr<experiments::Laboratory> laboratory =
-      laboratory_for(device, study_->device.rate_hz);
-  const std::int64_t session = add_sessions(*store,
-                                            {.study = *study_,
-                                             .laboratory = laboratory.get(),
-                                             .study_file = folder_->study_file,
-                                             .device = device,
-                                             .seed = seed_,
-                                             .pilot = prepare_state_.pilot,
-                                             .realtime = true,
-                                             .allow_no_realtime = request_.allow_no_realtime,
-                                             .fields = prepare_state_.fields},
-                                            {participant})
-                                   .front();
-  run(std::move(store), session);
+      laboratory_for(session.device, study.device.rate_hz);
+  const std::int64_t number = add_sessions(*store,
+                                           {.study = study,
+                                            .laboratory = laboratory.get(),
+                                            .study_file = study_.folder().study_file,
+                                            .device = session.device,
+                                            .seed = session.seed,
+                                            .pilot = session.pilot,
+                                            .realtime = true,
+                                            .allow_no_realtime = allow_no_realtime_,
+                                            .fields = session.fields},
+                                           {session.participant})
+                                  .front();
+  run(std::move(store), number,
+      session.language.empty() ? study.languages.front() : session.language);
 }
 
-void Application::resume_session(const fs::path& folder, std::int64_t session) {
-  open_folder(folder);
-  auto store = std::make_unique<core::StudyStore>(folder, core::StudyStore::Mode::kReadWrite);
-  prepare_state_.language = "";
-  run(std::move(store), session);
+void SessionScreen::resume(std::int64_t session) {
+  run(std::make_unique<core::StudyStore>(study_.folder().folder,
+                                         core::StudyStore::Mode::kReadWrite),
+      session, /*language=*/"");
 }
 
-void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t session) {
+void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t session,
+                        const std::string& language) {
   const core::SessionRow row = store->session(session);
   experiments::Study study = stored_study(*store, session);
   std::unique_ptr<experiments::Laboratory> laboratory;
@@ -83,23 +72,47 @@ void Application::run(std::unique_ptr<core::StudyStore> store, std::int64_t sess
   view_.reset();
   finished_ = false;
   closing_ = leaving_ = false;
-  session_folder_ = store->folder();
+  folder_ = store->folder();
   worker_ = std::make_unique<SessionWorker>(
       SessionWorker::Parameters{.store = std::move(store),
                                 .session = session,
                                 .study = std::move(study),
                                 .laboratory = std::move(laboratory),
-                                .language = prepare_state_.language,
-                                .allow_no_realtime = request_.allow_no_realtime,
+                                .language = language,
+                                .allow_no_realtime = allow_no_realtime_,
                                 .stops = stops_folder(),
-                                .wake = wake_},
+                                .wake = host_.wake()},
       exchange_);
-  screen_ = Screen::kSession;
+}
+
+bool SessionScreen::works() const noexcept {
+  return (check_ && check_->running()) || (backup_ && backup_->running());
+}
+
+void SessionScreen::cursor(float x, float y) noexcept {
+  const Rect& pad = run_state_.pad;
+  if (worker_ == nullptr || pad.width <= 0) return;
+  const double dx = std::clamp(x, pad.x, pad.right()) - (pad.x + pad.width / 2);
+  const double dy = std::clamp(y, pad.y, pad.bottom()) - (pad.y + pad.height / 2);
+  exchange_.pointer.publish({.sequence = ++pointer_sequence_,
+                             .x_m = dx * run_state_.pad_m_per_px,
+                             .y_m = -dy * run_state_.pad_m_per_px});
+}
+
+void SessionScreen::ask_to_close() {
+  closing_ = true;
+  ask_to_leave(run_state_);
+}
+
+void SessionScreen::leave_and_close(const std::string& reason) {
+  if (std::exchange(closing_, true)) return;
+  leaving_ = true;
+  worker_->request(operate::Leave{reason});
 }
 
 /// Keys pressed while an act is being carried out are meant for what it leads to. A disk that
 /// hangs or a long rest must not keep the operator from everything else, though.
-void Application::hold_input(Ui& ui, bool is_behind, bool requests_wait) const {
+void SessionScreen::hold_input(Ui& ui, bool is_behind, bool requests_wait) const {
   constexpr auto kMostForTheDisk = std::chrono::seconds(1);
   constexpr auto kMostForARamp = std::chrono::milliseconds(300);
   const auto waited = std::chrono::steady_clock::now() - requested_at_;
@@ -108,14 +121,15 @@ void Application::hold_input(Ui& ui, bool is_behind, bool requests_wait) const {
   }
 }
 
-void Application::draw_session(Ui& ui) {
-  if (worker_) {
-    // Before the view, which then shows at least as much.
-    hold_input(ui, worker_->is_behind(), worker_->has_waiting_requests());
-    if (auto newest = worker_->view()) view_ = std::move(newest);
-    if (worker_->over()) close_session();
-  }
-  if (screen_ != Screen::kSession) return draw_sessions(ui);
+void SessionScreen::update(Ui& ui) {
+  if (!worker_) return;
+  // Before the view, which then shows at least as much.
+  hold_input(ui, worker_->is_behind(), worker_->has_waiting_requests());
+  if (auto newest = worker_->view()) view_ = std::move(newest);
+  if (worker_->over()) close_session();
+}
+
+void SessionScreen::draw(Ui& ui) {
   if (!view_) {
     ui.text(ui.screen(), "Starting the device …",
             {.font = Font::kTitle, .colour = Colour::kSoft, .align = Align::kCentre});
@@ -123,8 +137,8 @@ void Application::draw_session(Ui& ui) {
   }
   after_session();
   const RunViewResult result = draw_session_view(ui);
-  if (result.stop) escape();
   if (worker_) {
+    if (result.stop) press_stop();
     if (!result.requests.empty()) requested_at_ = std::chrono::steady_clock::now();
     for (const OperatorRequest& request : result.requests) worker_->request(request);
   }
@@ -133,20 +147,15 @@ void Application::draw_session(Ui& ui) {
   if (closing_ && run_state_.dialog == RunViewState::Dialog::kNone && !leaving_) {
     closing_ = false;  // They stay.
   }
-  if (result.back_up && backup_ == nullptr) {
-    backup_ = std::make_unique<BackgroundTask<ActionOutcome>>(
-        [folder = session_folder_, target = fs::path(after_.backup_folder)](
-            WorkControl& control) { return back_up_study(folder, target, control); },
-        wake_);
-  }
+  if (result.back_up && backup_ == nullptr) begin_backup(after_.backup_folder);
   if (worker_ == nullptr && result.to_results) {
-    go_to(StudyTab::kResults);
+    host_.go_to(StudyTab::kResults);
   } else if (worker_ == nullptr && result.to_sessions) {
-    go_to(StudyTab::kSessions);
+    host_.go_to(StudyTab::kSessions);
   }
 }
 
-RunViewResult Application::draw_session_view(Ui& ui) {
+RunViewResult SessionScreen::draw_session_view(Ui& ui) {
   const bool is_over = view_->step == Step::kFinished || view_->step == Step::kFailed;
   if (is_over || view_->is_alone) run_state_.shows_apparatus = false;
   if (run_state_.shows_apparatus) {
@@ -158,7 +167,7 @@ RunViewResult Application::draw_session_view(Ui& ui) {
   return draw_run_view(ui, *view_, trace, after_, run_state_);
 }
 
-ApparatusSources Application::apparatus_sources() {
+ApparatusSources SessionScreen::apparatus_sources() {
   ApparatusSources sources{.paint_problem = paint_problem_};
   if (worker_) {
     sources.scopes = [this](const std::vector<std::string>& names) {
@@ -179,41 +188,33 @@ ApparatusSources Application::apparatus_sources() {
 }
 
 /// The session is over and its folder closed: left, failed, or finished.
-void Application::close_session() {
+void SessionScreen::close_session() {
   const std::string failure = worker_->failure();
   worker_.reset();
   run_state_.pad = {};
   finished_ = view_ && view_->step == Step::kFinished;
-  if (closing_) closed_ = true;
+  if (closing_) host_.close();
   if (finished_) return;
-  if (!failure.empty()) tell("The session stopped", failure);
-  go_to(StudyTab::kSessions);
+  if (!failure.empty()) host_.tell("The session stopped", failure);
+  host_.go_to(StudyTab::kSessions);
 }
 
 /// Once a session is finished its folder is closed, checked, and copied where a copy is known.
-void Application::after_session() {
+void SessionScreen::after_session() {
   if (worker_ && view_->step == Step::kFinished) {
     worker_->request(operate::Leave{});
     return;
   }
   if (!finished_) return;
   if (check_ == nullptr) {
-    attempt("The study cannot be read", [this] { reload_folder(); });
-    after_.backup_folder = folder_->backups.empty()
-                               ? free_folder_beside(session_folder_, "backup").string()
-                               : folder_->backups.front().string();
+    host_.attempt("The study cannot be read", [this] { study_.reload(); });
+    const std::vector<fs::path>& backups = study_.folder().backups;
+    after_.backup_folder = backups.empty() ? free_folder_beside(folder_, "backup").string()
+                                           : backups.front().string();
     check_ = std::make_unique<BackgroundTask<ActionOutcome>>(
-        [folder = session_folder_](WorkControl& control) {
-          return verify_study(folder, control);
-        },
-        wake_);
-    if (!folder_->backups.empty()) {
-      backup_ = std::make_unique<BackgroundTask<ActionOutcome>>(
-          [folder = session_folder_, target = folder_->backups.front()](WorkControl& control) {
-            return back_up_study(folder, target, control);
-          },
-          wake_);
-    }
+        [folder = folder_](WorkControl& control) { return verify_study(folder, control); },
+        host_.wake());
+    if (!backups.empty()) begin_backup(backups.front());
   }
   const auto collect = [&](BackgroundTask<ActionOutcome>& task, bool& running,
                            std::string& sentence, bool& failed) {
@@ -235,6 +236,14 @@ void Application::after_session() {
     after_.backup_has_caution = outcome != nullptr && outcome->caution;
     if (!after_.backing_up && after_.backup_failed) backup_.reset();
   }
+}
+
+void SessionScreen::begin_backup(const fs::path& target) {
+  backup_ = std::make_unique<BackgroundTask<ActionOutcome>>(
+      [folder = folder_, target](WorkControl& control) {
+        return back_up_study(folder, target, control);
+      },
+      host_.wake());
 }
 
 }  // namespace jnd::app::gui

@@ -1,0 +1,119 @@
+#include "app/gui/application/prepare_screen.h"
+
+#include <utility>
+
+#include "app/operator/study_words.h"
+#include "app/session/session_setup.h"
+#include "device/haptic_device.h"
+#include "device/registry/device_registry.h"
+#include "experiments/order/counterbalance.h"
+#include "experiments/session/plan.h"
+
+namespace jnd::app::gui {
+namespace {
+
+/// Those that need no address, and the one that was asked for. Not for every frame: a simulated
+/// device is a world of its own.
+std::vector<PrepareModel::Device> devices_to_choose(const std::string& asked, double rate_hz) {
+  std::vector<PrepareModel::Device> all;
+  const auto add = [&](const std::string& name, std::string_view description) {
+    all.push_back({name, std::string(description),
+                   device::make_device(name, rate_hz)->capabilities().simulated});
+  };
+  for (const device::DeviceEntry& entry : device::devices()) {
+    if (entry.argument.empty()) add(std::string(entry.name), entry.description);
+  }
+  const device::DeviceEntry& entry = device::device_named(asked);
+  if (!entry.argument.empty()) add(asked, entry.description);
+  return all;
+}
+
+}  // namespace
+
+void PrepareScreen::show() {
+  study_.reload();
+  const core::StudyStore store(study_.folder().folder, core::StudyStore::Mode::kReadOnly);
+  taken_.clear();
+  for (const core::SessionRow& row : store.sessions()) taken_.push_back(row.participant);
+  for (const core::WithdrawalRow& gone : store.withdrawals()) {
+    taken_.push_back(gone.participant);
+  }
+  seed_ = request_.seed ? *request_.seed : seed_of(store);
+  state_.fields = std::exchange(request_.fields, {});
+  assign(store);
+  state_.participant = request_.participant.empty() ? next_participants(store, 1).front()
+                                                    : std::exchange(request_.participant, "");
+  state_.pilot = request_.pilot;
+  if (state_.device.empty()) {
+    state_.device =
+        request_.device.empty() ? std::string(device::devices().front().name) : request_.device;
+  }
+  devices_ = devices_to_choose(state_.device, study_.study().device.rate_hz);
+  state_.language = request_.language.empty() ? study_.study().languages.front()
+                                              : std::exchange(request_.language, "");
+  look_before();
+}
+
+/// Says in words which cell comes next, once what the participant brings is known.
+void PrepareScreen::assign(const core::StudyStore& store) {
+  assigned_.clear();
+  const experiments::Study& study = study_.study();
+  const bool knows_fields = field_problem(study, state_.fields).empty();
+  if (study_.folder().hides_levels || !knows_fields) return;
+  assigned_ =
+      cell_words(experiments::planned_cells(study, experiments::completed_cells(store), seed_,
+                                            static_cast<std::int64_t>(store.sessions().size()),
+                                            1, state_.fields)
+                     .front());
+}
+
+void PrepareScreen::look_before() {
+  preflight_ = std::make_unique<Preflight>(
+      PreflightRequest{.folder = study_.folder().folder,
+                       .device = state_.device,
+                       .allow_no_realtime = request_.allow_no_realtime},
+      host_.wake());
+}
+
+void PrepareScreen::press_stop() noexcept {
+  if (preflight_ != nullptr) preflight_->press_emergency_stop();
+}
+
+void PrepareScreen::draw(Ui& ui) {
+  const PrepareModel model{.study = study_.folder(),
+                           .devices = devices_,
+                           .languages = study_.study().languages,
+                           .fields = study_.study().participant_fields,
+                           .taken = taken_,
+                           .assigned = assigned_,
+                           .seed = seed_,
+                           .lines = preflight_->lines(),
+                           .looking = preflight_->running(),
+                           .progress = preflight_->progress()};
+  const PrepareViewResult result = draw_prepare_view(ui, model, state_);
+  if (result.look_again) {
+    look_before();
+  } else if (result.fields_changed) {
+    host_.attempt("The order cannot be assigned", [this] {
+      assign(core::StudyStore(study_.folder().folder, core::StudyStore::Mode::kReadOnly));
+    });
+  }
+  if (!result.start && result.tab == StudyTab::kNone) return;
+  // The device is the session's, or nobody's.
+  preflight_.reset();
+  if (result.start) {
+    host_.attempt("The session cannot be started", [this] {
+      host_.start_session({.participant = state_.participant,
+                           .device = state_.device,
+                           .seed = seed_,
+                           .pilot = state_.pilot,
+                           .language = state_.language,
+                           .fields = state_.fields});
+    });
+  } else {
+    host_.go_to(result.tab);
+  }
+  if (host_.shows(*this)) look_before();
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
+#include "app/gui/views/results_view.h"
+#include "app/operator/background_task.h"
+
+namespace jnd::app::gui {
+
+/// The results of a study, computed beside the window whenever it is shown.
+class ResultsScreen final : public Screen {
+ public:
+  ResultsScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
+  [[nodiscard]] const char* name() const noexcept override { return "results"; }
+  void show() override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }
+  void forget_study() override;
+
+ private:
+  ScreenHost& host_;
+  OpenStudy& study_;
+  std::unique_ptr<BackgroundTask<ResultsModel>> task_;
+  ResultsViewState state_;
+};
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
+#include "app/gui/views/apparatus_view.h"
+#include "app/gui/views/run_view.h"
+#include "app/operator/background_task.h"
+#include "app/operator/session_worker.h"
+#include "app/session/operator_exchange.h"
+
+namespace jnd::app::gui {
+
+/// A session in the window, from its start or resumption to the check and copy after it.
+class SessionScreen final : public Screen {
+ public:
+  SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime)
+      : host_(host), study_(study), allow_no_realtime_(allow_no_realtime) {}
+
+  /// Adds a session to the study that is open, and begins it. Throws `Error`.
+  void start(const NewSession& session);
+  /// Goes on with one of that study. Throws `Error`.
+  void resume(std::int64_t session);
+
+  [[nodiscard]] const char* name() const noexcept override {
+    return run_state_.shows_apparatus ? "apparatus" : "session";
+  }
+  void show() override {}
+  void update(Ui& ui) override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override;
+
+  /// A session is under way.
+  [[nodiscard]] bool is_live() const noexcept { return worker_ != nullptr; }
+  /// The newest picture of it; nullptr before the first.
+  [[nodiscard]] const SessionView* view() const noexcept { return view_.get(); }
+  /// Something lies over it and takes what is typed.
+  void set_covered(bool is_covered) noexcept { run_state_.is_covered = is_covered; }
+  [[nodiscard]] bool is_covered() const noexcept { return run_state_.is_covered; }
+
+  // From the window's own events, past every queue.
+  void press_stop() noexcept { exchange_.emergency_stop.press(); }
+  [[nodiscard]] bool stop_is_pressed() const noexcept {
+    return exchange_.emergency_stop.is_pressed();
+  }
+  void beat() noexcept { exchange_.heartbeat.beat(); }
+  /// The mouse's place, which moves the hand on the pad; logical pixels.
+  void cursor(float x, float y) noexcept;
+
+  /// Asks the person whether to leave; the window closes once it is left.
+  void ask_to_close();
+  /// Leaves it as it is, to be resumed; the window closes then.
+  void leave_and_close(const std::string& reason);
+
+  /// Draws the apparatus, where somebody can; what it throws is told in its place.
+  std::function<std::uintptr_t(const SceneRequest&)> paint_scene;
+
+ private:
+  void run(std::unique_ptr<core::StudyStore> store, std::int64_t session,
+           const std::string& language);
+  void hold_input(Ui& ui, bool is_behind, bool requests_wait) const;
+  [[nodiscard]] RunViewResult draw_session_view(Ui& ui);
+  [[nodiscard]] ApparatusSources apparatus_sources();
+  void close_session();
+  void after_session();
+  void begin_backup(const std::filesystem::path& target);
+
+  ScreenHost& host_;
+  OpenStudy& study_;
+  bool allow_no_realtime_;
+  OperatorExchange exchange_;
+  std::unique_ptr<SessionWorker> worker_;
+  std::shared_ptr<const SessionView> view_;
+  std::chrono::steady_clock::time_point requested_at_;  ///< The last time.
+  std::filesystem::path folder_;                        ///< Of the session's study.
+  RunViewState run_state_;
+  ApparatusViewState apparatus_state_;
+  std::string paint_problem_;
+  AfterSession after_;
+  std::unique_ptr<BackgroundTask<ActionOutcome>> check_, backup_;
+  bool finished_ = false;
+  bool closing_ = false, leaving_ = false;
+  std::uint64_t pointer_sequence_ = 0;
+};
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "app/gui/application/screen.h"
+#include "app/gui/views/start_view.h"
+#include "app/operator/background_task.h"
+#include "app/operator/recent_studies.h"
+
+namespace jnd::app::gui {
+
+/// Studies opened lately, the shipped ones, and a look at the machine.
+class StartScreen final : public Screen {
+ public:
+  /// `recent` must outlive it.
+  StartScreen(ScreenHost& host, RecentStudies& recent) : host_(host), recent_(recent) {}
+  [[nodiscard]] const char* name() const noexcept override { return "start"; }
+  void show() override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }
+
+ private:
+  void start_tour();
+
+  ScreenHost& host_;
+  RecentStudies& recent_;
+  StartModel model_;
+  std::unique_ptr<BackgroundTask<StartModel>> task_;
+  StartViewState state_;
+};
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
+#include "app/gui/views/study_view.h"
+#include "app/operator/study_outline.h"
+
+namespace jnd::app::gui {
+
+/// The study file: its stages, its stimuli, and the orders of the next participants; read again
+/// when somebody saves it.
+class StudyScreen final : public Screen {
+ public:
+  StudyScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
+  [[nodiscard]] const char* name() const noexcept override { return "study"; }
+  /// A file that is of no folder, to be shown next.
+  void watch(const std::filesystem::path& file);
+  void show() override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool look_beside() override;
+  void forget_study() override { watch_.reset(); }
+
+ private:
+  ScreenHost& host_;
+  OpenStudy& study_;
+  std::unique_ptr<StudyWatch> watch_;
+  std::vector<PlannedOrder> orders_;
+  std::string orders_problem_;  ///< Why there are none; "" otherwise.
+  StudyViewState state_;
+  double reloaded_s_ = 0.0, age_shown_s_ = 0.0;
+};
+
+}  // namespace jnd::app::gui
