@@ -1,0 +1,87 @@
+#include "app/gui/application/application.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "app/gui/headless_ui.h"
+#include "app/tiny_study.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app::gui {
+namespace application_test {
+
+namespace fs = std::filesystem;
+
+/// The window without its pixels, on a study of no sessions.
+class ApplicationTest : public ::testing::Test {
+ protected:
+  ApplicationTest() {
+    ::setenv("XDG_STATE_HOME", temporary_.path().c_str(), 1);
+    write_file(file_, kTinyStudy);
+    create_study_folder(file_, folder_);
+  }
+  void open(WindowRequest request) {
+    application_ = std::make_unique<Application>(std::move(request), [] {});
+    draw();
+  }
+  void draw() {
+    ui_.frame([this](Ui& ui) {
+      ui.set_view(application_->view_name());
+      application_->draw(ui);
+    });
+  }
+  std::string after(const Chord& key) {
+    ui_.press(key);
+    draw();
+    return application_->view_name();
+  }
+
+  test_support::TemporaryFolder temporary_;
+  fs::path file_ = temporary_.path() / "tiny.json";
+  fs::path folder_ = temporary_.path() / "tiny.study";
+  HeadlessUi ui_;
+  std::unique_ptr<Application> application_;
+};
+
+TEST_F(ApplicationTest, EveryTabOfAStudyOpensItsScreen) {
+  open({.study_folder = folder_});
+  EXPECT_STREQ(application_->view_name(), "sessions");
+  EXPECT_EQ(after({letter('3'), true}), "study");
+  EXPECT_EQ(after({letter('2'), true}), "results");
+  EXPECT_EQ(after({letter('1'), true}), "sessions");
+  EXPECT_EQ(after({letter('0'), true}), "start");
+}
+
+TEST_F(ApplicationTest, AStudyFileIsShownWithoutAFolder) {
+  open({.study_folder = file_});
+  EXPECT_STREQ(application_->view_name(), "study");
+  EXPECT_TRUE(ui_.drawn().shows("Tiny"));
+  EXPECT_EQ(after({letter('0'), true}), "start");
+}
+
+TEST_F(ApplicationTest, ATabThatCannotBeOpenedLeavesThePreparationAsItWas) {
+  open({.study_folder = folder_, .participant = "P01"});
+  EXPECT_STREQ(application_->view_name(), "prepare");
+  fs::remove(file_);
+  EXPECT_EQ(after({letter('3'), true}), "prepare");
+  EXPECT_TRUE(ui_.drawn().shows("expected its study file"));
+  EXPECT_EQ(after({Key::kEnter}), "prepare");
+  EXPECT_NE(ui_.drawn().find("start_session"), nullptr);
+}
+
+TEST_F(ApplicationTest, WhatCannotBeOpenedIsToldAndTheStartStays) {
+  fs::create_directory(temporary_.path() / "no.study");
+  write_file(temporary_.path() / "no.study" / "study.sqlite", "not a database");
+  open({.study_folder = temporary_.path() / "no.study"});
+  EXPECT_STREQ(application_->view_name(), "start");
+  EXPECT_NE(ui_.drawn().find("message_close"), nullptr);
+  EXPECT_FALSE(application_->is_live());
+  application_->ask_to_close();
+  EXPECT_TRUE(application_->closed());
+}
+
+}  // namespace application_test
+}  // namespace jnd::app::gui
