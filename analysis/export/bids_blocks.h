@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/export/table_rows.h"
+#include "core/storage/recorded_ticks.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {

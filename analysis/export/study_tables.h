@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "analysis/export/exported_recording.h"
+#include "analysis/export/table_rows.h"
 #include "analysis/export/table_writer.h"
 
 namespace jnd::analysis {
@@ -22,5 +26,34 @@ namespace jnd::analysis {
 /// How many columns of trials say whose they are, not what was done: BIDS says that by the name
 /// of the file.
 inline constexpr std::size_t kNumTrialOwners = 2;
+
+// A session's rows of each table.
+
+/// `events`: of the session.
+void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
+                   const std::vector<core::EventRow>& events);
+void write_trials(TableWriter& table, const core::SessionRow& session,
+                  const std::vector<ExportedTrial>& trials);
+void write_presentations(TableWriter& table, const core::SessionRow& session,
+                         const std::vector<ExportedPresentation>& presentations);
+void write_events(TableWriter& table, const core::SessionRow& session,
+                  const std::vector<core::EventRow>& events);
+void write_answers(TableWriter& table, const core::SessionRow& session,
+                   const std::vector<core::AnswerRow>& answers);
+/// The questions of the session's study file, with what of the answers belongs to each.
+void write_questionnaire(TableWriter& table, const core::SessionRow& session,
+                         const std::vector<core::AnswerRow>& answers,
+                         const std::vector<QuestionnaireItem>& questions);
+void write_gaps(TableWriter& table, const core::SessionRow& session,
+                const ExportedRecording& recording);
+
+/// A row for every column of every table, by the name that the data set gives the table.
+void write_codebook(
+    TableWriter& table,
+    const std::vector<std::pair<std::string, const std::vector<CsvColumn>*>>& tables);
+
+/// The cells of a trial after those of its owner, the row not ended: `simulated` is the first.
+void write_trial_cells(TableWriter& table, const core::SessionRow& session,
+                       const ExportedTrial& trial);
 
 }  // namespace jnd::analysis
