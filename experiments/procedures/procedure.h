@@ -106,7 +106,7 @@ class Procedure {
   }
   [[nodiscard]] virtual AdaptiveRule rule() const noexcept { return AdaptiveRule::kNone; }
   /// Whether the answers decide what is presented, and how many trials there are.
-  [[nodiscard]] bool adapts() const noexcept { return rule() != AdaptiveRule::kNone; }
+  [[nodiscard]] virtual bool adapts() const noexcept { return rule() != AdaptiveRule::kNone; }
   /// How many trials to expect, for progress and planning; no more than `most_trials`.
   [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
   /// How many there can be, with as many catch trials as are to be expected among them.

@@ -18,6 +18,7 @@ class RoughThreshold final : public Procedure {
   std::vector<BlockKey> keys() const override { return {stimuli_key()}; }
   TrialForm form(const Block&) const override { return {.answer = AnswerKind::kYesNo}; }
   Measure measures(const Block&) const override { return Measure::kDetection; }
+  bool adapts() const noexcept override { return true; }
 
   std::vector<PlannedTrial> draw_next(const Block& block,
                                       const std::vector<AnsweredTrial>& answered,
