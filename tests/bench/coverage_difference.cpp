@@ -23,7 +23,7 @@ struct Pair {
   double lapse = 0.0;
 };
 
-void cover_pair(const Pair& pair, int num_sets, std::uint64_t seed) {
+std::string cover_pair(const Pair& pair, int num_sets, std::uint64_t seed) {
   const double truth = std::log(std::log1p(0.3)) - std::log(std::log1p(0.7));
   RandomStream random(seed, "coverage of a difference",
                       {pair.num_people, static_cast<std::int64_t>(1000.0 * pair.spread_ln),
@@ -59,10 +59,9 @@ void cover_pair(const Pair& pair, int num_sets, std::uint64_t seed) {
   char bias[32], width[32];
   std::snprintf(bias, sizeof bias, "%+.3f", summary_of(errors).mean.value_or(0.0));
   std::snprintf(width, sizeof width, "%.3f", widths.empty() ? 0.0 : widths[widths.size() / 2]);
-  print_row({pair.words, pair.own_places ? "of its own in each" : "the same in both",
-             std::to_string(pair.num_people), coverage.words(), width, bias,
-             std::to_string(coverage.num_without)});
-  std::fflush(stdout);
+  return row_of({pair.words, pair.own_places ? "of its own in each" : "the same in both",
+                 std::to_string(pair.num_people), coverage.words(), width, bias,
+                 std::to_string(coverage.num_without)});
 }
 
 }  // namespace
@@ -79,6 +78,7 @@ void cover_difference(int num_sets, std::uint64_t seed) {
   const std::string alike = "by 0.3 in ln in both alike";
   const std::string partly = alike + ", by 0.2 in each alone";
   const std::string alone = "by 0.3 in ln in each alone";
+  std::vector<std::function<std::string()>> rows;
   for (const Pair& pair :
        {Pair{.words = alike}, Pair{.words = alike, .num_people = 5},
         Pair{.words = partly, .own_ln = 0.2},
@@ -97,8 +97,9 @@ void cover_difference(int num_sets, std::uint64_t seed) {
         .own_ln = 0.2,
         .own_places = true,
         .lapse = 0.05}}) {
-    cover_pair(pair, num_sets, seed);
+    rows.emplace_back([pair, num_sets, seed] { return cover_pair(pair, num_sets, seed); });
   }
+  print_rows(rows);
 }
 
 }  // namespace jnd::coverage

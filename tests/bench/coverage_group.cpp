@@ -116,7 +116,7 @@ std::string cell(const GroupEstimate& one) {
   return words;
 }
 
-void cover_group(const Row& row, int num_sets, std::uint64_t seed) {
+std::string cover_group(const Row& row, int num_sets, std::uint64_t seed) {
   constexpr int kTrials = 5;
   const Population& population = row.population;
   RandomStream random(seed, "coverage of a group",
@@ -152,12 +152,11 @@ void cover_group(const Row& row, int num_sets, std::uint64_t seed) {
     add_median(without_lapses, HierarchicalPse::kPersonal);
     add_median(at_reference, HierarchicalPse::kReference);
   }
-  print_row({population.words, row.levels.words, std::to_string(row.num_people),
-             cell(median.all), cell(median.without_caution),
-             percent(static_cast<double>(median.num_cautions) / num_sets).substr(1),
-             median.lapse_rate.words(), cell(without_lapses), cell(at_reference),
-             cell(of_pooled_free), cell(of_pooled)});
-  std::fflush(stdout);
+  return row_of({population.words, row.levels.words, std::to_string(row.num_people),
+                 cell(median.all), cell(median.without_caution),
+                 percent(static_cast<double>(median.num_cautions) / num_sets).substr(1),
+                 median.lapse_rate.words(), cell(without_lapses), cell(at_reference),
+                 cell(of_pooled_free), cell(of_pooled)});
 }
 
 }  // namespace
@@ -181,33 +180,35 @@ void cover_groups(int num_sets, std::uint64_t seed) {
              "median person, no lapses, pse free", "median person, no lapses, pse = reference",
              "pooled curve, pse free", "pooled curve, pse = reference"});
   std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  std::vector<std::function<std::string()>> rows;
+  const auto add = [&](Row row) {
+    rows.emplace_back(
+        [row = std::move(row), num_sets, seed] { return cover_group(row, num_sets, seed); });
+  };
   for (const double spread : {0.25, 0.4}) {
     for (const double place : {0.0, 0.15}) {
       char words[96];
       std::snprintf(words, sizeof words, "by %.2f in ln, pse by %.2f", spread, place);
-      cover_group({{.words = words, .spread_ln = spread, .place_sd_ln = place}}, num_sets,
-                  seed);
+      add({{.words = words, .spread_ln = spread, .place_sd_ln = place}});
     }
   }
-  cover_group({.population = {.words = "by 0.40 in ln, pse by 0.15",
-                              .spread_ln = 0.4,
-                              .place_sd_ln = 0.15},
-               .num_people = 26},
-              num_sets, seed);
+  add({.population = {.words = "by 0.40 in ln, pse by 0.15",
+                      .spread_ln = 0.4,
+                      .place_sd_ln = 0.15},
+       .num_people = 26});
   for (const bool easy : {false, true}) {
     const Levels& levels = easy ? kEasyLevels : kHardLevels;
     const auto cover = [&](const std::string& words, double lapse, double drift,
                            Sigmoid sigmoid, bool even_truth) {
-      cover_group({.population = {.words = words,
-                                  .weber_fraction = easy ? 0.22 : 0.7,
-                                  .spread_ln = 0.25,
-                                  .place_sd_ln = 0.15,
-                                  .drift_ln = drift,
-                                  .lapse = lapse,
-                                  .sigmoid = sigmoid,
-                                  .even_truth = even_truth},
-                   .levels = levels},
-                  num_sets, seed);
+      add({.population = {.words = words,
+                          .weber_fraction = easy ? 0.22 : 0.7,
+                          .spread_ln = 0.25,
+                          .place_sd_ln = 0.15,
+                          .drift_ln = drift,
+                          .lapse = lapse,
+                          .sigmoid = sigmoid,
+                          .even_truth = even_truth},
+           .levels = levels});
     };
     const std::string people = "by 0.25 in ln, pse by 0.15";
     if (easy) cover(people, 0.0, 0.0, Sigmoid::kNormal, false);
@@ -219,6 +220,7 @@ void cover_groups(int num_sets, std::uint64_t seed) {
     cover(misspecified, 0.05, 0.2, Sigmoid::kWeibull, true);
     cover(misspecified + ", truth (x84.13 - pse) / pse", 0.05, 0.2, Sigmoid::kWeibull, false);
   }
+  print_rows(rows);
 }
 
 }  // namespace jnd::coverage

@@ -2,13 +2,18 @@
 
 // People whose Weber fractions are known, and how often an interval held them.
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/fits/sigmoid.h"
+#include "core/parallel.h"
 #include "core/random_stream.h"
 
 namespace jnd::coverage {
@@ -102,9 +107,27 @@ struct Coverage {
   }
 };
 
+inline std::string row_of(const std::vector<std::string>& cells) {
+  std::string row;
+  for (const std::string& cell : cells) row += "| " + cell + " ";
+  return row + "|\n";
+}
 inline void print_row(const std::vector<std::string>& cells) {
-  for (const std::string& cell : cells) std::printf("| %s ", cell.c_str());
-  std::printf("|\n");
+  std::fputs(row_of(cells).c_str(), stdout);
+}
+
+/// Rows draw their sets from streams of their own, so all processors work at them at once; they
+/// are printed in their order. stderr tells how many are done.
+inline void print_rows(const std::vector<std::function<std::string()>>& rows) {
+  std::vector<std::string> done(rows.size());
+  std::atomic<int> num_done{0};
+  const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  core::for_each_index(rows.size(), jobs, [&](std::size_t i) {
+    done[i] = rows[i]();
+    std::fprintf(stderr, "coverage: %d of %zu rows of this table\n", ++num_done, rows.size());
+  });
+  for (const std::string& row : done) std::fputs(row.c_str(), stdout);
+  std::fflush(stdout);
 }
 
 inline std::string percent(double value) {

@@ -13,7 +13,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace limits_test {
+namespace method_of_limits_test {
 
 constexpr SeriesDirection kUp = SeriesDirection::kAscending;
 constexpr SeriesDirection kDown = SeriesDirection::kDescending;
@@ -222,5 +222,5 @@ TEST(Limits, RefusesARuleThatCannotRun) {
   EXPECT_THROW((void)limits.after({{kUp, 0}}, {{std::nan(""), true}}), core::Error);
 }
 
-}  // namespace limits_test
+}  // namespace method_of_limits_test
 }  // namespace jnd::experiments
