@@ -11,7 +11,7 @@ using experiments::Block;
 using experiments::Stage;
 using experiments::Study;
 
-const Study& StoredStudies::study(const std::string& protocol_sha256) {
+const Study& StoredStudies::study(const std::string& protocol_sha256) & {
   const auto known = studies_.find(protocol_sha256);
   if (known != studies_.end()) return known->second;
   const std::string text = store_.protocol(protocol_sha256).text;
@@ -24,7 +24,8 @@ const Study& StoredStudies::study(const std::string& protocol_sha256) {
   return study;
 }
 
-const Block& StoredStudies::block(const std::string& protocol_sha256, const std::string& name) {
+const Block& StoredStudies::block(const std::string& protocol_sha256,
+                                  const std::string& name) & {
   static const Block kNone;
   (void)study(protocol_sha256);
   const std::map<std::string, const Block*>& blocks = blocks_[protocol_sha256];

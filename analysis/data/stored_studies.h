@@ -13,11 +13,13 @@ class StoredStudies {
  public:
   explicit StoredStudies(const core::StudyStore& store) : store_(store) {}
 
-  /// The study of this SHA-256, as it is written. Throws `Error` where it is none.
-  const experiments::Study& study(const std::string& protocol_sha256);
+  /// The study of this SHA-256, as it is written; it lives as long as this does. Throws `Error`
+  /// where it is none.
+  const experiments::Study& study(const std::string& protocol_sha256) &;
   /// The block of that name; an empty one where the study has none, as only a study made by
   /// hand does.
-  const experiments::Block& block(const std::string& protocol_sha256, const std::string& name);
+  const experiments::Block& block(const std::string& protocol_sha256,
+                                  const std::string& name) &;
 
  private:
   const core::StudyStore& store_;

@@ -18,11 +18,18 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
+/// In English, or in the first language of the study.
+std::string in_words_of(const experiments::Study& study, const experiments::Text& text) {
+  if (text.contains("en") || study.languages.empty()) return in_english(text);
+  const auto first = text.find(study.languages.front());
+  return first == text.end() ? in_english(text) : first->second;
+}
+
 std::string title_of(const BidsDataset& dataset) {
   std::vector<std::string> titles;
   for (std::size_t i = 0; i < dataset.studies.size(); ++i) {
     const experiments::Study& study = dataset.studies[i];
-    std::string title = in_english(study.title);
+    std::string title = in_words_of(study, study.title);
     if (title.empty()) title = study.name;
     if (title.empty()) title = dataset.protocols[i].file_name;
     if (std::ranges::find(titles, title) == titles.end()) titles.push_back(title);
@@ -105,7 +112,7 @@ std::string readme(const fs::path& folder, const BidsDataset& dataset) {
         "was asked.\n\n";
   }
   for (const experiments::Study& study : dataset.studies) {
-    const std::string about = in_english(study.description);
+    const std::string about = in_words_of(study, study.description);
     if (!about.empty()) text += about + "\n\n";
   }
   text +=

@@ -118,7 +118,8 @@ std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
 }
 
 double ramp_s_of(const core::StudyStore& store, const core::SessionRow& session) {
-  return StoredStudies(store).study(session.protocol_sha256).device.ramp_s;
+  StoredStudies studies(store);
+  return studies.study(session.protocol_sha256).device.ramp_s;
 }
 
 std::optional<double> surface_height_m_of(const core::SessionRow& session) {

@@ -137,8 +137,9 @@ std::string minutes_of(double duration_s) {
 
 /// What the study itself asks of nobody.
 void check_limit(const core::StudyStore& store, SessionQuality& quality) {
-  const experiments::Study& study = StoredStudies(store).study(quality.session.protocol_sha256);
-  const std::optional<double> most_s = study.session_limits.max_duration_s;
+  StoredStudies studies(store);
+  const std::optional<double> most_s =
+      studies.study(quality.session.protocol_sha256).session_limits.max_duration_s;
   if (!most_s || quality.duration_s <= *most_s) return;
   quality.remarks.push_back("took " + minutes_of(quality.duration_s) + ", of at most " +
                             minutes_of(*most_s) + " that the study allows");

@@ -125,25 +125,32 @@ void Application::go_to(StudyTab tab) {
 }
 
 void Application::open(const fs::path& path) {
-  const bool is_folder = fs::is_directory(path);
-  if (is_folder) {
-    study_.open(path);
-  } else {
-    study_.close();
-  }
+  if (fs::is_directory(path)) return open_folder(path);
+  open_file(path);
+}
+
+void Application::open_folder(const fs::path& folder) {
+  study_.open(folder);
+  forget_study(folder);
+  show(sessions_);
+}
+
+void Application::open_file(const fs::path& file) {
+  study_.close();
+  forget_study(file);
+  study_screen_.watch(file);
+  show(study_screen_);
+}
+
+/// Nothing of the last study stays, and the next is remembered as opened.
+void Application::forget_study(const fs::path& next) {
   const std::array<Screen*, 5> all = {&prepare_, &session_, &sessions_, &results_,
                                       &study_screen_};
   for (Screen* screen : all) screen->forget_study();
-  if (!is_folder) study_screen_.watch(path);
   try {
-    recent_.add(fs::absolute(path), core::SystemClock().now_ns());
+    recent_.add(fs::absolute(next), core::SystemClock().now_ns());
   } catch (const core::Error&) {
     // A list that cannot be kept is no reason not to work.
-  }
-  if (is_folder) {
-    show(sessions_);
-  } else {
-    show(study_screen_);
   }
 }
 
@@ -153,7 +160,7 @@ void Application::start_session(const NewSession& session) {
 }
 
 void Application::resume_session(const fs::path& folder, std::int64_t session) {
-  open(folder);
+  open_folder(folder);
   session_.resume(session);
   show(session_);
 }

@@ -88,6 +88,9 @@ class Application final : private ScreenHost {
   [[nodiscard]] std::function<void()> wake() const override { return wake_; }
 
   void show(Screen& screen);
+  void open_folder(const std::filesystem::path& folder);
+  void open_file(const std::filesystem::path& file);
+  void forget_study(const std::filesystem::path& next);
   void show_first();
   void keep_stopped() noexcept;
   void draw_corner(Ui& ui);

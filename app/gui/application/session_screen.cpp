@@ -197,6 +197,8 @@ void SessionScreen::close_session() {
   if (finished_) return;
   if (!failure.empty()) host_.tell("The session stopped", failure);
   host_.go_to(StudyTab::kSessions);
+  // Its folder may be gone with the disk that it was on.
+  if (host_.shows(*this)) host_.go_to(StudyTab::kStart);
 }
 
 /// Once a session is finished its folder is closed, checked, and copied where a copy is known.

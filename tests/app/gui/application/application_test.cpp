@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <thread>
+#include <memory>
 
+#include "app/environment.h"
 #include "app/gui/headless_ui.h"
 #include "app/tiny_study.h"
 #include "support/temporary_folder.h"
@@ -19,7 +18,6 @@ namespace fs = std::filesystem;
 class ApplicationTest : public ::testing::Test {
  protected:
   ApplicationTest() {
-    ::setenv("XDG_STATE_HOME", temporary_.path().c_str(), 1);
     write_file(file_, kTinyStudy);
     create_study_folder(file_, folder_);
   }
@@ -40,6 +38,7 @@ class ApplicationTest : public ::testing::Test {
   }
 
   test_support::TemporaryFolder temporary_;
+  EnvironmentVariable state_{"XDG_STATE_HOME", temporary_.path().c_str()};
   fs::path file_ = temporary_.path() / "tiny.json";
   fs::path folder_ = temporary_.path() / "tiny.study";
   HeadlessUi ui_;
@@ -70,6 +69,13 @@ TEST_F(ApplicationTest, ATabThatCannotBeOpenedLeavesThePreparationAsItWas) {
   EXPECT_TRUE(ui_.drawn().shows("expected its study file"));
   EXPECT_EQ(after({Key::kEnter}), "prepare");
   EXPECT_NE(ui_.drawn().find("start_session"), nullptr);
+}
+
+TEST_F(ApplicationTest, ASessionWhoseFolderIsGoneIsNotResumedAndTheStartStays) {
+  open({.study_folder = temporary_.path() / "gone.study", .resume_session = 1});
+  EXPECT_STREQ(application_->view_name(), "start");
+  EXPECT_TRUE(ui_.drawn().shows("The session cannot be resumed"));
+  EXPECT_TRUE(ui_.drawn().shows("gone.study"));
 }
 
 TEST_F(ApplicationTest, WhatCannotBeOpenedIsToldAndTheStartStays) {
