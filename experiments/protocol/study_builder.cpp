@@ -1,6 +1,7 @@
 #include "experiments/protocol/study_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -23,7 +24,14 @@ class ObjectReader {
       : object_(object), table_(table) {}
 
   [[nodiscard]] double number(const std::string& key) const { return get<double>(key); }
-  [[nodiscard]] int integer(const std::string& key) const { return get<int>(key); }
+  [[nodiscard]] int integer(const std::string& key) const {
+    constexpr double kLargest = 1e9;
+    const double number = get<double>(key);
+    if (!(std::abs(number) <= kLargest)) {
+      throw core::Error(table_.name + '.' + key + ": expected a number of at most a billion");
+    }
+    return static_cast<int>(number);
+  }
   [[nodiscard]] bool boolean(const std::string& key) const { return get<bool>(key); }
   [[nodiscard]] std::string string(const std::string& key) const {
     return get<std::string>(key);
