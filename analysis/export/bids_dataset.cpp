@@ -1,6 +1,7 @@
 #include "analysis/export/bids_dataset.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "analysis/data/stored_studies.h"
 #include "analysis/export/bids_text.h"
