@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/fits/answer_scatter.h"
+#include "analysis/fits/calibrated_drop.h"
 #include "analysis/fits/likelihood_profile.h"
 #include "analysis/fits/normal_tail.h"
 #include "analysis/fits/probit_regression.h"
@@ -38,18 +39,27 @@ Cells cells_of(const std::vector<AnswerCount>& data, double reference) {
 }
 
 /// Columns: ln(x / reference), order, and 1 where the pse is free.
-ProbitRegression regression_of(const Cells& cells, bool free_pse) {
+Eigen::MatrixXd design_of(const Cells& cells, bool free_pse) {
   const auto size = static_cast<Eigen::Index>(cells.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Ones(size, free_pse ? 3 : 2);
-  Eigen::VectorXd num_yes(size), num_trials(size);
   for (Eigen::Index row = 0; row < size; ++row) {
-    const Cell& cell = cells[static_cast<std::size_t>(row)];
-    design(row, 0) = cell.log_ratio;
-    design(row, 1) = cell.order;
-    num_yes(row) = cell.num_yes;
-    num_trials(row) = cell.num_trials;
+    design(row, 0) = cells[static_cast<std::size_t>(row)].log_ratio;
+    design(row, 1) = cells[static_cast<std::size_t>(row)].order;
   }
-  return fit_probit(design, num_yes, num_trials);
+  return design;
+}
+
+Eigen::VectorXd counts_of(const Cells& cells, double Cell::*count) {
+  Eigen::VectorXd counts(static_cast<Eigen::Index>(cells.size()));
+  for (Eigen::Index row = 0; row < counts.size(); ++row) {
+    counts(row) = cells[static_cast<std::size_t>(row)].*count;
+  }
+  return counts;
+}
+
+ProbitRegression regression_of(const Cells& cells, bool free_pse) {
+  return fit_probit(design_of(cells, free_pse), counts_of(cells, &Cell::num_yes),
+                    counts_of(cells, &Cell::num_trials));
 }
 
 /// x ln(share), 0 where there is nothing.
@@ -92,21 +102,21 @@ SmoothCost cost_of(const Cells& cells) {
 }
 
 void add_intervals(PsychometricFit& fit, const Cells& cells, const LikelihoodOptimum& optimum,
-                   double reference) {
+                   const CalibratedDrops& drops, double reference) {
   constexpr double kFarthestLog = 12.0;
   const SmoothCost cost = cost_of(cells);
-  const auto interval = [&](std::size_t parameter) {
-    return likelihood_ratio_interval(cost, optimum, {}, parameter, kFarthestLog);
+  const auto interval = [&](std::size_t parameter, double drop) {
+    return likelihood_ratio_interval(cost, optimum, {}, parameter, kFarthestLog, drop);
   };
   const auto fraction_at = [](double log_slope) -> std::optional<double> {
     const double fraction = std::expm1(std::exp(-log_slope));
     return std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
   };
-  const Interval log_slope = interval(0);
+  const Interval log_slope = interval(0, drops.slope);
   if (log_slope.high) fit.weber_fraction_ci95.low = fraction_at(*log_slope.high);
   if (log_slope.low) fit.weber_fraction_ci95.high = fraction_at(*log_slope.low);
   if (optimum.at.size() < 3) return;
-  const Interval place = interval(2);
+  const Interval place = interval(2, drops.pse);
   fit.pse_ci95 = Interval{};
   if (place.low) fit.pse_ci95->low = reference * std::exp(*place.low);
   if (place.high) fit.pse_ci95->high = reference * std::exp(*place.high);
@@ -248,8 +258,14 @@ PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
       std::exp(1.0 / slope) / (slope * slope) * std::sqrt(found.covariance(0, 0));
   fit.log_likelihood = found.log_likelihood;
   fit.deviance = deviance_of(cells, found.log_likelihood);
-  if (options.intervals) add_intervals(fit, cells, optimum, options.reference);
   if (options.intervals) {
+    CalibratedDrops drops;
+    if (options.num_calibration > 0) {
+      drops = calibrated_drops(design_of(cells, options.free_pse),
+                               counts_of(cells, &Cell::num_trials), found.coefficients,
+                               options.free_pse, options.num_calibration, options.seed);
+    }
+    add_intervals(fit, cells, optimum, drops, options.reference);
     fit.misfit_p_value =
         misfit_p_value(fitted_answers(cells, optimum), static_cast<double>(optimum.at.size()));
   }

@@ -17,9 +17,10 @@ namespace jnd::analysis {
 /// order effect (Ulrich and Vorberg 2009 on why the orders must not be pooled: the mean of two
 /// curves is flatter than either, and its Weber fraction too large). q is always free, the pse
 /// if `free_pse`. Maximum likelihood by a concave probit regression; intervals by the
-/// likelihood ratio. Takes of the options `reference`, `free_pse`, `intervals`, `num_goodness`
-/// with `diagnostics`, and `seed`; `fit_psychometric` says when it comes here, what is
-/// `degenerate`, and what is thrown. Not real time.
+/// likelihood ratio. Takes of the options `reference`, `free_pse`, `intervals`,
+/// `num_calibration`, whatever the number of answers, `num_goodness` with `diagnostics`, and
+/// `seed`; `fit_psychometric` says when it comes here, what is `degenerate`, and what is
+/// thrown. Not real time.
 [[nodiscard]] PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
                                                     const PsychometricOptions& options);
 

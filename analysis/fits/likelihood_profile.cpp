@@ -119,10 +119,11 @@ std::vector<std::size_t> places(std::size_t count, std::optional<std::size_t> wi
   return all;
 }
 
-/// Where `excess`, < 0 at 0, first is 0 on the way by growing steps toward `farthest`.
-std::optional<double> crossing(const std::function<double(double)>& excess, double farthest) {
+/// Where `excess`, -`drop` at 0, first is 0 on the way by growing steps toward `farthest`.
+std::optional<double> crossing(const std::function<double(double)>& excess, double drop,
+                               double farthest) {
   double inside = 0.0;
-  double excess_inside = -kLikelihoodDrop;
+  double excess_inside = -drop;
   for (double step = 0.05; inside < farthest; step *= 1.6) {
     const double outside = std::min(inside + step, farthest);
     const double excess_outside = excess(outside);
@@ -157,7 +158,7 @@ LikelihoodOptimum likelihood_optimum(const SmoothCost& cost,
 
 Interval likelihood_ratio_interval(const SmoothCost& cost, const LikelihoodOptimum& optimum,
                                    const std::vector<std::vector<double>>& starts,
-                                   std::size_t parameter, double farthest) {
+                                   std::size_t parameter, double farthest, double drop) {
   const Newton others(cost, places(optimum.at.size(), parameter));
   const auto end = [&](double direction) -> std::optional<double> {
     std::vector<double> last = optimum.at;
@@ -173,9 +174,9 @@ Interval likelihood_ratio_interval(const SmoothCost& cost, const LikelihoodOptim
         if (other.cost < least.cost) least = std::move(other);
       }
       last = least.at;
-      return least.cost - optimum.cost - kLikelihoodDrop;
+      return least.cost - optimum.cost - drop;
     };
-    const std::optional<double> found = crossing(excess, farthest);
+    const std::optional<double> found = crossing(excess, drop, farthest);
     return found ? std::optional(optimum.at[parameter] + direction * *found) : std::nullopt;
   };
   return {.low = end(-1.0), .high = end(1.0)};

@@ -25,12 +25,13 @@ struct LikelihoodOptimum {
     const SmoothCost& cost, const std::vector<std::vector<double>>& starts);
 
 /// The likelihood-ratio interval of one parameter: where the cost, least over all others, has
-/// risen by half the 95 % quantile of chi-squared with one degree of freedom. The others are
+/// risen by `drop`, > 0. The others are
 /// sought from where they were before and from `starts`, for they can have several minima. An
 /// end that is not within `farthest` of the optimum is open. Not real time.
 [[nodiscard]] Interval likelihood_ratio_interval(const SmoothCost& cost,
                                                  const LikelihoodOptimum& optimum,
                                                  const std::vector<std::vector<double>>& starts,
-                                                 std::size_t parameter, double farthest);
+                                                 std::size_t parameter, double farthest,
+                                                 double drop = kLikelihoodDrop);
 
 }  // namespace jnd::analysis

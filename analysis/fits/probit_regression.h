@@ -7,7 +7,7 @@
 
 namespace jnd::analysis {
 
-/// Maximum likelihood of P(yes) = Phi(X beta).
+/// Maximum likelihood of P(yes) = Phi(offset + X beta).
 struct ProbitRegression {
   FitStatus status = FitStatus::kNotRun;
   std::string reason;  ///< Why there is no fit; "" if there is one.
@@ -19,9 +19,11 @@ struct ProbitRegression {
 
 /// One row of `design` for each count. Concave, so Newton's method from 0 finds the optimum;
 /// `degenerate` where there is none (answers separated by some combination of the columns) or
-/// where columns depend on one another. Throws `core::Error` if the sizes differ.
+/// where columns depend on one another. `offset`: what is known of z in each row; empty: 0.
+/// Throws `core::Error` if the sizes differ.
 [[nodiscard]] ProbitRegression fit_probit(const Eigen::MatrixXd& design,
                                           const Eigen::VectorXd& num_yes,
-                                          const Eigen::VectorXd& num_trials);
+                                          const Eigen::VectorXd& num_trials,
+                                          const Eigen::VectorXd& offset = {});
 
 }  // namespace jnd::analysis

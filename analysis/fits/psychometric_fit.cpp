@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/fits/calibrated_drop.h"
 #include "analysis/fits/chance_level.h"
 #include "analysis/fits/falling_test.h"
 #include "analysis/fits/interval_order_fit.h"
@@ -82,11 +83,22 @@ double fisher_quantile(int degrees_of_freedom) {
   return boost::math::quantile(boost::math::fisher_f(1.0, degrees_of_freedom), 0.95);
 }
 
+/// Of the curve's line in the scaled abscissa; see `PsychometricOptions::num_calibration`.
+CalibratedDrops drops_of(const PsychometricLevels& levels, const PsychometricCurve& curve,
+                         const PsychometricOptions& options) {
+  const auto size = static_cast<Eigen::Index>(levels.size());
+  Eigen::MatrixXd design = Eigen::MatrixXd::Ones(size, 2);
+  design.col(0) = Eigen::Map<const Eigen::VectorXd>(levels.abscissa.data(), size);
+  return calibrated_drops(
+      design, Eigen::Map<const Eigen::VectorXd>(levels.num_trials.data(), size),
+      Eigen::Vector2d(curve.slope, curve.offset), true, options.num_calibration, options.seed);
+}
+
 void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
                      const PsychometricLevels& levels, const PsychometricOptions& options,
                      const FreeParameters& free, const PsychometricOptimum& optimum) {
   const bool free_pse = free[1];
-  double drop = kLikelihoodDrop;
+  double drop = kLikelihoodDrop, pse_drop = kLikelihoodDrop;
   if (options.method == kMaximumLikelihood) {
     double scale = 1.0;
     if (options.overdispersion == Overdispersion::kScaled) {
@@ -101,7 +113,7 @@ void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
       }
       scale = std::max(1.0, pearson_statistic(by_row, optimum.curve) / degrees_of_freedom);
       fit.overdispersion.factor = scale;
-      drop = 0.5 * scale * fisher_quantile(degrees_of_freedom);
+      drop = pse_drop = 0.5 * scale * fisher_quantile(degrees_of_freedom);
     }
     fit.standard_error =
         standard_error(levels, optimum.curve, free, optimum.cost.hessian, scale);
@@ -112,16 +124,21 @@ void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
     const double variance = optimum.cost.value / degrees_of_freedom;
     fit.standard_error = standard_error(levels, optimum.curve, free,
                                         squared_jacobian(levels, optimum.curve), variance);
-    drop = variance * fisher_quantile(degrees_of_freedom);
+    drop = pse_drop = variance * fisher_quantile(degrees_of_freedom);
   }
   if (!fit.weber_fraction) fit.standard_error.reset();
   if (!options.intervals) return;
+  if (options.num_calibration > 0 && free_pse && have_fewer_answers(levels, kCalibratedBelow)) {
+    const CalibratedDrops drops = drops_of(levels, optimum.curve, options);
+    drop = drops.slope;
+    pse_drop = drops.pse;
+  }
   if (fit.weber_fraction) {
     fit.weber_fraction_ci95 =
         weber_fraction_interval(levels, options.method, free, optimum, drop);
   }
   if (free_pse) {
-    fit.pse_ci95 = pse_interval(levels, options.method, free, optimum, drop);
+    fit.pse_ci95 = pse_interval(levels, options.method, free, optimum, pse_drop);
   }
 }
 
@@ -165,13 +182,24 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                      !options.posterior && !options.by_order),
                 "overdispersion", "maximum likelihood without bootstrap, posterior and orders",
                 1.0);
+  core::require(
+      options.num_calibration == 0 ||
+          (options.family == PsychometricFamily::kWeber &&
+           options.method == kMaximumLikelihood && levels.ends.are_bare(options.free_lapse) &&
+           options.overdispersion == Overdispersion::kNone),
+      "num_calibration",
+      "the Weber curve by maximum likelihood without lapses, guesses and "
+      "overdispersion",
+      options.num_calibration);
   if (options.by_order && orders_vary(data)) {
     core::require(options.family == PsychometricFamily::kWeber &&
                       options.method == kMaximumLikelihood &&
                       levels.ends.are_bare(options.free_lapse) && options.num_bootstrap == 0 &&
                       !options.posterior,
                   "by_order", "the Weber curve by maximum likelihood alone", 1.0);
-    PsychometricFit fit = fit_by_interval_order(data, options);
+    PsychometricOptions its = options;
+    if (!have_fewer_answers(levels, kCalibratedBelow)) its.num_calibration = 0;
+    PsychometricFit fit = fit_by_interval_order(data, its);
     if (fit.status != FitStatus::kOk || !fit.order_effect_ln) return fit;
     add_psychometric_warnings(fit, data, levels, options, false);
     return fit;

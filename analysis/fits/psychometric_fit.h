@@ -88,9 +88,14 @@ struct PsychometricOptions {
   bool advice = false;
   bool guess_unknown = false;  ///< Also a warning where the counts look like right answers.
   int num_goodness = 0;        ///< Redraws for the p values beside them; 0 leaves those out.
-  bool posterior = false;      ///< Whether the Bayesian estimate is computed as well.
-  std::uint64_t seed = 1;      ///< Seed of bootstrap and redraws: the same numbers again.
-  bool intervals = true;  ///< False leaves out the profile intervals, where only w is wanted.
+  /// Redraws that widen the likelihood-ratio intervals where they are known to be too narrow:
+  /// with a free pse, or orders that vary, and no level of 30 answers; see `CalibratedDrops`. 0
+  /// leaves them as they are. kWeber by maximum likelihood without lapses, guesses and
+  /// overdispersion alone.
+  int num_calibration = 0;
+  bool posterior = false;  ///< Whether the Bayesian estimate is computed as well.
+  std::uint64_t seed = 1;  ///< Seed of all that is drawn: the same numbers again.
+  bool intervals = true;   ///< False leaves out the profile intervals, where only w is wanted.
   Solver solver = Solver::kCeres;
 };
 
@@ -153,7 +158,8 @@ struct PsychometricFit {
   std::string reason;
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   std::optional<double> weber_fraction;
-  /// ml: likelihood ratio, profiled over what else is free. lsq: the profile of the sum of
+  /// ml: likelihood ratio, profiled over what else is free, and its ends where
+  /// `num_calibration` has them. lsq: the profile of the sum of
   /// squares at F(1, levels - parameters), open where no degree of freedom is left.
   Interval weber_fraction_ci95;
   /// ml: of the observed information, a lapse rate on its bound 0 held there. lsq: of

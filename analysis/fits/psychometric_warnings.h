@@ -11,6 +11,15 @@ void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCou
                                const PsychometricLevels& levels,
                                const PsychometricOptions& options, bool falls);
 
+/// Whether no level has so many answers.
+[[nodiscard]] bool have_fewer_answers(const PsychometricLevels& levels, double num_trials);
+
+/// Below it bootstrap intervals are too narrow, and with a free pse those of the likelihood
+/// ratio, too.
+inline constexpr double kFewAnswers = 15.0;
+/// Below it a calibration widens those of the likelihood ratio.
+inline constexpr double kCalibratedBelow = 30.0;
+
 /// Every answer is a yes, or every one a no: a curve through a pse that is assumed has a slope
 /// nevertheless, which says nothing of the person.
 [[nodiscard]] bool all_alike(const std::vector<AnswerCount>& data);

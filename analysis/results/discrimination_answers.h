@@ -43,8 +43,9 @@ struct OwnFitOptions {
   bool corrected = false;
   bool free_pse = false;
   bool intervals = false;
-  int num_goodness = 0;    ///< Redraws for the goodness of fit; 0 leaves it out.
-  std::uint64_t seed = 1;  ///< Seed of these redraws.
+  int num_calibration = 0;  ///< As in `PsychometricOptions`.
+  int num_goodness = 0;     ///< Redraws for the goodness of fit; 0 leaves it out.
+  std::uint64_t seed = 1;   ///< Seed of these redraws.
 };
 [[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,
                                       const OwnFitOptions& options);

@@ -21,6 +21,7 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     const auto fit_of = [&](bool free_pse) {
       return own_fit(answers, {.free_pse = free_pse,
                                .intervals = true,
+                               .num_calibration = kOwnRedraws,
                                .num_goodness = kOwnRedraws,
                                .seed = options.seed});
     };

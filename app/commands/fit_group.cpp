@@ -12,6 +12,7 @@
 #include "analysis/data/csv_table.h"
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/psychometric_json.h"
+#include "analysis/hierarchical/hierarchical_assumptions.h"
 #include "analysis/hierarchical/hierarchical_data.h"
 #include "analysis/hierarchical/hierarchical_json.h"
 #include "analysis/hierarchical/hierarchical_warnings.h"
@@ -159,21 +160,22 @@ int fit_hierarchical(const FitGroupOptions& options) {
     warnings.push_back(fmt::format(
         "the table's column reference is used, and --reference {} is not", *options.reference));
   }
-  const analysis::HierarchicalFit fit = analysis::fit_hierarchical(
-      answers,
-      {.link = options.link == "linear" ? analysis::HierarchicalLink::kLinear
-                                        : analysis::HierarchicalLink::kLogSlope,
-       .pse = options.pse == "reference" ? analysis::HierarchicalPse::kReference
-              : options.pse == "common"  ? analysis::HierarchicalPse::kCommon
-              : options.pse == "shared"  ? analysis::HierarchicalPse::kShared
-                                         : analysis::HierarchicalPse::kPersonal,
-       .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
-                                            : analysis::HierarchicalSlopes::kCorrelated,
-       .lapses =
-           lapse ? analysis::HierarchicalLapses::kKnown : analysis::HierarchicalLapses::kCommon,
-       .lapse_rate = lapse.value_or(0.0),
-       .guess_rate = guess_of(options),
-       .num_nodes = options.num_nodes});
+  const analysis::HierarchicalOptions how = {
+      .link = options.link == "linear" ? analysis::HierarchicalLink::kLinear
+                                       : analysis::HierarchicalLink::kLogSlope,
+      .pse = options.pse == "reference" ? analysis::HierarchicalPse::kReference
+             : options.pse == "common"  ? analysis::HierarchicalPse::kCommon
+             : options.pse == "shared"  ? analysis::HierarchicalPse::kShared
+                                        : analysis::HierarchicalPse::kPersonal,
+      .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
+                                           : analysis::HierarchicalSlopes::kCorrelated,
+      .lapses =
+          lapse ? analysis::HierarchicalLapses::kKnown : analysis::HierarchicalLapses::kCommon,
+      .lapse_rate = lapse.value_or(0.0),
+      .guess_rate = guess_of(options),
+      .num_nodes = options.num_nodes};
+  analysis::HierarchicalFit fit = analysis::fit_hierarchical(answers, how);
+  analysis::caution_of_assumptions(fit, answers, how);
   if (options.json) {
     auto json = analysis::to_json(fit);
     json["warnings"] = warnings;

@@ -28,6 +28,7 @@ struct FitWeberOptions : TableOptions {
   std::string overdispersion = "none";
   bool symmetric = false;
   int num_goodness = 0;
+  int num_calibration = 0;
   bool posterior = false;
   double reference = 0.0;
   std::vector<std::string> free;
@@ -164,6 +165,19 @@ void require_overdispersion(const FitWeberOptions& options) {
   }
 }
 
+void require_calibration(const FitWeberOptions& options) {
+  if (options.num_calibration == 0) return;
+  const bool has_lapses = options.frees_lapse() || rate_of(options.lapse) > 0.0;
+  if (options.family == "weber" && options.method == "ml" && options.overdispersion == "none" &&
+      !has_lapses && rate_of(options.guess) == 0.0) {
+    return;
+  }
+  throw UsageError(fmt::format(
+      "--calibration {}: expected with --family weber and --method ml, without lapses, guesses "
+      "and --overdispersion; leave it or those out",
+      options.num_calibration));
+}
+
 /// What the options of guesses and lapses say together.
 void require_rates(const FitWeberOptions& options) {
   if (options.frees("lapse") && !options.lapse.empty()) {
@@ -239,6 +253,7 @@ int fit_weber(const FitWeberOptions& options) {
   }
   require_rates(options);
   require_overdispersion(options);
+  require_calibration(options);
   const analysis::PsychometricOptions how = {
       .reference = options.reference,
       .family = analysis::psychometric_family_named(options.family)
@@ -259,6 +274,7 @@ int fit_weber(const FitWeberOptions& options) {
       .advice = true,
       .guess_unknown = options.guess.empty(),
       .num_goodness = options.num_goodness,
+      .num_calibration = options.num_calibration,
       .posterior = options.posterior,
       .seed = options.seed};
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
@@ -328,6 +344,11 @@ void add_fit_weber(CLI::App& fit, Invocation& invocation) {
       ->capture_default_str();
   weber.add_option("--goodness", options->num_goodness, "redraws for the goodness of fit")
       ->check(whole_number(0, 10'000'000));
+  weber
+      .add_option("--calibration", options->num_calibration,
+                  "redraws that widen the intervals of a free pse where no level has 15 "
+                  "answers; 1000 are enough")
+      ->check(whole_number(0, 10'000'000));
   weber.add_flag("--posterior", options->posterior,
                  "also the Bayesian estimate on a grid, with its priors");
   weber
@@ -337,7 +358,7 @@ void add_fit_weber(CLI::App& fit, Invocation& invocation) {
           "(x84.13 - pse) / pse")
       ->check(CLI::IsMember({"weber", "gauss", "weibull"}))
       ->capture_default_str();
-  weber.add_option("--seed", options->seed, "of bootstrap and goodness of fit")
+  weber.add_option("--seed", options->seed, "of bootstrap, goodness of fit and calibration")
       ->check(seed_number())
       ->capture_default_str();
   weber.add_flag("--json", options->json, "print one JSON document");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/hierarchical/hierarchical_assumptions.h"
 #include "analysis/hierarchical/hierarchical_fit.h"
 #include "analysis/statistics/summary.h"
 #include "bench/coverage_people.h"
@@ -85,8 +86,7 @@ struct Row {
   int num_people = 13;
 };
 
-/// The median person's fraction with a free lapse rate: in all sets, and in those of which no
-/// caution is told.
+/// The median person's fraction: in all sets, and in those of which no caution is told.
 struct MedianPerson {
   GroupEstimate all, without_caution;
   Coverage lapse_rate;
@@ -100,7 +100,7 @@ struct MedianPerson {
     }
     const HierarchicalCondition& one = fit.conditions.front();
     all.add(one.weber_fraction, one.weber_fraction_ci95, truth);
-    lapse_rate.add(true, fit.lapse_rate_ci95, population.lapse);
+    if (fit.lapse_rate) lapse_rate.add(true, fit.lapse_rate_ci95, population.lapse);
     num_cautions += one.cautions.empty() ? 0 : 1;
     if (one.cautions.empty()) {
       without_caution.add(one.weber_fraction, one.weber_fraction_ci95, truth);
@@ -116,6 +116,13 @@ std::string cell(const GroupEstimate& one) {
   return words;
 }
 
+/// All sets; the share with a caution, and those without.
+std::string cell(const MedianPerson& one, int num_sets) {
+  return cell(one.all) + "; " +
+         percent(static_cast<double>(one.num_cautions) / num_sets).substr(1) + " cautions, " +
+         one.without_caution.coverage.words() + " without";
+}
+
 std::string cover_group(const Row& row, int num_sets, std::uint64_t seed) {
   constexpr int kTrials = 5;
   const Population& population = row.population;
@@ -123,11 +130,10 @@ std::string cover_group(const Row& row, int num_sets, std::uint64_t seed) {
                       {row.num_people, static_cast<std::int64_t>(1000.0 * population.spread_ln),
                        static_cast<std::int64_t>(1000.0 * population.place_sd_ln),
                        static_cast<std::int64_t>(1000.0 * population.lapse)});
-  const double truth = population.truth();
   const double pooled = pooled_truth(population, row.levels, false);
   const double pooled_free = pooled_truth(population, row.levels, true);
-  GroupEstimate of_pooled, of_pooled_free, without_lapses, at_reference;
-  MedianPerson median;
+  GroupEstimate of_pooled, of_pooled_free;
+  MedianPerson median, without_lapses, at_reference;
   for (int set = 0; set < num_sets; ++set) {
     Group group;
     for (int person = 0; person < row.num_people; ++person) {
@@ -140,14 +146,11 @@ std::string cover_group(const Row& row, int num_sets, std::uint64_t seed) {
     add_pooled(of_pooled, group, false, pooled, own_seed);
     add_pooled(of_pooled_free, group, true, pooled_free, own_seed);
     median.add(fit_hierarchical(group, {}), population);
-    const auto add_median = [&](GroupEstimate& to, HierarchicalPse pse) {
-      const HierarchicalFit fit =
-          fit_hierarchical(group, {.pse = pse, .lapses = HierarchicalLapses::kNone});
-      if (fit.status == FitStatus::kOk) {
-        to.add(fit.conditions[0].weber_fraction, fit.conditions[0].weber_fraction_ci95, truth);
-      } else {
-        to.add(std::nullopt, {}, truth);
-      }
+    const auto add_median = [&](MedianPerson& to, HierarchicalPse pse) {
+      const HierarchicalOptions options{.pse = pse, .lapses = HierarchicalLapses::kNone};
+      HierarchicalFit fit = fit_hierarchical(group, options);
+      caution_of_assumptions(fit, group, options);
+      to.add(fit, population);
     };
     add_median(without_lapses, HierarchicalPse::kPersonal);
     add_median(at_reference, HierarchicalPse::kReference);
@@ -155,8 +158,8 @@ std::string cover_group(const Row& row, int num_sets, std::uint64_t seed) {
   return row_of({population.words, row.levels.words, std::to_string(row.num_people),
                  cell(median.all), cell(median.without_caution),
                  percent(static_cast<double>(median.num_cautions) / num_sets).substr(1),
-                 median.lapse_rate.words(), cell(without_lapses), cell(at_reference),
-                 cell(of_pooled_free), cell(of_pooled)});
+                 median.lapse_rate.words(), cell(without_lapses, num_sets),
+                 cell(at_reference, num_sets), cell(of_pooled_free), cell(of_pooled)});
 }
 
 }  // namespace

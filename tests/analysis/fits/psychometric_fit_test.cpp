@@ -397,7 +397,7 @@ TEST(PsychometricFit, AFreePseWithFewAnswersALevelIsSaidToCoverLess) {
         {{1, 1 * times, 5 * times}, {2, 2 * times, 5 * times}, {4, 4 * times, 5 * times}},
         {.reference = 2.0, .free_pse = free_pse, .intervals = intervals});
     return std::ranges::any_of(found.warnings, [](const std::string& warning) {
-      return warning.find("92 % at five answers a level") != std::string::npos;
+      return warning.find("93 % at five answers a level") != std::string::npos;
     });
   };
   EXPECT_TRUE(says_so(1, true, true));

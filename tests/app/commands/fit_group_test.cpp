@@ -260,6 +260,23 @@ TEST_F(FitGroupCommandTest, WeberTellsGoodnessPosteriorAndCorrectedBootstrap) {
   EXPECT_TRUE(json["warnings"].is_array());
 }
 
+TEST_F(FitGroupCommandTest, FewAnswersWithAFreePseAreWidenedByACalibration) {
+  table("few.csv", "intensity,num_yes,num_trials\n4,0,5\n6,1,5\n8,3,5\n11,4,5\n14,5,5\n");
+  const auto few_told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"weber", "--csv",  "few.csv", "--reference",
+                                      "8",     "--free", "pse"};
+    words.insert(words.end(), more.begin(), more.end());
+    return document(fit(words).out);
+  };
+  const auto plain = few_told({}), wider = few_told({"--calibration", "500"});
+  EXPECT_NE(plain["warnings"].dump().find("--calibration 1000 widens them"), std::string::npos)
+      << plain["warnings"];
+  EXPECT_EQ(wider["warnings"].dump().find("--calibration"), std::string::npos);
+  EXPECT_EQ(wider["weber_fraction"], plain["weber_fraction"]);
+  EXPECT_GT(wider["weber_fraction_ci95"][1], plain["weber_fraction_ci95"][1]);
+  EXPECT_LT(wider["weber_fraction_ci95"][0], plain["weber_fraction_ci95"][0]);
+}
+
 TEST_F(FitGroupCommandTest, AnEffectThatIsBeyondEveryNumberIsNoCertainty) {
   table("many.csv",
         "intensity,num_yes,num_trials\n1,170000,200000\n1.5,180000,200000\n"
