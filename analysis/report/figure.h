@@ -1,31 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "analysis/charts/figure_table.h"
+
 namespace jnd::analysis {
-
-/// A number, a text, or nothing.
-struct FigureCell {
-  FigureCell() = default;
-  FigureCell(double value) : number(value) {}                 // NOLINT: cells are values
-  FigureCell(int value) : number(value) {}                    // NOLINT
-  FigureCell(std::optional<double> value) : number(value) {}  // NOLINT
-  FigureCell(std::string value) : text(std::move(value)) {}   // NOLINT
-  FigureCell(const char* value) : text(value) {}              // NOLINT
-
-  std::optional<double> number;
-  std::string text;
-};
-
-/// What a figure is drawn from: one CSV file beside it.
-struct FigureTable {
-  std::string name;  ///< Of the file, without ".csv"; unique in a report.
-  std::vector<std::string> columns;
-  std::vector<std::vector<FigureCell>> rows;
-};
 
 /// One figure, before it is drawn.
 struct Figure {
@@ -45,8 +25,5 @@ struct Figure {
 
 /// A text as gnuplot takes it, in quotes.
 [[nodiscard]] std::string gnuplot_quoted(const std::string& text);
-
-/// Letters, digits and underscores alone, for names of files.
-[[nodiscard]] std::string file_word(const std::string& text);
 
 }  // namespace jnd::analysis

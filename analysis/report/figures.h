@@ -3,34 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "analysis/data/study_data.h"
+#include "analysis/charts/figure_source.h"
 #include "analysis/movement/movement_analysis.h"
 #include "analysis/report/figure.h"
-#include "analysis/report/study_titles.h"
-#include "analysis/results/study_results.h"
 
 namespace jnd::analysis {
 
-/// What figures are drawn from.
-struct FigureSource {
-  const StudyData& data;
-  const StudyResults& results;
-  const StudyTitles& titles;
-
-  /// Nullptr if there is none of this name.
-  [[nodiscard]] const ResultsSection* section(const std::string& name) const;
-  [[nodiscard]] const ParticipantEstimate* own(const std::string& section,
-                                               const std::string& participant,
-                                               const std::string& estimate) const;
-  [[nodiscard]] std::vector<std::string> participants() const;
-};
-
-/// Whether the study is one of the thesis', by its published values: figures answer some of
-/// Schmidt (2018), and words of that author have a meaning.
-[[nodiscard]] bool is_of_thesis(const StudyResults& results);
-
 // One function a kind of data; each gives the figures there are data for, in the order of the
-// report. Not real time.
+// report; what the window shows as well are charts, see analysis/charts/charts.h. Not real
+// time.
 
 /// Psychometric curves (fig. 5, D.5, D.6, D.20, D.23 of the thesis).
 [[nodiscard]] std::vector<Figure> discrimination_figures(const FigureSource& source);
@@ -38,16 +19,9 @@ struct FigureSource {
 /// every block.
 [[nodiscard]] std::vector<Figure> weber_figures(const FigureSource& source);
 
-/// Answers of yes-no and same-different blocks with their curves.
-[[nodiscard]] std::vector<Figure> threshold_figures(const FigureSource& source);
-/// Levels of adaptive blocks over the trials, reversals marked.
-[[nodiscard]] std::vector<Figure> adaptive_figures(const FigureSource& source);
-
 /// Curves of estimation and production (fig. 4a and b, D.3, D.9, D.12, D.14), repetitions
 /// (D.8), boxes (D.1, D.2, D.10, D.11), ratios of productions (D.13).
 [[nodiscard]] std::vector<Figure> magnitude_figures(const FigureSource& source);
-/// Matches over standards, with the matching function.
-[[nodiscard]] std::vector<Figure> matching_figures(const FigureSource& source);
 
 /// The power laws of both and between them (fig. 4c, D.4, D.15).
 [[nodiscard]] std::vector<Figure> power_law_figures(const FigureSource& source);

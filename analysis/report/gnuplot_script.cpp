@@ -53,16 +53,6 @@ std::string gnuplot_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-std::string file_word(const std::string& text) {
-  std::string word;
-  for (const char letter : text) {
-    const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
-                       (letter >= '0' && letter <= '9');
-    word += plain ? letter : '_';
-  }
-  return word.empty() ? "_" : word;
-}
-
 std::string gnuplot_script(const Figure& figure, bool simulated) {
   const std::string width = inches(figure.width_in);
   const std::string height = inches(figure.height_in);

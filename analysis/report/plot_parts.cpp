@@ -75,25 +75,15 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
   return script + "  unset multiplot\n";
 }
 
-AxisRange axis_range(const std::vector<double>& values, bool logarithmic) {
-  std::vector<double> kept;
-  for (const double value : values) {
-    if (std::isfinite(value) && (!logarithmic || value > 0.0)) kept.push_back(value);
-  }
-  if (kept.empty()) return logarithmic ? AxisRange{0.1, 10.0} : AxisRange{};
-  const auto [least, most] = std::minmax_element(kept.begin(), kept.end());
-  if (logarithmic) return {*least / 1.25, *most * 1.25};
-  const double width = *most - *least;
-  const double air = width > 0.0 ? 0.05 * width : std::max(0.05 * std::abs(*most), 0.01);
-  return {*least - air, *most + air};
-}
-
 std::string range_words(const AxisRange& range) {
   return "[" + plot_number(range.low) + ":" + plot_number(range.high) + "]";
 }
 
-std::string small_tics(const std::string& axis, const AxisRange& range) {
-  const double least = (range.high - range.low) / 4.0;
+namespace {
+
+/// A round number that goes at most so often into the range.
+double round_step(const AxisRange& range, double most_steps) {
+  const double least = (range.high - range.low) / most_steps;
   double step = least;
   if (least > 0.0 && std::isfinite(least)) {
     const double decade = std::pow(10.0, std::floor(std::log10(least)));
@@ -102,18 +92,13 @@ std::string small_tics(const std::string& axis, const AxisRange& range) {
       if (round * decade >= least) step = round * decade;
     }
   }
-  return "  set " + axis + "tics " + plot_number(step) + " font small\n";
+  return step;
 }
 
-std::string log_tics(const std::string& axis, const AxisRange& range, bool small) {
-  const std::string end = small ? " font small\n" : "\n";
-  const std::string start = "  set " + axis + "tics ";
-  if (!(range.low > 0.0) || !(range.high > range.low) || !std::isfinite(range.high)) {
-    return start + "autofreq" + end;
-  }
+/// Round numbers of decades within the range, as few digits as give three of them.
+std::vector<double> places_of_decades(const AxisRange& range, std::size_t fewest) {
   const std::vector<std::vector<double>> digits_of_a_decade = {
       {1.0}, {1.0, 3.0}, {1.0, 2.0, 5.0}, {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}};
-  constexpr std::size_t kFewest = 3;
   const int first = static_cast<int>(std::floor(std::log10(range.low)));
   const int last = static_cast<int>(std::floor(std::log10(range.high)));
   std::vector<double> places;
@@ -127,12 +112,38 @@ std::string log_tics(const std::string& axis, const AxisRange& range, bool small
         if (place >= range.low && place <= range.high) places.push_back(place);
       }
     }
-    if (places.size() >= kFewest) break;
+    if (places.size() >= fewest) break;
   }
-  // So narrow that equal steps do.
-  if (places.size() < kFewest) return small_tics(axis, range);
-  constexpr std::size_t kMost = 6;
-  const std::size_t step = (places.size() + kMost - 1) / kMost;
+  return places;
+}
+
+/// Equal steps within the range.
+std::vector<double> places_of_steps(const AxisRange& range) {
+  const double step = round_step(range, 4.0);
+  std::vector<double> places;
+  for (double number = std::ceil(range.low / step); number * step <= range.high; ++number) {
+    places.push_back(number * step);
+  }
+  return places;
+}
+
+}  // namespace
+
+std::string small_tics(const std::string& axis, const AxisRange& range) {
+  return "  set " + axis + "tics " + plot_number(round_step(range, 4.0)) + " font small\n";
+}
+
+std::string log_tics(const std::string& axis, const AxisRange& range, bool small) {
+  const std::string end = small ? " font small\n" : "\n";
+  const std::string start = "  set " + axis + "tics ";
+  if (!(range.low > 0.0) || !(range.high > range.low) || !std::isfinite(range.high)) {
+    return start + "autofreq" + end;
+  }
+  constexpr std::size_t kFewest = 3;
+  std::vector<double> places = places_of_decades(range, kFewest);
+  if (places.size() < kFewest) places = places_of_steps(range);
+  const std::size_t most = small ? 4 : 6;
+  const std::size_t step = (places.size() + most - 1) / most;
   std::string tics;
   for (std::size_t i = 0; i < places.size(); i += step) {
     tics += (tics.empty() ? "" : ", ") + plot_number(places[i]);

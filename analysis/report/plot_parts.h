@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/charts/axis_range.h"
 #include "analysis/report/figure.h"
 
 namespace jnd::analysis {
@@ -42,12 +43,6 @@ struct PanelGrid {
 [[nodiscard]] std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels,
                                     double width_in, double height_in);
 
-/// Ends of an axis that holds these values with a little air; `low` < `high`.
-struct AxisRange {
-  double low = 0.0, high = 1.0;
-};
-/// With `logarithmic` values <= 0 are left out; in decades' halves around the rest.
-[[nodiscard]] AxisRange axis_range(const std::vector<double>& values, bool logarithmic = false);
 /// "[low:high]".
 [[nodiscard]] std::string range_words(const AxisRange& range);
 
@@ -55,7 +50,8 @@ struct AxisRange {
 [[nodiscard]] std::string small_tics(const std::string& axis, const AxisRange& range);
 
 /// "set ytics (3.0, 5.0, 7.0) font small" of a logarithmic axis: three to six round numbers
-/// within, where gnuplot itself may label one; equal steps in a narrow range.
+/// within, at most four where it is small; gnuplot itself may label one. Equal steps in a
+/// narrow range.
 [[nodiscard]] std::string log_tics(const std::string& axis, const AxisRange& range,
                                    bool small = false);
 

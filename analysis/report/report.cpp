@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/charts/charts.h"
+#include "analysis/charts/study_titles.h"
+#include "analysis/report/chart_figures.h"
 #include "analysis/report/explored_media.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/report_pdf.h"
 #include "analysis/report/run_tool.h"
-#include "analysis/report/study_titles.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -98,11 +100,9 @@ std::vector<Figure> figures_of(const ReportSource& source) {
   };
   add(published_figures(from));
   add(magnitude_figures(from));
-  add(matching_figures(from));
   add(power_law_figures(from));
   add(discrimination_figures(from));
-  add(threshold_figures(from));
-  add(adaptive_figures(from));
+  add(chart_figures(charts_of(from)));
   add(weber_figures(from));
   add(stroke_figures(from));
   add(explored_figures(from, source.movement));

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "analysis/charts/study_titles.h"
 #include "analysis/report/data_quality.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
-#include "analysis/report/study_titles.h"
 
 namespace jnd::analysis {
 

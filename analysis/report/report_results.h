@@ -1,8 +1,8 @@
 #pragma once
 
+#include "analysis/charts/study_titles.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
-#include "analysis/report/study_titles.h"
 
 namespace jnd::analysis {
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/charts/charts.h"
 #include "analysis/data/study_data.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/results/block_words.h"
@@ -333,13 +334,14 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
   control.progress(0.8);
   control.stop_if_cancelled();
   const ResultsSource source{data, results, titles_of(study, data.blocks)};
+  const analysis::StudyTitles chart_titles = analysis::titles_of(study);
   ResultsModel model{.study = results.study,
                      .title = title_of(study),
                      .simulated = results.simulated,
                      .citation = results.citation,
                      .num_participants = results.num_participants,
                      .discriminations = discriminations_of(source),
-                     .thresholds = thresholds_of(source),
+                     .charts = analysis::charts_of({data, results, chart_titles}),
                      .magnitudes = magnitudes_of(source),
                      .boxes = boxes_of(source)};
   add_table(source, model);

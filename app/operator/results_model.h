@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/charts/chart.h"
 #include "analysis/data/study_data.h"
 #include "analysis/results/study_results.h"
 #include "analysis/statistics/fit_status.h"
@@ -28,7 +29,7 @@ struct BandPoint {
   double x = 0.0, low = 0.0, high = 0.0;
 };
 
-inline constexpr const char* kEveryone = "all participants";
+inline constexpr const char* kEveryone = analysis::kEverybody;
 
 /// Where curves are sampled, evenly in the logarithm as intensities are drawn; 0 < low < high.
 [[nodiscard]] std::vector<double> logarithmic_grid(double low, double high);
@@ -76,36 +77,6 @@ struct Discrimination {
   PsychometricFigure pooled;  ///< Everybody's.
   /// By maximum likelihood, with likelihood-ratio intervals; by pseudonym.
   std::vector<PsychometricFigure> participants;
-};
-
-/// Levels over the trials of one staircase or series; unit of the quantity.
-struct Track {
-  std::vector<Point> levels, reversals;  ///< x: the trial within the block, from 1.
-};
-
-/// A participant's answers in a block that asks for a threshold, or everybody's.
-struct ThresholdFigure {
-  std::string who;
-  std::vector<Proportion> points;  ///< Of `Threshold::answer`; none where there are tracks.
-  std::vector<Point> curve;        ///< Through them.
-  std::vector<Track> tracks;
-  std::optional<double> line;  ///< The threshold, unit of the quantity.
-  std::string value, detail;   ///< "0.21 Pa s", "95 % 0.18 to 0.26"; "" without.
-  std::string reason;          ///< Why there is no value; "" if there is one.
-  std::string caution;  ///< Why it may be wrong for these data; "" where nothing says so.
-};
-
-/// A block that asks for a threshold otherwise than by comparisons, or its tracks.
-struct Threshold {
-  std::string block, title;
-  std::string quantity, unit;    ///< "viscosity", "Pa s".
-  std::string answer;            ///< "“yes”", "“different”".
-  bool has_fixed_levels = true;  ///< Else so many that each has few answers.
-  bool has_tracks = false;       ///< Levels over trials, not answers over levels.
-  bool is_logarithmic = true;    ///< The axis of levels.
-  std::optional<double> reference;
-  ThresholdFigure pooled;
-  std::vector<ThresholdFigure> participants;  ///< By pseudonym.
 };
 
 /// A mean with its spread, over the participants or one participant's answers.
@@ -209,7 +180,7 @@ struct ResultsModel {
   std::string citation;  ///< Of the published values; "" without any.
   int num_participants = 0;
   std::vector<results::Discrimination> discriminations;
-  std::vector<results::Threshold> thresholds;
+  std::vector<analysis::ChartSet> charts;  ///< Those of the report.
   std::vector<results::Magnitude> magnitudes;
   std::vector<results::BoxFigure> boxes;
   std::vector<results::TableColumn> columns;
@@ -245,8 +216,6 @@ struct ResultsSource {
 
 [[nodiscard]] std::vector<results::Discrimination> discriminations_of(
     const ResultsSource& source);
-/// Yes-no and same-different blocks with their answers, and adaptive ones with their tracks.
-[[nodiscard]] std::vector<results::Threshold> thresholds_of(const ResultsSource& source);
 [[nodiscard]] std::vector<results::Magnitude> magnitudes_of(const ResultsSource& source);
 [[nodiscard]] std::vector<results::BoxFigure> boxes_of(const ResultsSource& source);
 /// `values`: participant and number, at least one.

@@ -59,10 +59,13 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
      {"core", "analysis/data", "analysis/statistics", "analysis/fits", "analysis/hierarchical",
       "analysis/results"}},
     {"analysis/export", {"core", "core/storage", "experiments/study", "analysis/data"}},
+    {"analysis/charts",
+     {"core", "experiments/study", "experiments/procedures", "analysis/data",
+      "analysis/statistics", "analysis/fits", "analysis/results"}},
     {"analysis/report",
-     {"core", "core/storage", "experiments/study", "experiments/procedures", "analysis/data",
-      "analysis/statistics", "analysis/fits", "analysis/results", "analysis/movement",
-      "analysis/planning", "analysis/export"}},
+     {"core", "core/storage", "experiments/study", "analysis/data", "analysis/statistics",
+      "analysis/fits", "analysis/results", "analysis/movement", "analysis/planning",
+      "analysis/export", "analysis/charts"}},
     {"app/command_line", {"experiments/study"}},
     {"app/session",
      {"core", "core/safety", "core/media", "core/exchange", "core/storage", "device",
@@ -97,12 +100,13 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "analysis/fits",
       "analysis/results",
       "analysis/export",
+      "analysis/charts",
       "app/session",
       "app/results"}},
     {"app/gui", {"core", "device/exoskeleton", "app/operator"}},
     {"app/gui/views",
-     {"experiments/study", "analysis/fits", "analysis/results", "app/session", "app/operator",
-      "app/gui"}},
+     {"experiments/study", "analysis/fits", "analysis/results", "analysis/charts",
+      "app/session", "app/operator", "app/gui"}},
     {"app/gui/application",
      {"core", "core/storage", "device", "device/registry", "experiments/study",
       "experiments/order", "experiments/session", "analysis/results", "app/command_line",
@@ -246,6 +250,26 @@ TEST(IncludeRules, EveryAllowanceIsUsed) {
     for (const std::string& other : others) {
       EXPECT_TRUE(used[folder].contains(other)) << folder << "/ includes nothing of " << other;
     }
+  }
+}
+
+// A folder of tests that no program names would be compiled into none, and nobody would notice.
+TEST(IncludeRules, EveryFolderOfTestsIsInAProgram) {
+  const fs::path tests = jnd::test_support::source_folder() / "tests";
+  std::ifstream file(tests / "CMakeLists.txt");
+  std::set<std::string> words;
+  for (std::string word; file >> word;) {
+    while (!word.empty() && word.back() == ')') word.pop_back();
+    words.insert(word);
+  }
+  for (const auto& [folder, others] : kFolders) {
+    const bool has_tests =
+        fs::is_directory(tests / folder) &&
+        std::ranges::any_of(fs::directory_iterator(tests / folder), [](const auto& entry) {
+          return entry.path().filename().string().ends_with("_test.cpp");
+        });
+    EXPECT_TRUE(!has_tests || words.contains(folder))
+        << "tests/" << folder << ": name it in tests/CMakeLists.txt";
   }
 }
 

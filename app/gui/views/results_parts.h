@@ -9,7 +9,7 @@ namespace jnd::app::gui {
 
 // The parts of the results view: its pages, and the table beside them.
 
-enum class ResultsPage { kCurves, kThresholds, kMagnitudes, kBoxes, kComparisons, kNumbers };
+enum class ResultsPage { kCurves, kCharts, kMagnitudes, kBoxes, kComparisons, kNumbers };
 
 struct ResultsPageLook {
   ResultsPage page;
@@ -25,8 +25,8 @@ struct ResultsPageLook {
 void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, ResultsPage page,
                        ResultsViewState& state);
 void draw_curves_page(Ui& ui, Rect place, const ResultsModel& results, ResultsViewState& state);
-void draw_thresholds_page(Ui& ui, const Rect& place, const ResultsModel& results,
-                          ResultsViewState& state);
+void draw_charts_page(Ui& ui, const Rect& place, const ResultsModel& results,
+                      ResultsViewState& state);
 void draw_magnitudes_page(Ui& ui, Rect place, const ResultsModel& results,
                           ResultsViewState& state);
 /// `marks`: says here that the data are simulated, for the header has no room to.

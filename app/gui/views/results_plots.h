@@ -12,8 +12,6 @@ namespace jnd::app::gui {
                                        bool has_fixed_levels);
 [[nodiscard]] PlotModel psychometric_plot(const results::Discrimination& block,
                                           const results::PsychometricFigure& figure);
-[[nodiscard]] PlotModel threshold_plot(const results::Threshold& block,
-                                       const results::ThresholdFigure& figure);
 [[nodiscard]] PlotModel magnitude_plot(const results::Magnitude& magnitude,
                                        const results::MagnitudeFigure& figure);
 [[nodiscard]] PlotModel box_plot(const results::BoxFigure& figure);

@@ -165,8 +165,8 @@ std::vector<ResultsPageLook> pages_of(const ResultsModel& results) {
   if (!results.discriminations.empty()) {
     pages.push_back({ResultsPage::kCurves, "page_curves", "Curves"});
   }
-  if (!results.thresholds.empty()) {
-    pages.push_back({ResultsPage::kThresholds, "page_thresholds", "Thresholds"});
+  if (!results.charts.empty()) {
+    pages.push_back({ResultsPage::kCharts, "page_charts", "Charts"});
   }
   if (!results.magnitudes.empty()) {
     pages.push_back({ResultsPage::kMagnitudes, "page_magnitudes", "Magnitudes"});
@@ -189,8 +189,8 @@ void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, R
   switch (page) {
     case ResultsPage::kCurves:
       return draw_curves_page(ui, place, results, state);
-    case ResultsPage::kThresholds:
-      return draw_thresholds_page(ui, place, results, state);
+    case ResultsPage::kCharts:
+      return draw_charts_page(ui, place, results, state);
     case ResultsPage::kMagnitudes:
       return draw_magnitudes_page(ui, place, results, state);
     case ResultsPage::kBoxes:

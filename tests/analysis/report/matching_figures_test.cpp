@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "analysis/charts/charts.h"
 #include "analysis/hand_made_study.h"
-#include "analysis/report/figures.h"
+#include "analysis/report/chart_figures.h"
 
 namespace jnd::analysis {
 namespace matching_figures_test {
@@ -15,7 +16,7 @@ std::vector<Figure> figures_of(const HandMadeStudy& study) {
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
   const StudyTitles titles;
-  return matching_figures({.data = data, .results = results, .titles = titles});
+  return chart_figures(matching_charts({.data = data, .results = results, .titles = titles}));
 }
 
 /// Geometric means 2 and 8 of the first, who matches, 8 and 32 of the second.
@@ -55,7 +56,8 @@ TEST(MatchingFigures, ShowEverybodysGeometricMeansThoseOfTheGroupAndTheFunction)
   EXPECT_NEAR(function.front()[1].number.value(), 4.0, 1e-9);
   EXPECT_NEAR(function.back()[0].number.value(), 8.0, 1e-9);
   EXPECT_NEAR(function.back()[1].number.value(), 16.0, 1e-9);
-  EXPECT_NE(figure.plot.find("set logscale xy"), std::string::npos);
+  EXPECT_NE(figure.plot.find("set logscale x\n"), std::string::npos);
+  EXPECT_NE(figure.plot.find("set logscale y\n"), std::string::npos);
   EXPECT_NE(figure.caption.find("2 participants"), std::string::npos);
 }
 

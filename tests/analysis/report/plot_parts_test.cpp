@@ -21,7 +21,14 @@ TEST(LogTics, OfManyDecadesAreNotTooMany) {
 }
 
 TEST(LogTics, OfANarrowRangeAreEqualSteps) {
-  EXPECT_EQ(log_tics("y", {8.1, 9.4}), small_tics("y", {8.1, 9.4}));
+  // On a logarithmic axis gnuplot takes a single step for a factor, so each place is named.
+  EXPECT_EQ(log_tics("y", {8.1, 9.4}), "  set ytics (8.5, 9.0)\n");
+  EXPECT_EQ(log_tics("y", {2.4, 6.0}), "  set ytics (3.0, 4.0, 5.0, 6.0)\n");
+}
+
+TEST(LogTics, OfASmallPanelAreFewEnoughToBeRead) {
+  EXPECT_EQ(log_tics("x", {120.0, 720.0}, /*small=*/true),
+            "  set xtics (150.0, 300.0, 700.0) font small\n");
 }
 
 TEST(LogTics, OfARangeThatIsNoneAreLeftToGnuplot) {

@@ -1,4 +1,4 @@
-#include "analysis/report/figures.h"
+#include "analysis/charts/figure_source.h"
 
 namespace jnd::analysis {
 

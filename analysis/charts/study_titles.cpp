@@ -1,4 +1,4 @@
-#include "analysis/report/study_titles.h"
+#include "analysis/charts/study_titles.h"
 
 #include <algorithm>
 

@@ -4,14 +4,14 @@
 #include "app/operator/results_model.h"
 
 namespace jnd::app {
-namespace results_thresholds_test {
+namespace results_table_test {
 
 using namespace results;
 
 /// P01 felt 2, 5 and 8 of 10 at 0.1, 0.2 and 0.4 Pa s; P02 is degenerate.
-class ResultsThresholdsTest : public ::testing::Test {
+class ResultsTableTest : public ::testing::Test {
  protected:
-  ResultsThresholdsTest() : study_(analysis::kFeltProtocol) {
+  ResultsTableTest() : study_(analysis::kFeltProtocol) {
     analysis::add_felt_answers(study_);
     data_ = analysis::load_study(study_.store());
     data_.runs.clear();  // By hand instead.
@@ -35,42 +35,7 @@ class ResultsThresholdsTest : public ::testing::Test {
   analysis::StudyResults results_;
 };
 
-TEST_F(ResultsThresholdsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
-  const std::vector<Threshold> figures = thresholds_of(source());
-  ASSERT_EQ(figures.size(), 2U) << "answers, and tracks";
-  const Threshold& answers = figures[0];
-  EXPECT_EQ(answers.title, "Felt");
-  EXPECT_EQ(answers.unit, "Pa s");
-  EXPECT_FALSE(answers.has_tracks);
-  EXPECT_EQ(answers.answer, "“yes”");
-  EXPECT_FALSE(answers.has_fixed_levels) << "a staircase has few answers a level";
-  ASSERT_EQ(answers.participants.size(), 2U);
-  const ThresholdFigure& own = answers.participants[0];
-  EXPECT_EQ(own.value, "0.2 Pa s");
-  EXPECT_NEAR(own.line.value(), 0.2, 1e-9);
-  EXPECT_FALSE(own.detail.empty());
-  ASSERT_EQ(own.points.size(), 3U);
-  EXPECT_NEAR(own.points[2].ratio, 0.8, 1e-12);
-  EXPECT_FALSE(own.curve.empty());
-  EXPECT_TRUE(answers.participants[1].curve.empty());
-  EXPECT_NE(answers.participants[1].reason, "");
-  EXPECT_EQ(answers.pooled.points[0].num_trials, 20);
-}
-
-TEST_F(ResultsThresholdsTest, TracksHaveTheirReversals) {
-  const Threshold tracks = thresholds_of(source()).at(1);
-  EXPECT_TRUE(tracks.has_tracks);
-  ASSERT_EQ(tracks.participants.size(), 1U);
-  const ThresholdFigure& own = tracks.participants[0];
-  EXPECT_EQ(own.value, "0.25 Pa s");
-  ASSERT_EQ(own.tracks.size(), 1U);
-  EXPECT_EQ(own.tracks[0].levels.size(), 2U);
-  ASSERT_EQ(own.tracks[0].reversals.size(), 1U);
-  EXPECT_EQ(own.tracks[0].reversals[0].x, 2.0);
-  EXPECT_EQ(tracks.pooled.value, "0.25 Pa s");
-}
-
-TEST_F(ResultsThresholdsTest, TheTableHasAColumnOfThresholds) {
+TEST_F(ResultsTableTest, TheTableHasAColumnOfThresholds) {
   ResultsModel model;
   add_table(source(), model);
   EXPECT_EQ(model.columns.front().title, "Felt");
@@ -105,5 +70,5 @@ TEST(ResultsBoxes, OfMatchesStandByTheirStandardsFromTheLeast) {
   EXPECT_NEAR(model.rows[1].values[0].value(), 1.5, 1e-9);
 }
 
-}  // namespace results_thresholds_test
+}  // namespace results_table_test
 }  // namespace jnd::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/charts/chart.h"
+#include "analysis/charts/figure_source.h"
+
+namespace jnd::analysis {
+
+// The kinds, each for all blocks.
+
+/// Matches over standards, with the matching function.
+[[nodiscard]] std::vector<ChartSet> matching_charts(const FigureSource& source);
+/// Answers of yes-no and same-different blocks with their curves.
+[[nodiscard]] std::vector<ChartSet> threshold_charts(const FigureSource& source);
+/// Levels of adaptive blocks over the trials, reversals marked.
+[[nodiscard]] std::vector<ChartSet> track_charts(const FigureSource& source);
+
+/// In the order of report and window. A new kind is a file of its own and a place here.
+inline constexpr std::vector<ChartSet> (*kChartKinds[])(const FigureSource&) = {
+    matching_charts, threshold_charts, track_charts};
+
+/// Every chart that there are data for. Not real time.
+[[nodiscard]] std::vector<ChartSet> charts_of(const FigureSource& source);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "analysis/charts/chart_parts.h"
+#include "analysis/charts/charts.h"
+#include "analysis/fits/same_different_fit.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/threshold_answers.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/wilson_interval.h"
+#include "core/psychometric_function.h"
+#include "experiments/study/media.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr std::size_t kAnswersTable = 0, kCurvesTable = 1, kPooledTable = 2;
+
+/// P("yes"), or of "different", at an intensity; empty without a curve.
+using ThresholdCurve = std::function<double(double)>;
+
+ThresholdCurve curve_of(const FigureSource& source, const BlockDesign& block,
+                        const std::string& participant) {
+  const auto own = [&](const std::string& name) {
+    const ParticipantEstimate* const found =
+        source.own(block.block, participant, block.block + "." + name);
+    return found == nullptr ? std::nullopt : found->value;
+  };
+  const auto place = own(block.detects() ? "threshold" : "criterion_ln");
+  const auto spread = own(block.detects() ? "spread_ln" : "weber_fraction");
+  if (!place || !spread) return {};
+  if (block.detects()) {
+    return [mean = std::log(*place), sd = *spread](double intensity) {
+      return core::standard_normal_cdf((std::log(intensity) - mean) / sd);
+    };
+  }
+  return [reference = *block.reference_intensity, k = *place, sd = std::log1p(*spread)](
+             double intensity) { return different_probability(intensity, reference, k, sd); };
+}
+
+std::string value_words(const BlockDesign& block, const std::optional<double>& value) {
+  if (!block.detects()) return "w = " + number_words(value, 2);
+  return number_words(value, 3) + " " + experiments::quantity_unit(block.quantity);
+}
+
+std::vector<FigureCell> answer_cells(const AnswerCount& row) {
+  const auto [low, high] = wilson_interval(row.num_yes, row.num_trials);
+  return {row.intensity,
+          static_cast<double>(row.num_yes),
+          static_cast<double>(row.num_trials),
+          static_cast<double>(row.num_yes) / static_cast<double>(row.num_trials),
+          low,
+          high};
+}
+
+/// A row of a table, after its series and the participant where it has those.
+void add_row(FigureTable& table, std::vector<FigureCell> first, std::vector<FigureCell> cells) {
+  first.insert(first.end(), std::make_move_iterator(cells.begin()),
+               std::make_move_iterator(cells.end()));
+  table.rows.push_back(std::move(first));
+}
+
+class ThresholdCharts {
+ public:
+  ThresholdCharts(const FigureSource& source, const BlockDesign& block)
+      : source_(source), block_(block) {
+    std::vector<ExcludedParticipant> without_answers;
+    all_ = threshold_answers(source.data, block, false, without_answers);
+  }
+
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+
+  [[nodiscard]] ChartSet set() {
+    const std::string name = file_word(block_.block);
+    const std::string answer = block_.detects() ? "“yes”" : "“different”";
+    set_ = {.name = name + "_participants",
+            .section = block_.block,
+            .title = "Answers of every participant, " + source_.titles.title_of(block_.block),
+            .caption = caption(answer),
+            .heading = source_.titles.title_of(block_.block),
+            .x = quantity_chart_axis(block_.quantity, "test"),
+            .y = {.title = "Proportion of " + answer,
+                  .label = answer + " in percent",
+                  .is_proportion = true,
+                  .range = {0.0, 1.0}}};
+    set_.tables = {
+        {.name = name + "_answers",
+         .columns = {"series", "participant", "intensity", "num_yes", "num_trials", "ratio",
+                     "ratio_low", "ratio_high"}},
+        {.name = name + "_curves", .columns = {"series", "participant", "intensity", "ratio"}},
+        {.name = name + "_all_answers",
+         .columns = {"intensity", "num_yes", "num_trials", "ratio", "ratio_low",
+                     "ratio_high"}}};
+    std::vector<double> intensities;
+    for (const ThresholdAnswers& one : all_) {
+      for (const auto& [intensity, row] : one.levels) intensities.push_back(intensity);
+    }
+    set_.x.logarithmic = true;
+    set_.x.range = axis_range(intensities, /*logarithmic=*/true);
+    for (const ThresholdAnswers& one : all_) add_participant(one);
+    add_everybody();
+    return std::move(set_);
+  }
+
+ private:
+  [[nodiscard]] std::string caption(const std::string& answer) const {
+    return "Proportion of answers " + answer +
+           (block_.has_fixed_levels() ? " with Wilson’s 95 % interval"
+                                      : " at every level that the answers led to") +
+           ", and the curve of maximum likelihood where it exists, with " +
+           (block_.detects() ? "the intensity felt in 50 %" : "its Weber fraction w") +
+           " in the title. Dashed: the same answer in catch trials.";
+  }
+
+  [[nodiscard]] ChartSeries answers(std::size_t table, int series) const {
+    return {.look = block_.has_fixed_levels() ? ChartSeries::Look::kAnswers
+                                              : ChartSeries::Look::kManyAnswers,
+            .table = table,
+            .series = series,
+            .x = "intensity",
+            .y = "ratio",
+            .low = "ratio_low",
+            .high = "ratio_high",
+            .size = "num_trials"};
+  }
+
+  void add_lines(Chart& chart, const std::optional<double>& value,
+                 const AnswerCount& catches) const {
+    if (block_.reference_intensity) chart.lines.push_back({.at = *block_.reference_intensity});
+    if (value && block_.detects()) {
+      constexpr double kFeltInHalf = 0.5;
+      chart.lines.push_back({.kind = ChartLine::Kind::kValue,
+                             .at = *value,
+                             .until = kFeltInHalf,
+                             .label = "threshold"});
+    }
+    if (catches.num_trials > 0) {
+      chart.lines.push_back(
+          {.kind = ChartLine::Kind::kRate,
+           .at = static_cast<double>(catches.num_yes) / static_cast<double>(catches.num_trials),
+           .is_vertical = false,
+           .label = "catch trials"});
+    }
+  }
+
+  void add_participant(const ThresholdAnswers& one) {
+    constexpr int kPoints = 120;
+    const int series = static_cast<int>(set_.participants.size()) + 1;
+    for (const AnswerCount& row : one.rows_with_catches()) {
+      add_row(set_.tables[kAnswersTable], {series, one.participant}, answer_cells(row));
+    }
+    Chart chart{.who = one.participant};
+    const ParticipantEstimate* const own =
+        source_.own(block_.block, one.participant,
+                    block_.block + (block_.detects() ? ".threshold" : ".weber_fraction"));
+    if (const ThresholdCurve curve = curve_of(source_, block_, one.participant)) {
+      for (int i = 0; i <= kPoints; ++i) {
+        const double x = set_.x.range.low * std::pow(set_.x.range.high / set_.x.range.low,
+                                                     static_cast<double>(i) / kPoints);
+        set_.tables[kCurvesTable].rows.push_back({series, one.participant, x, curve(x)});
+      }
+      chart.series.push_back(
+          {.table = kCurvesTable, .series = series, .x = "intensity", .y = "ratio"});
+    }
+    chart.series.push_back(answers(kAnswersTable, series));
+    if (own == nullptr) {
+      chart.reason = "no answers";
+    } else {
+      add_value(chart, own->value, own->ci95, own->reason, own->cautions,
+                value_words(block_, own->value));
+    }
+    add_lines(chart, own == nullptr ? std::nullopt : own->value, one.catches);
+    set_.participants.push_back(std::move(chart));
+  }
+
+  void add_everybody() {
+    std::map<double, AnswerCount> levels;
+    AnswerCount catches;
+    for (const ThresholdAnswers& one : all_) {
+      for (const auto& [intensity, row] : one.levels) {
+        levels[intensity].intensity = intensity;
+        levels[intensity].num_yes += row.num_yes;
+        levels[intensity].num_trials += row.num_trials;
+      }
+      catches.num_yes += one.catches.num_yes;
+      catches.num_trials += one.catches.num_trials;
+    }
+    for (const auto& [intensity, row] : levels) {
+      set_.tables[kPooledTable].rows.push_back(answer_cells(row));
+    }
+    Chart chart{.who = kEverybody, .series = {answers(kPooledTable, 0)}};
+    const Estimate* const found = source_.results.find(
+        block_.block + (block_.detects() ? ".threshold" : ".weber_fraction"));
+    if (found == nullptr) {
+      chart.reason = "nobody has a value";
+    } else {
+      add_value(chart, found->value, found->ci95, "", found->cautions,
+                value_words(block_, found->value));
+    }
+    add_lines(chart, found == nullptr ? std::nullopt : found->value, catches);
+    set_.everybody = std::move(chart);
+  }
+
+  const FigureSource& source_;
+  const BlockDesign& block_;
+  std::vector<ThresholdAnswers> all_;
+  ChartSet set_;
+};
+
+}  // namespace
+
+std::vector<ChartSet> threshold_charts(const FigureSource& source) {
+  std::vector<ChartSet> sets;
+  for (const BlockDesign& block : source.data.blocks) {
+    if (!block.detects() && !block.tells_apart()) continue;
+    ThresholdCharts charts(source, block);
+    if (!charts.empty()) sets.push_back(charts.set());
+  }
+  return sets;
+}
+
+}  // namespace jnd::analysis

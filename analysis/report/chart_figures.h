@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/charts/chart.h"
+#include "analysis/report/figure.h"
+
+namespace jnd::analysis {
+
+/// The charts as figures of the report: a panel a participant, as many figures as that takes,
+/// or everybody's chart alone. Not real time.
+[[nodiscard]] std::vector<Figure> chart_figures(const std::vector<ChartSet>& charts);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,173 @@
+#include "app/gui/views/chart_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jnd::app::gui {
+namespace {
+
+using analysis::ChartSeries;
+using analysis::FigureTable;
+using Look = ChartSeries::Look;
+
+constexpr double kPercent = 100.0;
+
+Colour track_colour(int number) {
+  constexpr Colour kColours[] = {Colour::kBlue, Colour::kAmber, Colour::kGreen};
+  return kColours[static_cast<std::size_t>(number - 1) % std::size(kColours)];
+}
+
+PlotSeries look_of(const ChartSeries& series) {
+  using Style = PlotSeries::Style;
+  switch (series.look) {
+    case Look::kCurve:
+      return {.style = Style::kLine, .thickness = 2.5f};
+    case Look::kAnswers:
+    case Look::kManyAnswers:
+      return {.style = Style::kPoints, .colour = Colour::kInk};
+    case Look::kTrack:
+      return {.style = Style::kLine, .colour = track_colour(series.colour), .thickness = 1.5f};
+    case Look::kReversals:
+      return {.style = Style::kPoints, .colour = track_colour(series.colour)};
+    case Look::kEverybodys:
+      return {.style = Style::kLine, .colour = Colour::kSoft, .thickness = 1.0f, .alpha = 0.6f};
+    case Look::kIdentity:
+      return {
+          .style = Style::kLine, .colour = Colour::kSoft, .dashed = true, .thickness = 1.5f};
+  }
+  return {};
+}
+
+/// The numbers of a table that a series shows, row by row.
+class SeriesRows {
+ public:
+  SeriesRows(const FigureTable& table, const ChartSeries& series)
+      : table_(table), series_(series), series_at_(table.place_of("series")) {}
+
+  /// `show` is called with a row that has an x and a y.
+  template <typename Show>
+  void each(const Show& show) const {
+    for (const auto& row : table_.rows) {
+      if (series_.series > 0 && row[series_at_].number != series_.series) continue;
+      if (number(row, series_.x) && number(row, series_.y)) show(row);
+    }
+  }
+  [[nodiscard]] std::optional<double> number(const std::vector<analysis::FigureCell>& row,
+                                             const std::string& column) const {
+    const std::size_t place = table_.place_of(column);
+    return place < row.size() ? row[place].number : std::nullopt;
+  }
+
+ private:
+  const FigureTable& table_;
+  const ChartSeries& series_;
+  std::size_t series_at_;
+};
+
+/// "7 of 10" of a row that has counts; "".
+std::string counts_of(const SeriesRows& rows, const std::vector<analysis::FigureCell>& row) {
+  const auto num_yes = rows.number(row, "num_yes");
+  const auto num_trials = rows.number(row, "num_trials");
+  if (!num_yes || !num_trials) return "";
+  return std::to_string(std::llround(*num_yes)) + " of " +
+         std::to_string(std::llround(*num_trials));
+}
+
+PlotSeries series_of(const FigureTable& table, const ChartSeries& series, double y_unit) {
+  PlotSeries plotted = look_of(series);
+  plotted.name = series.legend;
+  const SeriesRows rows(table, series);
+  const bool has_bars = series.look == Look::kAnswers && !series.low.empty();
+  double largest = 0.0;
+  rows.each([&](const auto& row) {
+    largest = std::max(largest, rows.number(row, series.size).value_or(0.0));
+  });
+  rows.each([&](const auto& row) {
+    const double y = y_unit * *rows.number(row, series.y);
+    plotted.x.push_back(*rows.number(row, series.x));
+    plotted.y.push_back(y);
+    const std::string counts = counts_of(rows, row);
+    if (!counts.empty()) plotted.names.push_back(counts);
+    if (has_bars) {
+      const auto end = [&](const std::string& column) {
+        const auto found = rows.number(row, column);
+        return found ? y_unit * *found : y;
+      };
+      plotted.low.push_back(end(series.low));
+      plotted.high.push_back(end(series.high));
+    }
+    if (series.look == Look::kManyAnswers && largest > 0.0) {
+      const double share = rows.number(row, series.size).value_or(0.0) / largest;
+      plotted.radii.push_back(1.5f + 5.0f * static_cast<float>(std::sqrt(share)));
+    }
+  });
+  return plotted;
+}
+
+PlotSeries identity_of(const analysis::ChartSet& set, const ChartSeries& series) {
+  PlotSeries plotted = look_of(series);
+  plotted.name = series.legend;
+  const double low = std::max(set.x.range.low, set.y.range.low);
+  const double high = std::min(set.x.range.high, set.y.range.high);
+  if (low < high) {
+    plotted.x = {low, high};
+    plotted.y = {low, high};
+  }
+  return plotted;
+}
+
+PlotMark mark_of(const analysis::ChartLine& line, double unit, double until_unit) {
+  const bool is_value = line.kind == analysis::ChartLine::Kind::kValue;
+  PlotMark mark{.at = unit * line.at,
+                .vertical = line.is_vertical,
+                .label = line.label,
+                .colour = !is_value          ? Colour::kSoft
+                          : line.is_vertical ? Colour::kAmber
+                                             : Colour::kInk,
+                .dashed = !is_value};
+  if (line.until) mark.until = until_unit * *line.until;
+  return mark;
+}
+
+PlotAxis axis_of(const analysis::ChartAxis& axis) {
+  PlotAxis plotted{.logarithmic = axis.logarithmic};
+  if (axis.is_proportion) {
+    plotted.minimum = 0.0;
+    plotted.maximum = kPercent;
+    for (const int percent : {0, 25, 50, 75, 100}) {
+      plotted.ticks.push_back({static_cast<double>(percent), std::to_string(percent)});
+    }
+    return plotted;
+  }
+  plotted.label = axis.label;
+  plotted.unit = axis.unit;
+  return plotted;
+}
+
+}  // namespace
+
+PlotModel chart_plot(const analysis::ChartSet& set, const analysis::Chart& chart) {
+  PlotModel plot{.title = set.heading};
+  plot.x = axis_of(set.x);
+  plot.y = axis_of(set.y);
+  // Beside the heading, where the widget has what the y axis is of.
+  plot.unit = set.y.is_proportion || set.y.label.find(':') != std::string::npos ? set.y.label
+                                                                                : set.y.unit;
+  plot.y.label.clear();
+  const double x_unit = set.x.is_proportion ? kPercent : 1.0;
+  const double y_unit = set.y.is_proportion ? kPercent : 1.0;
+  for (const ChartSeries& series : chart.series) {
+    PlotSeries plotted = series.look == Look::kIdentity
+                             ? identity_of(set, series)
+                             : series_of(set.tables[series.table], series, y_unit);
+    if (!plotted.x.empty()) plot.series.push_back(std::move(plotted));
+  }
+  for (const analysis::ChartLine& line : chart.lines) {
+    plot.marks.push_back(line.is_vertical ? mark_of(line, x_unit, y_unit)
+                                          : mark_of(line, y_unit, x_unit));
+  }
+  return plot;
+}
+
+}  // namespace jnd::app::gui

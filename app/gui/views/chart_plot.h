@@ -1,0 +1,11 @@
+#pragma once
+
+#include "analysis/charts/chart.h"
+#include "app/gui/plot.h"
+
+namespace jnd::app::gui {
+
+/// One chart of the set for the plot widget; proportions in percent.
+[[nodiscard]] PlotModel chart_plot(const analysis::ChartSet& set, const analysis::Chart& chart);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/charts/charts.h"
+#include "analysis/felt_study.h"
+
+namespace jnd::analysis {
+namespace threshold_charts_test {
+
+/// P01 felt 2, 5 and 8 of 10 at 0.1, 0.2 and 0.4 Pa s; P02 is degenerate.
+class ThresholdChartsTest : public ::testing::Test {
+ protected:
+  ThresholdChartsTest() : study_(kFeltProtocol) {
+    add_felt_answers(study_);
+    data_ = load_study(study_.store());
+    data_.runs.clear();  // By hand instead.
+    data_.runs.push_back({.participant = "P01",
+                          .block = "felt",
+                          .procedure = "staircase",
+                          .is_logarithmic = true,
+                          .rule = "1 up, 2 down; Levitt 1971",
+                          .target_probability = 0.70711,
+                          .tracks = {{.series = 1,
+                                      .points = {{1, 0.4, true}, {2, 0.2, false, true, true}},
+                                      .threshold = 0.25,
+                                      .num_reversals = 2}},
+                          .threshold = 0.25});
+    results_ = results_of(data_, {}, {.num_resamples = 50});
+    titles_.stages["felt"] = "Felt";
+  }
+  [[nodiscard]] FigureSource source() const { return {data_, results_, titles_}; }
+
+  HandMadeStudy study_;
+  StudyData data_;
+  StudyResults results_;
+  StudyTitles titles_;
+};
+
+TEST_F(ThresholdChartsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
+  const std::vector<ChartSet> sets = threshold_charts(source());
+  ASSERT_EQ(sets.size(), 1U);
+  const ChartSet& set = sets.front();
+  EXPECT_EQ(set.heading, "Felt");
+  EXPECT_EQ(set.x.unit, "Pa s");
+  EXPECT_TRUE(set.x.logarithmic);
+  ASSERT_EQ(set.participants.size(), 2U);
+  const Chart& own = set.participants[0];
+  EXPECT_EQ(own.value, "0.200 Pa s");
+  EXPECT_NE(own.detail.find("95 % "), std::string::npos);
+  ASSERT_EQ(own.series.size(), 2U) << "the curve and the answers";
+  EXPECT_EQ(own.series[1].look, ChartSeries::Look::kManyAnswers)
+      << "a staircase has few answers a level";
+  const FigureTable& answers = set.tables[own.series[1].table];
+  const std::size_t ratio = answers.place_of("ratio");
+  EXPECT_NEAR(answers.rows[2][ratio].number.value(), 0.8, 1e-12);
+  // The line at the threshold, up to where the curve is at one half.
+  ASSERT_EQ(own.lines.size(), 1U);
+  EXPECT_NEAR(own.lines[0].at, 0.2, 1e-9);
+  EXPECT_EQ(own.lines[0].until, 0.5);
+  const Chart& without = set.participants[1];
+  EXPECT_EQ(without.series.size(), 1U);
+  EXPECT_EQ(without.value, "");
+  EXPECT_NE(without.reason, "");
+}
+
+TEST_F(ThresholdChartsTest, EverybodysAnswersAreAddedUp) {
+  const ChartSet set = threshold_charts(source()).front();
+  const Chart* const everybody = set.chart_of(kEverybody);
+  ASSERT_NE(everybody, nullptr);
+  const FigureTable& table = set.tables[everybody->series.front().table];
+  EXPECT_EQ(table.rows[0][table.place_of("num_trials")].number, 20.0);
+  EXPECT_EQ(set.chart_of("P01"), &set.participants[0]);
+  EXPECT_EQ(set.chart_of("P77"), nullptr);
+}
+
+TEST_F(ThresholdChartsTest, TracksHaveTheirReversalsAndTheirThreshold) {
+  const std::vector<ChartSet> sets = track_charts(source());
+  ASSERT_EQ(sets.size(), 1U);
+  const ChartSet& set = sets.front();
+  EXPECT_EQ(set.section, "felt_staircase");
+  EXPECT_TRUE(set.y.logarithmic);
+  ASSERT_EQ(set.participants.size(), 1U);
+  const Chart& own = set.participants[0];
+  EXPECT_EQ(own.value, "0.2500 Pa s");
+  ASSERT_EQ(own.series.size(), 2U);
+  EXPECT_EQ(own.series[0].look, ChartSeries::Look::kTrack);
+  EXPECT_EQ(own.series[1].y, "reversal");
+  const FigureTable& table = set.tables.front();
+  EXPECT_EQ(table.rows.size(), 2U);
+  EXPECT_FALSE(table.rows[0][table.place_of("reversal")].number);
+  ASSERT_EQ(own.lines.size(), 1U);
+  EXPECT_NEAR(own.lines[0].at, 0.25, 1e-12);
+  EXPECT_EQ(set.everybody->value, "0.2500 Pa s");
+}
+
+TEST_F(ThresholdChartsTest, AllChartsStandInTheOrderOfTheReport) {
+  const std::vector<ChartSet> sets = charts_of(source());
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_EQ(sets[0].name, "felt_participants");
+  EXPECT_EQ(sets[1].name, "felt_tracks");
+}
+
+}  // namespace threshold_charts_test
+}  // namespace jnd::analysis
