@@ -229,6 +229,7 @@ PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
   }
   const ProbitRegression found = regression_of(cells, options.free_pse);
   fit.reason = found.reason;
+  fit.is_separated = found.is_separated;
   if (found.status != FitStatus::kOk) {
     const std::optional<double> alike =
         options.free_pse ? order_all_alike(cells) : std::nullopt;

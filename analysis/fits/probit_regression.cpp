@@ -103,6 +103,7 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
     fit.reason = "not found: the search did not come to rest; add up rows that ask the same";
     return fit;
   }
+  fit.is_separated = true;
   fit.reason = "separated: some combination of the columns splits the answers without overlap";
   return fit;
 }

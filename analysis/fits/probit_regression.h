@@ -10,7 +10,8 @@ namespace jnd::analysis {
 /// Maximum likelihood of P(yes) = Phi(offset + X beta).
 struct ProbitRegression {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;  ///< Why there is no fit; "" if there is one.
+  std::string reason;         ///< Why there is no fit; "" if there is one.
+  bool is_separated = false;  ///< There is none for answers split without overlap.
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;   ///< Inverse of the observed information.
   double log_likelihood = 0.0;  ///< Without binomial coefficients; where separated, near its

@@ -232,6 +232,7 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
   }
   fit.status = FitStatus::kDegenerate;
   fit.reason = found.reason;
+  fit.is_separated = found.supremum == PsychometricSupremum::kStep;
   if (found.supremum != PsychometricSupremum::kAttained) return fit;
 
   PsychometricCurve curve = found.optimum.curve;

@@ -156,6 +156,7 @@ struct PsychometricFit {
   FitStatus status = FitStatus::kNotRun;
   /// Why there is no value, or, of a curve whose pse is not > 0, no Weber fraction; else "".
   std::string reason;
+  bool is_separated = false;  ///< There is none for answers that are a step: w tends to 0.
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   std::optional<double> weber_fraction;
   /// ml: likelihood ratio, profiled over what else is free, and its ends where

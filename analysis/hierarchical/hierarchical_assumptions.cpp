@@ -4,22 +4,22 @@
 #include <cstdio>
 #include <string>
 
+#include "analysis/hierarchical/hierarchical_cautions.h"
+
 namespace jnd::analysis {
 namespace {
 
-/// What the options assume that the answers can be asked about.
+/// What the options assume.
 struct Assumptions {
   bool lapses = false, pse = false;
 
   [[nodiscard]] bool any() const noexcept { return lapses || pse; }
 };
 
-Assumptions assumptions_of(const HierarchicalOptions& options, std::size_t num_conditions) {
-  constexpr std::size_t kMostWithOwnPses = 2;
-  const bool has_pse =
-      options.pse == HierarchicalPse::kReference || options.pse == HierarchicalPse::kCommon;
+Assumptions assumptions_of(const HierarchicalOptions& options) {
   return {.lapses = options.lapses != HierarchicalLapses::kCommon,
-          .pse = has_pse && num_conditions <= kMostWithOwnPses};
+          .pse = options.pse == HierarchicalPse::kReference ||
+                 options.pse == HierarchicalPse::kCommon};
 }
 
 std::string rounded(double value) {
@@ -28,46 +28,63 @@ std::string rounded(double value) {
   return text;
 }
 
-/// "that everybody's pse is the reference: with a pse of each person's own"
-std::string words_of(const Assumptions& assumed, const HierarchicalFit& without,
-                     const HierarchicalOptions& options) {
-  const std::string and_word = assumed.pse && assumed.lapses ? " and " : "";
-  std::string all, freed;
-  if (assumed.pse) {
-    all = options.pse == HierarchicalPse::kReference ? "that everybody's pse is the reference"
-                                                     : "that everybody has the same pse";
-    freed = "a pse of each person's own";
-  }
+/// "the lapse rate is 0 and everybody's pse is the reference"
+std::string assumption_words(const Assumptions& assumed, const HierarchicalOptions& options) {
+  std::string words;
   if (assumed.lapses) {
-    all += and_word + "the lapse rate that was given";
-    freed += and_word + "a free lapse rate, here " + rounded(without.lapse_rate.value_or(0.0));
+    words = "the lapse rate is " +
+            rounded(options.lapses == HierarchicalLapses::kKnown ? options.lapse_rate : 0.0);
   }
-  return all + ": with " + freed;
+  if (assumed.pse) {
+    words += (words.empty() ? "" : " and ") + std::string("everybody's pse is the ") +
+             (options.pse == HierarchicalPse::kReference ? "reference" : "same");
+  }
+  return words;
 }
 
-}  // namespace
+/// "a pse of each person's own and a free lapse rate, here 0.03"
+std::string freed_words(const Assumptions& freed, const HierarchicalFit& without) {
+  std::string words = freed.pse ? "a pse of each person's own" : "";
+  if (freed.lapses) {
+    words += (words.empty() ? "" : " and ") + std::string("a free lapse rate, here ") +
+             rounded(without.lapse_rate.value_or(0.0));
+  }
+  return words;
+}
 
-void caution_of_assumptions(HierarchicalFit& fit,
-                            const std::vector<ParticipantAnswers>& answers,
-                            const HierarchicalOptions& options) {
+void caution_where_values_move(HierarchicalFit& fit, const HierarchicalFit& without,
+                               const std::string& assumed, const std::string& freed) {
   constexpr double kMuch = 1.0 / 12.0;
-  const Assumptions assumed = assumptions_of(options, fit.conditions.size());
-  if (fit.status != FitStatus::kOk || !assumed.any()) return;
-  HierarchicalOptions freed = options;
-  freed.lapses = HierarchicalLapses::kCommon;
-  freed.lapse_profile = false;
-  if (assumed.pse) freed.pse = HierarchicalPse::kPersonal;
-  const HierarchicalFit without = fit_hierarchical(answers, freed);
-  if (without.status != FitStatus::kOk) return;
   for (std::size_t i = 0; i < fit.conditions.size(); ++i) {
     HierarchicalCondition& one = fit.conditions[i];
     const std::optional<double> other = without.conditions[i].weber_fraction;
     if (!one.weber_fraction || !other) continue;
     if (std::fabs(std::log(*other / *one.weber_fraction)) < kMuch) continue;
-    one.cautions.push_back("the value hangs on " + words_of(assumed, without, options) +
-                           ", it would be " + rounded(*other) + " instead of " +
+    one.cautions.push_back("the value hangs on the assumption that " + assumed + ": with " +
+                           freed + ", it would be " + rounded(*other) + " instead of " +
                            rounded(*one.weber_fraction));
   }
+}
+
+}  // namespace
+
+void tell_assumptions(HierarchicalFit& fit, const std::vector<ParticipantAnswers>& answers,
+                      const HierarchicalOptions& options) {
+  constexpr std::size_t kMostWithOwnPses = 2;
+  const Assumptions assumed = assumptions_of(options);
+  if (fit.status != FitStatus::kOk || !assumed.any()) return;
+  const std::string words = assumption_words(assumed, options);
+  add_note(fit, "the intervals hold if " + words + ", as was told");
+  const Assumptions freed{.lapses = assumed.lapses,
+                          .pse = assumed.pse && fit.conditions.size() <= kMostWithOwnPses};
+  if (!freed.any()) return;
+  HierarchicalOptions without_them = options;
+  without_them.lapses = HierarchicalLapses::kCommon;
+  without_them.lapse_profile = false;
+  if (freed.pse) without_them.pse = HierarchicalPse::kPersonal;
+  const HierarchicalFit without = fit_hierarchical(answers, without_them);
+  if (without.status != FitStatus::kOk) return;
+  caution_where_values_move(fit, without, words, freed_words(freed, without));
 }
 
 }  // namespace jnd::analysis

@@ -334,6 +334,7 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   const HierarchicalOptimum found = better_optimum(likelihood, structure, *start);
   fit.status = found.status;
   fit.reason = found.reason;
+  fit.is_separated = found.is_separated;
   if (found.status != FitStatus::kOk) return fit;
 
   fit.log_likelihood = found.log_likelihood - structure.log_prior(found.parameters);

@@ -97,8 +97,9 @@ struct HierarchicalPersonEstimate {
 
 struct HierarchicalFit {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;  ///< Why there is no value; "" if there is one.
-  std::string method;  ///< The model and its integral, in words.
+  std::string reason;         ///< Why there is no value; "" if there is one.
+  bool is_separated = false;  ///< There is none for answers nearly split without overlap.
+  std::string method;         ///< The model and its integral, in words.
   int num_participants = 0;
   int num_nodes = 0;
   std::vector<HierarchicalCondition> conditions;

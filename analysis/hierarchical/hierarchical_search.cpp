@@ -179,6 +179,7 @@ HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
     if (!(found.parameters.cwiseAbs().maxCoeff() < kRunAway)) {
       found.status = FitStatus::kDegenerate;
+      found.is_separated = true;
       found.reason = "the likelihood rises without bound: the answers are nearly separated";
       return found;
     }

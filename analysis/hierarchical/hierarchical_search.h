@@ -10,7 +10,8 @@ namespace jnd::analysis {
 
 struct HierarchicalOptimum {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;  ///< "" where there is an optimum.
+  std::string reason;         ///< "" where there is an optimum.
+  bool is_separated = false;  ///< There is none, as the likelihood rises without bound.
   Eigen::VectorXd parameters;
   Eigen::MatrixXd covariance;  ///< Inverse of the observed information.
   /// Of each person, a column, on each parameter: covariance times score. The scores' mean,

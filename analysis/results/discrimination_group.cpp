@@ -177,6 +177,7 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
     no_value(target, name, fit.reason);
     for (Estimate* missing : {&fraction, &place, &spread, &lapses}) {
       missing->reason = fit.reason;
+      missing->is_separated = fit.is_separated;
     }
   }
   const std::string method =

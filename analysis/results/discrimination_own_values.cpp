@@ -28,10 +28,12 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     const PsychometricFit fixed = fit_of(false);
     const PsychometricFit free = fit_of(true);
     add("weber_fraction", fixed.weber_fraction, fixed.weber_fraction_ci95, fixed.reason);
+    section.participants.back().is_separated = fixed.is_separated;
     if (fixed.weber_fraction && all_alike(answers.rows())) {
       section.participants.back().cautions.emplace_back(kAllAlike);
     }
     add("weber_fraction_free_pse", free.weber_fraction, free.weber_fraction_ci95, free.reason);
+    section.participants.back().is_separated = free.is_separated;
     // For those who draw the curve of the first.
     if (fixed.order_effect_ln) {
       add("order_effect_ln_at_reference", fixed.order_effect_ln, {}, "");

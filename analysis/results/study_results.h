@@ -29,11 +29,12 @@ struct Estimate {
   /// among them.
   std::optional<double> published_z;
   std::optional<PredictiveTail> predictive;  ///< Present where simulated people are known.
-  bool calibrated = false;  ///< The simulated laboratory was fitted to its published value.
-  bool implied = false;     ///< It follows, nearly or wholly, from values that were.
-  bool primary = false;     ///< It answers what its block asks; see `mark_primary`.
-  int n = 0;                ///< Participants it rests on.
-  std::string reason{};     ///< Why there is no value; "" if there is one.
+  bool calibrated = false;    ///< The simulated laboratory was fitted to its published value.
+  bool implied = false;       ///< It follows, nearly or wholly, from values that were.
+  bool primary = false;       ///< It answers what its block asks; see `mark_primary`.
+  int n = 0;                  ///< Participants it rests on.
+  std::string reason{};       ///< Why there is no value; "" if there is one.
+  bool is_separated = false;  ///< There is none, for it is less than the stimuli can show.
   std::vector<std::string> cautions{};  ///< Why it may be wrong for these data, one each.
 
   /// Whether there is a published finding to compare with.
@@ -54,7 +55,8 @@ struct ParticipantEstimate {
   Interval ci95;                        ///< Interval by this participant's answers alone.
   std::string reason;                   ///< Why there is no value; "" if there is one.
   std::vector<std::string> cautions{};  ///< Why it may be wrong, one each.
-  bool primary = false;  ///< Of this person what the primary estimate is of the group.
+  bool primary = false;       ///< Of this person what the primary estimate is of the group.
+  bool is_separated = false;  ///< As of `Estimate`.
 };
 
 /// A test between two conditions.

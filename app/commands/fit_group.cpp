@@ -175,7 +175,7 @@ int fit_hierarchical(const FitGroupOptions& options) {
       .guess_rate = guess_of(options),
       .num_nodes = options.num_nodes};
   analysis::HierarchicalFit fit = analysis::fit_hierarchical(answers, how);
-  analysis::caution_of_assumptions(fit, answers, how);
+  analysis::tell_assumptions(fit, answers, how);
   if (options.json) {
     auto json = analysis::to_json(fit);
     json["warnings"] = warnings;

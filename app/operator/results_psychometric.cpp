@@ -75,8 +75,8 @@ void draw_curve(PsychometricFigure& figure, double low, double high) {
 }
 
 /// For whoever answered, not for whoever fits.
-std::string in_plain_words(const std::string& reason, bool free_pse) {
-  if (reason.find("separated") == std::string::npos) return reason;
+std::string in_plain_words(const std::string& reason, bool is_separated, bool free_pse) {
+  if (!is_separated) return reason;
   const std::string place = free_pse ? "one level" : "the reference";
   return "every answer fell on its side of " + place +
          ", so the Weber fraction is smaller than these stimuli can show; stimuli nearer to " +
@@ -101,7 +101,9 @@ void add_group_curves(const ResultsSource& source, Discrimination& block, double
     all.weber_fraction = person->value;
     all.ci95 = person->ci95;
     all.cautions = person->cautions;
-    all.reason = person->value ? "" : in_plain_words(person->reason, block.has_free_pse);
+    all.reason = person->value
+                     ? ""
+                     : in_plain_words(person->reason, person->is_separated, block.has_free_pse);
   }
   const Estimate* const pse = find("pse_median_person");
   const bool has_pse = block.has_free_pse && pse != nullptr && pse->value;
@@ -135,13 +137,14 @@ PsychometricFigure own_figure(const ResultsSource& source, const Discrimination&
   const analysis::ParticipantEstimate* const freed = own("weber_fraction_free_pse");
   const analysis::ParticipantEstimate* const primary = free_pse ? freed : fixed;
   const analysis::ParticipantEstimate* const other = free_pse ? fixed : freed;
-  PsychometricFigure one{.who = participant,
-                         .points = proportions(counts),
-                         .weber_fraction = primary->value,
-                         .ci95 = primary->ci95,
-                         .pse = block.reference,
-                         .reason = in_plain_words(primary->reason, free_pse),
-                         .cautions = primary->cautions};
+  PsychometricFigure one{
+      .who = participant,
+      .points = proportions(counts),
+      .weber_fraction = primary->value,
+      .ci95 = primary->ci95,
+      .pse = block.reference,
+      .reason = in_plain_words(primary->reason, primary->is_separated, free_pse),
+      .cautions = primary->cautions};
   const analysis::ParticipantEstimate* const pse = own("pse");
   if (free_pse && pse != nullptr && pse->value) one.pse = *pse->value;
   if (!free_pse) one.order_effect_ln = value_or_0(own("order_effect_ln_at_reference"));

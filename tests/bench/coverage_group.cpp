@@ -149,7 +149,7 @@ std::string cover_group(const Row& row, int num_sets, std::uint64_t seed) {
     const auto add_median = [&](MedianPerson& to, HierarchicalPse pse) {
       const HierarchicalOptions options{.pse = pse, .lapses = HierarchicalLapses::kNone};
       HierarchicalFit fit = fit_hierarchical(group, options);
-      caution_of_assumptions(fit, group, options);
+      tell_assumptions(fit, group, options);
       to.add(fit, population);
     };
     add_median(without_lapses, HierarchicalPse::kPersonal);
@@ -176,7 +176,10 @@ void cover_groups(int num_sets, std::uint64_t seed) {
       "lapse rate: coverage of its "
       "interval. Weibull noise is no form that a fit has: w is half the distance in ln "
       "between 15.87 and 84.13 %%, as every curve\nthat is even in ln has it; by (x84.13 - "
-      "pse) / pse it is another number, 17 %% less in ln, which such a fit does not tell.\n\n",
+      "pse) / pse it is another number, 17 %% less in ln, which such a fit does not tell. "
+      "Without lapses, and with the pse at the\nreference, are options of `jnd fit "
+      "hierarchical` that assume what few people do: a note names the assumption beside "
+      "every\nvalue, and a caution says where the answers speak against it.\n\n",
       num_sets);
   print_row({"people differ", "levels", "n", "median person, pse and lapse rate free",
              "of those without a caution", "cautions", "lapse rate",

@@ -232,6 +232,8 @@ TEST(PsychometricFit, SaysWhichWayTheDataHaveNoOptimum) {
   EXPECT_THAT(reason({{2.0, 0, 0}}), StartsWith("too few rows"));
   EXPECT_THAT(reason({{1.0, 3, 5}}), StartsWith("one intensity"));
   EXPECT_THAT(reason({{0.5, 0, 5}, {2, 5, 5}}), StartsWith("separated"));
+  EXPECT_TRUE(fit({{0.5, 0, 5}, {2, 5, 5}}, 1.0).is_separated);
+  EXPECT_FALSE(fit({{0.5, 3, 6}, {2, 3, 6}}, 1.0).is_separated);
   EXPECT_THAT(reason({{0.5, 0, 5}, {1, 3, 5}, {2, 5, 5}}), StartsWith("separated"));
   EXPECT_THAT(reason({{0.5, 3, 6}, {2, 3, 6}}), StartsWith("flat"));
   EXPECT_THAT(reason({{0.5, 4, 6}, {2, 2, 6}}), StartsWith("inverted"));

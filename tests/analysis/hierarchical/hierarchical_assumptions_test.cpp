@@ -32,7 +32,13 @@ std::vector<std::string> cautions_of(const std::vector<ParticipantAnswers>& answ
                                      const HierarchicalOptions& options) {
   HierarchicalFit fit = fit_hierarchical(answers, options);
   EXPECT_EQ(fit.status, FitStatus::kOk) << fit.reason;
-  caution_of_assumptions(fit, answers, options);
+  const std::string before = fit.note;
+  tell_assumptions(fit, answers, options);
+  const bool assumes = options.lapses != HierarchicalLapses::kCommon ||
+                       options.pse == HierarchicalPse::kReference ||
+                       options.pse == HierarchicalPse::kCommon;
+  EXPECT_EQ(fit.note.find("the intervals hold if ") != std::string::npos, assumes) << fit.note;
+  EXPECT_EQ(fit.note == before, !assumes);
   return fit.conditions[0].cautions;
 }
 
@@ -40,7 +46,7 @@ TEST(HierarchicalAssumptions, ThatThereAreNoLapsesIsToldWhereAnswersSpeakAgainst
   const HierarchicalOptions none{.lapses = HierarchicalLapses::kNone};
   const auto cautions = cautions_of(people(0.0, 1), none);
   ASSERT_EQ(cautions.size(), 1U);
-  EXPECT_NE(cautions[0].find("hangs on the lapse rate that was given: with a free lapse rate"),
+  EXPECT_NE(cautions[0].find("assumption that the lapse rate is 0: with a free lapse rate"),
             std::string::npos)
       << cautions[0];
   EXPECT_TRUE(cautions_of(people(0.0, 0), none).empty());
@@ -57,7 +63,7 @@ TEST(HierarchicalAssumptions, ThatEverybodysPseIsTheReferenceIsToldWhereItIsNot)
   EXPECT_TRUE(cautions_of(people(0.0, 0), at_reference).empty());
   const auto common = cautions_of(people(0.2, 0), {.pse = HierarchicalPse::kCommon});
   ASSERT_FALSE(common.empty());
-  EXPECT_NE(common.back().find("that everybody has the same pse"), std::string::npos)
+  EXPECT_NE(common.back().find("that everybody's pse is the same"), std::string::npos)
       << common.back();
 }
 
