@@ -8,36 +8,14 @@ namespace results_table_test {
 
 using namespace results;
 
-/// P01 felt 2, 5 and 8 of 10 at 0.1, 0.2 and 0.4 Pa s; P02 is degenerate.
-class ResultsTableTest : public ::testing::Test {
- protected:
-  ResultsTableTest() : study_(analysis::kFeltProtocol) {
-    analysis::add_felt_answers(study_);
-    data_ = analysis::load_study(study_.store());
-    data_.runs.clear();  // By hand instead.
-    data_.runs.push_back({.participant = "P01",
-                          .block = "felt",
-                          .procedure = "staircase",
-                          .is_logarithmic = true,
-                          .rule = "1 up, 2 down; Levitt 1971",
-                          .target_probability = 0.70711,
-                          .tracks = {{.series = 1,
-                                      .points = {{1, 0.4, true}, {2, 0.2, false, true, true}},
-                                      .threshold = 0.25,
-                                      .num_reversals = 2}},
-                          .threshold = 0.25});
-    results_ = analysis::results_of(data_, {}, {.num_resamples = 50});
-  }
-  [[nodiscard]] ResultsSource source() const { return {data_, results_, {{"felt", "Felt"}}}; }
-
-  analysis::HandMadeStudy study_;
-  analysis::StudyData data_;
-  analysis::StudyResults results_;
-};
-
-TEST_F(ResultsTableTest, TheTableHasAColumnOfThresholds) {
+TEST(ResultsTable, HasAColumnOfThresholds) {
+  analysis::HandMadeStudy study(analysis::kFeltProtocol);
+  analysis::add_felt_answers(study);  // P01 has a threshold of 0.2 Pa s, P02 is degenerate.
+  const analysis::StudyData data = analysis::load_study(study.store());
+  const analysis::StudyResults results = analysis::results_of(data, {}, {.num_resamples = 50});
+  const ResultsSource source{data, results, {{"felt", "Felt"}}};
   ResultsModel model;
-  add_table(source(), model);
+  add_table(source, model);
   EXPECT_EQ(model.columns.front().title, "Felt");
   EXPECT_EQ(model.columns.front().unit, "Pa s");
   EXPECT_NEAR(model.rows[0].values[0].value(), 0.2, 1e-9);
