@@ -151,7 +151,7 @@ struct PsychometricPosterior {
 /// each level, and the curve right. A drifting criterion or lapses left out of the model make
 /// them too narrow. At five trials a level the mean of individual Weber fractions is biased
 /// without bound, their median is not; likelihood-ratio intervals cover 94 % there, the
-/// bootstrap's only 71 to 93 %.
+/// bootstrap's only 74 to 95 %.
 struct PsychometricFit {
   FitStatus status = FitStatus::kNotRun;
   /// Why there is no value, or, of a curve whose pse is not > 0, no Weber fraction; else "".

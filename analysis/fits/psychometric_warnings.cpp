@@ -179,7 +179,7 @@ void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCou
   const bool are_few = have_fewer_answers(levels, kFewAnswers);
   if (fit.bootstrap.n > 0 && are_few) {
     fit.warnings.emplace_back(
-        "bootstrap intervals cover less than 95 % at so few answers a level (71 to 93 % at "
+        "bootstrap intervals cover less than 95 % at so few answers a level (74 to 95 % at "
         "five): rather use the likelihood ratio's");
   }
   const bool free_pse = options.free_pse || traits_of(options.family).always_free_pse;

@@ -16,7 +16,7 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/stop_signals.h"
-#include "app/session/session_setup.h"
+#include "app/session/device_checks.h"
 #include "core/error.h"
 #include "device/network/device_key.h"
 #include "device/network/device_server.h"

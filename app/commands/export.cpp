@@ -12,7 +12,7 @@
 #include "app/command_line/stop_signals.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 
 namespace jnd::app {

@@ -10,8 +10,8 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/results/predictive_studies.h"
-#include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 
 namespace jnd::app {

@@ -17,7 +17,7 @@
 #include "app/commands/inverted_option.h"
 #include "app/commands/predictive_option.h"
 #include "app/results/results_output.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 
 namespace jnd::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
-#include "app/session/session_setup.h"
+#include "app/session/device_checks.h"
 #include "app/session/stability_limits.h"
 #include "core/error.h"
 #include "core/parallel.h"

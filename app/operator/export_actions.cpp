@@ -12,7 +12,7 @@
 #include "app/results/study_report.h"
 #include "app/session/reopened_session.h"
 #include "app/session/replay_check.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/storage/backup.h"

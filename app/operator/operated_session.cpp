@@ -6,7 +6,7 @@
 #include "app/operator/live_trace.h"
 #include "app/operator/remembered_stop.h"
 #include "app/operator/scope_trace.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "core/safety/fault.h"

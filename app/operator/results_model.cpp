@@ -20,7 +20,7 @@
 #include "app/results/published_words.h"
 #include "app/results/results_output.h"
 #include "app/results/statistic_words.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"

@@ -12,7 +12,7 @@
 #include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
 #include "app/operator/study_words.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
 #include "core/storage/backup_mark.h"

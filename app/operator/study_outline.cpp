@@ -8,7 +8,7 @@
 
 #include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
-#include "app/session/session_setup.h"
+#include "app/session/pseudonym.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
 #include "experiments/procedures/practice.h"

@@ -9,7 +9,7 @@
 
 #include "app/command_line/command.h"
 #include "app/planning/plan_statistics.h"
-#include "app/session/session_setup.h"
+#include "app/session/pseudonym.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random_stream.h"

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "app/session/pseudonym.h"
+#include "app/session/session_batch.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"

@@ -4,7 +4,7 @@
 #include "analysis/results/inverted_answers.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 
 namespace jnd::app {
 namespace {

@@ -1,6 +1,7 @@
 #include "app/session/pseudonym.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace jnd::app {
 namespace {
@@ -56,6 +57,23 @@ std::string lookalike(const std::string& participant, const std::vector<std::str
     if (other != participant && bare(other) == own) return other;
   }
   return "";
+}
+
+std::vector<std::string> next_participants(const core::StudyStore& store, int count) {
+  std::set<std::string> taken;
+  for (const core::SessionRow& row : store.sessions()) taken.insert(row.participant);
+  for (const core::WithdrawalRow& gone : store.withdrawals()) taken.insert(gone.participant);
+  return next_participants(taken, count);
+}
+
+std::vector<std::string> next_participants(const std::set<std::string>& taken, int count) {
+  std::vector<std::string> names;
+  for (int number = 1; static_cast<int>(names.size()) < count; ++number) {
+    char name[16];
+    std::snprintf(name, sizeof name, "P%02d", number);
+    if (!taken.contains(name)) names.emplace_back(name);
+  }
+  return names;
 }
 
 }  // namespace jnd::app

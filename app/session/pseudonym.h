@@ -1,7 +1,10 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
+
+#include "core/storage/study_store.h"
 
 namespace jnd::app {
 
@@ -17,5 +20,12 @@ namespace jnd::app {
 /// "" if none does. The very same name is not among them.
 [[nodiscard]] std::string lookalike(const std::string& participant,
                                     const std::vector<std::string>& taken);
+
+/// "P01", "P02", ...: the next free pseudonyms of a study.
+[[nodiscard]] std::vector<std::string> next_participants(const core::StudyStore& store,
+                                                         int count);
+/// The same where these pseudonyms are taken.
+[[nodiscard]] std::vector<std::string> next_participants(const std::set<std::string>& taken,
+                                                         int count);
 
 }  // namespace jnd::app

@@ -1,6 +1,6 @@
 #include "app/session/reopened_session.h"
 
-#include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 
 namespace jnd::app {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "core/storage/flight_record.h"

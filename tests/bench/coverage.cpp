@@ -14,58 +14,62 @@
 namespace jnd::coverage {
 namespace {
 
+std::string cover_one_person(int num_trials, double w, int num_sets, std::uint64_t seed) {
+  RandomStream random(seed, "coverage of one person",
+                      {num_trials, static_cast<std::int64_t>(100.0 * w)});
+  Coverage ratio, ratio_free, calibrated, bootstrap[4];
+  for (int set = 0; set < num_sets; ++set) {
+    const std::vector<AnswerCount> rows = answers_of(
+        Population{.weber_fraction = w}.person(0, 0), kHardLevels, num_trials, random);
+    const auto fit = [&](bool free_pse, BootstrapKind kind, int num_bootstrap,
+                         int num_calibration = 0) {
+      return fit_psychometric(rows, {.reference = kHardLevels.reference,
+                                     .free_pse = free_pse,
+                                     .num_bootstrap = num_bootstrap,
+                                     .bootstrap_kind = kind,
+                                     .num_calibration = num_calibration,
+                                     .solver = Solver::kNewton});
+    };
+    const PsychometricFit fixed = fit(false, BootstrapKind::kParametric, 0);
+    const PsychometricFit free = fit(true, BootstrapKind::kParametric, 0);
+    ratio.add(fixed.status == FitStatus::kOk, fixed.weber_fraction_ci95, w);
+    ratio_free.add(free.status == FitStatus::kOk, free.weber_fraction_ci95, w);
+    calibrated.add(free.status == FitStatus::kOk,
+                   fit(true, BootstrapKind::kParametric, 0, 1000).weber_fraction_ci95, w);
+    int place = 0;
+    for (const BootstrapKind kind :
+         {BootstrapKind::kParametric, BootstrapKind::kNonparametric}) {
+      const BootstrapInterval interval = fit(false, kind, 400).bootstrap;
+      bootstrap[place++].add(fixed.status == FitStatus::kOk, interval.ci95, w);
+      bootstrap[place++].add(fixed.status == FitStatus::kOk, interval.bca_ci95, w);
+    }
+  }
+  char fraction[16];
+  std::snprintf(fraction, sizeof fraction, "%.1f", w);
+  return row_of({std::to_string(num_trials), fraction, ratio.words(), ratio_free.words(),
+                 calibrated.words(), bootstrap[0].words(), bootstrap[1].words(),
+                 bootstrap[2].words(), bootstrap[3].words(),
+                 std::to_string(ratio.num_without)});
+}
+
 void cover_one_person(int num_sets, std::uint64_t seed) {
   std::printf(
       "\n## One person: intervals of the Weber fraction\n\n"
-      "%d data sets, eight levels. LR: likelihood ratio; the bootstraps: 400 refits of "
-      "the first %d.\nSets without a fit have no interval and are left out of the "
-      "share. Below 15 answers a level `jnd fit weber` warns\nof every interval here but LR "
-      "and the calibrated one.\n\n",
-      num_sets, num_sets / 4);
+      "%d data sets, eight levels. LR: likelihood ratio; the bootstraps: 400 refits.\n"
+      "Sets without a fit have no interval and are left out of the share. Below 15 answers a "
+      "level `jnd fit weber` warns\nof every interval here but LR and the calibrated one.\n\n",
+      num_sets);
   print_row({"answers a level", "w", "LR", "LR, pse free", "LR, pse free, --calibration 1000",
              "parametric percentile", "parametric BCa", "nonparametric percentile",
              "nonparametric BCa", "sets without a fit"});
   std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  std::vector<std::function<std::string()>> rows;
   for (const int num_trials : {5, 65}) {
     for (const double w : {0.3, 0.7}) {
-      RandomStream random(seed, "coverage of one person",
-                          {num_trials, static_cast<std::int64_t>(100.0 * w)});
-      Coverage ratio, ratio_free, calibrated, bootstrap[4];
-      for (int set = 0; set < num_sets; ++set) {
-        const std::vector<AnswerCount> rows = answers_of(
-            Population{.weber_fraction = w}.person(0, 0), kHardLevels, num_trials, random);
-        const auto fit = [&](bool free_pse, BootstrapKind kind, int num_bootstrap,
-                             int num_calibration = 0) {
-          return fit_psychometric(rows, {.reference = kHardLevels.reference,
-                                         .free_pse = free_pse,
-                                         .num_bootstrap = num_bootstrap,
-                                         .bootstrap_kind = kind,
-                                         .num_calibration = num_calibration,
-                                         .solver = Solver::kNewton});
-        };
-        const PsychometricFit fixed = fit(false, BootstrapKind::kParametric, 0);
-        const PsychometricFit free = fit(true, BootstrapKind::kParametric, 0);
-        ratio.add(fixed.status == FitStatus::kOk, fixed.weber_fraction_ci95, w);
-        ratio_free.add(free.status == FitStatus::kOk, free.weber_fraction_ci95, w);
-        calibrated.add(free.status == FitStatus::kOk,
-                       fit(true, BootstrapKind::kParametric, 0, 1000).weber_fraction_ci95, w);
-        if (set >= num_sets / 4) continue;
-        int place = 0;
-        for (const BootstrapKind kind :
-             {BootstrapKind::kParametric, BootstrapKind::kNonparametric}) {
-          const BootstrapInterval interval = fit(false, kind, 400).bootstrap;
-          bootstrap[place++].add(fixed.status == FitStatus::kOk, interval.ci95, w);
-          bootstrap[place++].add(fixed.status == FitStatus::kOk, interval.bca_ci95, w);
-        }
-      }
-      char fraction[16];
-      std::snprintf(fraction, sizeof fraction, "%.1f", w);
-      print_row({std::to_string(num_trials), fraction, ratio.words(), ratio_free.words(),
-                 calibrated.words(), bootstrap[0].words(), bootstrap[1].words(),
-                 bootstrap[2].words(), bootstrap[3].words(),
-                 std::to_string(ratio.num_without)});
+      rows.emplace_back([=] { return cover_one_person(num_trials, w, num_sets, seed); });
     }
   }
+  print_rows(rows);
 }
 
 /// The answers with the test in either interval, by turns.

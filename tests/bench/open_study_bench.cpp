@@ -7,6 +7,7 @@
 
 #include "app/operator/study_folder.h"
 #include "app/session/laboratory_run.h"
+#include "app/session/session_batch.h"
 #include "app/session/session_setup.h"
 #include "core/storage/study_store.h"
 #include "experiments/protocol/study_reader.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/operator/study_words.h"
-#include "app/session/session_setup.h"
+#include "app/session/pseudonym.h"
 #include "device/haptic_device.h"
 #include "device/registry/device_registry.h"
 #include "experiments/order/counterbalance.h"

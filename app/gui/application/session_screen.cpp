@@ -7,6 +7,7 @@
 #include "app/operator/remembered_stop.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
+#include "app/session/stored_session.h"
 #include "device/haptic_device.h"
 #include "device/registry/device_registry.h"
 

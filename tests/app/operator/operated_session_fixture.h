@@ -12,6 +12,7 @@
 #include "app/operator/operated_session.h"
 #include "app/operator/scope_trace.h"
 #include "app/session/session_setup.h"
+#include "app/session/stored_session.h"
 #include "app/tiny_study.h"
 #include "experiments/participants/thesis_laboratory.h"
 #include "experiments/protocol/study_reader.h"

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "app/session/laboratory_run.h"
+#include "app/session/pseudonym.h"
+#include "app/session/session_batch.h"
 #include "app/session/session_setup.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"

@@ -1,4 +1,5 @@
 #include "app/operator/study_outline.h"
+#include "app/session/pseudonym.h"
 
 #include <gtest/gtest.h>
 

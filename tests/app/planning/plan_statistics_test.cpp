@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/session/session_setup.h"
+#include "app/session/pseudonym.h"
 #include "app/session/shipped_files.h"
 #include "experiments/protocol/study_reader.h"
 

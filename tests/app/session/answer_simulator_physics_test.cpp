@@ -5,6 +5,8 @@
 
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
+#include "app/session/pseudonym.h"
+#include "app/session/session_batch.h"
 #include "app/session/session_setup.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/thesis_laboratory.h"

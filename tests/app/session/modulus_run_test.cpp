@@ -3,6 +3,8 @@
 #include "analysis/results/study_results.h"
 #include "app/operator/operated_session_fixture.h"
 #include "app/session/replay_check.h"
+#include "app/session/session_batch.h"
+#include "app/session/session_setup.h"
 #include "core/storage/integrity.h"
 #include "experiments/participants/thesis_laboratory.h"
 #include "experiments/session/session.h"

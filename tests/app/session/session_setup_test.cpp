@@ -1,4 +1,8 @@
 #include "app/session/session_setup.h"
+#include "app/session/device_checks.h"
+#include "app/session/pseudonym.h"
+#include "app/session/session_batch.h"
+#include "app/session/stored_session.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,8 @@
 #include "analysis/results/study_results.h"
 #include "app/operator/operated_session_fixture.h"
 #include "app/session/replay_check.h"
+#include "app/session/session_batch.h"
+#include "app/session/session_setup.h"
 #include "app/session/stability_limits.h"
 #include "core/storage/integrity.h"
 #include "experiments/participants/answer_simulator.h"

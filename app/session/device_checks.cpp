@@ -1,0 +1,53 @@
+#include "app/session/device_checks.h"
+
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "core/error.h"
+#include "device/registry/device_registry.h"
+
+namespace jnd::app {
+
+void require_device(const std::string& name) {
+  try {
+    (void)device::device_named(name);
+  } catch (const core::Error& error) {
+    throw UsageError(std::string("--device: ") + error.what());
+  }
+}
+
+constexpr double kUsualRateHz = 1000.0;
+
+void require_device_moves_by_itself(const std::string& name, const std::string& place) {
+  if (device::make_device(name, kUsualRateHz)->capabilities().moves_by_itself) return;
+  throw UsageError(place +
+                   ": expected a device that moves by itself, for participants that are "
+                   "simulated, found one that a person has to move; choose another, see `jnd "
+                   "devices`");
+}
+
+bool has_own_clock(const std::string& device) {
+  return device::make_device(device, kUsualRateHz)->capabilities().has_own_clock;
+}
+
+void require_device_keeps_pace(const std::string& name, const std::string& place) {
+  if (!has_own_clock(name)) return;
+  throw UsageError(place +
+                   ": expected a device that is simulated here, as fast as it goes, found one "
+                   "with a clock of its own; run single sessions on it with `jnd run "
+                   "--headless`");
+}
+
+void require_device_starts(const std::string& name, double rate_hz) {
+  try {
+    const std::unique_ptr<device::HapticDevice> device = device::make_device(name, rate_hz);
+    // The motors of a real one turn on only after the check for real time, in `start_haptics`.
+    if (!device->capabilities().simulated) return;
+    device->open();
+    device->close();
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
+  }
+}
+
+}  // namespace jnd::app

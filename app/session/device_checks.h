@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+namespace jnd::app {
+
+// Whether a device that was asked for by its name is one that a session can run on.
+
+/// Throws `UsageError` if no device has this name.
+void require_device(const std::string& name);
+
+/// Simulated participants have no hand of their own: throws `UsageError` "PLACE: expected a
+/// device that moves by itself, ..." for a device that a person has to move. `place` says where
+/// the name is from, "--device mouse".
+void require_device_moves_by_itself(const std::string& name, const std::string& place);
+
+/// Whether a session on it runs in real time whatever was asked for.
+[[nodiscard]] bool has_own_clock(const std::string& device);
+
+/// For many sessions as fast as they go: throws `UsageError` for a device with a clock of its
+/// own. `place` says where the name is from, "--device mouse".
+void require_device_keeps_pace(const std::string& name, const std::string& place);
+
+/// Opens a simulated device once and closes it, so that nothing is stored for a session that
+/// cannot begin; a real one is left alone, for its motors may turn on. Throws
+/// `EnvironmentError` with what the device says.
+void require_device_starts(const std::string& name, double rate_hz);
+
+}  // namespace jnd::app
