@@ -24,6 +24,13 @@ fs::path shipped_folder() {
   return JND_SOURCE_SHARE;
 }
 
+fs::path languages_folder() {
+  std::error_code ignored;
+  fs::path built = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "languages";
+  const bool is_built = std::getenv("JND_SHARE") == nullptr && fs::is_directory(built, ignored);
+  return is_built ? built : shipped_folder() / "languages";
+}
+
 fs::path user_or_shipped(const std::string& name, const std::string& folder) {
   std::error_code ignored;
   if (fs::exists(name, ignored)) return name;

@@ -9,6 +9,10 @@ namespace jnd::app {
 /// environment variable JND_SHARE, beside the installed program, or in the source tree.
 [[nodiscard]] std::filesystem::path shipped_folder();
 
+/// Where the window's languages are, LANGUAGE/LC_MESSAGES/jnd.mo: beside the program in a tree
+/// that it was built in, else among the shipped files.
+[[nodiscard]] std::filesystem::path languages_folder();
+
 /// A file that the user named, or a shipped one: "short_tour" and "protocols/short_tour.json"
 /// both find the shipped study. `folder` is "protocols" or "data/laboratories". Returns the
 /// name as it is if nothing is found, for the reader to complain about.

@@ -11,6 +11,8 @@
 #include "app/gui/application/application.h"
 #include "app/gui/scene_painter.h"
 #include "app/gui/window.h"
+#include "app/language/words.h"
+#include "app/session/shipped_files.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -29,7 +31,7 @@ namespace {
 void show_participant(gui::Window& window, gui::Application& application, bool& was_open) {
   if (was_open && !window.second_is_open()) application.hide_participant();
   if (application.shows_participant() && !window.second_is_open()) {
-    window.open_second("jnd: participant",
+    window.open_second(tr("jnd: participant"),
                        [&](gui::Ui& second) { application.draw_participant(second); });
   } else if (!application.shows_participant() && window.second_is_open()) {
     window.close_second();
@@ -87,6 +89,7 @@ int open_window(const WindowRequest& request) {
         "no display was found for the window; use --headless where a command has it, `jnd "
         "--help` lists what works without one");
   }
+  begin_language(languages_folder());
   try {
     gui::Window window;
     stop_on_signals();
