@@ -5,6 +5,8 @@
 #include <exception>
 #include <new>
 
+#include "app/language/words.h"
+
 namespace jnd::app {
 
 void WorkControl::progress(double ratio) {
@@ -47,13 +49,13 @@ void BackgroundWork::run(const std::function<void(WorkControl&)>& work) noexcept
     status = WorkStatus::kCancelled;
   } catch (const std::bad_alloc&) {
     status = WorkStatus::kFailed;
-    error_ = "memory: expected enough for this, found none left; close other programs";
+    error_ = tr("memory: expected enough for this, found none left; close other programs");
   } catch (const std::exception& error) {
     status = WorkStatus::kFailed;
     error_ = error.what();
   } catch (...) {
     status = WorkStatus::kFailed;
-    error_ = "expected this work to end, found an error without words; please report it";
+    error_ = tr("expected this work to end, found an error without words; please report it");
   }
   status_.store(status);
   control_.wake();

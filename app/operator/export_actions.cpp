@@ -1,13 +1,11 @@
 #include "app/operator/export_actions.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "analysis/export/csv_export.h"
-#include "analysis/results/report_words.h"
+#include "app/language/words.h"
 #include "app/results/noted_export.h"
 #include "app/results/study_report.h"
 #include "app/session/reopened_session.h"
@@ -22,11 +20,16 @@ namespace jnd::app {
 namespace {
 
 namespace fs = std::filesystem;
-using analysis::counted_words;
+
+std::string sessions_words(std::int64_t count) {
+  return trn("{} session", "{} sessions", count);
+}
+
+std::string answers_words(std::int64_t count) { return trn("{} answer", "{} answers", count); }
 
 std::string sentence_of(const core::Finding& finding) {
   return finding.session == 0 ? finding.message
-                              : fmt::format("session {}: {}", finding.session, finding.message);
+                              : tr("session {}: {}", finding.session, finding.message);
 }
 
 bool is_unblinded(const core::StudyStore& store, std::int64_t session) {
@@ -41,13 +44,13 @@ ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& wh
     outcome.problems.push_back(sentence_of(problem));
   }
   outcome.sentence =
-      outcome.ok ? fmt::format("{}: complete, {} with {} and {} read back", what,
-                               counted_words(integrity.num_sessions, "session"),
-                               counted_words(integrity.num_trials, "answer"),
-                               counted_words(integrity.num_samples, "sample"))
-                 : fmt::format("{}: {}, the first: {}", what,
-                               counted_words(std::ssize(outcome.problems), "problem"),
-                               outcome.problems.empty() ? "" : outcome.problems.front());
+      outcome.ok
+          ? tr("{}: complete, {} with {} and {} read back", what,
+               sessions_words(integrity.num_sessions), answers_words(integrity.num_trials),
+               trn("{} sample", "{} samples", integrity.num_samples))
+          : trn("{1}: {0} problem, the first: {2}", "{1}: {0} problems, the first: {2}",
+                std::ssize(outcome.problems), what,
+                outcome.problems.empty() ? "" : outcome.problems.front());
   return outcome;
 }
 
@@ -65,9 +68,8 @@ ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
   std::int64_t answers = 0;
   for (const core::SessionOverview& one : store.overview()) answers += one.num_answers;
   control.progress(1.0);
-  return {.sentence = fmt::format(
-              "{} of {} are written to {}, with a codebook", counted_words(answers, "answer"),
-              counted_words(std::ssize(store.sessions()), "session"), target.string()),
+  return {.sentence = tr("{} of {} are written to {}, with a codebook", answers_words(answers),
+                         sessions_words(std::ssize(store.sessions())), target.string()),
           .problems = forgotten.empty() ? std::vector<std::string>()
                                         : std::vector<std::string>{forgotten}};
 }
@@ -96,13 +98,13 @@ ActionOutcome back_up_study(const fs::path& folder, const fs::path& target,
         control.stop_if_cancelled();
       });
   control.progress(1.0);
-  ActionOutcome outcome = outcome_of(report.integrity, "backup in " + target.string());
+  ActionOutcome outcome = outcome_of(report.integrity, tr("backup in {}", target.string()));
   for (const std::string& remark : report.remarks) outcome.problems.push_back(remark);
   if (outcome.ok && report.on_one_disk) {
     outcome.caution = true;
-    outcome.sentence +=
+    outcome.sentence += tr(
         "; it is on the study's own disk, and a disk that fails takes both: keep another one "
-        "elsewhere";
+        "elsewhere");
   }
   return outcome;
 }
@@ -115,10 +117,13 @@ ActionOutcome write_report(const fs::path& folder, const fs::path& target,
          control.progress(done);
        }});
   const analysis::ReportOutcome& outcome = report.outcome;
-  return {.sentence = fmt::format("report.html{} with {} {} in {}",
-                                  outcome.pdf.empty() ? "" : " and report.pdf",
-                                  counted_words(std::ssize(outcome.figures), "figure"),
-                                  outcome.pdf.empty() ? "is" : "are", target.string()),
+  return {.sentence = outcome.pdf.empty()
+                          ? trn("report.html with {} figure is in {}",
+                                "report.html with {} figures is in {}",
+                                std::ssize(outcome.figures), target.string())
+                          : trn("report.html and report.pdf with {} figure are in {}",
+                                "report.html and report.pdf with {} figures are in {}",
+                                std::ssize(outcome.figures), target.string()),
           .problems = outcome.problems};
 }
 
@@ -126,14 +131,15 @@ ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {
   core::StudyStore store(folder, core::StudyStore::Mode::kReadWrite);
   const std::vector<core::SessionRow> sessions = store.sessions();
   if (sessions.empty()) {
-    throw core::Error(folder.string() + ": expected a session to unblind, found none");
+    throw core::Error(tr("{}: expected a session to unblind, found none", folder.string()));
   }
   const bool blind = std::any_of(sessions.begin(), sessions.end(), [&](const auto& row) {
     return stored_study(store, row.session).blinding == experiments::Blinding::kDouble;
   });
   if (!blind) {
-    throw core::Error(folder.string() +
-                      ": expected a double-blind study, found one whose levels may be seen");
+    throw core::Error(
+        tr("{}: expected a double-blind study, found one whose levels may be seen",
+           folder.string()));
   }
   store.add_unblinding(core::SystemClock().now_ns(), reason);
   // Every session keeps the moment: answers after it were no longer given blind.
@@ -141,9 +147,9 @@ ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {
     if (is_unblinded(store, row.session)) continue;  // By a run that was interrupted.
     ReopenedSession(store, row).session().unblind(reason);
   }
-  return {.sentence =
-              fmt::format("{}: unblinded, and so written in the log of its {}", folder.string(),
-                          counted_words(std::ssize(sessions), "session"))};
+  return {.sentence = trn("{1}: unblinded, and so written in the log of its {0} session",
+                          "{1}: unblinded, and so written in the log of its {0} sessions",
+                          std::ssize(sessions), folder.string())};
 }
 
 fs::path free_folder_beside(const fs::path& study_folder, const std::string& ending) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "app/language/words.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/trial_intervals.h"
 #include "core/clock.h"
@@ -29,12 +30,12 @@ void require_order(const TrialForm& form, const TrialState& trial,
   const std::string before = first_interval(form);
   if (interval == last_interval(form) && before != interval &&
       !(trial.under_way && felt(trial, before))) {
-    refuse(form.order_is_drawn ? "the first interval comes first"
-                               : "the reference comes first");
+    refuse(form.order_is_drawn ? tr("the first interval comes first")
+                               : tr("the reference comes first"));
   }
-  if (interval == "reference" && !form.has_reference) refuse("this block has no reference");
+  if (interval == "reference" && !form.has_reference) refuse(tr("this block has no reference"));
   if (form.order_is_drawn && (interval == "reference" || interval == "test")) {
-    refuse("this block has a first and a second interval");
+    refuse(tr("this block has a first and a second interval"));
   }
 }
 
@@ -45,7 +46,7 @@ struct OperatedSession::Act {
   OperatedSession& my;
 
   void operator()(const operate::Begin& begin) const {
-    if (my.begun_) refuse("the session has begun already");
+    if (my.begun_) refuse(tr("the session has begun already"));
     my.running_.begin(begin.choice, my.language_);
     my.begun_ = true;
     my.begun_s_ = my.now_s();
@@ -53,12 +54,12 @@ struct OperatedSession::Act {
 
   void operator()(const operate::AnswerItem& given) const {
     require_running();
-    if (given.stage != my.state().stage) refuse("that question's stage is over");
-    if (given.answer.empty()) refuse("expected an answer, found none");
+    if (given.stage != my.state().stage) refuse(tr("that question's stage is over"));
+    if (given.answer.empty()) refuse(tr("expected an answer, found none"));
     const Step step = my.step();
     if (step != Step::kItem && step != Step::kFeeling && step != Step::kStageDone &&
         step != Step::kMedium) {
-      refuse("nothing is asked now");
+      refuse(tr("nothing is asked now"));
     }
     if (step == Step::kFeeling) my.end_feeling(true);
     my.session_.answer_item(given.item, given.answer);
@@ -67,7 +68,7 @@ struct OperatedSession::Act {
   void operator()(const operate::FeelMedium&) const {
     require_running();
     const std::optional<Exploration> medium = my.next_medium();
-    if (my.step() != Step::kMedium || !medium) refuse("no medium waits to be felt");
+    if (my.step() != Step::kMedium || !medium) refuse(tr("no medium waits to be felt"));
     my.session_.require_exposure_left();
     begin_feeling();
     my.feeling_ =
@@ -79,7 +80,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::FinishMedium&) const {
     require_running();
-    if (my.step() != Step::kFeeling) refuse("no medium is being felt");
+    if (my.step() != Step::kFeeling) refuse(tr("no medium is being felt"));
     my.end_feeling(true);
   }
 
@@ -90,11 +91,11 @@ struct OperatedSession::Act {
     if (step == Step::kBreak) {
       if (my.now_s() < my.break_until_s_) {
         if (finish.reason.empty())
-          refuse("the rest is not over; going on early needs a reason");
-        my.session_.note("went on before the end of the rest: " + finish.reason);
+          refuse(tr("the rest is not over; going on early needs a reason"));
+        my.session_.note(as_is("went on before the end of the rest: ") + finish.reason);
       }
     } else if (step != Step::kStageDone) {
-      refuse("the stage is not done yet");
+      refuse(tr("the stage is not done yet"));
     }
     my.session_.finish_stage();
     my.running_.keep_timing();
@@ -118,29 +119,30 @@ struct OperatedSession::Act {
   void operator()(const operate::Answer& answer) const {
     const TrialState& trial = require_trial(answer.trial);
     if (!my.presenter_.under_way() || !can_answer(my.session_.current_form(), trial)) {
-      refuse("the test has not been felt yet");
+      refuse(tr("the test has not been felt yet"));
     }
     if (my.session_.current_form().adjustable &&
         trial.presentations.back().interval == "reference") {
-      refuse("the fluid to adjust is not being felt");
+      refuse(tr("the fluid to adjust is not being felt"));
     }
     my.session_.require_answer(answer.value);
     const double response_time_s = my.presenter_.felt_s();
     const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
-    require_ticks(felt, fmt::format("; the answer was {:g}", answer.value));
+    require_ticks(felt,
+                  fmt::format(fmt::runtime(as_is("; the answer was {:g}")), answer.value));
     my.session_.answer(answer.value, response_time_s, felt.last_tick);
   }
 
   void operator()(const operate::Adjust& adjust) const {
     const TrialState& trial = require_trial(adjust.trial);
     if (!my.presenter_.under_way() || trial.presentations.back().interval != "test") {
-      refuse("the fluid to adjust is not being felt");
+      refuse(tr("the fluid to adjust is not being felt"));
     }
     const bool possible = my.session_.can_adjust(adjust.direction, adjust.size);
     // Where levels are hidden, an end of the range looks like any other step.
     if (!possible && !my.hides_levels_) {
-      refuse(adjust.direction == Direction::kLower ? "it cannot go lower"
-                                                   : "it cannot go higher");
+      refuse(adjust.direction == Direction::kLower ? tr("it cannot go lower")
+                                                   : tr("it cannot go higher"));
     }
     end_presentation();
     my.session_.adjust(adjust.direction, adjust.size);
@@ -163,14 +165,14 @@ struct OperatedSession::Act {
 
   void operator()(const operate::AddNote& note) const {
     const bool has_words = note.text.find_first_not_of(" \t\n") != std::string::npos;
-    if (!my.begun_ || !has_words) refuse("expected a note, found no words");
+    if (!my.begun_ || !has_words) refuse(tr("expected a note, found no words"));
     my.session_.note(note.text);
   }
 
   /// At any time, before the first stimulus and after the last.
   void operator()(const operate::ReportAdverseEvent& report) const {
     if (report.text.find_first_not_of(" \t\n") == std::string::npos) {
-      refuse("expected what happened, found no words");
+      refuse(tr("expected what happened, found no words"));
     }
     my.parameters_.store.add_adverse_event(my.row_.session, core::SystemClock().now_ns(),
                                            report.text);
@@ -195,33 +197,34 @@ struct OperatedSession::Act {
     require_begun_and_armed();
     require_reason(without.reason);
     const std::uint8_t loose = my.loose_bits();
-    if (loose == 0) refuse("nothing has come off that does not hold again");
-    if (without.point_bits != loose) refuse("other points have come off by now");
-    my.session_.note("goes on without " + words_of_points(loose) + ": " + without.reason);
+    if (loose == 0) refuse(tr("nothing has come off that does not hold again"));
+    if (without.point_bits != loose) refuse(tr("other points have come off by now"));
+    my.session_.note(as_is("goes on without ") + words_of_points(loose) + ": " +
+                     without.reason);
     my.attachment_.give_up(loose);
     if (my.state().paused) go_on();
   }
 
   void operator()(const operate::ReleaseStop& release) const {
     if (!my.parameters_.exchange.emergency_stop.release(release.num_stop_presses)) {
-      refuse("the emergency stop was pressed again");
+      refuse(tr("the emergency stop was pressed again"));
     }
     my.forget_stop();
     if (my.begun_ && !my.state().ended) {
       my.session_.arming_changed(std::string(core::name(core::Arming::kFaulted)),
-                                 "the emergency stop was released by the experimenter");
+                                 as_is("the emergency stop was released by the experimenter"));
     }
   }
 
   void operator()(const operate::Rearm&) const {
-    if (my.known_fault_ == core::Fault::kNone) refuse("there is nothing to arm");
+    if (my.known_fault_ == core::Fault::kNone) refuse(tr("there is nothing to arm"));
     if (my.parameters_.exchange.emergency_stop.is_pressed()) {
-      refuse("the emergency stop is pressed: release it first");
+      refuse(tr("the emergency stop is pressed: release it first"));
     }
     if (my.num_own_faults_ >= kMostFaults) {
       refuse(
-          "three faults of the device or this machine in one sitting are enough: leave the "
-          "session, find out why, and resume it");
+          tr("three faults of the device or this machine in one sitting are enough: leave the "
+             "session, find out why, and resume it"));
     }
     my.known_num_faults_ = my.running_.apparatus().telemetry().num_faults;
     my.running_.apparatus().rearm();
@@ -229,7 +232,7 @@ struct OperatedSession::Act {
   }
 
   void operator()(const operate::EndEarly& end) const {
-    if (!my.begun_ || my.state().ended) refuse("there is no session under way");
+    if (!my.begun_ || my.state().ended) refuse(tr("there is no session under way"));
     require_reason(end.reason);
     my.abandon_presentation();
     my.running_.keep_timing();
@@ -241,19 +244,19 @@ struct OperatedSession::Act {
     my.abandon_presentation();
     if (!my.begun_ || my.state().ended) return;
     my.running_.keep_timing();
-    my.session_.pause(leave.reason.empty() ? "left by the operator" : leave.reason);
+    my.session_.pause(leave.reason.empty() ? as_is("left by the operator") : leave.reason);
   }
 
  private:
   void require_begun_and_armed() const {
-    if (!my.begun_) refuse("the session has not begun yet");
-    if (my.state().ended) refuse("the session is over");
-    if (my.known_fault_ != core::Fault::kNone) refuse("the device has to be armed first");
+    if (!my.begun_) refuse(tr("the session has not begun yet"));
+    if (my.state().ended) refuse(tr("the session is over"));
+    if (my.known_fault_ != core::Fault::kNone) refuse(tr("the device has to be armed first"));
   }
 
   void require_running() const {
     require_begun_and_armed();
-    if (my.state().paused) refuse("the session is paused");
+    if (my.state().paused) refuse(tr("the session is paused"));
   }
 
   void go_on() const {
@@ -267,8 +270,8 @@ struct OperatedSession::Act {
     const std::uint8_t loose = my.loose_bits();
     if (loose == 0) return;
     my.running_.apparatus().put_fingers_back();
-    refuse(words_of_points(loose) +
-           " came off: put back what came off first, or go on without it");
+    refuse(tr("{} came off: put back what came off first, or go on without it",
+              words_of_points(loose)));
   }
 
   void begin_feeling() const {
@@ -277,7 +280,7 @@ struct OperatedSession::Act {
   }
 
   static void require_reason(const std::string& reason) {
-    if (reason.empty()) refuse("expected a reason, found none");
+    if (reason.empty()) refuse(tr("expected a reason, found none"));
   }
 
   /// The trial that the operator saw must still be the one that waits: a key pressed twice
@@ -286,7 +289,7 @@ struct OperatedSession::Act {
     require_running();
     const std::optional<std::int64_t> current = my.state().current_trial();
     if (my.block() == nullptr || !my.state().stage_open || current != number) {
-      refuse("that trial is answered already");
+      refuse(tr("that trial is answered already"));
     }
     return my.state().trial(number);
   }
@@ -310,8 +313,10 @@ struct OperatedSession::Act {
     my.running_.apparatus().render(core::free_space());
     my.session_.put_off_attempt(reason + answer);
     my.resting_for_trial_ = 0;
-    refuse("that did not count, and the trial comes again later (" + reason +
-           "): close what burdens this machine");
+    refuse(
+        tr("that did not count, and the trial comes again later ({}): close what burdens this "
+           "machine",
+           reason));
   }
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/results/block_words.h"
+#include "app/language/words.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/session_words.h"
 #include "app/operator/study_outline.h"
@@ -209,9 +210,9 @@ std::string OperatedSession::level_of(const TrialState& trial) const {
     const MediumSetting reference =
         setting_of(its_block, "reference", *planned.reference_intensity);
     level_and_more +=
-        ", reference " + (reference.medium == its_block.medium
-                              ? level_words(reference.quantity, reference.intensity)
-                              : words_of(reference));
+        ", " + tr("reference {}", reference.medium == its_block.medium
+                                      ? level_words(reference.quantity, reference.intensity)
+                                      : words_of(reference));
   }
   return level_and_more;
 }
@@ -262,7 +263,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
 
 MediumView OperatedSession::medium_view(const Exploration& medium) const {
   MediumView view{.name = hides_levels_ && medium.setting.medium != "free_space"
-                              ? "a fluid"
+                              ? tr("a fluid")
                               : words_of(medium.setting),
                   .say = words(medium.say),
                   .duration_s = medium.duration_s,
@@ -287,14 +288,14 @@ std::pair<std::string, std::string> OperatedSession::labels_of(const Block& bloc
   };
   switch (task_of(block)) {
     case Task::kTwoInterval:
-      return {label(block.first_label, "First"), label(block.second_label, "Second")};
+      return {label(block.first_label, tr("First")), label(block.second_label, tr("Second"))};
     case Task::kSameDifferent:
-      return {label(block.yes_label, "Different"), label(block.no_label, "Same")};
+      return {label(block.yes_label, tr("Different")), label(block.no_label, tr("Same"))};
     case Task::kReminder:
     case Task::kYesNo:
       break;
   }
-  return {label(block.yes_label, "Yes"), label(block.no_label, "No")};
+  return {label(block.yes_label, tr("Yes")), label(block.no_label, tr("No"))};
 }
 
 /// As it was given: a chosen interval does not tell which held the test.
@@ -302,7 +303,7 @@ std::string OperatedSession::answer_in_words(const Block& block, AnswerKind kind
                                              const TrialState& trial) const {
   const double answer = answer_of(kind, trial.planned, *trial.response);
   const bool hidden = (hides_levels_ || is_alone()) && kind == AnswerKind::kMatch;
-  if (hidden) return "set";
+  if (hidden) return tr("set");
   if (kind == AnswerKind::kMatch) return level_words(block.quantity, answer);
   if (kind != AnswerKind::kYesNo && kind != AnswerKind::kInterval) {
     return answer_words(kind, answer);

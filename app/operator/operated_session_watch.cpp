@@ -1,3 +1,4 @@
+#include "app/language/words.h"
 #include "app/operator/operated_session.h"
 #include "core/safety/fault.h"
 
@@ -6,7 +7,7 @@ namespace jnd::app {
 void OperatedSession::watch_apparatus() {
   watch_for_faults();
   if (begun_ && !state().ended && failure_.empty()) {
-    running_.keep_arming("armed by the experimenter");
+    running_.keep_arming(as_is("armed by the experimenter"));
   }
   watch_for_loose_points();
 }
@@ -36,7 +37,7 @@ void OperatedSession::watch_for_faults() {
   if (!begun_ || state().ended || !core::is_failure(now.fault)) return;
   running_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
-    session_.put_off_attempt(std::string("fault: ") + std::string(name(now.fault)));
+    session_.put_off_attempt(std::string(as_is("fault: ")) + std::string(name(now.fault)));
   }
   running_.keep_timing();
 }

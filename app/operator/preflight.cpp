@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
 #include "app/session/machine_checks.h"
@@ -29,7 +30,7 @@ enum Place : std::size_t {
 
 /// A lack of this machine is one of the session only where somebody can be hurt.
 PreflightLine line_of(const MachineCheck& check, const std::string& name, bool must) {
-  PreflightLine line{.name = name, .found = check.ok ? "granted" : "refused"};
+  PreflightLine line{.name = name, .found = check.ok ? tr("granted") : tr("refused")};
   line.status = check.ok ? Status::kOk : (must ? Status::kFailed : Status::kWarning);
   line.remedy = check.remedy;
   return line;
@@ -41,8 +42,9 @@ class Look {
   Look(const PreflightRequest& request, WorkControl& control,
        const std::function<void(const std::vector<PreflightLine>&)>& on_lines)
       : request_(request), control_(control), on_lines_(on_lines) {
-    for (const char* name : {"Study file", "Study folder", "Disk", "Real-time priority",
-                             "Memory lock", "Sleep", "Device", "Stimuli", "Loop"}) {
+    for (const char* name :
+         {tr("Study file"), tr("Study folder"), tr("Disk"), tr("Real-time priority"),
+          tr("Memory lock"), tr("Sleep"), tr("Device"), tr("Stimuli"), tr("Loop")}) {
       lines_.push_back({.name = name});
     }
     tell();
@@ -53,8 +55,8 @@ class Look {
     put(kFolder, folder_line(request_.folder));
     put(kDisk, disk());
     const bool must = is_for_a_person() && !request_.allow_no_realtime;
-    put(kPriority, line_of(check_realtime_priority(), "Real-time priority", must));
-    put(kMemory, line_of(check_memory_lock(), "Memory lock", must));
+    put(kPriority, line_of(check_realtime_priority(), tr("Real-time priority"), must));
+    put(kMemory, line_of(check_memory_lock(), tr("Memory lock"), must));
     put(kSleep, sleep_line());
     put(kDevice,
         device_line(request_.device, rate_hz_, study_ ? study_->device.min_contact_points : 1));
@@ -96,27 +98,28 @@ class Look {
 
   [[nodiscard]] static PreflightLine sleep_line() {
     const MachineCheck check = check_sleep();
-    return {.name = "Sleep",
+    return {.name = tr("Sleep"),
             .status = check.ok ? Status::kOk : Status::kWarning,
-            .found = check.ok ? "kept away" : "not kept away",
+            .found = check.ok ? tr("kept away") : tr("not kept away"),
             .remedy = check.remedy};
   }
 
   [[nodiscard]] PreflightLine disk() const {
     const std::optional<double> free = free_bytes(request_.folder);
-    if (!free) return {.name = "Disk", .status = Status::kWarning, .found = "not known"};
+    if (!free)
+      return {.name = tr("Disk"), .status = Status::kWarning, .found = tr("not known")};
     constexpr double kHour_s = 3600.0;
     return disk_line(*free, rate_hz_, study_ ? longest_session_s(*study_) : kHour_s);
   }
 
   [[nodiscard]] PreflightLine stimuli() const {
     if (!study_) {
-      return {.name = "Stimuli",
+      return {.name = tr("Stimuli"),
               .status = Status::kFailed,
-              .found = "not known",
-              .remedy = "mend the study first"};
+              .found = tr("not known"),
+              .remedy = tr("mend the study first")};
     }
-    return line_from("Stimuli", "not known", [&] {
+    return line_from(tr("Stimuli"), tr("not known"), [&] {
       const device::DeviceCapabilities can =
           device::make_device(request_.device, rate_hz_)->capabilities();
       const experiments::RangeLimits limits{.max_force_per_point_n = can.max_force_per_point_n,
@@ -133,7 +136,7 @@ class Look {
   }
 
   PreflightLine loop() {
-    return line_from("Loop", "does not run", [&] {
+    return line_from(tr("Loop"), tr("does not run"), [&] {
       return loop_line(test_loop(request_, rate_hz_, [this](double done) {
         control_.progress(kQuickRatio + (1.0 - kQuickRatio) * done);
         control_.stop_if_cancelled();
@@ -187,8 +190,8 @@ bool Preflight::passed() const {
 
 std::vector<PreflightLine> look_at_machine() {
   std::vector<PreflightLine> lines = {
-      line_of(check_realtime_priority(), "Real-time priority", false),
-      line_of(check_memory_lock(), "Memory lock", false)};
+      line_of(check_realtime_priority(), tr("Real-time priority"), false),
+      line_of(check_memory_lock(), tr("Memory lock"), false)};
   constexpr double kRate_hz = 1000.0;
   constexpr double kSession_s = 3600.0;
   if (const auto free = free_bytes(default_study_folder("study"))) {
@@ -205,12 +208,11 @@ std::vector<PreflightLine> look_at_machine() {
       ++num_simulated;
     }
   }
-  lines.push_back(real.empty()
-                      ? PreflightLine{.name = "Device",
-                                      .status = Status::kWarning,
-                                      .found = "none connected, " +
-                                               std::to_string(num_simulated) + " simulated"}
-                      : PreflightLine{.name = "Device", .status = Status::kOk, .found = real});
+  lines.push_back(
+      real.empty() ? PreflightLine{.name = tr("Device"),
+                                   .status = Status::kWarning,
+                                   .found = tr("none connected, {} simulated", num_simulated)}
+                   : PreflightLine{.name = tr("Device"), .status = Status::kOk, .found = real});
   return lines;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "app/language/words.h"
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
 #include "app/session/device_run.h"
@@ -32,11 +33,13 @@ std::string size_words(double bytes) {
   return fmt::format("{:.0f} MB", bytes / 1e6);
 }
 
-/// Two digits of a count, rounded down: "about 940".
-std::string about(double count) {
-  if (count >= 10'000.0) return "more than 10000";
+/// Two digits of a count, rounded down: "about 940 sessions".
+std::string about_sessions(double count) {
+  if (count < 1.0) return tr("less than a session");
+  if (count >= 10'000.0) return tr("more than 10000 sessions");
   const double step = count >= 1000.0 ? 100.0 : (count >= 100.0 ? 10.0 : 1.0);
-  return fmt::format("about {:.0f}", std::floor(count / step) * step);
+  return trn("about {} session", "about {} sessions",
+             static_cast<std::int64_t>(std::floor(count / step) * step));
 }
 
 std::string rate_words(double rate_hz) {
@@ -45,7 +48,7 @@ std::string rate_words(double rate_hz) {
 }
 
 std::string loop_name(double rate_hz, double duration_s) {
-  return fmt::format("Loop at {} for {:g} s", rate_words(rate_hz), duration_s);
+  return tr("Loop at {} for {:g} s", rate_words(rate_hz), duration_s);
 }
 
 std::string text_of(const std::filesystem::path& file) {
@@ -65,40 +68,41 @@ PreflightLine line_from(const std::string& name, const std::string& failure,
 }
 
 PreflightLine study_file_line(const std::filesystem::path& folder) {
-  const std::string name = "Study file";
-  return line_from(name, "cannot be used", [&]() -> PreflightLine {
+  const std::string name = tr("Study file");
+  return line_from(name, tr("cannot be used"), [&]() -> PreflightLine {
     const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
     const core::ProtocolRow protocol = protocol_in(store);
     (void)study_in(store);
     const std::filesystem::path file = study_file_of(store, protocol);
     std::error_code ignored;
     if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
-      return {.name = name, .status = Status::kOk, .found = "sound, kept in the folder"};
+      return {.name = name, .status = Status::kOk, .found = tr("sound, kept in the folder")};
     }
     if (text_of(file) == protocol.text) {
-      return {.name = name, .status = Status::kOk, .found = "sound and unchanged"};
+      return {.name = name, .status = Status::kOk, .found = tr("sound and unchanged")};
     }
-    return {.name = name,
-            .status = Status::kWarning,
-            .found = "changed since the study began",
-            .remedy =
-                "sessions go on with the text kept in the folder; begin a new folder for "
-                "the changed one"};
+    return {
+        .name = name,
+        .status = Status::kWarning,
+        .found = tr("changed since the study began"),
+        .remedy = tr("sessions go on with the text kept in the folder; begin a new folder for "
+                     "the changed one")};
   });
 }
 
 PreflightLine folder_line(const std::filesystem::path& folder) {
-  const std::string name = "Study folder";
-  return line_from(name, "cannot be written", [&]() -> PreflightLine {
+  const std::string name = tr("Study folder");
+  return line_from(name, tr("cannot be written"), [&]() -> PreflightLine {
     core::require_no_backup(folder);
     const core::WriterLock alone(folder);
     const std::filesystem::path file = folder / "study.sqlite";
     if (::access(file.c_str(), W_OK) != 0) {
-      throw core::Error(file.string() +
-                        ": expected a file that can be written, found that it cannot; look at "
-                        "its rights and its disk");
+      throw core::Error(
+          tr("{}: expected a file that can be written, found that it cannot; look at "
+             "its rights and its disk",
+             file.string()));
     }
-    return {.name = name, .status = Status::kOk, .found = "ours alone to write"};
+    return {.name = name, .status = Status::kOk, .found = tr("ours alone to write")};
   });
 }
 
@@ -107,34 +111,31 @@ PreflightLine disk_line(double free_bytes, double rate_hz, double session_s) {
   constexpr double kFewSessions = 10.0;
   const double sessions =
       free_bytes / (rate_hz * session_s * kBytesPerSample + kOtherwise_bytes);
-  PreflightLine line{.name = "Disk", .status = Status::kOk};
-  const bool one = sessions >= 1.0 && sessions < 2.0;
-  line.found = size_words(free_bytes) + " free, " +
-               (sessions < 1.0 ? "less than a session"
-                               : about(sessions) + (one ? " session" : " sessions"));
+  PreflightLine line{.name = tr("Disk"), .status = Status::kOk};
+  line.found = tr("{} free, {}", size_words(free_bytes), about_sessions(sessions));
   if (sessions >= kFewSessions) return line;
   line.status = sessions < 1.0 ? Status::kFailed : Status::kWarning;
-  line.remedy = "make room, or keep the study on another disk";
+  line.remedy = tr("make room, or keep the study on another disk");
   return line;
 }
 
 PreflightLine device_line(const std::string& device, double rate_hz, int min_contact_points) {
-  const std::string name = "Device";
-  return line_from(name, "does not start", [&]() -> PreflightLine {
+  const std::string name = tr("Device");
+  return line_from(name, tr("does not start"), [&]() -> PreflightLine {
     const std::unique_ptr<device::HapticDevice> made = device::make_device(device, rate_hz);
     const device::DeviceCapabilities can = made->capabilities();
     if (can.num_contact_points < min_contact_points) {
       return {.name = name,
               .status = Status::kFailed,
-              .found = fmt::format("holds {} of {} points of the hand", can.num_contact_points,
-                                   min_contact_points),
-              .remedy = "choose another device"};
+              .found = tr("holds {} of {} points of the hand", can.num_contact_points,
+                          min_contact_points),
+              .remedy = tr("choose another device")};
     }
     // The motors of a real one turn on only after the check for real time: in the loop's test.
     if (!can.simulated) return {.name = name, .status = Status::kOk, .found = device};
     made->open();
     made->close();
-    return {.name = name, .status = Status::kOk, .found = device + ", simulated"};
+    return {.name = name, .status = Status::kOk, .found = tr("{}, simulated", device)};
   });
 }
 
@@ -144,63 +145,61 @@ PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
   const auto fitting =
       std::count_if(range.begin(), range.end(), [](const auto& entry) { return entry.fits; });
   const bool all = fitting == static_cast<std::ptrdiff_t>(range.size());
-  PreflightLine line{.name = "Stimuli", .status = all ? Status::kOk : Status::kFailed};
-  line.found = fmt::format("{} of {} within limits", fitting, range.size());
+  PreflightLine line{.name = tr("Stimuli"), .status = all ? Status::kOk : Status::kFailed};
+  line.found = tr("{} of {} within limits", fitting, range.size());
   if (!all) {
-    line.remedy = "choose a device that can render them, or weaken the study's stimuli";
+    line.remedy = tr("choose a device that can render them, or weaken the study's stimuli");
   }
   if (stability && stability->num_unstable() > 0) {
     line.status = Status::kFailed;
-    line.found += fmt::format(", {} unstable", stability->num_unstable());
-    if (line.remedy.empty()) line.remedy = "weaken the study's stimuli, or raise its rate";
+    line.found += tr(", {} unstable", stability->num_unstable());
+    if (line.remedy.empty()) line.remedy = tr("weaken the study's stimuli, or raise its rate");
   } else if (stability && stability->num_needing_the_hand() > 0) {
-    line.found +=
-        fmt::format(", {} stable on the hand alone", stability->num_needing_the_hand());
+    line.found += tr(", {} stable on the hand alone", stability->num_needing_the_hand());
   }
   if (hides_levels || range.empty()) return line;
   const auto strongest = std::max_element(
       range.begin(), range.end(),
       [](const auto& a, const auto& b) { return a.total_force_n < b.total_force_n; });
-  line.found += fmt::format(", up to {:.1f} of {:g} N", strongest->total_force_n,
-                            limits.max_total_force_n);
+  line.found +=
+      tr(", up to {:.1f} of {:g} N", strongest->total_force_n, limits.max_total_force_n);
   return line;
 }
 
 /// What loss and delay of the way to the device will cost in a session.
 static void judge_link(const device::LinkReport& link, PreflightLine& line) {
-  line.found += fmt::format("; link {}: {:.1f} % lost, {:.1f} ms there and back", link.level,
-                            100.0 * link.lost_ratio, 1e3 * link.round_trip_s);
+  line.found += tr("; link {}: {:.1f} % lost, {:.1f} ms there and back", link.level,
+                   100.0 * link.lost_ratio, 1e3 * link.round_trip_s);
   if (link.may_arm) return;
   line.status = link.may_give_force ? Status::kWarning : Status::kFailed;
-  line.remedy = link.may_give_force
-                    ? "a force that is there goes on, but the device is not armed over such a "
-                      "link, so every fault holds the session up until it is better; use a "
-                      "cable of its own"
-                    : "no force is given over such a link; use a cable of its own, or look at "
-                      "the device's own program";
+  line.remedy =
+      link.may_give_force
+          ? tr("a force that is there goes on, but the device is not armed over such a "
+               "link, so every fault holds the session up until it is better; use a "
+               "cable of its own")
+          : tr("no force is given over such a link; use a cable of its own, or look at "
+               "the device's own program");
 }
 
 PreflightLine loop_line(const LoopTest& test) {
   PreflightLine line{.name = loop_name(test.rate_hz, test.duration_s), .status = Status::kOk};
   if (!test.fault.empty()) {
     line.status = Status::kFailed;
-    line.found = "stopped by a fault";
+    line.found = tr("stopped by a fault");
     line.remedy = test.fault;
     return line;
   }
-  const std::string missed =
-      test.missed_ticks == 0
-          ? "none"
-          : fmt::format("{} {}", test.missed_ticks, test.missed_ticks == 1 ? "tick" : "ticks");
-  line.found =
-      test.lateness_p99_us < 10.0
-          ? fmt::format("{} missed, 99 % within {:.1f} µs", missed, test.lateness_p99_us)
-          : fmt::format("{} missed, 99 % within {:.0f} µs", missed, test.lateness_p99_us);
+  const std::string missed = test.missed_ticks == 0
+                                 ? std::string(tr("none"))
+                                 : trn("{} tick", "{} ticks", test.missed_ticks);
+  line.found = test.lateness_p99_us < 10.0
+                   ? tr("{} missed, 99 % within {:.1f} µs", missed, test.lateness_p99_us)
+                   : tr("{} missed, 99 % within {:.0f} µs", missed, test.lateness_p99_us);
   if (test.link) judge_link(*test.link, line);
   const bool late = test.lateness_p99_us > 0.2 * 1e6 / test.rate_hz;
   if (line.status != Status::kOk || (test.missed_ticks == 0 && !late)) return line;
   line.status = test.missed_ticks > 0 && test.for_a_person ? Status::kFailed : Status::kWarning;
-  line.remedy = "close other programs, or give the loop a processor of its own";
+  line.remedy = tr("close other programs, or give the loop a processor of its own");
   return line;
 }
 

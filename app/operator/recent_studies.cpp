@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "app/language/words.h"
 #include "core/error.h"
 #include "core/storage/files.h"
 
@@ -104,10 +105,10 @@ void RecentStudies::write(const std::vector<RecentStudy>& studies) const {
   if (stream && !error) return;
   std::error_code ignored;
   fs::remove(fresh, ignored);
-  throw core::Error(file_.string() +
-                    ": expected to keep the list of recent studies here, found " +
-                    (error ? error.message() : "that it cannot be written") +
-                    "; look at the folder's rights and its disk");
+  throw core::Error(
+      tr("{}: expected to keep the list of recent studies here, found {}; look at the folder's "
+         "rights and its disk",
+         file_.string(), error ? error.message() : tr("that it cannot be written")));
 }
 
 }  // namespace jnd::app

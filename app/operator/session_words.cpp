@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "app/language/words.h"
 #include "experiments/study/media.h"
 
 namespace jnd::app {
@@ -12,17 +13,18 @@ namespace {
 
 using experiments::AnswerKind;
 
-/// What the participant's screen says of itself; studies bring the rest.
+/// What the participant's screen says of itself, in the language of the session; studies bring
+/// the rest.
 enum class Own { kPause, kWait, kThanks, kRight, kWrong };
 
 std::string own_words(Own what, const std::string& language) {
   static const std::map<std::string, std::array<const char*, 5>> kWords = {
       {"en",
-       {"Pause. Rest your hand.", "One moment, please.", "Thank you!", "That was right.",
-        "That was wrong."}},
+       {as_is("Pause. Rest your hand."), as_is("One moment, please."), as_is("Thank you!"),
+        as_is("That was right."), as_is("That was wrong.")}},
       {"de",
-       {"Pause. Ruhen Sie Ihre Hand aus.", "Einen Moment bitte.", "Vielen Dank!",
-        "Das war richtig.", "Das war falsch."}},
+       {as_is("Pause. Ruhen Sie Ihre Hand aus."), as_is("Einen Moment bitte."),
+        as_is("Vielen Dank!"), as_is("Das war richtig."), as_is("Das war falsch.")}},
   };
   const auto known = kWords.find(language);
   return (known == kWords.end() ? kWords.at("en")
@@ -31,35 +33,39 @@ std::string own_words(Own what, const std::string& language) {
 
 /// The sentences of a trial for two people, and for one alone.
 struct TrialSentences {
-  const char *present_reference, *present_fluid, *resting;
-  const char *reference, *free_space, *production, *estimation, *number, *comparison;
-  const char *present_first, *first, *second;
+  const char *present_reference, *present_fluid, *present_surface, *resting;
+  const char *reference, *back_to_fluid, *back_to_surface, *production, *estimation, *number;
+  const char *comparison, *present_first, *first, *second;
 };
 constexpr TrialSentences kForTwo = {
-    "Show the fist, then present the reference.",
-    "Show one finger, then present the fluid.",
-    "The hand rests in free space.",
-    "When the participant is ready, show one finger and present the test.",
-    "Go back to a fluid when the participant is ready.",
-    "Follow the participant's signs until it matches.",
-    "At the ready sign, ask; type the percent and press Enter.",
-    "At the ready sign, ask; type the number and press Enter.",
-    "Show one finger. At the ready sign, ask:",
-    "Show one finger, then present the first.",
-    "When the participant is ready, show two fingers and present the second.",
-    "Show two fingers. At the ready sign, ask:"};
-constexpr TrialSentences kForOne = {"Present the reference.",
-                                    "Present the fluid.",
-                                    "A moment of free space.",
-                                    "Feel the reference, then present the test.",
-                                    "Go back to a fluid when you are ready.",
-                                    "Lower or raise it until it feels right.",
-                                    "Feel it, type the percent and press Enter.",
-                                    "Feel it, type the number and press Enter.",
-                                    "Feel the test, then answer:",
-                                    "Present the first.",
-                                    "Feel the first, then present the second.",
-                                    "Feel the second, then answer:"};
+    tr_later("Show the fist, then present the reference."),
+    tr_later("Show one finger, then present the fluid."),
+    tr_later("Show one finger, then present the surface."),
+    tr_later("The hand rests in free space."),
+    tr_later("When the participant is ready, show one finger and present the test."),
+    tr_later("Go back to a fluid when the participant is ready."),
+    tr_later("Go back to a surface when the participant is ready."),
+    tr_later("Follow the participant's signs until it matches."),
+    tr_later("At the ready sign, ask; type the percent and press Enter."),
+    tr_later("At the ready sign, ask; type the number and press Enter."),
+    tr_later("Show one finger. At the ready sign, ask:"),
+    tr_later("Show one finger, then present the first."),
+    tr_later("When the participant is ready, show two fingers and present the second."),
+    tr_later("Show two fingers. At the ready sign, ask:")};
+constexpr TrialSentences kForOne = {tr_later("Present the reference."),
+                                    tr_later("Present the fluid."),
+                                    tr_later("Present the surface."),
+                                    tr_later("A moment of free space."),
+                                    tr_later("Feel the reference, then present the test."),
+                                    tr_later("Go back to a fluid when you are ready."),
+                                    tr_later("Go back to a surface when you are ready."),
+                                    tr_later("Lower or raise it until it feels right."),
+                                    tr_later("Feel it, type the percent and press Enter."),
+                                    tr_later("Feel it, type the number and press Enter."),
+                                    tr_later("Feel the test, then answer:"),
+                                    tr_later("Present the first."),
+                                    tr_later("Feel the first, then present the second."),
+                                    tr_later("Feel the second, then answer:")};
 
 /// What is told of the answer before, in front of what is said anyway.
 void add_feedback(SessionView& view) {
@@ -70,78 +76,70 @@ void add_feedback(SessionView& view) {
       told + (view.participant_text.empty() ? "" : "\n" + view.participant_text);
 }
 
-/// What is said of a fluid, said of a solid surface.
-void speak_of_a_surface(std::string& words) {
-  const std::string fluid = "fluid";
-  const std::size_t at = words.find(fluid);
-  if (at != std::string::npos) words.replace(at, fluid.size(), "surface");
-}
-
 void add_trial_words(SessionView& view, std::string_view instruction) {
   const TrialView& trial = *view.trial;
   const TrialSentences& sentences = view.is_alone ? kForOne : kForTwo;
   const bool first = trial.in_block == 1;
-  const std::string target =
-      trial.target_percent
-          ? "It should feel like " + number_words(*trial.target_percent) + " %."
-          : "";
+  const std::string target = trial.target_percent ? tr("It should feel like {} %.",
+                                                       number_words(*trial.target_percent))
+                                                  : "";
   if (view.step == Step::kRest || view.step == Step::kReady) {
-    view.heading = view.step == Step::kRest ? "Free space" : "Next trial";
+    view.heading = view.step == Step::kRest ? tr("Free space") : tr("Next trial");
     view.say = first ? std::string(instruction) : target;
     view.participant_text = view.say;
     if (view.feedback_right) add_feedback(view);
     if (trial.order_is_drawn) {
-      view.sentence = sentences.present_first;
+      view.sentence = tr(sentences.present_first);
       view.sign = HandSign::kOneFinger;
     } else if (trial.has_reference) {
-      view.sentence = sentences.present_reference;
+      view.sentence = tr(sentences.present_reference);
       view.sign = HandSign::kFist;
     } else {
-      view.sentence = sentences.present_fluid;
+      view.sentence = tr(trial.is_solid ? sentences.present_surface : sentences.present_fluid);
       view.sign = HandSign::kOneFinger;
     }
     if (view.step == Step::kRest) {
-      view.sentence = sentences.resting;
+      view.sentence = tr(sentences.resting);
       view.sign = HandSign::kOpenHand;
     }
     return;
   }
   view.participant_text = trial.question;
   if (trial.interval == "reference") {
-    view.heading = "Reference";
+    view.heading = tr("Reference");
     view.sign = HandSign::kFist;
-    view.sentence = sentences.reference;
+    view.sentence = tr(sentences.reference);
     view.participant_text.clear();
     if (trial.modulus_value) {
       view.participant_text = "= " + number_words(*trial.modulus_value);
       view.say = view.participant_text;
     }
   } else if (trial.interval == "first") {
-    view.heading = "First interval";
+    view.heading = tr("First interval");
     view.sign = HandSign::kOneFinger;
-    view.sentence = sentences.first;
+    view.sentence = tr(sentences.first);
     view.participant_text.clear();
   } else if (trial.interval == "second") {
-    view.heading = "Second interval";
+    view.heading = tr("Second interval");
     view.sign = HandSign::kTwoFingers;
-    view.sentence = sentences.second;
+    view.sentence = tr(sentences.second);
     view.say = trial.question;
   } else if (trial.interval == "free_space") {
-    view.heading = "Free space";
+    view.heading = tr("Free space");
     view.sign = HandSign::kOpenHand;
-    view.sentence = sentences.free_space;
+    view.sentence = tr(trial.is_solid ? sentences.back_to_surface : sentences.back_to_fluid);
   } else if (trial.adjustable) {
-    view.heading = "Test fluid";
+    view.heading = trial.is_solid ? tr("Test surface") : tr("Test fluid");
     view.sign = HandSign::kOneFinger;
-    view.sentence = sentences.production;
+    view.sentence = tr(sentences.production);
     view.say = target;
     view.participant_text = trial.question + (target.empty() ? "" : "\n" + target);
   } else {
-    view.heading = "Test fluid";
+    view.heading = trial.is_solid ? tr("Test surface") : tr("Test fluid");
     view.sign = HandSign::kOneFinger;
-    view.sentence = trial.answer == AnswerKind::kPercent  ? sentences.estimation
-                    : trial.answer == AnswerKind::kNumber ? sentences.number
-                                                          : sentences.comparison;
+    view.sentence = tr(trial.answer == AnswerKind::kPercent  ? sentences.estimation
+                       : trial.answer == AnswerKind::kNumber ? sentences.number
+                                                             : sentences.comparison);
     view.say = trial.question;
   }
 }
@@ -151,60 +149,62 @@ void add_item_words(SessionView& view) {
   view.sentence = item.text;
   view.say = item.say;
   if (item.kind == ItemView::Kind::kConsent) {
-    view.sentence = "Let the participant read this and agree.";
+    view.sentence = tr("Let the participant read this and agree.");
   } else if (item.kind != ItemView::Kind::kTick) {
     view.participant_text = item.text;
   }
 }
 
 void add_begin_words(SessionView& view) {
-  view.heading = view.last_sequence > 0 ? "Interrupted" : "Ready to begin";
-  view.sentence = view.last_sequence > 0 ? "Choose how the session goes on."
+  view.heading = view.last_sequence > 0 ? tr("Interrupted") : tr("Ready to begin");
+  view.sentence = view.last_sequence > 0 ? tr("Choose how the session goes on.")
                   : view.is_alone
-                      ? "Feel virtual fluids with the mouse: they hold your hand back."
-                      : "The loop runs and renders free space. Begin when you are ready.";
+                      ? tr("Feel virtual fluids with the mouse: they hold your hand back.")
+                      : tr("The loop runs and renders free space. Begin when you are ready.");
 }
 
 void add_medium_words(SessionView& view, std::string_view instruction) {
   const MediumView& medium = *view.medium;
   view.participant_text = std::string(instruction);
   view.say = medium.say.empty() && medium.index == 1 ? std::string(instruction) : medium.say;
-  view.sentence = view.step == Step::kMedium ? "Present " + medium.name + "."
-                  : view.is_alone ? "Feel " + medium.name + ": move the mouse to and fro."
-                                  : "The participant feels " + medium.name + ".";
+  view.sentence = view.step == Step::kMedium ? tr("Present {}.", medium.name)
+                  : view.is_alone ? tr("Feel {}: move the mouse to and fro.", medium.name)
+                                  : tr("The participant feels {}.", medium.name);
   view.sign = HandSign::kOpenHand;
 }
 
 std::string paused_words(const SessionView& view) {
   if (!view.loose_points.empty()) {
-    return "Came off: " + view.loose_points +
-           ". Put it back on the hand, then go on; what was felt is repeated.";
+    return tr("Came off: {}. Put it back on the hand, then go on; what was felt is repeated.",
+              view.loose_points);
   }
   if (!view.came_off_points.empty()) {
-    return "Came off and holds again: " + view.came_off_points +
-           ". Go on when the participant is ready; what was felt is repeated.";
+    return tr(
+        "Came off and holds again: {}. Go on when the participant is ready; what was felt is "
+        "repeated.",
+        view.came_off_points);
   }
-  return "The hand is in free space. Go on when the participant is ready.";
+  return tr("The hand is in free space. Go on when the participant is ready.");
 }
 
 }  // namespace
 
 std::string number_words(double value) {
-  if (!std::isfinite(value)) return "not a number";
+  if (!std::isfinite(value)) return tr("not a number");
   char text[32];
   std::snprintf(text, sizeof text, std::abs(value) >= 1000.0 ? "%.0f" : "%.3g", value);
   return text;
 }
 
 std::string level_words(const std::string& quantity, double intensity) {
-  if (quantity == "scale") return "scale " + number_words(intensity);
+  if (quantity == "scale") return tr("scale {}", number_words(intensity));
   const std::string unit = experiments::quantity_unit(quantity);
   return number_words(intensity) + (unit.empty() ? "" : ' ' + unit);
 }
 
 std::string answer_words(AnswerKind kind, double answer) {
-  if (kind == AnswerKind::kYesNo) return answer == 1.0 ? "yes" : "no";
-  if (kind == AnswerKind::kInterval) return answer == 1.0 ? "first" : "second";
+  if (kind == AnswerKind::kYesNo) return answer == 1.0 ? tr("yes") : tr("no");
+  if (kind == AnswerKind::kInterval) return answer == 1.0 ? tr("first") : tr("second");
   return number_words(answer) + (kind == AnswerKind::kPercent ? " %" : "");
 }
 
@@ -225,7 +225,8 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
       }
       return;
     case Step::kBreak:
-      view.sentence = view.break_left_s > 0.0 ? "Rest." : "The rest is over. Go on when ready.";
+      view.sentence =
+          view.break_left_s > 0.0 ? tr("Rest.") : tr("The rest is over. Go on when ready.");
       view.say = std::string(instruction);
       view.participant_text = std::string(instruction);
       return;
@@ -233,34 +234,30 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
     case Step::kReady:
     case Step::kPresenting:
       add_trial_words(view, instruction);
-      if (view.trial->is_solid) {
-        speak_of_a_surface(view.heading);
-        speak_of_a_surface(view.sentence);
-      }
       return;
     case Step::kStageDone:
-      view.sentence = "Done. Go on, or take the last answer back first.";
-      if (!view.practice.empty()) view.sentence = "Done: " + view.practice + ". Go on?";
+      view.sentence = tr("Done. Go on, or take the last answer back first.");
+      if (!view.practice.empty()) view.sentence = tr("Done: {}. Go on?", view.practice);
       if (view.feedback_right) add_feedback(view);
       return;
     case Step::kPaused:
-      view.heading = "Paused";
+      view.heading = tr("Paused");
       view.sentence = paused_words(view);
       view.participant_text = own_words(Own::kPause, view.language);
       return;
     case Step::kFault:
-      view.heading = view.stop_pressed ? "Emergency stop" : "No force";
+      view.heading = view.stop_pressed ? tr("Emergency stop") : tr("No force");
       view.sentence = view.fault;
       view.participant_text = own_words(Own::kPause, view.language);
       return;
     case Step::kFailed:
-      view.heading = "Stopped";
+      view.heading = tr("Stopped");
       view.sentence = view.fault;
       view.participant_text = own_words(Own::kPause, view.language);
       return;
     case Step::kFinished:
-      view.heading = "Finished";
-      view.sentence = "The session is over; every answer is on disk.";
+      view.heading = tr("Finished");
+      view.sentence = tr("The session is over; every answer is on disk.");
       view.participant_text = own_words(Own::kThanks, view.language);
       return;
   }

@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "app/language/words.h"
 #include "app/operator/operated_session.h"
 
 namespace jnd::app {
@@ -22,7 +23,7 @@ SessionWorker::SessionWorker(Parameters parameters, OperatorExchange& exchange)
       thread_([this] { run(); }) {}
 
 SessionWorker::~SessionWorker() {
-  request(operate::Leave{.reason = "the window was closed"});
+  request(operate::Leave{.reason = as_is("the window was closed")});
   thread_.join();
 }
 

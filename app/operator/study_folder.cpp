@@ -10,7 +10,7 @@
 #include <set>
 
 #include "analysis/results/block_words.h"
-#include "analysis/results/report_words.h"
+#include "app/language/words.h"
 #include "app/operator/study_words.h"
 #include "app/session/stored_session.h"
 #include "core/error.h"
@@ -27,7 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Status = SessionLine::Status;
-using analysis::counted_words;
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
@@ -41,7 +40,7 @@ std::tm local(std::int64_t time_ns) {
 /// " at 16:05"
 std::string hour_in_words(std::int64_t time_ns) {
   const std::tm then = local(time_ns);
-  return fmt::format(" at {}:{:02}", then.tm_hour, then.tm_min);
+  return tr(" at {}:{:02}", then.tm_hour, then.tm_min);
 }
 
 /// Days since some day, for counting from one to another.
@@ -52,7 +51,7 @@ std::int64_t day_number(std::tm parts) {
 
 experiments::Study study_of(const core::StudyStore& store, const core::ProtocolRow& protocol) {
   return experiments::read_stored_study(protocol.text,
-                                        store.folder().string() + ": stored protocol");
+                                        store.folder().string() + as_is(": stored protocol"));
 }
 
 /// What the log of an open session comes to.
@@ -143,31 +142,33 @@ fs::path data_folder() {
 }  // namespace
 
 std::string InterruptedSession::sentence() const {
-  std::string begin = participant + " was interrupted";
-  if (stage.empty()) return begin;
-  if (num_trials == 0) return begin + " in " + stage;
-  return fmt::format("{} in {}, trial {} of {}{}", begin, stage, trial,
-                     num_is_expected ? "about " : "", num_trials);
+  if (stage.empty()) return tr("{} was interrupted", participant);
+  if (num_trials == 0) return tr("{} was interrupted in {}", participant, stage);
+  return num_is_expected ? tr("{} was interrupted in {}, trial {} of about {}", participant,
+                              stage, trial, num_trials)
+                         : tr("{} was interrupted in {}, trial {} of {}", participant, stage,
+                              trial, num_trials);
 }
 
 std::string InterruptedSession::safe() const {
-  const std::string answers = counted_words(num_answers, "answer");
   if (recorded_min < 1.0) {
-    return answers + (num_answers == 1 ? " is" : " are") + " safe on disk";
+    return trn("{} answer is safe on disk", "{} answers are safe on disk", num_answers);
   }
   const auto minutes = static_cast<std::int64_t>(recorded_min);
-  return fmt::format("{} and {} of recording are safe on disk", answers,
-                     counted_words(minutes, "minute"));
+  return tr("{} and {} of recording are safe on disk",
+            trn("{} answer", "{} answers", num_answers),
+            trn("{} minute", "{} minutes", minutes));
 }
 
 std::string StudyFolder::summary() const {
-  const std::string begin = is_backup ? "backup, to be read only · " : "";
-  if (num_sessions == 0) return begin + "no session yet";
-  std::string words = begin + counted_words(num_participants_done, "participant") + " done";
-  if (num_open > 0) words += fmt::format(", {} open", num_open);
-  if (num_pilots > 0) words += ", " + counted_words(num_pilots, "pilot");
-  if (simulated) words += " · simulated";
-  if (!last_session.empty()) words += " · last session " + last_session;
+  const std::string begin = is_backup ? tr("backup, to be read only · ") : "";
+  if (num_sessions == 0) return begin + tr("no session yet");
+  std::string words =
+      begin + trn("{} participant done", "{} participants done", num_participants_done);
+  if (num_open > 0) words += tr(", {} open", num_open);
+  if (num_pilots > 0) words += ", " + trn("{} pilot", "{} pilots", num_pilots);
+  if (simulated) words += tr(" · simulated");
+  if (!last_session.empty()) words += tr(" · last session {}", last_session);
   return words;
 }
 
@@ -218,7 +219,9 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
   opened.num_participants_done = static_cast<int>(done.size());
   opened.last_session = day_in_words(last_ns, now_ns);
   // Two studies of one day are told apart by the hour.
-  if (opened.last_session == "today") opened.last_session += hour_in_words(last_ns);
+  if (!opened.last_session.empty() && day_number(local(last_ns)) == day_number(local(now_ns))) {
+    opened.last_session += hour_in_words(last_ns);
+  }
   return opened;
 }
 
@@ -227,9 +230,10 @@ core::ProtocolRow protocol_in(const core::StudyStore& store) {
   if (!sessions.empty()) return store.protocol(sessions.back().protocol_sha256);
   std::vector<core::ProtocolRow> protocols = store.protocols();
   if (protocols.empty()) {
-    throw core::Error(store.folder().string() +
-                      ": expected a study in this folder, found none; begin it with a study "
-                      "file in a new folder");
+    throw core::Error(
+        tr("{}: expected a study in this folder, found none; begin it with a study "
+           "file in a new folder",
+           store.folder().string()));
   }
   return std::move(protocols.back());
 }
@@ -247,9 +251,10 @@ void create_study_folder(const fs::path& study_file, const fs::path& folder) {
   const experiments::Study study = experiments::read_study(study_file);
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error))) {
-    throw core::Error(folder.string() +
-                      ": expected a place for a new study, found that something is there "
-                      "already; choose another name");
+    throw core::Error(
+        tr("{}: expected a place for a new study, found that something is there "
+           "already; choose another name",
+           folder.string()));
   }
   core::StudyStore store(folder, core::StudyStore::Mode::kCreate);
   store.add_protocol(study_file.filename().string(), study.text,
@@ -272,13 +277,14 @@ std::string day_in_words(std::int64_t time_ns, std::int64_t now_ns) {
   const std::tm then = local(time_ns);
   const std::tm now = local(now_ns);
   const std::int64_t days = day_number(now) - day_number(then);
-  if (days == 0) return "today";
-  if (days == 1) return "yesterday";
-  constexpr std::array kMonths = {"January",   "February", "March",    "April",
-                                  "May",       "June",     "July",     "August",
-                                  "September", "October",  "November", "December"};
+  if (days == 0) return tr("today");
+  if (days == 1) return tr("yesterday");
+  constexpr std::array kMonths = {
+      tr_later("January"),   tr_later("February"), tr_later("March"),    tr_later("April"),
+      tr_later("May"),       tr_later("June"),     tr_later("July"),     tr_later("August"),
+      tr_later("September"), tr_later("October"),  tr_later("November"), tr_later("December")};
   std::string words =
-      fmt::format("{} {}", then.tm_mday, kMonths[static_cast<std::size_t>(then.tm_mon)]);
+      tr("{} {}", then.tm_mday, tr(kMonths[static_cast<std::size_t>(then.tm_mon)]));
   if (then.tm_year != now.tm_year) words += fmt::format(" {}", then.tm_year + 1900);
   return words;
 }

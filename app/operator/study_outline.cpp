@@ -1,13 +1,11 @@
 #include "app/operator/study_outline.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "analysis/results/block_words.h"
-#include "analysis/results/report_words.h"
+#include "app/language/words.h"
 #include "app/session/pseudonym.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
@@ -22,7 +20,14 @@ namespace jnd::app {
 namespace {
 
 using namespace experiments;
-using analysis::counted_words;
+
+std::string starting_values(std::size_t count) {
+  return trn("{} starting value", "{} starting values", static_cast<std::int64_t>(count));
+}
+
+std::string questions_words(std::size_t count) {
+  return trn("{} question", "{} questions", static_cast<std::int64_t>(count));
+}
 
 /// Writes the lines of a study's stages, those in counterbalances further in.
 class Outliner {
@@ -59,10 +64,11 @@ class Outliner {
     for (const Counterbalance::Arm& arm : counterbalance.arms) {
       ++number;
       const std::size_t place = stages_.size();
-      stages_.push_back({.title = hides_ ? fmt::format("Arm {}", number)
-                                         : name_words(arm.name, /*as_title=*/true),
-                         .kind = "Arm",
-                         .depth = depth});
+      stages_.push_back(
+          {.title = hides_ ? tr("Arm {}", number) : name_words(arm.name, /*as_title=*/true),
+           .kind = tr("Arm"),
+           .is_arm = true,
+           .depth = depth});
       const double arm_s = add(arm.stages, depth + 1);
       stages_[place].duration_s = arm_s;
       sum_s += arm_s;
@@ -71,7 +77,8 @@ class Outliner {
     if (counterbalance.method == Counterbalance::Method::kOneOf) return longest_s;
     if (counterbalance.between.empty()) return sum_s;
     const std::size_t place = stages_.size();
-    stages_.push_back({.title = "Between two arms", .kind = "Arm", .depth = depth});
+    stages_.push_back(
+        {.title = tr("Between two arms"), .kind = tr("Arm"), .is_arm = true, .depth = depth});
     const double between_s = add(counterbalance.between, depth + 1);
     stages_[place].duration_s = between_s;
     return sum_s + between_s * static_cast<double>(counterbalance.arms.size() - 1);
@@ -79,10 +86,10 @@ class Outliner {
 
   std::string title(const Stage& stage) {
     if (hides_ && std::holds_alternative<Block>(stage.content)) {
-      return fmt::format("Block {}", ++num_blocks_);
+      return tr("Block {}", ++num_blocks_);
     }
     if (hides_ && std::holds_alternative<Counterbalance>(stage.content)) {
-      return "Counterbalance";
+      return tr("Counterbalance");
     }
     return title_of(stage, language_);
   }
@@ -90,16 +97,18 @@ class Outliner {
   std::string only_for(const Stage& stage) const {
     std::string conditions;
     for (const auto& [counterbalance, arm] : stage.only_for) {
-      conditions += (conditions.empty() ? "only where " : " and ") +
-                    name_words(counterbalance, false) + " is " + name_words(arm, false);
+      const std::string where = name_words(counterbalance, false);
+      const std::string is = name_words(arm, false);
+      conditions += conditions.empty() ? tr("only where {} is {}", where, is)
+                                       : tr(" and {} is {}", where, is);
     }
-    return hides_ && !conditions.empty() ? "only for some participants" : conditions;
+    return hides_ && !conditions.empty() ? tr("only for some participants") : conditions;
   }
 
   void describe_media(const std::vector<Exploration>& media, OutlineStage& line) const {
     for (const Exploration& medium : media) {
       const bool hidden = hides_ && medium.setting.medium != "free_space";
-      line.details.push_back((hidden ? std::string("a fluid") : words_of(medium.setting)) +
+      line.details.push_back((hidden ? std::string(tr("a fluid")) : words_of(medium.setting)) +
                              ", " + duration_words(medium.duration_s));
     }
   }
@@ -107,22 +116,21 @@ class Outliner {
   // One overload a kind.
 
   void describe(const Checklist& checklist, OutlineStage& line) const {
-    line.kind = "Checklist";
-    line.what = counted_words(checklist.items.size(), "item");
+    line.kind = tr("Checklist");
+    line.what = trn("{} item", "{} items", checklist.items.size());
   }
   void describe(const Consent& consent, OutlineStage& line) const {
-    line.kind = "Consent";
-    line.what = counted_words(consent.paragraphs.size(), "paragraph");
+    line.kind = tr("Consent");
+    line.what = trn("{} paragraph", "{} paragraphs", consent.paragraphs.size());
   }
   void describe(const Explore& explore, OutlineStage& line) const {
-    line.kind = "Exploration";
-    line.what =
-        explore.media.size() == 1 ? "1 medium" : fmt::format("{} media", explore.media.size());
+    line.kind = tr("Exploration");
+    line.what = trn("{} medium", "{} media", explore.media.size());
     describe_media(explore.media, line);
   }
   void describe(const Training& training, OutlineStage& line) const {
-    line.kind = "Training";
-    line.what = counted_words(training.examples.size(), "example");
+    line.kind = tr("Training");
+    line.what = trn("{} example", "{} examples", training.examples.size());
     describe_media(training.examples, line);
   }
   void describe(const Block& block, OutlineStage& line) const {
@@ -130,31 +138,33 @@ class Outliner {
     const Procedure& procedure = procedure_named(block.procedure);
     const int num_trials = expected_trials(block);
     const bool adjusts = procedure.form(block).adjustable;
-    const std::string trials = analysis::trials_to_expect(block, num_trials) +
-                               (num_trials == 1 ? " trial" : " trials");
+    const std::string trials = trn("{1} trial", "{1} trials", num_trials,
+                                   analysis::trials_to_expect(block, num_trials));
     const std::size_t count = block.intensities.size();
     if (analysis::length_is_expected(block)) {
       line.what = analysis::adaptive_words(block) + ": " + trials;
     } else if (adjusts && !block.standards.empty()) {
-      line.what = counted_words(count, "starting value") + " for " +
-                  counted_words(block.standards.size(), "standard") + ": " + trials;
+      line.what = tr("{} for {}: {}", starting_values(count),
+                     trn("{} standard", "{} standards", block.standards.size()), trials);
     } else if (block.target_percent.empty()) {
-      line.what = fmt::format(
-          "{} {}, {}: {}", count, count == 1 ? "stimulus" : "stimuli",
-          block.repetitions == 1 ? "once" : fmt::format("{} times", block.repetitions), trials);
+      line.what = trn(
+          "{} stimulus, {}: {}", "{} stimuli, {}: {}", count,
+          block.repetitions == 1 ? std::string(tr("once")) : tr("{} times", block.repetitions),
+          trials);
     } else {
-      line.what = counted_words(count, "starting value") + " for " +
-                  counted_words(block.target_percent.size(), "target") + ": " + trials;
+      line.what = tr("{} for {}: {}", starting_values(count),
+                     trn("{} target", "{} targets", block.target_percent.size()), trials);
     }
     if (block.practice) {
-      line.details.push_back(fmt::format(
-          "practice, until {:.0f} % of the last {} answers are right, at most {} trials",
-          100.0 * block.practice->min_correct_ratio, block.practice->num_trials_judged,
-          block.practice->max_trials));
+      line.details.push_back(
+          tr("practice, until {:.0f} % of the last {} answers are right, at most {} trials",
+             100.0 * block.practice->min_correct_ratio, block.practice->num_trials_judged,
+             block.practice->max_trials));
     }
-    if (block.feedback) line.details.emplace_back("right or wrong is told after each answer");
+    if (block.feedback)
+      line.details.emplace_back(tr("right or wrong is told after each answer"));
     if (hides_) {
-      line.details.emplace_back("levels hidden: double-blind");
+      line.details.emplace_back(tr("levels hidden: double-blind"));
       return;
     }
     const std::string unit = experiments::quantity_unit(block.quantity);
@@ -168,46 +178,46 @@ class Outliner {
                              analysis::list_of(block.intensities, unit));
     }
     if (block.reference_intensity) {
-      line.details.push_back("reference " + name +
-                             analysis::list_of({*block.reference_intensity}, unit));
+      line.details.push_back(
+          tr("reference {}", name + analysis::list_of({*block.reference_intensity}, unit)));
     }
     if (!block.standards.empty()) {
       const std::string quantity = quantity_of(block.standard_medium);
       const std::string its_unit = experiments::quantity_unit(quantity);
-      line.details.push_back("standard " + name_words(block.standard_medium, false) + ", " +
-                             (its_unit.empty() ? name_words(quantity) + " " : "") +
-                             analysis::list_of(block.standards, its_unit));
+      line.details.push_back(tr("standard {}, {}", name_words(block.standard_medium, false),
+                                (its_unit.empty() ? name_words(quantity) + " " : "") +
+                                    analysis::list_of(block.standards, its_unit)));
     }
     if (!block.target_percent.empty()) {
-      line.details.push_back("targets " + analysis::list_of(block.target_percent, "%"));
+      line.details.push_back(tr("targets {}", analysis::list_of(block.target_percent, "%")));
     }
     if (adjusts) {
-      line.details.push_back("steps of " +
-                             analysis::list_of({block.coarse_step, block.fine_step}, unit));
+      line.details.push_back(
+          tr("steps of {}", analysis::list_of({block.coarse_step, block.fine_step}, unit)));
     }
   }
   void describe(const Break& rest, OutlineStage& line) const {
-    line.kind = "Break";
-    line.what = "at least " + duration_words(rest.duration_s);
+    line.kind = tr("Break");
+    line.what = tr("at least {}", duration_words(rest.duration_s));
   }
   void describe(const PostExperiment& post, OutlineStage& line) const {
-    line.kind = "After the experiment";
-    line.what = counted_words(post.items.size(), "question");
+    line.kind = tr("After the experiment");
+    line.what = questions_words(post.items.size());
     if (hides_) return;
     for (const PostExperimentItem& item : post.items) {
       line.details.push_back(words_of(item.setting));
     }
   }
   void describe(const Questionnaire& questionnaire, OutlineStage& line) const {
-    line.kind = "Questionnaire";
-    line.what = counted_words(questionnaire.items.size(), "question");
+    line.kind = tr("Questionnaire");
+    line.what = questions_words(questionnaire.items.size());
   }
   void describe(const Counterbalance& counterbalance, OutlineStage& line) const {
     const bool order = counterbalance.method != Counterbalance::Method::kOneOf;
-    line.kind = order ? "Order" : "Choice";
-    line.what =
-        order ? counted_words(counterbalance.arms.size(), "arm") + ", their order balanced"
-              : "one of " + counted_words(counterbalance.arms.size(), "arm");
+    line.kind = order ? tr("Order") : tr("Choice");
+    line.what = order ? trn("{} arm, their order balanced", "{} arms, their order balanced",
+                            counterbalance.arms.size())
+                      : trn("one of {} arm", "one of {} arms", counterbalance.arms.size());
   }
 
   std::string language_;
@@ -225,11 +235,11 @@ std::string joined(const std::vector<std::string>& parts) {
 std::string blinding_words(Blinding blinding) {
   switch (blinding) {
     case Blinding::kNone:
-      return "not blind";
+      return tr("not blind");
     case Blinding::kParticipant:
-      return "the participant is blind to the levels";
+      return tr("the participant is blind to the levels");
     case Blinding::kDouble:
-      return "double-blind";
+      return tr("double-blind");
   }
   return "";
 }
@@ -240,18 +250,18 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
   const auto& block = std::get<Block>(planned.stage->content);
   std::string line = title_of(*planned.stage, language) + ": ";
   if (block.practice) {
-    return line + fmt::format("practice, at most {} trials", planned.num_trials);
+    return line + tr("practice, at most {} trials", planned.num_trials);
   }
   if (analysis::length_is_expected(block)) {
-    return line + analysis::trials_to_expect(block, planned.num_trials) + " trials, " +
-           analysis::adaptive_words(block);
+    return line + tr("{} trials, {}", analysis::trials_to_expect(block, planned.num_trials),
+                     analysis::adaptive_words(block));
   }
   double target = -1.0;
   bool first = true;
   for (const PlannedTrial& trial : planned.trials) {
     if (trial.target_percent && *trial.target_percent != target) {
       target = *trial.target_percent;
-      line += fmt::format("{}to {:g} % from ", first ? "" : "; ", target);
+      line += (first ? "" : "; ") + tr("to {:g} % from ", target);
       first = true;
     }
     line += (first ? "" : ", ") + analysis::stimulus_words(trial);
@@ -272,9 +282,8 @@ StudyOutline outline_of(const Study& study, bool shows_levels) {
                        .languages = joined(study.languages),
                        .blinding = blinding_words(study.blinding)};
   outline.device =
-      fmt::format("{} or more, {:g} Hz",
-                  counted_words(study.device.min_contact_points, "point") + " of the hand",
-                  study.device.rate_hz);
+      trn("{} point of the hand or more, {:g} Hz", "{} points of the hand or more, {:g} Hz",
+          study.device.min_contact_points, study.device.rate_hz);
   outline.hides_levels = study.blinding == Blinding::kDouble && !shows_levels;
   Outliner(study, outline).add(study.stages, 0);
   bool first = true;

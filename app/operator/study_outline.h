@@ -15,9 +15,10 @@ namespace jnd::app {
 /// A stage as its author reads it.
 struct OutlineStage {
   std::string title;
-  std::string kind;  ///< "Checklist", "Discrimination", "Order of" ...
-  int depth = 0;     ///< Within a counterbalance: 1, in an arm of it: 2, and so on.
-  std::string what;  ///< "7 items", "8 stimuli 5 times: 40 trials".
+  std::string kind;     ///< "Checklist", "Discrimination", "Order" ...
+  bool is_arm = false;  ///< No stage, but an arm of a counterbalance, whose stages follow.
+  int depth = 0;        ///< Within a counterbalance: 1, in an arm of it: 2, and so on.
+  std::string what;     ///< "7 items", "8 stimuli 5 times: 40 trials".
   std::vector<std::string> details;  ///< Stimuli with units, a line each.
   std::string only_for;              ///< "only where priming is primed"; "" for everyone.
   double duration_s = 0.0;           ///< Expected; of a counterbalance, for one participant.

@@ -1,10 +1,9 @@
 #include "app/operator/study_words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "app/language/words.h"
 #include "app/operator/session_words.h"
 #include "experiments/study/stage_walk.h"
 
@@ -24,7 +23,7 @@ const Stage* block_named(const Study& study, const std::string& name) {
 }  // namespace
 
 std::string name_words(std::string name, bool as_title) {
-  if (name.starts_with("num_")) name.replace(0, 4, "number of ");
+  if (name.starts_with("num_")) name = tr("number of {}", name.substr(4));
   std::replace(name.begin(), name.end(), '_', ' ');
   if (as_title && name.size() > 1 && name[0] >= 'a' && name[0] <= 'z') {
     name[0] = static_cast<char>(name[0] - 'a' + 'A');
@@ -51,7 +50,7 @@ std::vector<std::string> shown_titles(const std::vector<const Stage*>& stages,
   int num_blocks = 0;
   for (const Stage* stage : stages) {
     if (hides_levels && std::holds_alternative<Block>(stage->content)) {
-      titles.push_back(fmt::format("Block {}", ++num_blocks));
+      titles.push_back(tr("Block {}", ++num_blocks));
     } else {
       titles.push_back(title_of(*stage, language));
     }
@@ -78,12 +77,12 @@ std::string words_of(const MediumSetting& setting) {
 }
 
 std::string duration_words(double duration_s) {
-  if (!(duration_s >= 0.0) || duration_s > 1e9) return "unknown";
-  if (duration_s < 59.5) return fmt::format("{:.0f} s", duration_s);
+  if (!(duration_s >= 0.0) || duration_s > 1e9) return tr("unknown");
+  if (duration_s < 59.5) return tr("{:.0f} s", duration_s);
   const auto minutes = std::llround(duration_s / 60.0);
-  if (minutes < 60) return fmt::format("{} min", minutes);
-  return minutes % 60 == 0 ? fmt::format("{} h", minutes / 60)
-                           : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+  if (minutes < 60) return tr("{} min", minutes);
+  return minutes % 60 == 0 ? tr("{} h", minutes / 60)
+                           : tr("{} h {} min", minutes / 60, minutes % 60);
 }
 
 std::string cell_words(const Cell& cell) {
@@ -91,7 +90,8 @@ std::string cell_words(const Cell& cell) {
   for (const Assignment& assignment : cell) {
     if (!words.empty()) words += "; ";
     for (std::size_t i = 0; i < assignment.arms.size(); ++i) {
-      words += (i == 0 ? "" : ", then ") + name_words(assignment.arms[i], false);
+      const std::string arm = name_words(assignment.arms[i], false);
+      words += i == 0 ? arm : tr(", then {}", arm);
     }
   }
   return words;

@@ -102,6 +102,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "analysis/results",
       "analysis/export",
       "analysis/charts",
+      "app/language",
       "app/session",
       "app/results"}},
     {"app/gui", {"core", "device/exoskeleton", "app/operator"}},
