@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/gui/plot_drawing.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -60,27 +61,38 @@ void search_series(Search& search, const PlotSeries& series, const PlotModel& mo
   if (best == std::numeric_limits<std::size_t>::max()) return;
   const std::string& name = best < series.names.size() ? series.names[best] : series.name;
   const std::string& y_unit = model.y.unit.empty() ? model.unit : model.y.unit;
-  std::string values = with_unit(series.y[best], y_unit) + " at " +
-                       with_unit(series.x[best], model.x.unit + model.x.tick_suffix);
+  std::string values = tr("{} at {}", with_unit(series.y[best], y_unit),
+                          with_unit(series.x[best], model.x.unit + model.x.tick_suffix));
   if (best < series.low.size() && best < series.high.size() &&
       std::isfinite(series.low[best]) && std::isfinite(series.high[best])) {
-    values +=
-        "  (" + short_number(series.low[best]) + " to " + short_number(series.high[best]) + ")";
+    values += "  (" +
+              tr("{} to {}", short_number(series.low[best]), short_number(series.high[best])) +
+              ")";
   }
   search.nearest().words = described(name, values);
 }
 
 void search_box(Search& search, const PlotBox& box, const PlotModel& model) {
   const std::string& unit = model.y.unit.empty() ? model.unit : model.y.unit;
-  const auto look = [&](double value, const char* what) {
-    if (!search.is_nearer(box.x, value)) return;
-    search.nearest().words = described(box.name, what + with_unit(value, unit));
-  };
-  look(box.lower_whisker, "down to ");
-  look(box.lower_quartile, "lower quartile ");
-  look(box.median, "median ");
-  look(box.upper_quartile, "upper quartile ");
-  look(box.upper_whisker, "up to ");
+  if (search.is_nearer(box.x, box.lower_whisker)) {
+    search.nearest().words =
+        described(box.name, tr("down to {}", with_unit(box.lower_whisker, unit)));
+  }
+  if (search.is_nearer(box.x, box.lower_quartile)) {
+    search.nearest().words =
+        described(box.name, tr("lower quartile {}", with_unit(box.lower_quartile, unit)));
+  }
+  if (search.is_nearer(box.x, box.median)) {
+    search.nearest().words = described(box.name, tr("median {}", with_unit(box.median, unit)));
+  }
+  if (search.is_nearer(box.x, box.upper_quartile)) {
+    search.nearest().words =
+        described(box.name, tr("upper quartile {}", with_unit(box.upper_quartile, unit)));
+  }
+  if (search.is_nearer(box.x, box.upper_whisker)) {
+    search.nearest().words =
+        described(box.name, tr("up to {}", with_unit(box.upper_whisker, unit)));
+  }
   for (const PlotBox::Outlier& outlier : box.outliers) {
     if (!search.is_nearer(box.x, outlier.value)) continue;
     search.nearest().words = described(outlier.name, with_unit(outlier.value, unit));

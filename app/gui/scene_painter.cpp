@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/language/words.h"
 #include "core/error.h"
 
 namespace jnd::app::gui {
@@ -58,8 +59,8 @@ struct ScenePainter::Renderer {
     if (context.currentBuffer != mjFB_OFFSCREEN) {
       mjr_freeContext(&context);
       throw core::Error(
-          "3D view: expected OpenGL with framebuffer objects, found none; "
-          "install libgl1-mesa-dri or a graphics driver");
+          tr("3D view: expected OpenGL with framebuffer objects, found none; "
+             "install libgl1-mesa-dri or a graphics driver"));
     }
     glGenTextures(1, &texture);
     glGenFramebuffers(1, &target);

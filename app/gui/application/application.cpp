@@ -7,6 +7,7 @@
 
 #include "app/gui/views/keys_dialog.h"
 #include "app/gui/views/participant_view.h"
+#include "app/language/words.h"
 #include "core/clock.h"
 #include "core/error.h"
 
@@ -36,10 +37,10 @@ Application::Application(WindowRequest request, std::function<void()> wake)
 /// What the command line asks for.
 void Application::show_first() {
   if (request_.resume_session) {
-    attempt("The session cannot be resumed",
+    attempt(tr("The session cannot be resumed"),
             [this] { resume_session(request_.study_folder, *request_.resume_session); });
   } else if (!request_.study_folder.empty()) {
-    attempt("The study cannot be opened", [this] {
+    attempt(tr("The study cannot be opened"), [this] {
       if (!request_.study_file.empty() && !fs::exists(request_.study_folder / "study.sqlite")) {
         create_study_folder(request_.study_file, request_.study_folder);
       }
@@ -66,7 +67,7 @@ std::optional<fs::path> Application::take_picture_request() {
 void Application::picture_saved(const fs::path& file, const std::string& problem) {
   study_.set_outcome(
       {.ok = problem.empty(),
-       .sentence = problem.empty() ? "The picture is in " + file.string() : problem});
+       .sentence = problem.empty() ? tr("The picture is in {}", file.string()) : problem});
 }
 
 void Application::escape() noexcept {
@@ -94,7 +95,7 @@ void Application::mouse_pressed(float x, float y) noexcept {
 
 void Application::end_soon() {
   if (session_.is_live()) {
-    session_.leave_and_close("the program was told to end");
+    session_.leave_and_close(as_is("the program was told to end"));
   } else {
     closed_ = true;
   }
@@ -116,7 +117,7 @@ void Application::show(Screen& screen) {
 }
 
 void Application::go_to(StudyTab tab) {
-  attempt("The view cannot be opened", [&] {
+  attempt(tr("The view cannot be opened"), [&] {
     if (tab == StudyTab::kStart) show(start_);
     if (tab == StudyTab::kSessions) show(sessions_);
     if (tab == StudyTab::kResults) show(results_);
@@ -182,7 +183,7 @@ void Application::tell(const std::string& title, const std::string& sentence) {
 
 void Application::draw(Ui& ui) {
   if (study_.collect_work()) {
-    attempt("The study cannot be read", [this] { study_.reload(); });
+    attempt(tr("The study cannot be read"), [this] { study_.reload(); });
   }
   keep_stopped();
   session_.set_covered(shows_keys_ || !message_.empty());
@@ -209,7 +210,7 @@ void Application::draw_participant(Ui& ui) {
   if (session_.view() != nullptr) return draw_participant_view(ui, *session_.view());
   ui.text(
       ui.screen().middle(ui.screen().width * 0.8f, 60),
-      "What the participant is to see comes here with a session.",
+      tr("What the participant is to see comes here with a session."),
       {.font = Font::kLarge, .colour = Colour::kSoft, .align = Align::kCentre, .wrap = true});
 }
 
@@ -224,12 +225,14 @@ void Application::draw_corner(Ui& ui) {
     std::function<void()> act;
   };
   std::vector<Corner> corners = {
-      {"keys", "All keys", {Key::kF1}, [this] { shows_keys_ = true; }}};
+      {"keys", tr("All keys"), {Key::kF1}, [this] { shows_keys_ = true; }}};
   if (!shows(session_)) {
-    corners.push_back({"larger", "Larger", {Key::kPlus, true}, [&] { zoom_ *= kZoomStep; }});
-    corners.push_back({"dark", ui.theme().dark() ? "Light" : "Dark", {letter('D'), true}, [&] {
-                         ui.theme().set_dark(!ui.theme().dark());
-                       }});
+    corners.push_back(
+        {"larger", tr("Larger"), {Key::kPlus, true}, [&] { zoom_ *= kZoomStep; }});
+    corners.push_back(
+        {"dark", ui.theme().dark() ? tr("Light") : tr("Dark"), {letter('D'), true}, [&] {
+           ui.theme().set_dark(!ui.theme().dark());
+         }});
   }
   for (const Corner& corner : corners) {
     const ButtonStyle style{.tone = Tone::kQuiet, .key = corner.key};
@@ -260,8 +263,8 @@ void Application::draw_message(Ui& ui) {
   const ButtonStyle close{.tone = Tone::kPrimary, .key = {Key::kEnter}};
   Rect row = inside.take_bottom(44, 8);
   ui.text(inside, message_, style);
-  if (ui.button("message_close", row.take_right(ui.button_width("Close", close)), "Close",
-                close)) {
+  if (ui.button("message_close", row.take_right(ui.button_width(tr("Close"), close)),
+                tr("Close"), close)) {
     message_.clear();
   }
   ui.end_dialog();

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/language/words.h"
 #include "core/random_stream.h"
 #include "core/storage/study_store.h"
 
@@ -42,7 +43,7 @@ bool OpenStudy::collect_work() {
   } else {
     outcome_ = {.ok = false,
                 .sentence = work_->status() == WorkStatus::kCancelled
-                                ? work_name_ + ": cancelled"
+                                ? tr("{}: cancelled", work_name_)
                                 : work_->error()};
   }
   work_.reset();

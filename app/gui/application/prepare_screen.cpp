@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/language/words.h"
 #include "app/operator/study_words.h"
 #include "app/session/pseudonym.h"
 #include "device/haptic_device.h"
@@ -94,7 +95,7 @@ void PrepareScreen::draw(Ui& ui) {
   if (result.look_again) {
     look_before();
   } else if (result.fields_changed) {
-    host_.attempt("The order cannot be assigned", [this] {
+    host_.attempt(tr("The order cannot be assigned"), [this] {
       assign(core::StudyStore(study_.folder().folder, core::StudyStore::Mode::kReadOnly));
     });
   }
@@ -102,7 +103,7 @@ void PrepareScreen::draw(Ui& ui) {
   // The device is the session's, or nobody's.
   preflight_.reset();
   if (result.start) {
-    host_.attempt("The session cannot be started", [this] {
+    host_.attempt(tr("The session cannot be started"), [this] {
       host_.start_session({.participant = state_.participant,
                            .device = state_.device,
                            .seed = seed_,

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "app/language/words.h"
 #include "app/operator/export_actions.h"
 #include "app/operator/results_model.h"
 
@@ -43,17 +44,17 @@ void ResultsScreen::draw(Ui& ui) {
   const fs::path folder = study_.folder().folder;
   if (result.cancel) study_.cancel_work();
   if (result.export_tables) {
-    study_.begin_work("Exporting", [folder](WorkControl& control) {
+    study_.begin_work(tr("Exporting"), [folder](WorkControl& control) {
       return export_tables(folder, free_folder_beside(folder, "csv"), control);
     });
   } else if (result.write_report) {
-    study_.begin_work("Writing the report", [folder](WorkControl& control) {
+    study_.begin_work(tr("Writing the report"), [folder](WorkControl& control) {
       return write_report(folder, free_folder_beside(folder, "report"), control);
     });
   } else if (result.save_picture) {
     host_.save_picture(free_picture_beside(folder));
   } else if (result.unblind) {
-    const bool is_unblinded = host_.attempt("The study cannot be unblinded", [&] {
+    const bool is_unblinded = host_.attempt(tr("The study cannot be unblinded"), [&] {
       study_.set_outcome(unblind_study(folder, state_.reason));
     });
     if (is_unblinded) host_.go_to(StudyTab::kResults);

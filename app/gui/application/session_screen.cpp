@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "app/language/words.h"
 #include "app/operator/remembered_stop.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
@@ -62,7 +63,7 @@ void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t se
   std::unique_ptr<experiments::Laboratory> laboratory;
   if (!row.laboratory.empty()) {
     laboratory = std::make_unique<experiments::Laboratory>(experiments::parse_laboratory(
-        row.laboratory, store->folder().string() + ": laboratory"));
+        row.laboratory, store->folder().string() + as_is(": laboratory")));
   }
   check_.reset();
   backup_.reset();
@@ -132,7 +133,7 @@ void SessionScreen::update(Ui& ui) {
 
 void SessionScreen::draw(Ui& ui) {
   if (!view_) {
-    ui.text(ui.screen(), "Starting the device …",
+    ui.text(ui.screen(), tr("Starting the device …"),
             {.font = Font::kTitle, .colour = Colour::kSoft, .align = Align::kCentre});
     return;
   }
@@ -196,7 +197,7 @@ void SessionScreen::close_session() {
   finished_ = view_ && view_->step == Step::kFinished;
   if (closing_) host_.close();
   if (finished_) return;
-  if (!failure.empty()) host_.tell("The session stopped", failure);
+  if (!failure.empty()) host_.tell(tr("The session stopped"), failure);
   host_.go_to(StudyTab::kSessions);
   // Its folder may be gone with the disk that it was on.
   if (host_.shows(*this)) host_.go_to(StudyTab::kStart);
@@ -210,7 +211,7 @@ void SessionScreen::after_session() {
   }
   if (!finished_) return;
   if (check_ == nullptr) {
-    host_.attempt("The study cannot be read", [this] { study_.reload(); });
+    host_.attempt(tr("The study cannot be read"), [this] { study_.reload(); });
     const std::vector<fs::path>& backups = study_.folder().backups;
     after_.backup_folder = backups.empty() ? free_folder_beside(folder_, "backup").string()
                                            : backups.front().string();

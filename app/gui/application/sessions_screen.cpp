@@ -1,5 +1,6 @@
 #include "app/gui/application/sessions_screen.h"
 
+#include "app/language/words.h"
 #include "app/operator/export_actions.h"
 
 namespace jnd::app::gui {
@@ -20,15 +21,15 @@ void SessionsScreen::draw(Ui& ui) {
   const fs::path folder = study_.folder().folder;
   if (result.cancel) study_.cancel_work();
   if (result.new_session) {
-    host_.attempt("No session can be prepared", [this] { host_.prepare_session(); });
+    host_.attempt(tr("No session can be prepared"), [this] { host_.prepare_session(); });
   } else if (result.resume) {
-    host_.attempt("The session cannot be resumed",
+    host_.attempt(tr("The session cannot be resumed"),
                   [&] { host_.resume_session(folder, *result.resume); });
   } else if (result.verify) {
-    study_.begin_work("Verifying",
+    study_.begin_work(tr("Verifying"),
                       [folder](WorkControl& control) { return verify_study(folder, control); });
   } else if (result.back_up) {
-    study_.begin_work("Backing up",
+    study_.begin_work(tr("Backing up"),
                       [folder, target = fs::path(state_.backup_folder)](WorkControl& control) {
                         return back_up_study(folder, target, control);
                       });

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/results/report_words.h"
+#include "app/language/words.h"
 #include "app/operator/study_outline.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
@@ -50,11 +50,10 @@ StartModel::Study start_study(const fs::path& path) {
     } else {
       const StudyOutline outline = read_outline(path);
       if (!outline.title.empty()) study.title = outline.title;
-      study.summary =
-          outline.problems.empty()
-              ? "study file · no session yet"
-              : "draft · " + analysis::counted_words(std::ssize(outline.problems), "problem") +
-                    " in the study file";
+      study.summary = outline.problems.empty() ? std::string(tr("study file · no session yet"))
+                                               : trn("draft · {} problem in the study file",
+                                                     "draft · {} problems in the study file",
+                                                     std::ssize(outline.problems));
     }
   } catch (const std::exception& error) {
     study.summary = error.what();

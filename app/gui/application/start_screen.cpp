@@ -1,6 +1,7 @@
 #include "app/gui/application/start_screen.h"
 
 #include "app/gui/application/start_contents.h"
+#include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/session/shipped_files.h"
 #include "core/clock.h"
@@ -20,18 +21,18 @@ void StartScreen::draw(Ui& ui) {
   if (const StartModel* model = task_ ? task_->result() : nullptr) model_ = *model;
   const StartViewResult result = draw_start_view(ui, model_, entries_of, state_);
   if (result.resume) {
-    host_.attempt("The session cannot be resumed",
+    host_.attempt(tr("The session cannot be resumed"),
                   [&] { host_.resume_session(result.resume->folder, result.resume->session); });
   } else if (result.open) {
-    host_.attempt("The study cannot be opened", [&] { host_.open(*result.open); });
+    host_.attempt(tr("The study cannot be opened"), [&] { host_.open(*result.open); });
   } else if (result.create) {
-    host_.attempt("The study cannot be made", [&] {
+    host_.attempt(tr("The study cannot be made"), [&] {
       create_study_folder(user_or_shipped(result.create->study, "protocols"),
                           result.create->folder);
       host_.open(result.create->folder);
     });
   } else if (result.start_tour) {
-    host_.attempt("The tour cannot be started", [this] { start_tour(); });
+    host_.attempt(tr("The tour cannot be started"), [this] { start_tour(); });
   }
 }
 

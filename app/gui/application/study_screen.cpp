@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/language/words.h"
 #include "app/operator/study_outline.h"
 #include "core/error.h"
 
@@ -20,9 +21,10 @@ void StudyScreen::show() {
   if (watch_ == nullptr && study_.is_open()) {
     const fs::path file = study_.folder().study_file;
     if (file.empty() || !fs::exists(file)) {
-      throw core::Error(study_.folder().folder.string() +
-                        ": expected its study file, found that it is not where it was; open "
-                        "the file itself");
+      throw core::Error(
+          tr("{}: expected its study file, found that it is not where it was; open "
+             "the file itself",
+             study_.folder().folder.string()));
     }
     watch_ = std::make_unique<StudyWatch>(file, !study_.folder().hides_levels);
   }
@@ -38,7 +40,8 @@ void StudyScreen::show() {
       request.seed = seed_of(store);
     }
     orders_ = planned_orders(*watch_->study(), request);
-    if (orders_.empty()) orders_problem_ = "The study is double-blind: its orders are hidden.";
+    if (orders_.empty())
+      orders_problem_ = tr("The study is double-blind: its orders are hidden.");
   } catch (const core::Error& error) {
     orders_problem_ = error.what();
   }

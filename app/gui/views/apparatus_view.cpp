@@ -5,6 +5,7 @@
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -15,12 +16,10 @@ constexpr double kTurn_rad_per_press = 0.12;
 constexpr double kZoomStep = 1.12;
 
 std::string loop_words(const LoopView& loop) {
-  std::string words = formatted("%.0f Hz", loop.rate_hz) +
-                      formatted(" · latest %.0f µs", loop.max_lateness_us) +
-                      formatted(" · missed %.0f", static_cast<double>(loop.missed_ticks)) +
-                      formatted(" · lost %.0f", static_cast<double>(loop.num_dropped_samples));
+  std::string words = tr("{:.0f} Hz · latest {:.0f} µs · missed {} · lost {}", loop.rate_hz,
+                         loop.max_lateness_us, loop.missed_ticks, loop.num_dropped_samples);
   if (loop.num_limited_ticks > 0) {
-    words += formatted(" · limited %.0f", static_cast<double>(loop.num_limited_ticks));
+    words += tr(" · limited {}", loop.num_limited_ticks);
   }
   return words;
 }
@@ -32,7 +31,7 @@ void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
   const bool has_fault = !view.fault.empty();
   const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
   const std::string right =
-      view.step == Step::kFault ? "F4: where it is armed again" : loop_words(view.loop);
+      view.step == Step::kFault ? tr("F4: where it is armed again") : loop_words(view.loop);
   ui.text(inside.take_right(ui.text_width(right, Font::kSmall) + 2, 20), right,
           {.font = Font::kSmall, .colour = is_late ? Colour::kAmber : Colour::kSoft});
   const Colour red = Colour::kRed;
@@ -45,9 +44,10 @@ void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
 
 void draw_hidden_apparatus(Ui& ui, const Rect& place) {
   ui.card(place);
-  draw_notice(ui, place,
-              "This study is double-blind: forces, speeds, paths and the apparatus in motion "
-              "would tell the level, so none of them is shown. Everything is recorded.");
+  draw_notice(
+      ui, place,
+      tr("This study is double-blind: forces, speeds, paths and the apparatus in motion "
+         "would tell the level, so none of them is shown. Everything is recorded."));
 }
 
 /// What the colours and shapes mean, as many as have room.
@@ -61,15 +61,15 @@ void draw_legend(Ui& ui, Rect strip) {
     ui.text(strip.take_left(width - 22, 16), words,
             {.font = Font::kSmall, .colour = Colour::kSoft});
   };
-  const std::string force = formatted("force, 1 N is %.0f cm", 100.0 * kArrow_m_per_n);
+  const std::string force = tr("force, 1 N is {:.0f} cm", 100.0 * kArrow_m_per_n);
   entry(force, [&](float x) {
     ui.line(x - 7, middle, x + 3, middle, Colour::kAmber, 2.5f);
     ui.line(x + 6, middle, x, middle - 4, Colour::kAmber, 2.0f);
     ui.line(x + 6, middle, x, middle + 4, Colour::kAmber, 2.0f);
   });
-  entry("in the fluid", [&](float x) { ui.dot(x, middle, 6, Colour::kBlue); });
-  entry("outside", [&](float x) { ui.dot(x, middle, 4, Colour::kSoft); });
-  entry("came off", [&](float x) { ui.fill({x - 5, middle - 5, 10, 10}, Colour::kPilot); });
+  entry(tr("in the fluid"), [&](float x) { ui.dot(x, middle, 6, Colour::kBlue); });
+  entry(tr("outside"), [&](float x) { ui.dot(x, middle, 4, Colour::kSoft); });
+  entry(tr("came off"), [&](float x) { ui.fill({x - 5, middle - 5, 10, 10}, Colour::kPilot); });
 }
 
 void turn_by_keys(Ui& ui, SceneCamera& camera) {
@@ -88,25 +88,25 @@ void draw_camera_buttons(Ui& ui, Rect strip, ApparatusViewState& state, bool& ho
     char key;
     SceneCamera (*camera)() noexcept;
   };
-  constexpr View kViews[] = {{"camera_above", "Above", 'A', camera_from_above},
-                             {"camera_front", "Front", 'F', camera_from_front},
-                             {"camera_side", "Side", 'S', camera_from_side},
-                             {"camera_reset", "Reset", 'R', camera_at_first}};
+  constexpr View kViews[] = {{"camera_above", tr_later("Above"), 'A', camera_from_above},
+                             {"camera_front", tr_later("Front"), 'F', camera_from_front},
+                             {"camera_side", tr_later("Side"), 'S', camera_from_side},
+                             {"camera_reset", tr_later("Reset"), 'R', camera_at_first}};
   constexpr float kNarrow = 640;
   const Tone tone = strip.width < kNarrow ? Tone::kQuiet : Tone::kPlain;
   for (const View& view : kViews) {
     const ButtonStyle style{
         .tone = tone, .key = {letter(view.key)}, .selected = state.camera == view.camera()};
-    const Rect its = strip.take_left(ui.button_width(view.label, style), 8);
-    if (ui.button(view.name, its, view.label, style)) state.camera = view.camera();
+    const Rect its = strip.take_left(ui.button_width(tr(view.label), style), 8);
+    if (ui.button(view.name, its, tr(view.label), style)) state.camera = view.camera();
   }
   const ButtonStyle style{.key = {letter('H')}, .selected = state.held.has_value()};
-  const char* label = state.held ? "Go on" : "Hold";
+  const char* label = state.held ? tr("Go on") : tr("Hold");
   const Rect its = strip.take_right(ui.button_width(label, style), 16);
   hold = ui.button("hold", its, label, style);
-  constexpr std::string_view kHint = "Drag or arrow keys turn · wheel or + − zoom";
-  if (ui.text_width(kHint, Font::kSmall) > strip.width) return;
-  ui.text(strip, kHint, {.font = Font::kSmall, .colour = Colour::kSoft});
+  const char* hint = tr("Drag or arrow keys turn · wheel or + − zoom");
+  if (ui.text_width(hint, Font::kSmall) > strip.width) return;
+  ui.text(strip, hint, {.font = Font::kSmall, .colour = Colour::kSoft});
 }
 
 void draw_scene(Ui& ui, const Rect& place, const SessionView& view,
@@ -120,7 +120,7 @@ void draw_scene(Ui& ui, const Rect& place, const SessionView& view,
   if (drag.wheel != 0) state.camera.zoom(std::pow(kZoomStep, drag.wheel));
   if (!sources.paint) {
     draw_notice(ui, place,
-                sources.paint_problem.empty() ? "No picture can be drawn here."
+                sources.paint_problem.empty() ? tr("No picture can be drawn here.")
                                               : sources.paint_problem);
     return;
   }
@@ -131,7 +131,7 @@ void draw_scene(Ui& ui, const Rect& place, const SessionView& view,
                      .colours = scene_colours(ui.theme()),
                      .width_px = static_cast<int>(ui.px(inside.width)),
                      .height_px = static_cast<int>(ui.px(inside.height))});
-  ui.image(inside, texture, "picture of the apparatus");
+  ui.image(inside, texture, as_is("picture of the apparatus"));
 }
 
 /// Of the scopes, from what is held or goes on.

@@ -6,6 +6,7 @@
 
 #include "app/gui/views/run_parts.h"
 #include "app/gui/views/typed_number.h"
+#include "app/language/words.h"
 #include "app/operator/session_words.h"
 
 namespace jnd::app::gui {
@@ -20,32 +21,33 @@ bool is_typed(Kind kind) {
 std::string range_words(const ItemView& item) {
   std::string words;
   if (item.minimum && item.maximum) {
-    words = number_words(*item.minimum) + " to " + number_words(*item.maximum);
+    words = tr("{} to {}", number_words(*item.minimum), number_words(*item.maximum));
   } else if (item.minimum) {
-    words = "at least " + number_words(*item.minimum);
+    words = tr("at least {}", number_words(*item.minimum));
   } else if (item.maximum) {
-    words = "at most " + number_words(*item.maximum);
+    words = tr("at most {}", number_words(*item.maximum));
   }
-  return words + (item.unit.empty() ? "" : (words.empty() ? "in " : " ") + item.unit);
+  if (item.unit.empty()) return words;
+  return words.empty() ? tr("in {}", item.unit) : words + " " + item.unit;
 }
 
 /// Why what is typed is no answer; "" if it is one.
 std::string problem_with(const ItemView& item, const std::string& typed) {
-  if (typed.empty()) return "type an answer first";
+  if (typed.empty()) return tr("type an answer first");
   if (item.kind == Kind::kWords) {
     const auto commas = std::count(typed.begin(), typed.end(), ',');
     if (commas + 1 != item.num_words) {
-      return "expected " + std::to_string(item.num_words) + " words, separated by commas";
+      return tr("expected {} words, separated by commas", item.num_words);
     }
   }
   if (item.kind != Kind::kNumber) return "";
   const std::optional<double> value = typed_number(typed);
   if (!value) {
-    return "expected a number, with a point for decimals";
+    return tr("expected a number, with a point for decimals");
   }
   if ((item.minimum && !(*value >= *item.minimum)) ||
       (item.maximum && !(*value <= *item.maximum))) {
-    return "expected " + range_words(item);
+    return tr("expected {}", range_words(item));
   }
   return "";
 }
@@ -66,7 +68,7 @@ class ItemCard {
     switch (item_.kind) {
       case Kind::kTick:
         stack.add(72, 0, [this](const Rect& strip) {
-          draw_single(strip, "item_done", "Done", Key::kSpace, "done");
+          draw_single(strip, "item_done", tr("Done"), Key::kSpace, "done");
         });
         break;
       case Kind::kConsent:
@@ -98,7 +100,7 @@ class ItemCard {
     stack.add(40, 0, [this](const Rect& strip) {
       draw_button_row(
           ui_, strip,
-          {{"item_skip", "No answer", {.tone = Tone::kQuiet, .key = {Key::kF6}}, [this] {
+          {{"item_skip", tr("No answer"), {.tone = Tone::kQuiet, .key = {Key::kF6}}, [this] {
               give("no_answer");
             }}});
     });
@@ -123,11 +125,11 @@ class ItemCard {
   void draw_consent(const Rect& strip) {
     draw_button_row(ui_, strip,
                     {{"consent_given",
-                      "Consent is given",
+                      tr("Consent is given"),
                       {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                       [this] { give("given"); }},
                      {"consent_refused",
-                      "End without consent",
+                      tr("End without consent"),
                       {.key = {letter('E'), true}, .large = true},
                       [this] { open_dialog(state_, RunViewState::Dialog::kEndEarly); }}},
                     240);
@@ -136,7 +138,7 @@ class ItemCard {
   void draw_yes_no(const Rect& strip) {
     draw_button_row(ui_, strip,
                     {{"item_yes",
-                      "Yes",
+                      tr("Yes"),
                       {.tone = Tone::kPrimary, .key = {letter('Y')}, .large = true},
                       [this] {
                         if (item_.kind == Kind::kYesNo) return give("yes");
@@ -144,7 +146,7 @@ class ItemCard {
                         state_.item_is_new = true;
                       }},
                      {"item_no",
-                      "No",
+                      tr("No"),
                       {.tone = Tone::kPrimary, .key = {letter('N')}, .large = true},
                       [this] { give("no"); }}},
                     200);
@@ -154,21 +156,21 @@ class ItemCard {
     stack.add(52, 8, [this, width](const Rect& strip) {
       Rect row = strip.middle(std::min(width, 560.0f), 52);
       const ButtonStyle style{.tone = Tone::kPrimary, .key = {Key::kEnter}};
-      const Rect button = row.take_right(ui_.button_width("Store", style), 12);
-      const std::string hint = item_.kind == Kind::kWords        ? "word, word, word"
-                               : item_.kind == Kind::kYesNoWhich ? "which?"
+      const Rect button = row.take_right(ui_.button_width(tr("Store"), style), 12);
+      const std::string hint = item_.kind == Kind::kWords        ? tr("word, word, word")
+                               : item_.kind == Kind::kYesNoWhich ? tr("which?")
                                                                  : range_words(item_);
       const bool entered =
           ui_.text_field("item_text", row, state_.typed, hint, state_.item_is_new);
       // Below a dialog, also one that closes in this frame, it cannot get the keyboard yet.
       if (ui_.drawn().find("item_text")->enabled) state_.item_is_new = false;
-      if (!ui_.button("item_store", button, "Store", style) && !entered) return;
+      if (!ui_.button("item_store", button, tr("Store"), style) && !entered) return;
       state_.item_problem = problem_with(item_, state_.typed);
       if (!state_.item_problem.empty()) {
         state_.item_is_new = true;  // The field keeps the keyboard.
         return;
       }
-      give(item_.kind == Kind::kYesNoWhich ? "yes: " + state_.typed : state_.typed);
+      give(item_.kind == Kind::kYesNoWhich ? as_is("yes: ") + state_.typed : state_.typed);
     });
     const std::string below =
         state_.item_problem.empty() ? range_words(item_) : state_.item_problem;
@@ -233,7 +235,7 @@ void draw_consent_text(Ui& ui, const Rect& place, const ItemView& item, RunViewS
 /// What was answered in this questionnaire; a click asks it again.
 void draw_answered(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
   Rect area = place.middle(std::min(820.0f, place.width - 48), place.height);
-  ui.text(area.take_top(24), "Answered: choose one to change it",
+  ui.text(area.take_top(24), tr("Answered: choose one to change it"),
           {.font = Font::kSmall, .colour = Colour::kSoft});
   for (const ItemView& item : view.answered_items) {
     if (area.height < 32) break;
@@ -267,7 +269,7 @@ void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewS
     stack.add(72, 0, [&](const Rect& strip) {
       draw_button_row(ui, strip,
                       {{"finish_stage",
-                        "Go on",
+                        tr("Go on"),
                         {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                         [&] {
                           result.requests.emplace_back(operate::FinishStage{view.stage, ""});

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "app/language/words.h"
+
 namespace jnd::app::gui {
 namespace {
 
@@ -14,12 +16,12 @@ struct Line {
 };
 
 std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
-  std::vector<Line> lines = {{"Esc", "Emergency stop, from anywhere"},
-                             {"Ctrl +  Ctrl -", "Larger, smaller"},
-                             {"Ctrl D", "Dark or light"},
-                             {"F9", "The participant's screen"},
-                             {"F2", "Leave a dialog"},
-                             {"Ctrl Q", "Leave the program"}};
+  std::vector<Line> lines = {{"Esc", tr("Emergency stop, from anywhere")},
+                             {"Ctrl +  Ctrl -", tr("Larger, smaller")},
+                             {"Ctrl D", tr("Dark or light")},
+                             {"F9", tr("The participant's screen")},
+                             {"F2", tr("Leave a dialog")},
+                             {"Ctrl Q", tr("Leave the program")}};
   std::set<std::string> known = {"Esc", "F1", "Ctrl D", "Ctrl +"};
   // Line by line, from the left.
   std::ranges::stable_sort(widgets, {}, [](const Drawn::Widget& widget) {
@@ -45,7 +47,7 @@ bool draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
   const std::size_t used = (lines.size() + columns - 1) / columns;
   Rect inside = ui.begin_dialog("keys", 120 + 420 * static_cast<float>(columns),
                                 kAround + kLine * static_cast<float>(used));
-  ui.text(inside.take_top(34, 8), "All keys", {.font = Font::kLarge});
+  ui.text(inside.take_top(34, 8), tr("All keys"), {.font = Font::kLarge});
   const ButtonStyle close{.tone = Tone::kPrimary, .key = {Key::kF1}};
   Rect row = inside.take_bottom(44, 8);
   const float width = inside.width / static_cast<float>(columns);
@@ -56,9 +58,10 @@ bool draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
             {.font = Font::kMono, .colour = Colour::kSoft});
     ui.text(place, lines[i].what, {});
   }
-  const bool closed = ui.button("keys_close", row.take_right(ui.button_width("Close", close)),
-                                "Close", close) ||
-                      ui.pressed({Key::kF2});
+  const bool closed =
+      ui.button("keys_close", row.take_right(ui.button_width(tr("Close"), close)), tr("Close"),
+                close) ||
+      ui.pressed({Key::kF2});
   ui.end_dialog();
   return closed;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/language/words.h"
+
 namespace jnd::app::gui {
 
 Rect draw_card(Ui& ui, const Rect& place, std::string_view heading, std::string_view unit) {
@@ -60,10 +62,10 @@ DialogChoice draw_dialog_buttons(Ui& ui, Rect row, std::string_view verb, bool e
   const ButtonStyle primary{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = enabled};
   const ButtonStyle plain{.key = {Key::kF2}};
   const Rect verb_place = row.take_right(ui.button_width(verb, primary), 12);
-  const Rect cancel_place = row.take_right(ui.button_width("Cancel", plain), 12);
+  const Rect cancel_place = row.take_right(ui.button_width(tr("Cancel"), plain), 12);
   DialogChoice choice;
   choice.done = ui.button("dialog_do", verb_place, verb, primary) || (entered && enabled);
-  choice.cancelled = ui.button("dialog_cancel", cancel_place, "Cancel", plain);
+  choice.cancelled = ui.button("dialog_cancel", cancel_place, tr("Cancel"), plain);
   return choice;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/gui/plot.h"
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -73,13 +73,14 @@ void draw_path(Ui& ui, const Rect& place, const char* name,
 void draw_hidden_force(Ui& ui, const Rect& place) {
   ui.card(place);
   Rect inside = place.inset(18);
-  ui.heading(inside.take_top(16, 16), "Force on the hand");
-  ui.text(inside.take_top(30, 12), "within limits",
+  ui.heading(inside.take_top(16, 16), tr("Force on the hand"));
+  ui.text(inside.take_top(30, 12), tr("within limits"),
           {.font = Font::kLarge, .colour = Colour::kGreen});
-  ui.text(inside,
-          "This study is double-blind: force, speed and path would tell the level, so they are "
-          "not shown. Everything is recorded.",
-          {.colour = Colour::kSoft, .wrap = true});
+  ui.text(
+      inside,
+      tr("This study is double-blind: force, speed and path would tell the level, so they are "
+         "not shown. Everything is recorded."),
+      {.colour = Colour::kSoft, .wrap = true});
 }
 
 std::string path_words(const std::vector<TracePoint>& trace, const core::PlainVector& hand) {
@@ -89,10 +90,7 @@ std::string path_words(const std::vector<TracePoint>& trace, const core::PlainVe
     low = std::min(low, point.x_m);
     high = std::max(high, point.x_m);
   }
-  char text[96];
-  std::snprintf(text, sizeof text, "width %.2f m · height %.2f m",
-                trace.empty() ? 0.0 : high - low, hand[2]);
-  return text;
+  return tr("width {:.2f} m · height {:.2f} m", trace.empty() ? 0.0 : high - low, hand[2]);
 }
 
 }  // namespace
@@ -103,20 +101,20 @@ void draw_live_panel(Ui& ui, const Rect& place, const SessionView& view,
   constexpr float kGap = 16;
   Rect rest = place;
   const float plot_height = std::clamp((place.height - 2 * kGap) * 0.27f, 130.0f, 230.0f);
-  draw_over_time(ui, rest.take_top(plot_height, kGap), "Speed of the hand", "m/s", trace,
+  draw_over_time(ui, rest.take_top(plot_height, kGap), tr("Speed of the hand"), "m/s", trace,
                  &TracePoint::speed_m_per_s, 0.5, Colour::kBlue);
-  draw_over_time(ui, rest.take_top(plot_height, kGap), "Force on the hand", "N", trace,
+  draw_over_time(ui, rest.take_top(plot_height, kGap), tr("Force on the hand"), "N", trace,
                  &TracePoint::force_n, 5.0, Colour::kAmber);
   ui.card(rest);
   Rect inside = rest.inset(16);
-  ui.heading(inside.take_top(16, 10), "Path");
+  ui.heading(inside.take_top(16, 10), tr("Path"));
   const core::PlainVector& hand = view.telemetry.hand_position_m;
   ui.text(inside.take_bottom(22, 8), path_words(trace, hand),
           {.font = Font::kSmall, .colour = Colour::kSoft});
   const float each = (inside.height - 10) / 2;
   const Rect above = inside.take_top(each, 10);
-  draw_path(ui, above, "from above", trace, &TracePoint::y_m, hand, hand[1], 0.0);
-  draw_path(ui, inside, "from the side", trace, &TracePoint::z_m, hand, hand[2], -0.12);
+  draw_path(ui, above, tr("from above"), trace, &TracePoint::y_m, hand, hand[1], 0.0);
+  draw_path(ui, inside, tr("from the side"), trace, &TracePoint::z_m, hand, hand[2], -0.12);
 }
 
 }  // namespace jnd::app::gui

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 
@@ -48,11 +49,11 @@ void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
   ui.note_drawn("pad", place);
   if (!ui.hovered(place)) {
     ui.text({place.x, place.y + 12, place.width, 24},
-            "Move the mouse here, to and fro: the blue hand follows through the fluid.",
+            tr("Move the mouse here, to and fro: the blue hand follows through the fluid."),
             {.colour = Colour::kSoft, .align = Align::kCentre});
   } else if (place.height > 120) {
     ui.text({place.x, place.bottom() - 32, place.width, 20},
-            "The line is your pull on the hand: the thicker the fluid, the longer.",
+            tr("The line is your pull on the hand: the thicker the fluid, the longer."),
             {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kCentre});
   }
 }

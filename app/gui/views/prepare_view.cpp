@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/gui/views/layout.h"
+#include "app/language/words.h"
 #include "app/operator/study_words.h"
 #include "app/session/pseudonym.h"
 
@@ -13,14 +14,14 @@ using Status = PreflightLine::Status;
 
 /// Why nobody can take part under this name; "" if somebody can.
 std::string participant_problem(const PrepareModel& model, const std::string& participant) {
-  if (participant.empty()) return "Choose a participant.";
+  if (participant.empty()) return tr("Choose a participant.");
   if (!is_pseudonym(participant)) {
     std::string words = pseudonym_words() + ".";
     words.front() = 'A';
     return words;
   }
   if (std::find(model.taken.begin(), model.taken.end(), participant) != model.taken.end()) {
-    return participant + " has taken part already.";
+    return tr("{} has taken part already.", participant);
   }
   return "";
 }
@@ -31,65 +32,67 @@ std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
   if (!participant.empty()) return participant;
   for (const experiments::ParticipantField& field : model.fields) {
     if (!state.fields.contains(field.name)) {
-      return "Choose first: " + in_language(field.question, model.languages.front());
+      return tr("Choose first: {}", in_language(field.question, model.languages.front()));
     }
   }
   std::string failed;
   for (const PreflightLine& line : model.lines) {
     if (line.status == Status::kFailed) failed += (failed.empty() ? "" : ", ") + line.name;
   }
-  if (!failed.empty()) return "To be mended first: " + failed + ".";
+  if (!failed.empty()) return tr("To be mended first: {}.", failed);
   const bool waits = std::any_of(model.lines.begin(), model.lines.end(), [](const auto& line) {
     return line.status == Status::kWaiting;
   });
-  return model.looking || waits || model.lines.empty() ? "Still looking at the machine." : "";
+  return model.looking || waits || model.lines.empty() ? tr("Still looking at the machine.")
+                                                       : "";
 }
 
 void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
                       bool& entered) {
-  ui.heading(inside.take_top(18, 6), "Participant");
+  ui.heading(inside.take_top(18, 6), tr("Participant"));
   entered =
-      ui.text_field("participant", inside.take_top(46, 6), state.participant, "pseudonym");
+      ui.text_field("participant", inside.take_top(46, 6), state.participant, tr("pseudonym"));
   const std::string problem = participant_problem(model, state.participant);
   const std::string like = lookalike(state.participant, model.taken);
   std::string words = problem;
   Colour colour = Colour::kRed;
   if (problem.empty() && !like.empty()) {
-    words = "Another person than " + like + ", who has taken part?";
+    words = tr("Another person than {}, who has taken part?", like);
     colour = Colour::kPilot;
   } else if (problem.empty()) {
     colour = Colour::kSoft;
-    words = model.study.hides_levels                    ? "Order assigned, but hidden."
-            : state.fields.size() < model.fields.size() ? "Order: as chosen below."
-            : model.assigned.empty()                    ? "The same order for everyone."
-                                                        : "Order: " + model.assigned + ".";
+    words = model.study.hides_levels ? std::string(tr("Order assigned, but hidden."))
+            : state.fields.size() < model.fields.size() ? tr("Order: as chosen below.")
+            : model.assigned.empty()                    ? tr("The same order for everyone.")
+                                                        : tr("Order: {}.", model.assigned);
   }
   ui.text(inside.take_top(38, 6), words,
           {.font = Font::kSmall, .colour = colour, .wrap = true});
 }
 
 void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {
-  ui.heading(inside.take_top(18, 6), "Kind of session");
+  ui.heading(inside.take_top(18, 6), tr("Kind of session"));
   Rect line = inside.take_top(46, 6);
   const float half = std::min(220.0f, (line.width - 12) / 2);
-  if (ui.button("real_session", line.take_left(half, 12), "Real",
+  if (ui.button("real_session", line.take_left(half, 12), tr("Real"),
                 {.key = {letter('R')}, .selected = !state.pilot})) {
     state.pilot = false;
   }
-  if (ui.button("pilot_session", line.take_left(half), "Pilot",
+  if (ui.button("pilot_session", line.take_left(half), tr("Pilot"),
                 {.key = {letter('P')}, .selected = state.pilot})) {
     state.pilot = true;
   }
-  ui.text(inside.take_top(38, 6),
-          state.pilot ? "Marked for good, left out of results." : "Its answers are data.",
-          {.font = Font::kSmall,
-           .colour = state.pilot ? Colour::kPilot : Colour::kSoft,
-           .wrap = true});
+  ui.text(
+      inside.take_top(38, 6),
+      state.pilot ? tr("Marked for good, left out of results.") : tr("Its answers are data."),
+      {.font = Font::kSmall,
+       .colour = state.pilot ? Colour::kPilot : Colour::kSoft,
+       .wrap = true});
 }
 
 void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
                   PrepareViewResult& result) {
-  ui.heading(inside.take_top(18, 6), "Device");
+  ui.heading(inside.take_top(18, 6), tr("Device"));
   constexpr float kRow = 54;
   for (std::size_t i = 0; i < model.devices.size(); ++i) {
     const PrepareModel::Device& device = model.devices[i];
@@ -108,7 +111,7 @@ void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSt
       const Rect cap = words.take_right(ui.key_cap_width(key), 12);
       ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
     }
-    ui.text(words.take_top(22), device.name + (device.simulated ? " · simulated" : ""),
+    ui.text(words.take_top(22), device.name + (device.simulated ? tr(" · simulated") : ""),
             {.font = Font::kStrong, .colour = selected ? Colour::kBlue : Colour::kInk});
     ui.text(words, device.description, {.font = Font::kSmall, .colour = Colour::kSoft});
   }
@@ -117,7 +120,7 @@ void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSt
 
 /// Languages side by side; the key goes to the next one.
 void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state) {
-  ui.heading(inside.take_top(18, 6), "Language of the participant");
+  ui.heading(inside.take_top(18, 6), tr("Language of the participant"));
   Rect line = inside.take_top(42, 20);
   const auto now = std::find(model.languages.begin(), model.languages.end(), state.language);
   const auto current = static_cast<std::size_t>(now - model.languages.begin());
@@ -171,10 +174,10 @@ void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSta
 }
 
 void draw_seed(Ui& ui, Rect place, const PrepareModel& model) {
-  ui.heading(place.take_top(18, 6), "Seed of every order");
+  ui.heading(place.take_top(18, 6), tr("Seed of every order"));
   // Whoever knows the seed can draw the orders elsewhere.
   const bool hidden = model.study.hides_levels;
-  ui.text(place.take_top(42), hidden ? "drawn, but hidden" : std::to_string(model.seed),
+  ui.text(place.take_top(42), hidden ? tr("drawn, but hidden") : std::to_string(model.seed),
           {.font = hidden ? Font::kBody : Font::kMono, .colour = Colour::kSoft});
 }
 
@@ -199,7 +202,7 @@ void draw_line(Ui& ui, Rect& inside, const PreflightLine& line, bool is_next) {
   Rect first = words.take_top(40);
   const float name = std::min(ui.text_width(line.name, Font::kBody) + 2, first.width / 2);
   ui.text(first.take_left(name, 16), line.name, {});
-  const std::string waiting = is_next ? "looking …" : "";
+  const std::string waiting = is_next ? tr("looking …") : "";
   ui.text(first, line.status == Status::kWaiting ? waiting : line.found, found);
   if (!line.remedy.empty()) ui.text(words, line.remedy, remedy);
   ui.line(whole.x, whole.bottom(), whole.right(), whole.bottom(), Colour::kLine);
@@ -207,12 +210,12 @@ void draw_line(Ui& ui, Rect& inside, const PreflightLine& line, bool is_next) {
 
 void draw_lines(Ui& ui, const Rect& place, const PrepareModel& model, PrepareViewState& state,
                 PrepareViewResult& result) {
-  Rect inside = draw_card(ui, place, "Is everything ready?");
+  Rect inside = draw_card(ui, place, tr("Is everything ready?"));
   Rect bottom = inside.take_bottom(46, 12);
   const ButtonStyle style{.key = {.key = letter('L'), .control = true},
                           .enabled = !model.looking};
-  if (ui.button("look_again", bottom.take_right(ui.button_width("Look again", style), 20),
-                "Look again", style)) {
+  if (ui.button("look_again", bottom.take_right(ui.button_width(tr("Look again"), style), 20),
+                tr("Look again"), style)) {
     result.look_again = true;
   }
   if (model.looking) ui.progress(bottom.middle(bottom.width, 8), model.progress);
@@ -244,7 +247,7 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   bool entered = false;
   inside = ui.begin_scroll("session", inside, state.session_height);
   const float top = inside.y;
-  ui.text(inside.take_top(40, 14), "Prepare a session", {.font = Font::kTitle});
+  ui.text(inside.take_top(40, 14), tr("Prepare a session"), {.font = Font::kTitle});
   Rect pair = inside.take_top(116);
   Rect who = pair.take_left((pair.width - 24) * 0.44f, 24);
   draw_participant(ui, who, model, state, entered);
@@ -263,19 +266,19 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   const std::string why_not = obstacle(model, state);
   const ButtonStyle start{
       .tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = why_not.empty(), .large = true};
-  const float width = std::max(320.0f, ui.button_width("Start session", start));
+  const float width = std::max(320.0f, ui.button_width(tr("Start session"), start));
   const Rect button = bar.take_right(width, 20);
-  if (ui.button("start_session", button, "Start session", start) ||
+  if (ui.button("start_session", button, tr("Start session"), start) ||
       (entered && why_not.empty())) {
     result.start = true;
   }
   bar.take_left(4);
   ui.text(bar,
           !why_not.empty() ? why_not
-                           : state.participant + (state.pilot ? ", pilot" : "") + ", with " +
-                                 state.device + ".",
+          : state.pilot    ? tr("{}, pilot, with {}.", state.participant, state.device)
+                           : tr("{}, with {}.", state.participant, state.device),
           {.font = Font::kLarge, .colour = why_not.empty() ? Colour::kInk : Colour::kSoft});
-  draw_study_footer(ui, footer, "Nothing is stored before the session starts.", "");
+  draw_study_footer(ui, footer, tr("Nothing is stored before the session starts."), "");
   return result;
 }
 

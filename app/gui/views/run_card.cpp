@@ -5,6 +5,7 @@
 
 #include "app/gui/hand_sign.h"
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -34,20 +35,20 @@ void draw_begin(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
     stack.add(kLargeButton, 0, [&](const Rect& strip) {
       draw_button_row(ui, strip,
                       {{"begin",
-                        "Begin the session",
+                        tr("Begin the session"),
                         {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                         [&] { begin("repeat"); }}},
                       300);
     });
   } else {
-    stack.add_text(std::to_string(view.trials_on_disk) +
-                       " answers are safe on disk. Nothing that was answered is asked again, "
-                       "unless you restart the block.",
+    stack.add_text(tr("{} answers are safe on disk. Nothing that was answered is asked again, "
+                      "unless you restart the block.",
+                      view.trials_on_disk),
                    Font::kBody, Colour::kSoft, std::min(640.0f, place.width - 48), 24);
     stack.add(kLargeButton, 16, [&](const Rect& strip) {
       draw_button_row(ui, strip,
                       {{"resume_repeat",
-                        "Repeat the interrupted trial",
+                        tr("Repeat the interrupted trial"),
                         {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                         [&] { begin("repeat"); }}},
                       360);
@@ -56,10 +57,10 @@ void draw_begin(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
       draw_button_row(
           ui, strip,
           {{"resume_restart",
-            "Restart the block",
+            tr("Restart the block"),
             {.key = {letter('B')}},
             [&] { begin("restart"); }},
-           {"resume_end", "End the session here", {.key = {letter('E'), true}}, [&] {
+           {"resume_end", tr("End the session here"), {.key = {letter('E'), true}}, [&] {
               begin("end");
             }}});
     });
@@ -94,7 +95,7 @@ void draw_medium(Ui& ui, const Rect& place, const SessionView& view,
     const bool over = feeling && view.medium && view.medium->felt_s >= view.medium->duration_s;
     draw_button_row(ui, strip,
                     {{feeling ? "finish_medium" : "feel_medium",
-                      feeling ? "Go on" : "Present it",
+                      feeling ? tr("Go on") : tr("Present it"),
                       {.tone = !feeling || over ? Tone::kPrimary : Tone::kPlain,
                        .key = {Key::kSpace},
                        .large = true},
@@ -127,7 +128,7 @@ void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState
     draw_button_row(
         ui, strip,
         {{"finish_break",
-          over ? "Go on" : "Go on early",
+          over ? tr("Go on") : tr("Go on early"),
           {.tone = over ? Tone::kPrimary : Tone::kPlain, .key = {Key::kEnter}, .large = true},
           [&] {
             if (over) {
@@ -160,10 +161,10 @@ void draw_simple(Ui& ui, const Rect& place, const SessionView& view, const RowBu
 RowButton arming_button(const SessionView& view, RunViewResult& result) {
   const ButtonStyle style{.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true};
   if (view.stop_pressed) {
-    return {"release_stop", "Release the stop", style,
+    return {"release_stop", tr("Release the stop"), style,
             [&] { result.requests.emplace_back(operate::ReleaseStop{view.num_stop_presses}); }};
   }
-  return {"rearm", view.is_disarmed ? "Arm the device" : "Arm again", style,
+  return {"rearm", view.is_disarmed ? tr("Arm the device") : tr("Arm again"), style,
           [&] { result.requests.emplace_back(operate::Rearm{}); }};
 }
 
@@ -173,8 +174,8 @@ void draw_disarmed(Ui& ui, const Rect& place, const SessionView& view, RunViewRe
   Stack stack(ui);
   const bool roomy = place.height > 420;
   const float width = std::min(720.0f, place.width - 48);
-  stack.add_text("Disarmed", roomy ? Font::kHuge : Font::kTitle, Colour::kInk, place.width - 48,
-                 16);
+  stack.add_text(tr("Disarmed"), roomy ? Font::kHuge : Font::kTitle, Colour::kInk,
+                 place.width - 48, 16);
   stack.add_text(view.sentence, Font::kLarge, Colour::kInk, width, 24);
   stack.add(kLargeButton, 0, [&](const Rect& strip) {
     draw_button_row(ui, strip, {arming_button(view, result)}, 360);
@@ -191,12 +192,13 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
   stack.add_text(view.heading, roomy ? Font::kHuge : Font::kTitle, Colour::kRed,
                  inside.width - 48, 16);
   const float width = std::min(720.0f, inside.width - 48);
-  stack.add_text("The force is off and stays off.", roomy ? Font::kTitle : Font::kLarge,
+  stack.add_text(tr("The force is off and stays off."), roomy ? Font::kTitle : Font::kLarge,
                  Colour::kInk, width, 12);
   stack.add_text(view.sentence, Font::kLarge, Colour::kInk, width, 12);
-  stack.add_text("Every answer up to trial " + std::to_string(view.trials_on_disk) +
-                     " is on disk. The trial under way will be run again.",
-                 Font::kBody, Colour::kSoft, width, 24);
+  stack.add_text(
+      tr("Every answer up to trial {} is on disk. The trial under way will be run again.",
+         view.trials_on_disk),
+      Font::kBody, Colour::kSoft, width, 24);
   stack.add(kLargeButton, 0, [&](const Rect& strip) {
     draw_button_row(ui, strip, {arming_button(view, result)}, 360);
   });
@@ -216,7 +218,7 @@ void draw_points(Ui& ui, Rect& card, const SessionView& view, RunViewState& stat
   strip = strip.middle(strip.width - 32, 44);
   if (is_loose) {
     const ButtonStyle style{.key = {letter('G'), true}};
-    const char* label = "Go on without it";
+    const char* label = tr("Go on without it");
     const Rect button = strip.take_right(ui.button_width(label, style), 12);
     if (ui.button("go_on_without", button, label, style)) {
       open_dialog(state, RunViewState::Dialog::kGoOnWithout);
@@ -224,8 +226,8 @@ void draw_points(Ui& ui, Rect& card, const SessionView& view, RunViewState& stat
     }
   }
   ui.text(strip,
-          is_loose ? "Came off: " + view.loose_points + "."
-                   : "Not on the hand: " + view.absent_points + ".",
+          is_loose ? tr("Came off: {}.", view.loose_points)
+                   : tr("Not on the hand: {}.", view.absent_points),
           {.colour = Colour::kAmber, .align = Align::kCentre});
 }
 
@@ -239,7 +241,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
   if (!view.refusal.empty()) {
     Rect strip = inside.take_bottom(40);
     ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
-            "Not done: " + view.refusal + ".",
+            tr("Not done: {}.", view.refusal),
             {.colour = Colour::kAmber, .align = Align::kCentre});
   }
   const bool may_rest = view.step == Step::kReady || view.step == Step::kRest ||
@@ -247,13 +249,13 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
   if (!view.advice.empty() && may_rest) {
     Rect strip = inside.take_bottom(40);
     ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
-            "The study's limit is passed: " + view.advice + ".",
+            tr("The study's limit is passed: {}.", view.advice),
             {.colour = Colour::kAmber, .align = Align::kCentre});
   }
   if (!view.caution.empty() && view.step == Step::kStageDone) {
     const TextStyle amber{
         .font = Font::kSmall, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};
-    const std::string words = "Caution: " + view.caution + ".";
+    const std::string words = tr("Caution: {}.", view.caution);
     const float height = ui.text_height(inside.width - 32, words, amber) + 16;
     ui.text(inside.take_bottom(height).inset(8), words, amber);
   }
@@ -289,7 +291,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
       }
       return draw_simple(ui, inside, view,
                          {"finish_stage",
-                          "Go on",
+                          tr("Go on"),
                           {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                           [&] {
                             result.requests.emplace_back(operate::FinishStage{view.stage, ""});
@@ -297,7 +299,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
     case Step::kPaused:
       return draw_simple(ui, inside, view,
                          {"go_on",
-                          "Go on",
+                          tr("Go on"),
                           {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                           [&] { result.requests.emplace_back(operate::GoOn{}); }});
     case Step::kFault:
@@ -306,7 +308,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
       ui.outline(place, Colour::kRed, 10, 3);
       return draw_simple(ui, inside, view,
                          {"leave_failed",
-                          "Leave the session",
+                          tr("Leave the session"),
                           {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                           [&] {
                             result.requests.emplace_back(operate::Leave{});
@@ -321,10 +323,9 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
                      RunViewState& /*state*/, RunViewResult& result) {
   Stack stack(ui);
   const float width = std::min(640.0f, place.width - 48);
-  stack.add_text("Session finished", Font::kTitle, Colour::kInk, width, 8);
-  stack.add_text(
-      std::to_string(view.trials_on_disk) + " answers of " + view.participant + " are on disk.",
-      Font::kLarge, Colour::kInk, width, 22);
+  stack.add_text(tr("Session finished"), Font::kTitle, Colour::kInk, width, 8);
+  stack.add_text(tr("{} answers of {} are on disk.", view.trials_on_disk, view.participant),
+                 Font::kLarge, Colour::kInk, width, 22);
   const auto outcome = [&](const char* what, bool running, const std::string& sentence,
                            bool failed, bool has_caution) {
     const std::string words = sentence.empty() || running ? what : sentence;
@@ -348,27 +349,27 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
                 }
               });
   };
-  outcome("Checking that everything is on disk …", after.checking, after.check,
+  outcome(tr("Checking that everything is on disk …"), after.checking, after.check,
           after.check_failed, false);
-  outcome(after.backing_up ? "Copying …" : "Not backed up yet.", after.backing_up, after.backup,
-          after.backup_failed, after.backup_has_caution);
+  outcome(after.backing_up ? tr("Copying …") : tr("Not backed up yet."), after.backing_up,
+          after.backup, after.backup_failed, after.backup_has_caution);
   stack.add(46, 26, [&](const Rect& strip) {
     Rect line = strip.middle(width, 46);
     const ButtonStyle style{.key = {letter('B'), true},
                             .enabled = !after.backing_up && !after.backup_folder.empty()};
-    const Rect button = line.take_right(ui.button_width("Back up", style), 12);
-    (void)ui.text_field("backup_folder", line, after.backup_folder, "folder for the copy");
-    if (ui.button("back_up", button, "Back up", style)) result.back_up = true;
+    const Rect button = line.take_right(ui.button_width(tr("Back up"), style), 12);
+    (void)ui.text_field("backup_folder", line, after.backup_folder, tr("folder for the copy"));
+    if (ui.button("back_up", button, tr("Back up"), style)) result.back_up = true;
   });
   stack.add(72, 0, [&](const Rect& strip) {
     draw_button_row(
         ui, strip,
         {{"to_sessions",
-          view.is_alone ? "Back to the study" : "Next participant",
+          view.is_alone ? tr("Back to the study") : tr("Next participant"),
           {.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true},
           [&] { result.to_sessions = true; }},
          {"to_results",
-          "See the results",
+          tr("See the results"),
           {.key = {letter('R'), true}, .enabled = !view.hides_levels, .large = true},
           [&] { result.to_results = true; }}},
         240);

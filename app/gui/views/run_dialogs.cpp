@@ -5,6 +5,7 @@
 
 #include "app/gui/views/run_parts.h"
 #include "app/gui/views/typed_number.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -23,54 +24,62 @@ struct DialogWords {
 DialogWords words_of(Dialog dialog) {
   switch (dialog) {
     case Dialog::kUndo:
-      return {"Undo the last answer",
-              "The answer stays in the log as undone, and its trial is run again.", "reason",
-              "Undo", true};
+      return {tr("Undo the last answer"),
+              tr("The answer stays in the log as undone, and its trial is run again."),
+              tr("reason"), tr("Undo"), true};
     case Dialog::kCorrect:
-      return {"Set an answer right",
-              "The old answer stays in the log; what was felt is not touched.", "reason",
-              "Correct", true};
+      return {tr("Set an answer right"),
+              tr("The old answer stays in the log; what was felt is not touched."),
+              tr("reason"), tr("Correct"), true};
     case Dialog::kNote:
-      return {"Write a note",
-              "It is stored with the time, now. An adverse event, such as pain or a fright, is "
-              "kept for good, also if the person withdraws.",
-              "note", "Store", true};
+      return {
+          tr("Write a note"),
+          tr("It is stored with the time, now. An adverse event, such as pain or a fright, is "
+             "kept for good, also if the person withdraws."),
+          tr("note"), tr("Store"), true};
     case Dialog::kPause:
-      return {"Pause the session",
-              "The hand goes to free space; a trial under way is run again afterwards.",
-              "reason (may be left out)", "Pause", false};
+      return {tr("Pause the session"),
+              tr("The hand goes to free space; a trial under way is run again afterwards."),
+              tr("reason (may be left out)"), tr("Pause"), false};
     case Dialog::kEndEarly:
-      return {"End the session for good",
-              "What was answered is kept; the session cannot be resumed.", "reason", "End",
-              true};
+      return {tr("End the session for good"),
+              tr("What was answered is kept; the session cannot be resumed."), tr("reason"),
+              tr("End"), true};
     case Dialog::kLeave:
-      return {"Leave the session",
-              "Every answer is on disk. The session stays open and can be resumed.",
-              "reason (may be left out)", "Leave", false};
+      return {tr("Leave the session"),
+              tr("Every answer is on disk. The session stays open and can be resumed."),
+              tr("reason (may be left out)"), tr("Leave"), false};
     case Dialog::kGoOnEarly:
-      return {"Go on before the rest is over", "The reason is stored as a note.", "reason",
-              "Go on", true};
+      return {tr("Go on before the rest is over"), tr("The reason is stored as a note."),
+              tr("reason"), tr("Go on"), true};
     case Dialog::kGoOnWithout:
-      return {"Go on without what came off",
-              "Nobody waits for it any more until it holds again; the reason is stored as a "
-              "note.",
-              "reason", "Go on without it", true};
+      return {tr("Go on without what came off"),
+              tr("Nobody waits for it any more until it holds again; the reason is stored as a "
+                 "note."),
+              tr("reason"), tr("Go on without it"), true};
     case Dialog::kNone:
       break;
   }
   return {"", "", "", "", false};
 }
 
+/// An answer in English, or in the language of the window.
+bool is_typed(const RunViewState& state, std::string_view english, std::string_view spoken) {
+  return state.correct_value == english || state.correct_value == spoken;
+}
+
 /// The new value of an answer that is set right; NaN while there is none.
 double corrected_value(const RunViewState& state) {
   if (state.correct_value.empty()) return std::nan("");
   if (state.correct_kind == AnswerKind::kYesNo) {
-    if (state.correct_value == "yes") return 1.0;
-    return state.correct_value == "no" ? 0.0 : std::nan("");
+    if (is_typed(state, "yes", tr("yes"))) return 1.0;
+    return is_typed(state, "no", tr("no")) ? 0.0 : std::nan("");
   }
   if (state.correct_kind == AnswerKind::kInterval) {
-    if (state.correct_value == "first" || state.correct_value == "1") return 1.0;
-    return state.correct_value == "second" || state.correct_value == "2" ? 2.0 : std::nan("");
+    if (state.correct_value == "1" || is_typed(state, "first", tr("first"))) return 1.0;
+    const bool is_second =
+        state.correct_value == "2" || is_typed(state, "second", tr("second"));
+    return is_second ? 2.0 : std::nan("");
   }
   const std::optional<double> value = typed_number(state.correct_value);
   const bool is_answer =
@@ -124,11 +133,12 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
           words.explanation, soft);
   bool entered = false;
   if (corrects) {
-    const char* hint = state.correct_kind == AnswerKind::kYesNo      ? "yes or no"
-                       : state.correct_kind == AnswerKind::kInterval ? "first or second"
-                       : state.correct_kind == AnswerKind::kPercent  ? "percent"
-                       : state.correct_kind == AnswerKind::kNumber   ? "number"
-                                                                     : "intensity";
+    const char* hint = state.correct_kind == AnswerKind::kYesNo      ? tr("yes or no")
+                       : state.correct_kind == AnswerKind::kInterval ? tr("first or second")
+                       : state.correct_kind == AnswerKind::kPercent  ? tr("percent")
+
+                       : state.correct_kind == AnswerKind::kNumber ? tr("number")
+                                                                   : tr("intensity");
     entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
                              hint, state.dialog_is_new);
     entered |= ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint);
@@ -142,15 +152,16 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   const ButtonStyle verb{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = ready};
   const ButtonStyle cancel{.key = {Key::kF2}};
   const Rect verb_place = row.take_right(ui.button_width(words.verb, verb), 12);
-  const Rect cancel_place = row.take_right(ui.button_width("Cancel", cancel), 12);
+  const Rect cancel_place = row.take_right(ui.button_width(tr("Cancel"), cancel), 12);
   const bool done = ui.button("dialog_do", verb_place, words.verb, verb) || (entered && ready);
-  const bool cancelled = ui.button("dialog_cancel", cancel_place, "Cancel", cancel);
+  const bool cancelled = ui.button("dialog_cancel", cancel_place, tr("Cancel"), cancel);
   bool adverse = false;
   if (state.dialog == Dialog::kNote) {
-    constexpr const char* kAdverse = "Store as adverse event";
+    const char* words_of_adverse = tr("Store as adverse event");
     const ButtonStyle style{.enabled = ready};
-    adverse = ui.button("dialog_adverse_event", row.take_left(ui.button_width(kAdverse, style)),
-                        kAdverse, style);
+    adverse = ui.button("dialog_adverse_event",
+                        row.take_left(ui.button_width(words_of_adverse, style)),
+                        words_of_adverse, style);
   }
   ui.end_dialog();
   if (adverse) result.requests.emplace_back(operate::ReportAdverseEvent{state.reason});

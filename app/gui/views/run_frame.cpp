@@ -5,13 +5,14 @@
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
 
 /// It does not wait for the mouse to be released.
 constexpr ButtonStyle kStop{.tone = Tone::kDanger, .key = {Key::kEscape}, .at_once = true};
-constexpr const char* kStopLabel = "Emergency stop";
+constexpr const char* kStopLabel = tr_later("Emergency stop");
 constexpr float kStopMargin = 20;
 
 struct Chip {
@@ -22,11 +23,12 @@ struct Chip {
 /// What a session is, the most important first.
 std::vector<Chip> chips_of(const SessionView& view) {
   std::vector<Chip> chips = {{view.participant, Colour::kBlue}};
-  if (view.pilot) chips.push_back({"pilot: not data", Colour::kPilot});
+  if (view.pilot) chips.push_back({tr("pilot: not data"), Colour::kPilot});
   if (view.blinding != experiments::Blinding::kNone) {
-    chips.push_back({view.hides_levels ? "levels hidden" : "levels shown", Colour::kBlue});
+    chips.push_back(
+        {view.hides_levels ? tr("levels hidden") : tr("levels shown"), Colour::kBlue});
   }
-  if (view.simulated) chips.push_back({"simulated hand", Colour::kAmber});
+  if (view.simulated) chips.push_back({tr("simulated hand"), Colour::kAmber});
   return chips;
 }
 
@@ -52,24 +54,36 @@ void draw_title(Ui& ui, const Rect& strip, const SessionView& view) {
   }
 }
 
-/// A dot, then words of which `strong` stands out; returns the width.
-float draw_health(Ui& ui, float x, const Rect& strip, Colour dot, std::string_view before,
-                  std::string_view strong, std::string_view after) {
+/// A dot, then words of which those *between stars* stand out; returns the width.
+float draw_health(Ui& ui, float x, const Rect& strip, Colour dot, std::string_view words) {
   const float middle = strip.y + strip.height / 2;
   const float start = x;
   ui.dot(x + 4.5f, middle, 4.5f, dot);
   x += 16;
-  const auto write = [&](std::string_view words, Colour colour) {
-    if (words.empty()) return;
-    const float width = ui.text_width(words, Font::kSmall);
-    ui.text({x, middle - ui.line_height(Font::kSmall) / 2, width + 2, 20}, words,
-            {.font = Font::kSmall, .colour = colour});
+  for (bool is_strong = false; !words.empty(); is_strong = !is_strong) {
+    const std::string_view part = words.substr(0, words.find('*'));
+    words.remove_prefix(std::min(part.size() + 1, words.size()));
+    if (part.empty()) continue;
+    const float width = ui.text_width(part, Font::kSmall);
+    ui.text({x, middle - ui.line_height(Font::kSmall) / 2, width + 2, 20}, part,
+            {.font = Font::kSmall, .colour = is_strong ? Colour::kInk : Colour::kSoft});
     x += width;
-  };
-  write(before, Colour::kSoft);
-  write(strong, Colour::kInk);
-  write(after, Colour::kSoft);
+  }
   return x - start + 26;
+}
+
+std::string loop_words(const LoopView& loop) {
+  // Translators: what stands *between stars* is drawn stronger, here and below.
+  return tr("*{:.0f} Hz* · late {:.2f} µs · missed {}", loop.rate_hz, loop.lateness_p99_us,
+            loop.missed_ticks) +
+         (loop.num_dropped_samples > 0 ? tr(" · samples lost") : "");
+}
+
+/// What of the session is on disk.
+std::string stored_up_to(const SessionView& view) {
+  if (view.trials_on_disk > 0) return tr("On disk up to *trial {}*", view.trials_on_disk);
+  if (view.last_sequence > 0) return tr("On disk up to *event {}*", view.last_sequence);
+  return tr("Nothing stored yet");
 }
 
 }  // namespace
@@ -77,8 +91,8 @@ float draw_health(Ui& ui, float x, const Rect& strip, Colour dot, std::string_vi
 bool draw_emergency_stop(Ui& ui) {
   Rect strip = ui.screen().take_top(kRunHeader);
   strip.take_right(kStopMargin);
-  const Rect place = strip.take_right(ui.button_width(kStopLabel, kStop));
-  return ui.button("emergency_stop", place.middle(place.width, 38), kStopLabel, kStop);
+  const Rect place = strip.take_right(ui.button_width(tr(kStopLabel), kStop));
+  return ui.button("emergency_stop", place.middle(place.width, 38), tr(kStopLabel), kStop);
 }
 
 void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
@@ -87,7 +101,8 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
   Rect strip = place.inset(0);
   strip.take_left(20);
   strip.take_right(kStopMargin);
-  strip.take_right(ui.button_width(kStopLabel, kStop), 10);  // Drawn last, above every dialog.
+  // Drawn last, above every dialog.
+  strip.take_right(ui.button_width(tr(kStopLabel), kStop), 10);
   using Dialog = RunViewState::Dialog;
   const bool running = view.step != Step::kFailed && view.step != Step::kFinished;
   const bool begun = running && view.step != Step::kBegin;
@@ -97,19 +112,20 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
     bool enabled;
     Dialog dialog;
   };
-  const Command commands[] = {{"leave", "Leave", {letter('W'), true}, running, Dialog::kLeave},
-                              {"pause",
-                               "Pause",
-                               {letter('P')},
-                               begun && view.step != Step::kPaused && view.step != Step::kFault,
-                               Dialog::kPause},
-                              {"note", "Note", {letter('N'), true}, begun, Dialog::kNote},
-                              {"undo",
-                               "Undo",
-                               {letter('Z'), true},
-                               begun && view.step != Step::kFault && !view.answers.empty() &&
-                                   view.answers.front().can_undo,
-                               Dialog::kUndo}};
+  const Command commands[] = {
+      {"leave", tr("Leave"), {letter('W'), true}, running, Dialog::kLeave},
+      {"pause",
+       tr("Pause"),
+       {letter('P')},
+       begun && view.step != Step::kPaused && view.step != Step::kFault,
+       Dialog::kPause},
+      {"note", tr("Note"), {letter('N'), true}, begun, Dialog::kNote},
+      {"undo",
+       tr("Undo"),
+       {letter('Z'), true},
+       begun && view.step != Step::kFault && !view.answers.empty() &&
+           view.answers.front().can_undo,
+       Dialog::kUndo}};
   for (const Command& command : commands) {
     const ButtonStyle style{
         .tone = Tone::kQuiet, .key = command.key, .enabled = command.enabled};
@@ -121,7 +137,7 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
   // Who is alone would read the answer from it.
   if (running && !view.is_alone) {
     const ButtonStyle style{.tone = Tone::kQuiet, .key = {Key::kF4}};
-    const char* label = state.shows_apparatus ? "Back to the session" : "Apparatus";
+    const char* label = state.shows_apparatus ? tr("Back to the session") : tr("Apparatus");
     const Rect its = strip.take_right(ui.button_width(label, style), 4);
     if (ui.button("apparatus", its.middle(its.width, 36), label, style)) {
       state.shows_apparatus = !state.shows_apparatus;
@@ -143,12 +159,9 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                    view.step == Step::kFault || view.step == Step::kFailed ? Colour::kRed
                    : late                                                  ? Colour::kAmber
                                                                            : Colour::kGreen,
-                   "", formatted("%.0f Hz", loop.rate_hz),
-                   formatted(" · late %.2f µs", loop.lateness_p99_us) +
-                       formatted(" · missed %.0f", static_cast<double>(loop.missed_ticks)) +
-                       (loop.num_dropped_samples > 0 ? " · samples lost" : ""));
+                   loop_words(loop));
   if (view.hides_levels || view.is_alone) {
-    x += draw_health(ui, x, place, Colour::kGreen, "Force ", "within limits", "");
+    x += draw_health(ui, x, place, Colour::kGreen, tr("Force *within limits*"));
   } else {
     const core::PlainVector& force = view.telemetry.total_force_n;
     const double force_n =
@@ -157,30 +170,25 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
     const double speed_m_per_s = std::sqrt(
         velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
     x += draw_health(ui, x, place, view.telemetry.limited ? Colour::kAmber : Colour::kGreen,
-                     "Force ", formatted("%.1f N", force_n),
-                     formatted(" of %.0f N", view.max_total_force_n) +
-                         formatted(" · %.2f m/s", speed_m_per_s));
+                     tr("Force *{:.1f} N* of {:.0f} N · {:.2f} m/s", force_n,
+                        view.max_total_force_n, speed_m_per_s));
   }
   x += draw_health(ui, x, place, view.step == Step::kFailed ? Colour::kRed : Colour::kGreen,
-                   view.last_sequence == 0 ? "" : "On disk up to ",
-                   view.trials_on_disk > 0  ? "trial " + std::to_string(view.trials_on_disk)
-                   : view.last_sequence > 0 ? "event " + std::to_string(view.last_sequence)
-                                            : "",
-                   view.last_sequence == 0 ? "Nothing stored yet" : "");
+                   stored_up_to(view));
   const int attached = __builtin_popcount(view.telemetry.sample.attached_bits);
   if (view.telemetry.warning != core::Fault::kNone) {
-    draw_health(ui, x, place, Colour::kAmber, "",
-                std::string(core::warning_words(view.telemetry.warning)), "");
+    draw_health(ui, x, place, Colour::kAmber,
+                "*" + std::string(core::warning_words(view.telemetry.warning)) + "*");
   } else {
     draw_health(ui, x, place,
-                attached == view.num_contact_points ? Colour::kGreen : Colour::kAmber, "",
-                std::to_string(attached),
-                " of " + std::to_string(view.num_contact_points) + " points attached");
+                attached == view.num_contact_points ? Colour::kGreen : Colour::kAmber,
+                tr("*{}* of {} points attached", attached, view.num_contact_points));
   }
   const ButtonStyle keys{.tone = Tone::kQuiet, .key = {Key::kF1}};
   Rect strip = place;
   strip.take_right(16);
-  (void)strip.take_right(ui.button_width("All keys", keys), 8);  // Drawn by the application.
+  (void)strip.take_right(ui.button_width(tr("All keys"), keys),
+                         8);  // Drawn by the application.
   const float width = ui.text_width(view.device, Font::kSmall) + 2;
   ui.text(strip.take_right(width).middle(width, ui.line_height(Font::kSmall)), view.device,
           {.font = Font::kSmall, .colour = Colour::kSoft});
@@ -190,7 +198,7 @@ void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
   Rect inside = place.inset(18);
   Rect times = inside.take_bottom(56, 10);
-  ui.heading(inside.take_top(16, 10), "Session");
+  ui.heading(inside.take_top(16, 10), tr("Session"));
   // A long session shows the part around the stage under way.
   constexpr float kLine = 38;
   const auto room = static_cast<std::size_t>(std::max(1.0f, inside.height / kLine));
@@ -224,8 +232,9 @@ void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
     ui.text(line, name, {.colour = Colour::kSoft});
     ui.text(line, value, {.font = Font::kStrong, .align = Align::kRight});
   };
-  time_line("Elapsed", clock_words(view.elapsed_s));
-  time_line("About left", view.step == Step::kFinished ? "0 s" : about_words(view.left_s));
+  time_line(tr("Elapsed"), clock_words(view.elapsed_s));
+  time_line(tr("About left"),
+            view.step == Step::kFinished ? tr("{} s", 0) : about_words(view.left_s));
 }
 
 void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view) {
@@ -238,28 +247,27 @@ void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view) {
   double ratio = view.done_ratio;
   if (view.trial) {
     const TrialView& trial = *view.trial;
-    left = "Trial " + std::to_string(trial.in_block) +
-           (trial.num_is_expected ? " of about " : " of ") + std::to_string(trial.num_in_block);
+    left = trial.num_is_expected
+               ? tr("Trial {} of about {}", trial.in_block, trial.num_in_block)
+               : tr("Trial {} of {}", trial.in_block, trial.num_in_block);
     const auto now = static_cast<std::size_t>(view.stage);
     right = now < view.stages.size() ? view.stages[now].title : "";
     if (trial.num_repetitions > 1) {
-      right += " · repetition " + std::to_string(trial.repetition) + " of " +
-               std::to_string(trial.num_repetitions);
+      right += tr(" · repetition {} of {}", trial.repetition, trial.num_repetitions);
     }
     ratio = static_cast<double>(trial.in_block - 1) / trial.num_in_block;
   } else {
     left = view.step == Step::kFinished
-               ? "Session finished"
-               : "Part " +
-                     std::to_string(std::min<std::size_t>(
-                         static_cast<std::size_t>(view.stage) + 1, view.stages.size())) +
-                     " of " + std::to_string(view.stages.size());
-    right =
-        view.item && view.item->count > 1
-            ? std::to_string(view.item->index) + " of " + std::to_string(view.item->count)
-        : view.medium && view.medium->count > 1
-            ? std::to_string(view.medium->index) + " of " + std::to_string(view.medium->count)
-            : "";
+               ? tr("Session finished")
+               : tr("Part {} of {}",
+                    std::min<std::size_t>(static_cast<std::size_t>(view.stage) + 1,
+                                          view.stages.size()),
+                    view.stages.size());
+    right = view.item && view.item->count > 1
+                ? tr("{} of {}", view.item->index, view.item->count)
+            : view.medium && view.medium->count > 1
+                ? tr("{} of {}", view.medium->index, view.medium->count)
+                : "";
   }
   ui.text(words, left, {.font = Font::kStrong});
   ui.text(words, right, {.colour = Colour::kSoft, .align = Align::kRight});
@@ -286,9 +294,9 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
   padded.x += 8;
   padded.width -= 16;
   auto cells = columns(padded);
-  ui.text(cells.trial, "Last answers", soft);
-  ui.text(cells.answer, "answer", soft_right);
-  ui.text(cells.time, "time", soft_right);
+  ui.text(cells.trial, tr("Last answers"), soft);
+  ui.text(cells.answer, tr("answer"), soft_right);
+  ui.text(cells.time, tr("time"), soft_right);
   ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
   constexpr float kLine = 34;
   const bool may_correct = view.step != Step::kFinished && view.step != Step::kFailed &&
@@ -297,7 +305,7 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
     if (inside.height < kLine) break;
     Rect line = inside.take_top(kLine);
     const std::string name = "answer_" + std::to_string(answer.trial);
-    const std::string label = answer.block + ", trial " + std::to_string(answer.in_block);
+    const std::string label = tr("{}, trial {}", answer.block, answer.in_block);
     if (ui.row(name, line, label) && may_correct) {
       open_dialog(state, answer.can_undo ? RunViewState::Dialog::kUndo
                                          : RunViewState::Dialog::kCorrect);
@@ -314,7 +322,7 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
     ui.text(cells.time, formatted("%.1f s", answer.response_time_s),
             {.font = Font::kMono, .align = Align::kRight});
     if (may_correct) {
-      ui.text(cells.act, answer.can_undo ? "undo" : "change",
+      ui.text(cells.act, answer.can_undo ? tr("undo") : tr("change"),
               {.colour = Colour::kSoft, .align = Align::kRight});
     }
     ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);

@@ -5,6 +5,7 @@
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 
@@ -33,8 +34,8 @@ std::string clock_words(double seconds) {
 }
 
 std::string about_words(double seconds) {
-  if (seconds < 55) return std::to_string(static_cast<long>(seconds / 5 + 0.5) * 5) + " s";
-  return std::to_string(static_cast<long>(seconds / 60 + 0.5)) + " min";
+  if (seconds < 55) return tr("{} s", static_cast<long>(seconds / 5 + 0.5) * 5);
+  return tr("{} min", static_cast<long>(seconds / 60 + 0.5));
 }
 
 std::string in_quotes(std::string_view words) {

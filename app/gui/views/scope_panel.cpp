@@ -5,6 +5,7 @@
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/scope_curve.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -24,12 +25,13 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 }
 
 std::string value_words(const ScopePoint& point, const std::string& unit) {
-  if (!std::isfinite(point.low)) return "no number";
+  if (!std::isfinite(point.low)) return tr("no number");
   const auto number = [&](double value) {
     return short_number(std::abs(value) < 0.01 * least_scope_span(unit) ? 0.0 : value);
   };
   std::string words = number(point.low);
-  if (const std::string high = number(point.high); high != words) words += " to " + high;
+  if (const std::string high = number(point.high); high != words)
+    words = tr("{} to {}", words, high);
   return unit.empty() ? words : words + " " + unit;
 }
 
@@ -45,7 +47,7 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
   const ButtonStyle style{.tone = Tone::kQuiet,
                           .key = {letter(static_cast<char>('1' + number))}};
   const std::string label =
-      name.empty() ? "No channel" : with_unit(channel.label, channel.unit);
+      name.empty() ? tr("No channel") : with_unit(channel.label, channel.unit);
   const float width = std::min(ui.button_width(label, style), head.width * 0.62f);
   if (ui.button("scope_" + std::to_string(number + 1), {head.x, head.y, width, head.height},
                 label, style)) {
@@ -56,7 +58,7 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
   }
   if (name.empty()) return std::nullopt;
   if (points.empty()) {
-    draw_notice(ui, inside, "No samples yet.");
+    draw_notice(ui, inside, tr("No samples yet."));
     return std::nullopt;
   }
   PlotModel plot{.hover = false, .least_left = 46};
@@ -121,20 +123,19 @@ void draw_channel_chooser(Ui& ui, bool with_joints, ScopePanelState& state) {
   if (!state.choosing) return;
   Rect inside =
       ui.begin_dialog("channel_chooser", 560, std::min(700.0f, ui.screen().height - 40));
-  ui.text(inside.take_top(34, 10),
-          "What should scope " + std::to_string(*state.choosing + 1) + " show?",
+  ui.text(inside.take_top(34, 10), tr("What should scope {} show?", *state.choosing + 1),
           {.font = Font::kLarge});
   const std::string before = state.typed;
   const bool entered =
       ui.text_field("channel_typed", inside.take_top(42, 10), state.typed,
-                    "Part of a name, such as: index force", state.choosing_is_new);
+                    tr("Part of a name, such as: index force"), state.choosing_is_new);
   state.choosing_is_new = false;
   if (state.typed != before) state.selected = 0;
   const Rect buttons = inside.take_bottom(44, 12);
 
   std::vector<ScopeChannel> offered =
       channels_matching(scope_channels(with_joints), state.typed);
-  if (state.typed.empty()) offered.push_back({.label = "No channel"});
+  if (state.typed.empty()) offered.push_back({.label = tr("No channel")});
   const int count = static_cast<int>(offered.size());
   const int room = std::max(1, static_cast<int>(inside.height / kRowHeight));
   state.selected += (ui.pressed({Key::kDown}, true) ? 1 : 0) -
@@ -155,14 +156,14 @@ void draw_channel_chooser(Ui& ui, bool with_joints, ScopePanelState& state) {
             {.colour = i == state.selected ? Colour::kBlue : Colour::kInk});
     ui.text(words, channel.unit, {.colour = Colour::kSoft, .align = Align::kRight});
   }
-  if (count == 0) draw_notice(ui, inside, "No channel has all of these words in its name.");
+  if (count == 0) draw_notice(ui, inside, tr("No channel has all of these words in its name."));
   float x = buttons.x;
   for (const Key key : {Key::kUp, Key::kDown}) {
     x += ui.key_cap(x, buttons.y + 12, {key}) + 6;
   }
-  ui.text({x + 4, buttons.y, 100, buttons.height}, "choose",
+  ui.text({x + 4, buttons.y, 100, buttons.height}, tr("choose"),
           {.font = Font::kSmall, .colour = Colour::kSoft});
-  const DialogChoice choice = draw_dialog_buttons(ui, buttons, "Show", count > 0, entered);
+  const DialogChoice choice = draw_dialog_buttons(ui, buttons, tr("Show"), count > 0, entered);
   if (choice.done) chosen = offered[static_cast<std::size_t>(state.selected)].name;
   if (chosen) state.channels[static_cast<std::size_t>(*state.choosing)] = *chosen;
   if (chosen || choice.cancelled) state.choosing.reset();

@@ -4,6 +4,7 @@
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/work_line.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -30,29 +31,29 @@ struct StatusLook {
 StatusLook look_of(SessionLine::Status status) {
   switch (status) {
     case SessionLine::Status::kCompleted:
-      return {"completed", Colour::kGreen};
+      return {tr("completed"), Colour::kGreen};
     case SessionLine::Status::kOpen:
-      return {"open", Colour::kAmber};
+      return {tr("open"), Colour::kAmber};
     case SessionLine::Status::kEndedEarly:
-      return {"ended early", Colour::kSoft};
+      return {tr("ended early"), Colour::kSoft};
   }
   return {"", Colour::kSoft};
 }
 
 std::string marks_of(const SessionLine& line) {
-  std::string marks = line.pilot ? "pilot" : "";
-  if (line.simulated) marks += marks.empty() ? "simulated" : ", simulated";
+  std::string marks = line.pilot ? tr("pilot") : "";
+  if (line.simulated) marks += (marks.empty() ? "" : ", ") + std::string(tr("simulated"));
   return marks;
 }
 
 std::vector<ColumnLook> columns_of(const StudyFolder& study) {
-  std::vector<ColumnLook> columns = {{"Participant", 1.05f},
-                                     {"State", 1.25f},
-                                     {"Answers", 0.95f, Align::kRight},
-                                     {"When", 1.25f},
-                                     {"Device", 0.75f}};
-  if (!study.hides_levels) columns.push_back({"Order", 1.35f});
-  columns.push_back({"Marks", 1.1f});
+  std::vector<ColumnLook> columns = {{tr("Participant"), 1.05f},
+                                     {tr("State"), 1.25f},
+                                     {tr("Answers"), 0.95f, Align::kRight},
+                                     {tr("When"), 1.25f},
+                                     {tr("Device"), 0.75f}};
+  if (!study.hides_levels) columns.push_back({tr("Order"), 1.35f});
+  columns.push_back({tr("Marks"), 1.1f});
   return columns;
 }
 
@@ -71,8 +72,7 @@ void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const Sessi
   ui.dot(status.x + 5, status.y + status.height / 2, 4.5f, look.colour);
   status.take_left(17);
   ui.text(status, look.words, {.colour = look.colour});
-  const std::string answers =
-      std::to_string(line.num_answers) + " of " + std::to_string(line.num_trials);
+  const std::string answers = tr("{} of {}", line.num_answers, line.num_trials);
   ui.text(cells[2], answers, {.font = Font::kMono, .align = Align::kRight});
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
   ui.text(cells[3], line.when.empty() ? "-" : line.when, soft);
@@ -106,9 +106,9 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
     ui.key_cap(caps.x, caps.y, {Key::kUp});
     ui.key_cap(caps.x + ui.key_cap_width(down) + 6, caps.y, down);
   }
-  ui.heading(title, "Sessions");
+  ui.heading(title, tr("Sessions"));
   if (study.sessions.empty()) {
-    draw_notice(ui, inside, "No session yet. Begin the first one with “New session”.");
+    draw_notice(ui, inside, tr("No session yet. Begin the first one with “New session”."));
     return;
   }
   const float content = kSessionHeight * static_cast<float>(study.sessions.size());
@@ -143,17 +143,20 @@ void draw_study_card(Ui& ui, Rect& column, const StudyFolder& study) {
   const bool blind = study.blinding == experiments::Blinding::kDouble;
   const float lines = 5.0f + (blind ? 1.0f : 0.0f);
   Rect inside =
-      draw_card(ui, column.take_top(28 + 28 * lines + 2 * kPadding, kGap), "This study");
-  draw_fact(ui, inside, "Participants done", std::to_string(study.num_participants_done));
-  draw_fact(ui, inside, "Open sessions", std::to_string(study.num_open));
-  draw_fact(ui, inside, "Pilots", std::to_string(study.num_pilots));
-  draw_fact(ui, inside, "Last session", study.last_session.empty() ? "-" : study.last_session);
+      draw_card(ui, column.take_top(28 + 28 * lines + 2 * kPadding, kGap), tr("This study"));
+  draw_fact(ui, inside, tr("Participants done"), std::to_string(study.num_participants_done));
+  draw_fact(ui, inside, tr("Open sessions"), std::to_string(study.num_open));
+  draw_fact(ui, inside, tr("Pilots"), std::to_string(study.num_pilots));
+  draw_fact(ui, inside, tr("Last session"),
+            study.last_session.empty() ? "-" : study.last_session);
   const bool is_at_risk = !study.backups.empty() && !study.is_safe_elsewhere;
-  draw_fact(ui, inside, "Backups known",
-            std::to_string(study.backups.size()) + (is_at_risk ? ", none on another disk" : ""),
+  draw_fact(ui, inside, tr("Backups known"),
+            is_at_risk ? tr("{}, none on another disk", study.backups.size())
+                       : std::to_string(study.backups.size()),
             is_at_risk ? Colour::kAmber : Colour::kInk);
   if (blind)
-    draw_fact(ui, inside, "Double-blind", study.hides_levels ? "levels hidden" : "unblinded");
+    draw_fact(ui, inside, tr("Double-blind"),
+              study.hides_levels ? tr("levels hidden") : tr("unblinded"));
 }
 
 void ask_for_backup(SessionsViewState& state) {
@@ -179,18 +182,18 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
     Rect inside = card.inset(kPadding);
     ui.text(inside.take_top(text, 4), sentence, strong);
     ui.text(inside.take_top(small, 14), safe, soft);
-    if (ui.button("resume", inside, "Resume " + open->participant,
+    if (ui.button("resume", inside, tr("Resume {}", open->participant),
                   {.tone = Tone::kPrimary, .key = {letter('R')}})) {
       result.resume = open->session;
     }
   }
   if (study.is_backup) {
     const std::string words =
-        "This folder is a backup. It can be read and checked; sessions are run in the study "
-        "itself. Where that is lost, `jnd restore` makes a study of the backup.";
+        tr("This folder is a backup. It can be read and checked; sessions are run in the study "
+           "itself. Where that is lost, `jnd restore` makes a study of the backup.");
     const TextStyle soft{.colour = Colour::kAmber, .wrap = true};
     ui.text(column.take_top(ui.text_height(column.width, words, soft), kGap), words, soft);
-  } else if (ui.button("new_session", column.take_top(60, 12), "New session",
+  } else if (ui.button("new_session", column.take_top(60, 12), tr("New session"),
                        {.tone = open == nullptr ? Tone::kPrimary : Tone::kPlain,
                         .key = {letter('N')},
                         .large = true})) {
@@ -199,11 +202,11 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
   Rect pair = column.take_top(46, kGap);
   const Rect verify = pair.take_left((pair.width - 12) / 2, 12);
   const bool has_sessions = !study.sessions.empty();
-  if (ui.button("verify", verify, "Verify",
+  if (ui.button("verify", verify, tr("Verify"),
                 {.key = {letter('V')}, .enabled = idle && has_sessions})) {
     result.verify = true;
   }
-  if (ui.button("back_up", pair, "Back up",
+  if (ui.button("back_up", pair, tr("Back up"),
                 {.key = {letter('B')}, .enabled = idle && !study.is_backup})) {
     ask_for_backup(state);
   }
@@ -212,13 +215,13 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
 
 void draw_backup_dialog(Ui& ui, SessionsViewState& state, SessionsViewResult& result) {
   Rect inside = ui.begin_dialog("backup_dialog", 640, 250);
-  ui.text(inside.take_top(34, 4), "Back up the study", {.font = Font::kLarge});
+  ui.text(inside.take_top(34, 4), tr("Back up the study"), {.font = Font::kLarge});
   ui.text(inside.take_top(26, 12),
-          "A new folder, or an earlier backup: then only what is new is copied.",
+          tr("A new folder, or an earlier backup: then only what is new is copied."),
           {.colour = Colour::kSoft});
   const bool entered = ui.text_field("backup_folder", inside.take_top(46), state.backup_folder,
-                                     "folder of the copy", state.dialog_is_new);
-  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), "Back up",
+                                     tr("folder of the copy"), state.dialog_is_new);
+  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), tr("Back up"),
                                                   !state.backup_folder.empty(), entered);
   ui.end_dialog();
   // Enter ends a field; where something is missing yet, it goes on.
@@ -242,8 +245,7 @@ SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const St
   draw_study_card(ui, column, study);
   draw_actions(ui, column, study, work, state, result);
   draw_study_footer(ui, footer, work.outcome.sentence,
-                    std::to_string(study.num_sessions) +
-                        (study.num_sessions == 1 ? " session" : " sessions"));
+                    trn("{} session", "{} sessions", study.num_sessions));
   if (state.asks_for_backup) draw_backup_dialog(ui, state, result);
   return result;
 }

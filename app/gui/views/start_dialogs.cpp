@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "app/gui/views/layout.h"
+#include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
 
@@ -77,13 +78,13 @@ fs::path typed_path(const std::string& typed) {
 std::string kind_of(FolderEntry::Kind kind) {
   switch (kind) {
     case FolderEntry::Kind::kFolder:
-      return "folder";
+      return tr("folder");
     case FolderEntry::Kind::kStudyFolder:
-      return "study";
+      return tr("study");
     case FolderEntry::Kind::kBackup:
-      return "backup, to be read only";
+      return tr("backup, to be read only");
     case FolderEntry::Kind::kStudyFile:
-      return "study file";
+      return tr("study file");
   }
   return "";
 }
@@ -113,8 +114,9 @@ void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
   constexpr float kRow = 40;
   const float list = std::min(5.0f, static_cast<float>(model.shipped.size())) * kRow;
   Rect inside = ui.begin_dialog("new_dialog", 680, 396 + list);
-  ui.text(inside.take_top(34, 4), "New study", {.font = Font::kLarge});
-  ui.text(inside.take_top(26, 10), "Choose a study to begin, or write the path of your own.",
+  ui.text(inside.take_top(34, 4), tr("New study"), {.font = Font::kLarge});
+  ui.text(inside.take_top(26, 10),
+          tr("Choose a study to begin, or write the path of your own."),
           {.colour = Colour::kSoft});
   Rect rows = ui.begin_scroll("shipped", inside.take_top(list, 14),
                               static_cast<float>(model.shipped.size()) * kRow);
@@ -127,17 +129,17 @@ void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
     }
   }
   ui.end_scroll();
-  ui.heading(inside.take_top(18, 6), "Or a study file");
+  ui.heading(inside.take_top(18, 6), tr("Or a study file"));
   bool entered = ui.text_field("study_file", inside.take_top(46, 14), state.study_file,
-                               "path of a study file", state.dialog_is_new);
-  ui.heading(inside.take_top(18, 6), "Folder of the new study");
+                               tr("path of a study file"), state.dialog_is_new);
+  ui.heading(inside.take_top(18, 6), tr("Folder of the new study"));
   propose_folder(model, state);
   entered |= ui.text_field("new_folder", inside.take_top(46, 10), state.new_folder,
-                           "path of a folder that does not exist yet");
+                           tr("path of a folder that does not exist yet"));
   const bool ready = !name_of(model, state).empty() && !state.new_folder.empty();
   const Rect buttons = inside.take_bottom(48, 8);
   draw_problem(ui, inside, state.problem);
-  const DialogChoice choice = draw_dialog_buttons(ui, buttons, "Begin", ready, entered);
+  const DialogChoice choice = draw_dialog_buttons(ui, buttons, tr("Begin"), ready, entered);
   ui.end_dialog();
   // Enter ends a field; where something is missing yet, it goes on.
   state.dialog_is_new = entered && !choice.done;
@@ -154,15 +156,16 @@ void draw_open_dialog(
     const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
     StartViewState& state, StartViewResult& result) {
   Rect inside = ui.begin_dialog("open_dialog", 760, std::min(640.0f, ui.screen().height - 60));
-  ui.text(inside.take_top(34, 8), "Open a study", {.font = Font::kLarge});
+  ui.text(inside.take_top(34, 8), tr("Open a study"), {.font = Font::kLarge});
   const bool entered = ui.text_field("open_path", inside.take_top(46, 14), state.open_path,
-                                     "path of a study folder or file", state.dialog_is_new);
+                                     tr("path of a study folder or file"), state.dialog_is_new);
   const Rect buttons = inside.take_bottom(48, 12);
   draw_problem(ui, inside, state.problem);
   Rect where = inside.take_top(40, 6);
   const ButtonStyle up{.key = {.key = Key::kUp, .control = true},
                        .enabled = state.browsing.has_relative_path()};
-  if (ui.button("folder_up", where.take_right(ui.button_width("Go up", up), 12), "Go up", up)) {
+  if (ui.button("folder_up", where.take_right(ui.button_width(tr("Go up"), up), 12),
+                tr("Go up"), up)) {
     state.browsing = state.browsing.parent_path();
   }
   ui.text(where, state.browsing.string(), {.font = Font::kMono, .colour = Colour::kSoft});
@@ -172,7 +175,7 @@ void draw_open_dialog(
     state.listed = state.browsing;
   }
   const std::vector<FolderEntry>& entries = state.entries;
-  if (entries.empty()) draw_notice(ui, inside, "There is no study and no folder here.");
+  if (entries.empty()) draw_notice(ui, inside, tr("There is no study and no folder here."));
   const auto content = kRow * static_cast<float>(entries.size());
   Rect rows = ui.begin_scroll("entries", inside, content);
   std::optional<fs::path> chosen;
@@ -191,7 +194,7 @@ void draw_open_dialog(
   }
   ui.end_scroll();
   const DialogChoice choice =
-      draw_dialog_buttons(ui, buttons, "Open", !state.open_path.empty(), entered);
+      draw_dialog_buttons(ui, buttons, tr("Open"), !state.open_path.empty(), entered);
   ui.end_dialog();
   state.dialog_is_new = entered && !choice.done;
   if (choice.done) chosen = typed_path(state.open_path);

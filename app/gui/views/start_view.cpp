@@ -5,6 +5,7 @@
 #include "app/gui/views/layout.h"
 #include "app/gui/views/start_dialogs.h"
 #include "app/gui/views/study_tabs.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -44,7 +45,7 @@ float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t pl
                        StartViewResult& result) {
   const ButtonStyle style{.tone = place == 0 ? Tone::kPrimary : Tone::kPlain,
                           .key = {.key = Key::kEnter, .control = place > 0}};
-  const float button = ui.button_width("Resume", style);
+  const float button = ui.button_width(tr("Resume"), style);
   const TextStyle title{.font = Font::kLarge, .wrap = true};
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
   const float width = top.width - 2 * kPadding - button - 20;
@@ -60,7 +61,7 @@ float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t pl
   ui.text(inside.take_top(title_height, 4), sentence, title);
   ui.text(inside, safe, soft);
   const std::string name = "resume_" + std::to_string(place + 1);
-  if (ui.button(name, at_right.middle(button, 48), "Resume", style)) {
+  if (ui.button(name, at_right.middle(button, 48), tr("Resume"), style)) {
     result.resume = {open.study->folder->folder, open.session->session};
   }
   return height;
@@ -71,7 +72,7 @@ float draw_resume_cards(Ui& ui, Rect column, const StartModel& model, StartViewR
   const std::vector<Open> all = interrupted_in(model);
   if (all.empty()) return 0;
   constexpr float kHeading = 28;
-  ui.heading(column.take_top(kHeading - 10, 10), "Interrupted");
+  ui.heading(column.take_top(kHeading - 10, 10), tr("Interrupted"));
   float height = kHeading;
   for (std::size_t i = 0; i < std::min(all.size(), most_resumes(ui)); ++i) {
     const float card = draw_resume_card(ui, column, all[i], i, result) + kBetweenCards;
@@ -81,9 +82,8 @@ float draw_resume_cards(Ui& ui, Rect column, const StartModel& model, StartViewR
   if (all.size() <= most_resumes(ui)) return height;
   const std::size_t others = all.size() - most_resumes(ui);
   ui.text(column.take_top(24),
-          others == 1
-              ? "1 more session can be resumed from its study."
-              : std::to_string(others) + " more sessions can be resumed from their studies.",
+          trn("{} more session can be resumed from its study.",
+              "{} more sessions can be resumed from their studies.", others),
           {.font = Font::kSmall, .colour = Colour::kSoft});
   return height + 24;
 }
@@ -107,11 +107,11 @@ void draw_study_card(Ui& ui, const Rect& card, const StartModel::Study& study,
 
 void draw_studies(Ui& ui, Rect column, const StartModel& model, StartViewState& state,
                   StartViewResult& result) {
-  ui.heading(column.take_top(18, 10), "Studies");
+  ui.heading(column.take_top(18, 10), tr("Studies"));
   Rect buttons = column.take_bottom(46, kGap);
   if (model.studies.empty()) {
     const Rect note = column.take_top(52);
-    ui.text(note, "No study was opened yet. Take the tour, or begin a new study.",
+    ui.text(note, tr("No study was opened yet. Take the tour, or begin a new study."),
             {.colour = Colour::kSoft, .wrap = true});
     buttons.y = column.y + 8;
   } else {
@@ -129,37 +129,37 @@ void draw_studies(Ui& ui, Rect column, const StartModel& model, StartViewState& 
   }
   const ButtonStyle new_style{.key = {letter('N'), true}};
   const ButtonStyle open_style{.key = {letter('O'), true}};
-  if (ui.button("new_study", buttons.take_left(ui.button_width("New study", new_style), 12),
-                "New study", new_style)) {
+  if (ui.button("new_study", buttons.take_left(ui.button_width(tr("New study"), new_style), 12),
+                tr("New study"), new_style)) {
     open_new_dialog(model, state);
   }
-  if (ui.button("open_study", buttons.take_left(ui.button_width("Open study", open_style)),
-                "Open study", open_style)) {
+  if (ui.button("open_study", buttons.take_left(ui.button_width(tr("Open study"), open_style)),
+                tr("Open study"), open_style)) {
     open_open_dialog(state);
   }
 }
 
 void draw_tour(Ui& ui, Rect& column, StartViewResult& result) {
-  ui.heading(column.take_top(18, 10), "Try it now, without a robot");
+  ui.heading(column.take_top(18, 10), tr("Try it now, without a robot"));
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
   const std::string_view words =
-      "Move the mouse through virtual fluids, say which is thicker, and see your own Weber "
-      "fraction.";
+      tr("Move the mouse through virtual fluids, say which is thicker, and see your own Weber "
+         "fraction.");
   const float width = column.width - 2 * kPadding;
   const float text = ui.text_height(width, words, soft);
   const Rect card = column.take_top(30 + text + 16 + 50 + 2 * kPadding, 2 * kGap);
   ui.card(card);
   Rect inside = card.inset(kPadding);
-  ui.text(inside.take_top(30), "A three-minute tour", {.font = Font::kLarge});
+  ui.text(inside.take_top(30), tr("A three-minute tour"), {.font = Font::kLarge});
   ui.text(inside.take_top(text, 16), words, soft);
-  if (ui.button("start_tour", inside.take_top(50), "Start the tour",
+  if (ui.button("start_tour", inside.take_top(50), tr("Start the tour"),
                 {.tone = Tone::kPrimary, .key = {letter('T')}})) {
     result.start_tour = true;
   }
 }
 
 void draw_machine(Ui& ui, Rect column, const StartModel& model) {
-  ui.heading(column.take_top(18, 10), "This machine");
+  ui.heading(column.take_top(18, 10), tr("This machine"));
   constexpr float kLine = 34;
   const std::size_t count = std::max<std::size_t>(1, model.machine.size());
   Rect card = column.take_top(static_cast<float>(count) * kLine + 2 * 10);
@@ -169,7 +169,7 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model) {
   inside.take_right(kPadding);
   inside.take_top(10);
   if (model.machine.empty()) {
-    ui.text(inside.take_top(kLine), "Looking …",
+    ui.text(inside.take_top(kLine), tr("Looking …"),
             {.font = Font::kSmall, .colour = Colour::kSoft});
   }
   for (std::size_t i = 0; i < model.machine.size(); ++i) {
@@ -203,7 +203,7 @@ StartViewResult draw_start_view(
   rest.take_top(std::clamp(rest.height * 0.055f, 20.0f, 54.0f));
   rest.take_bottom(kGap);
   ui.text(rest.take_top(54, 4), "jnd", {.font = Font::kHuge});
-  ui.text(rest.take_top(28, 26), "A haptic psychophysics laboratory",
+  ui.text(rest.take_top(28, 26), tr("A haptic psychophysics laboratory"),
           {.font = Font::kBody, .colour = Colour::kSoft});
   constexpr float kBetweenColumns = 48;
   Rect left = rest.take_left((rest.width - kBetweenColumns) / 2, kBetweenColumns);
@@ -213,7 +213,7 @@ StartViewResult draw_start_view(
   draw_studies(ui, left, model, state, result);
   draw_tour(ui, right, result);
   draw_machine(ui, right, model);
-  draw_study_footer(ui, footer, "Version " + model.version, "");
+  draw_study_footer(ui, footer, tr("Version {}", model.version), "");
   if (state.dialog == StartViewState::Dialog::kNew) draw_new_dialog(ui, model, state, result);
   if (state.dialog == StartViewState::Dialog::kOpen) {
     draw_open_dialog(ui, entries_of, state, result);

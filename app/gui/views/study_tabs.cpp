@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/gui/views/layout.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -14,10 +15,11 @@ struct Tab {
   char digit;
 };
 /// From the right.
-constexpr std::array kTabs = {Tab{StudyTab::kStudy, "tab_study", "Study", '3'},
-                              Tab{StudyTab::kResults, "tab_results", "Results", '2'},
-                              Tab{StudyTab::kSessions, "tab_sessions", "Sessions", '1'},
-                              Tab{StudyTab::kStart, "tab_start", "Start", '0'}};
+constexpr std::array kTabs = {
+    Tab{StudyTab::kStudy, "tab_study", tr_later("Study"), '3'},
+    Tab{StudyTab::kResults, "tab_results", tr_later("Results"), '2'},
+    Tab{StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'},
+    Tab{StudyTab::kStart, "tab_start", tr_later("Start"), '0'}};
 
 struct HeaderChip {
   const char* words;
@@ -27,10 +29,10 @@ struct HeaderChip {
 std::vector<HeaderChip> chips_of(const StudyFolder& study) {
   std::vector<HeaderChip> chips;
   if (study.blinding == experiments::Blinding::kDouble) {
-    chips.push_back({study.hides_levels ? "double-blind" : "unblinded", Colour::kBlue});
+    chips.push_back({study.hides_levels ? tr("double-blind") : tr("unblinded"), Colour::kBlue});
   }
-  if (study.is_backup) chips.push_back({"backup, read only", Colour::kAmber});
-  if (study.simulated) chips.push_back({"simulated data", Colour::kAmber});
+  if (study.is_backup) chips.push_back({tr("backup, read only"), Colour::kAmber});
+  if (study.simulated) chips.push_back({tr("simulated data"), Colour::kAmber});
   return chips;
 }
 
@@ -49,8 +51,8 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
     const ButtonStyle style{.tone = Tone::kQuiet,
                             .key = {.key = letter(tab.digit), .control = true},
                             .selected = tab.tab == current};
-    const Rect its = strip.take_right(ui.button_width(tab.label, style));
-    if (ui.button(tab.name, its.middle(its.width, 36), tab.label, style)) {
+    const Rect its = strip.take_right(ui.button_width(tr(tab.label), style));
+    if (ui.button(tab.name, its.middle(its.width, 36), tr(tab.label), style)) {
       header.chosen = tab.tab;
     }
   }

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/results/report_words.h"
 #include "app/gui/views/layout.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
-
-using analysis::counted_words;
 
 constexpr int kMostParticipants = 60;
 
@@ -21,25 +19,26 @@ StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline
   strip.take_left(20);
   strip.take_right(20);
   const ButtonStyle start{.tone = Tone::kQuiet, .key = {letter('0'), true}};
-  const Rect tab = strip.take_right(ui.button_width("Start", start), 12);
-  const bool chosen = ui.button("tab_start", tab.middle(tab.width, 36), "Start", start);
+  const Rect tab = strip.take_right(ui.button_width(tr("Start"), start), 12);
+  const bool chosen = ui.button("tab_start", tab.middle(tab.width, 36), tr("Start"), start);
   ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
           {.font = Font::kLarge});
   const std::string title =
       outline.title.empty() ? outline.file.filename().string() : outline.title;
   const float width = std::min(ui.text_width(title, Font::kBody) + 2, strip.width - 120);
   ui.text(strip.take_left(width, 18), title, {});
-  ui.chip(strip.x, place.y + (place.height - 26) / 2, "study file", Colour::kBlue);
+  ui.chip(strip.x, place.y + (place.height - 26) / 2, tr("study file"), Colour::kBlue);
   return chosen ? StudyTab::kStart : StudyTab::kNone;
 }
 
 /// Every problem with its place, in red.
 void draw_problems(Ui& ui, Rect& inside, const StudyOutline& outline) {
   const auto count = static_cast<int>(outline.problems.size());
-  ui.text(inside.take_top(34, 2), counted_words(count, "problem") + " in the file",
+  ui.text(inside.take_top(34, 2),
+          trn("{} problem in the file", "{} problems in the file", count),
           {.font = Font::kLarge, .colour = Colour::kRed});
   ui.text(inside.take_top(26, 8),
-          "Mend them in your editor; the file is read again once it is saved.",
+          tr("Mend them in your editor; the file is read again once it is saved."),
           {.colour = Colour::kSoft});
   for (const experiments::StudyProblem& problem : outline.problems) {
     const TextStyle message{.wrap = true};
@@ -50,7 +49,7 @@ void draw_problems(Ui& ui, Rect& inside, const StudyOutline& outline) {
     row = row.middle(row.width, height);
     const std::string place =
         problem.line > 0 ? std::to_string(problem.line) + ":" + std::to_string(problem.column)
-                         : "file";
+                         : tr("file");
     ui.text(row.take_left(indent).take_top(24), place,
             {.font = Font::kMono, .colour = Colour::kRed});
     ui.text(row.take_top(24), problem.pointer.empty() ? "/" : problem.pointer,
@@ -62,7 +61,7 @@ void draw_problems(Ui& ui, Rect& inside, const StudyOutline& outline) {
 void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
   constexpr float kIndent = 24;
   constexpr float kDetail = 22;
-  const bool is_arm = stage.kind == "Arm";
+  const bool is_arm = stage.is_arm;
   const auto details =
       static_cast<float>(stage.details.size() + (stage.only_for.empty() ? 0 : 1));
   const float first = is_arm ? 34.0f : 28.0f;
@@ -80,7 +79,7 @@ void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
   ui.text(head.take_right(90, 12), duration_words(stage.duration_s),
           {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
   if (stage.line > 0) {
-    ui.text(head.take_right(60, 8), "line " + std::to_string(stage.line),
+    ui.text(head.take_right(60, 8), tr("line {}", stage.line),
             {.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kRight});
   }
   ui.text(head, stage.title, {.font = is_arm ? Font::kSmallStrong : Font::kStrong});
@@ -97,7 +96,7 @@ void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
 
 void draw_outline(Ui& ui, const Rect& place, const StudyOutline& outline,
                   StudyViewState& state) {
-  Rect inside = draw_card(ui, place, outline.problems.empty() ? "Stages" : "");
+  Rect inside = draw_card(ui, place, outline.problems.empty() ? tr("Stages") : "");
   if (!outline.problems.empty()) ui.outline(place, Colour::kRed, 10, 2);
   inside = ui.begin_scroll("outline", inside, state.outline_height);
   const float top = inside.y;
@@ -123,23 +122,24 @@ void draw_wrapped_fact(Ui& ui, Rect& inside, const std::string& name,
 std::string length_words(const StudyOutline& outline) {
   const std::string longest = duration_words(outline.longest_s);
   const std::string shortest = duration_words(outline.shortest_s);
-  return shortest == longest ? "about " + longest : shortest + " to " + longest;
+  return shortest == longest ? tr("about {}", longest) : tr("{} to {}", shortest, longest);
 }
 
 void draw_facts(Ui& ui, Rect& inside, const StudyOutline& outline) {
-  ui.heading(inside.take_top(18, 8), "Study");
+  ui.heading(inside.take_top(18, 8), tr("Study"));
   if (!outline.problems.empty()) {
-    ui.text(inside.take_top(24, 16), "Not known until the file is sound.",
+    ui.text(inside.take_top(24, 16), tr("Not known until the file is sound."),
             {.colour = Colour::kSoft});
     return;
   }
-  draw_wrapped_fact(ui, inside, "Length",
-                    length_words(outline) + ", " + counted_words(outline.num_trials, "trial"));
-  draw_wrapped_fact(ui, inside, "Blinding", outline.blinding);
-  draw_wrapped_fact(ui, inside, "Device", outline.device);
-  draw_wrapped_fact(ui, inside, "Languages", outline.languages);
-  draw_wrapped_fact(ui, inside, "Authors", outline.authors);
-  draw_wrapped_fact(ui, inside, "About", outline.description);
+  draw_wrapped_fact(
+      ui, inside, tr("Length"),
+      length_words(outline) + ", " + trn("{} trial", "{} trials", outline.num_trials));
+  draw_wrapped_fact(ui, inside, tr("Blinding"), outline.blinding);
+  draw_wrapped_fact(ui, inside, tr("Device"), outline.device);
+  draw_wrapped_fact(ui, inside, tr("Languages"), outline.languages);
+  draw_wrapped_fact(ui, inside, tr("Authors"), outline.authors);
+  draw_wrapped_fact(ui, inside, tr("About"), outline.description);
   inside.take_top(14);
 }
 
@@ -152,16 +152,16 @@ void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewSta
   const ButtonStyle fewer{
       .key = {Key::kMinus}, .enabled = state.num_participants > 1, .repeats = true};
   const int before = state.num_participants;
-  if (ui.button("more_participants", head.take_right(ui.button_width("More", more), 8), "More",
-                more)) {
+  if (ui.button("more_participants", head.take_right(ui.button_width(tr("More"), more), 8),
+                tr("More"), more)) {
     ++state.num_participants;
   }
-  if (ui.button("fewer_participants", head.take_right(ui.button_width("Fewer", fewer), 12),
-                "Fewer", fewer)) {
+  if (ui.button("fewer_participants", head.take_right(ui.button_width(tr("Fewer"), fewer), 12),
+                tr("Fewer"), fewer)) {
     --state.num_participants;
   }
   result.orders_changed = state.num_participants != before;
-  ui.heading(head, "Orders of the next " + std::to_string(state.num_participants));
+  ui.heading(head, tr("Orders of the next {}", state.num_participants));
   if (!model.orders_problem.empty()) {
     const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
     ui.text(inside.take_top(ui.text_height(inside.width, model.orders_problem, soft)),
@@ -186,9 +186,9 @@ void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewSta
 }
 
 std::string reload_words(const StudyViewModel& model) {
-  if (model.num_reloads == 0) return "Read once; read again whenever the file is saved";
+  if (model.num_reloads == 0) return tr("Read once; read again whenever the file is saved");
   const auto seconds = std::llround(std::max(0.0, model.since_reload_s));
-  return "Read again " + duration_words(static_cast<double>(seconds)) + " ago";
+  return tr("Read again {} ago", duration_words(static_cast<double>(seconds)));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // The card of a trial: which fluid, what to ask, the answers.
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/gui/hand_sign.h"
 #include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -21,17 +21,30 @@ struct Interval {
   const char *name, *present, *again, *back, *button;
   Key key;
 };
-constexpr Interval kTest = {
-    "test", "Present the test", "Test again", "Back to the test", "present_test", letter('T')};
-constexpr Interval kReference = {"reference",         "Present the reference",
-                                 "Reference again",   "Back to the reference",
-                                 "present_reference", letter('R')};
-constexpr Interval kFirst = {"first",         "Present the first",
-                             "First again",   "Back to the first",
-                             "present_first", Key::kLeft};
-constexpr Interval kSecond = {"second",         "Present the second",
-                              "Second again",   "Back to the second",
-                              "present_second", Key::kRight};
+constexpr Interval kTest = {"test",
+                            tr_later("Present the test"),
+                            tr_later("Test again"),
+                            tr_later("Back to the test"),
+                            "present_test",
+                            letter('T')};
+constexpr Interval kReference = {"reference",
+                                 tr_later("Present the reference"),
+                                 tr_later("Reference again"),
+                                 tr_later("Back to the reference"),
+                                 "present_reference",
+                                 letter('R')};
+constexpr Interval kFirst = {"first",
+                             tr_later("Present the first"),
+                             tr_later("First again"),
+                             tr_later("Back to the first"),
+                             "present_first",
+                             Key::kLeft};
+constexpr Interval kSecond = {"second",
+                              tr_later("Present the second"),
+                              tr_later("Second again"),
+                              tr_later("Back to the second"),
+                              "present_second",
+                              Key::kRight};
 
 /// What is felt first, and what the question is about.
 const Interval& first_of(const TrialView& trial) {
@@ -41,20 +54,21 @@ const Interval& last_of(const TrialView& trial) {
   return trial.order_is_drawn ? kSecond : kTest;
 }
 
+std::string felt_before(const TrialView& trial, double felt_s) {
+  if (trial.order_is_drawn) return tr("first felt before for {:.1f} s", felt_s);
+  return trial.has_reference ? tr("reference felt before for {:.1f} s", felt_s)
+                             : tr("test felt before for {:.1f} s", felt_s);
+}
+
 std::string felt_words(const TrialView& trial) {
-  char text[160];
   std::string words;
   if (!trial.interval.empty()) {
-    std::snprintf(text, sizeof text, "felt for %.1f s", trial.felt_s);
-    words = text;
+    words = tr("felt for {:.1f} s", trial.felt_s);
     if (trial.num_strokes > 0) {
-      words += " · " + std::to_string(trial.num_strokes) +
-               (trial.num_strokes == 1 ? " stroke" : " strokes");
+      words += " · " + trn("{} stroke", "{} strokes", trial.num_strokes);
     }
     if (trial.interval != first_of(trial).name && trial.first_felt_s) {
-      std::snprintf(text, sizeof text, " · %s felt before for %.1f s", first_of(trial).name,
-                    *trial.first_felt_s);
-      words += text;
+      words += " · " + felt_before(trial, *trial.first_felt_s);
     }
   }
   if (!trial.level.empty()) words += (words.empty() ? "" : " · ") + trial.level;
@@ -127,9 +141,9 @@ class TrialCard {
     const Interval& first = first_of(trial_);
     draw_button_row(ui_, place,
                     {{"present",
-                      trial_.has_reference ? first.present
-                      : trial_.is_solid    ? "Present the surface"
-                                           : "Present the fluid",
+                      trial_.has_reference ? tr(first.present)
+                      : trial_.is_solid    ? tr("Present the surface")
+                                           : tr("Present the fluid"),
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
                       [&] { present(first.name); }}},
                     320);
@@ -143,7 +157,7 @@ class TrialCard {
     const Interval& next = to_first ? first_of(trial_) : last_of(trial_);
     draw_button_row(ui_, place,
                     {{"present",
-                      next.present,
+                      tr(next.present),
                       {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
                       [&] { present(next.name); }}},
                     320);
@@ -190,11 +204,11 @@ class TrialCard {
                           .colour = typed ? Colour::kInk : Colour::kSoft,
                           .align = Align::kCentre};
     ui_.text(row.middle(row.width - 20, ui_.line_height(style.font)),
-             !typed    ? percent ? "type the percent" : "type a number above 0"
-             : percent ? state_.percent + " %"
+             !typed    ? percent ? tr("type the percent") : tr("type a number above 0")
+                : percent ? state_.percent + " %"
                        : state_.percent,
              style);
-    if (ui_.button("answer_percent", enter, "Store",
+    if (ui_.button("answer_percent", enter, tr("Store"),
                    {.tone = Tone::kPrimary,
                     .key = {Key::kEnter},
                     .enabled = is_answer,
@@ -215,16 +229,17 @@ class TrialCard {
   /// In one row with "Matches" in the middle; on a narrow card below it.
   void add_steps(Stack& stack) {
     const RowButton matches{"matches",
-                            "Matches",
+                            tr("Matches"),
                             {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
                             [this] { answer(0.0); }};
-    std::vector<RowButton> steps = {
-        step_button("lower_coarse", "Lower", Key::kLeft, Direction::kLower, StepSize::kCoarse),
-        step_button("lower_fine", "A bit lower", Key::kDown, Direction::kLower,
-                    StepSize::kFine),
-        step_button("raise_fine", "A bit higher", Key::kUp, Direction::kRaise, StepSize::kFine),
-        step_button("raise_coarse", "Raise", Key::kRight, Direction::kRaise,
-                    StepSize::kCoarse)};
+    std::vector<RowButton> steps = {step_button("lower_coarse", tr("Lower"), Key::kLeft,
+                                                Direction::kLower, StepSize::kCoarse),
+                                    step_button("lower_fine", tr("A bit lower"), Key::kDown,
+                                                Direction::kLower, StepSize::kFine),
+                                    step_button("raise_fine", tr("A bit higher"), Key::kUp,
+                                                Direction::kRaise, StepSize::kFine),
+                                    step_button("raise_coarse", tr("Raise"), Key::kRight,
+                                                Direction::kRaise, StepSize::kCoarse)};
     constexpr float kWide = 800;
     if (width_ >= kWide) {
       steps.insert(steps.begin() + 2, matches);
@@ -247,16 +262,17 @@ class TrialCard {
     const auto add = [&](const Interval& interval) {
       const bool again = trial_.interval == interval.name || trial_.interval == first.name;
       buttons.push_back({interval.button,
-                         again ? interval.again : interval.back,
+                         again ? tr(interval.again) : tr(interval.back),
                          {.key = {interval.key}},
                          [this, &interval] { present(interval.name); }});
     };
     if (trial_.has_reference) add(first);
     if (!trial_.has_reference || trial_.interval != first.name || trial_.can_answer) add(last);
     if (trial_.interval != "free_space") {
-      buttons.push_back({"present_free_space", "Free space", {.key = {letter('F')}}, [this] {
-                           present("free_space");
-                         }});
+      buttons.push_back(
+          {"present_free_space", tr("Free space"), {.key = {letter('F')}}, [this] {
+             present("free_space");
+           }});
     }
     draw_button_row(ui_, place, buttons);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/gui/views/layout.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 
@@ -10,9 +11,9 @@ bool draw_work(Ui& ui, Rect place, const StudyWork& work) {
   if (!work.running.empty()) {
     const ButtonStyle style{.key = {Key::kF2}};
     Rect line = place.take_top(42);
-    const float width = ui.button_width("Cancel", style);
+    const float width = ui.button_width(tr("Cancel"), style);
     const bool cancelled =
-        ui.button("cancel_work", line.take_right(width, 14), "Cancel", style);
+        ui.button("cancel_work", line.take_right(width, 14), tr("Cancel"), style);
     const auto percent = std::to_string(std::lround(100.0 * work.progress));
     ui.text(line.take_top(24, 6), work.running + " · " + percent + " %", {});
     ui.progress(line.take_top(8), work.progress);
