@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "app/language/words.h"
+
 namespace jnd::app::gui {
 namespace {
 
@@ -70,8 +72,7 @@ std::string counts_of(const SeriesRows& rows, const std::vector<analysis::Figure
   const auto num_yes = rows.number(row, "num_yes");
   const auto num_trials = rows.number(row, "num_trials");
   if (!num_yes || !num_trials) return "";
-  return std::to_string(std::llround(*num_yes)) + " of " +
-         std::to_string(std::llround(*num_trials));
+  return tr("{} of {}", std::llround(*num_yes), std::llround(*num_trials));
 }
 
 PlotSeries series_of(const FigureTable& table, const ChartSeries& series, double y_unit) {
