@@ -4,6 +4,7 @@
 #include "app/gui/views/chart_plot.h"
 #include "app/gui/views/results_cards.h"
 #include "app/gui/views/results_parts.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -14,15 +15,15 @@ void draw_chart(Ui& ui, const Rect& place, const analysis::ChartSet& set,
   Rect inside = place.inset(kPadding);
   const analysis::Chart* const chart = set.chart_of(who);
   if (chart == nullptr) {
-    return draw_notice(ui, inside, who + " has no answers in " + set.heading + ".");
+    return draw_notice(ui, inside, tr("{} has no answers in {}.", who, set.heading));
   }
   if (chart->value.empty()) {
     return draw_without_value(ui, inside, chart_plot(set, *chart),
-                              "No value: " + chart->reason + ".");
+                              tr("No value: {}.", chart->reason));
   }
   if (!chart->caution.empty()) {
     const TextStyle amber{.font = Font::kSmall, .colour = Colour::kAmber, .wrap = true};
-    const std::string words = "Caution: " + chart->caution + ".";
+    const std::string words = tr("Caution: {}.", chart->caution);
     ui.text(inside.take_bottom(ui.text_height(inside.width, words, amber), 4), words, amber);
   }
   const Rect line = inside.take_bottom(30, 4);

@@ -5,6 +5,7 @@
 #include "app/gui/views/layout.h"
 #include "app/gui/views/results_parts.h"
 #include "app/gui/views/results_plots.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -90,7 +91,7 @@ void draw_boxes_page(Ui& ui, const Rect& place, const ResultsModel& results) {
 
 void draw_comparisons_page(Ui& ui, const Rect& place, const ResultsModel& results,
                            ResultsViewState& state) {
-  Rect inside = draw_card(ui, place, "Comparisons");
+  Rect inside = draw_card(ui, place, tr("Comparisons"));
   inside = ui.begin_scroll("comparisons", inside, state.page_height);
   const float top = inside.y;
   const TextStyle name{.wrap = true};
@@ -103,7 +104,7 @@ void draw_comparisons_page(Ui& ui, const Rect& place, const ResultsModel& result
     const Rect whole = row;
     row = row.middle(row.width, text + detail);
     const Rect value = row.take_right(100, 10);
-    ui.text(value, line.estimate ? two_digits(*line.estimate) : "none",
+    ui.text(value, line.estimate ? two_digits(*line.estimate) : tr("none"),
             {.font = Font::kAnswer,
              .colour = line.estimate ? Colour::kInk : Colour::kAmber,
              .align = Align::kRight});
@@ -118,11 +119,11 @@ void draw_comparisons_page(Ui& ui, const Rect& place, const ResultsModel& result
 void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
                        ResultsViewState& state) {
   const std::vector<ColumnLook> columns = {{"", 2.7f},
-                                           {"value", 1.3f, Align::kRight},
+                                           {tr("value"), 1.3f, Align::kRight},
                                            {"95 %", 1.9f, Align::kRight},
-                                           {"published", 1.4f, Align::kRight},
-                                           {"basis, tail", 2.1f, Align::kRight}};
-  Rect inside = draw_card(ui, place, "Every number");
+                                           {tr("published"), 1.4f, Align::kRight},
+                                           {tr("basis, tail"), 2.1f, Align::kRight}};
+  Rect inside = draw_card(ui, place, tr("Every number"));
   Rect head = inside;
   head.take_right(16);
   draw_table_head(ui, head, columns);
@@ -140,7 +141,7 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
     const TextStyle number{.font = Font::kMono, .align = Align::kRight};
     const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight};
     const bool is_sure = line.caution.empty();
-    ui.text(cells[0], is_sure ? line.label : line.label + ": caution",
+    ui.text(cells[0], is_sure ? line.label : tr("{}: caution", line.label),
             {.font = Font::kSmall, .colour = is_sure ? Colour::kInk : Colour::kAmber});
     ui.text(cells[1], line.value.empty() ? "-" : line.value, number);
     const std::string start = "95 % ";
@@ -151,7 +152,7 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
     ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
     if (ui.hovered(row)) {
       ui.tooltip(ui.mouse_x(), ui.mouse_y(),
-                 is_sure ? line.meaning : "Caution: " + line.caution + ". " + line.meaning);
+                 is_sure ? line.meaning : tr("Caution: {}. {}", line.caution, line.meaning));
     }
   }
   state.page_height = inside.y - top;
@@ -163,19 +164,19 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
 std::vector<ResultsPageLook> pages_of(const ResultsModel& results) {
   std::vector<ResultsPageLook> pages;
   if (!results.discriminations.empty()) {
-    pages.push_back({ResultsPage::kCurves, "page_curves", "Curves"});
+    pages.push_back({ResultsPage::kCurves, "page_curves", tr("Curves")});
   }
   if (!results.charts.empty()) {
-    pages.push_back({ResultsPage::kCharts, "page_charts", "Charts"});
+    pages.push_back({ResultsPage::kCharts, "page_charts", tr("Charts")});
   }
   if (!results.magnitudes.empty()) {
-    pages.push_back({ResultsPage::kMagnitudes, "page_magnitudes", "Magnitudes"});
+    pages.push_back({ResultsPage::kMagnitudes, "page_magnitudes", tr("Magnitudes")});
   }
-  if (!results.boxes.empty()) pages.push_back({ResultsPage::kBoxes, "page_boxes", "Boxes"});
+  if (!results.boxes.empty()) pages.push_back({ResultsPage::kBoxes, "page_boxes", tr("Boxes")});
   if (!results.comparisons.empty()) {
-    pages.push_back({ResultsPage::kComparisons, "page_comparisons", "Tests"});
+    pages.push_back({ResultsPage::kComparisons, "page_comparisons", tr("Tests")});
   }
-  pages.push_back({ResultsPage::kNumbers, "page_numbers", "Numbers"});
+  pages.push_back({ResultsPage::kNumbers, "page_numbers", tr("Numbers")});
   return pages;
 }
 
@@ -204,10 +205,10 @@ void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, R
 
 void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, bool marks,
                        ResultsViewState& state) {
-  Rect inside = draw_card(ui, place, "Participants");
+  Rect inside = draw_card(ui, place, tr("Participants"));
   if (marks) {
-    const float width = ui.chip_width("simulated data");
-    ui.chip(inside.right() - width, place.y + 14, "simulated data", Colour::kAmber);
+    const float width = ui.chip_width(tr("simulated data"));
+    ui.chip(inside.right() - width, place.y + 14, tr("simulated data"), Colour::kAmber);
   }
   const std::vector<ColumnLook> columns = columns_of(results);
   const float content = kResultsRowHeight * static_cast<float>(results.rows.size() + 1);
@@ -232,7 +233,7 @@ void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, b
     return padded(row, false);
   };
   const Rect all = select(0, kEveryone);
-  ui.text(all, "All participants",
+  ui.text(all, tr("All participants"),
           {.font = state.participant == 0 ? Font::kStrong : Font::kBody,
            .colour = state.participant == 0 ? Colour::kBlue : Colour::kInk});
   for (std::size_t i = 0; i < results.rows.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "app/gui/views/layout.h"
 #include "app/gui/views/results_parts.h"
 #include "app/gui/views/work_line.h"
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -14,7 +15,8 @@ const ButtonStyle kExport{.key = {letter('E'), true}};
 const ButtonStyle kReport{.tone = Tone::kPrimary, .key = {letter('R'), true}};
 
 float own_width(const Ui& ui) {
-  return ui.button_width("Export", kExport) + 10 + ui.button_width("Write report", kReport);
+  return ui.button_width(tr("Export"), kExport) + 10 +
+         ui.button_width(tr("Write report"), kReport);
 }
 
 void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
@@ -22,12 +24,12 @@ void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
   ButtonStyle report = kReport;
   ButtonStyle exporting = kExport;
   report.enabled = exporting.enabled = model.results != nullptr && model.work.running.empty();
-  Rect place = strip.take_right(ui.button_width("Write report", report), 10);
+  Rect place = strip.take_right(ui.button_width(tr("Write report"), report), 10);
   result.write_report =
-      ui.button("write_report", place.middle(place.width, 38), "Write report", report);
-  place = strip.take_right(ui.button_width("Export", exporting));
+      ui.button("write_report", place.middle(place.width, 38), tr("Write report"), report);
+  place = strip.take_right(ui.button_width(tr("Export"), exporting));
   result.export_tables =
-      ui.button("export", place.middle(place.width, 38), "Export", exporting);
+      ui.button("export", place.middle(place.width, 38), tr("Export"), exporting);
 }
 
 /// Pages at the left, whom it shows at the right.
@@ -43,8 +45,8 @@ void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
     wanted += ui.button_width(pages[i].label, style_of(i)) + 8;
   }
   const ButtonStyle save{.key = {letter('S'), true}};
-  const bool has_room = wanted + ui.button_width("Save picture", save) <= strip.width;
-  const char* label = has_room ? "Save picture" : "Save";
+  const bool has_room = wanted + ui.button_width(tr("Save picture"), save) <= strip.width;
+  const char* label = has_room ? tr("Save picture") : tr("Save");
   const Rect at_right = strip.take_right(ui.button_width(label, save), 8);
   result.save_picture = ui.button("save_picture", at_right, label, save);
   const float shrink = std::min(1.0f, strip.width / wanted);
@@ -67,22 +69,22 @@ void draw_without_results(Ui& ui, const Rect& place, const ResultsViewModel& mod
   ui.card(place);
   if (model.problem.empty()) {
     Rect middle = place.middle(std::min(420.0f, place.width - 64), 70);
-    ui.text(middle.take_top(34, 10), "Computing the results …",
+    ui.text(middle.take_top(34, 10), tr("Computing the results …"),
             {.font = Font::kLarge, .align = Align::kCentre});
     ui.progress(middle.take_top(8), model.progress);
     return;
   }
   const TextStyle style{.align = Align::kCentre, .wrap = true};
   const float width = std::min(640.0f, place.width - 64);
-  const std::string title = model.is_blinded ? "Double-blind" : "No results";
+  const std::string title = model.is_blinded ? tr("Double-blind") : tr("No results");
   const float words = ui.text_height(width, model.problem, style);
   Rect middle = place.middle(width, 48 + words + 28 + 52);
   ui.text(middle.take_top(40, 8), title, {.font = Font::kTitle, .align = Align::kCentre});
   ui.text(middle.take_top(words, 28), model.problem, style);
   if (!model.is_blinded) return;
   const ButtonStyle unblind{.tone = Tone::kDanger, .key = {letter('U'), true}};
-  const float button = ui.button_width("Unblind the study", unblind);
-  if (ui.button("unblind", middle.middle(button, 52), "Unblind the study", unblind)) {
+  const float button = ui.button_width(tr("Unblind the study"), unblind);
+  if (ui.button("unblind", middle.middle(button, 52), tr("Unblind the study"), unblind)) {
     state.asks_to_unblind = true;
     state.dialog_is_new = true;
     state.reason.clear();
@@ -91,15 +93,15 @@ void draw_without_results(Ui& ui, const Rect& place, const ResultsViewModel& mod
 
 void draw_unblind_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& result) {
   Rect inside = ui.begin_dialog("unblind_dialog", 620, 290);
-  ui.text(inside.take_top(34, 4), "Unblind the study", {.font = Font::kLarge});
+  ui.text(inside.take_top(34, 4), tr("Unblind the study"), {.font = Font::kLarge});
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
-  const char* words =
+  const char* words = tr(
       "From now on levels, orders and results can be seen by everybody who opens this folder. "
-      "When and why is stored with the study and cannot be taken back.";
+      "When and why is stored with the study and cannot be taken back.");
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 16), words, soft);
   const bool entered = ui.text_field("unblind_reason", inside.take_top(46), state.reason,
-                                     "reason", state.dialog_is_new);
-  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), "Unblind",
+                                     tr("reason"), state.dialog_is_new);
+  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), tr("Unblind"),
                                                   !state.reason.empty(), entered);
   ui.end_dialog();
   // Enter ends a field; where something is missing yet, it goes on.
@@ -123,9 +125,9 @@ void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
 /// Of the curves that are shown; of other pages every number's meaning tells.
 std::string method_words(ResultsPage page, const ResultsViewState& state) {
   if (page != ResultsPage::kCurves && page != ResultsPage::kMagnitudes) return "";
-  if (page == ResultsPage::kMagnitudes) return "least squares, participants resampled";
-  if (state.participant > 0) return "maximum likelihood, likelihood-ratio intervals";
-  return "median person: hierarchical fit; dashed: one curve through all answers";
+  if (page == ResultsPage::kMagnitudes) return tr("least squares, participants resampled");
+  if (state.participant > 0) return tr("maximum likelihood, likelihood-ratio intervals");
+  return tr("median person: hierarchical fit; dashed: one curve through all answers");
 }
 
 }  // namespace
