@@ -1,7 +1,6 @@
 #include "app/gui/application/application.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <utility>
 
@@ -55,9 +54,8 @@ void Application::show_first() {
 }
 
 bool Application::works() const noexcept {
-  const std::array<const Screen*, 4> beside = {&start_, &prepare_, &session_, &results_};
   return study_.works() ||
-         std::ranges::any_of(beside, [](const Screen* screen) { return screen->works(); });
+         std::ranges::any_of(screens_, [](const Screen* screen) { return screen->works(); });
 }
 
 std::optional<fs::path> Application::take_picture_request() {
@@ -118,10 +116,8 @@ void Application::show(Screen& screen) {
 
 void Application::go_to(StudyTab tab) {
   attempt(tr("The view cannot be opened"), [&] {
-    if (tab == StudyTab::kStart) show(start_);
-    if (tab == StudyTab::kSessions) show(sessions_);
-    if (tab == StudyTab::kResults) show(results_);
-    if (tab == StudyTab::kStudy) show(study_screen_);
+    const auto found = std::ranges::find(screens_, tab, &Screen::tab);
+    if (tab != StudyTab::kNone && found != screens_.end()) show(**found);
   });
 }
 
@@ -145,9 +141,7 @@ void Application::open_file(const fs::path& file) {
 
 /// Nothing of the last study stays, and the next is remembered as opened.
 void Application::forget_study(const fs::path& next) {
-  const std::array<Screen*, 5> all = {&prepare_, &session_, &sessions_, &results_,
-                                      &study_screen_};
-  for (Screen* screen : all) screen->forget_study();
+  for (Screen* screen : screens_) screen->forget_study();
   try {
     recent_.add(fs::absolute(next), core::SystemClock().now_ns());
   } catch (const core::Error&) {

@@ -107,6 +107,8 @@ class Application final : private ScreenHost {
   SessionsScreen sessions_;
   ResultsScreen results_;
   StudyScreen study_screen_;
+  const std::vector<Screen*> screens_ = {&start_,    &prepare_, &session_,
+                                         &sessions_, &results_, &study_screen_};
   Screen* screen_ = &start_;  ///< That stands in the window.
 
   ParticipantStop participant_stop_;

@@ -14,6 +14,7 @@ class ResultsScreen final : public Screen {
  public:
   ResultsScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
   [[nodiscard]] const char* name() const noexcept override { return "results"; }
+  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kResults; }
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }

@@ -18,6 +18,8 @@ class Screen {
   virtual ~Screen() = default;
   /// "sessions": as the log of widgets has it.
   [[nodiscard]] virtual const char* name() const noexcept = 0;
+  /// Its tab in the header of a study; `kNone` for a screen without one.
+  [[nodiscard]] virtual StudyTab tab() const noexcept { return StudyTab::kNone; }
   /// Called before it comes to stand in the window. What it throws keeps it from that.
   virtual void show() = 0;
   /// Takes what has come from other threads, before anything is drawn; may go to another one.

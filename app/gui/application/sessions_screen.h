@@ -11,6 +11,7 @@ class SessionsScreen final : public Screen {
  public:
   SessionsScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
   [[nodiscard]] const char* name() const noexcept override { return "sessions"; }
+  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kSessions; }
   void show() override;
   void draw(Ui& ui) override;
   void forget_study() override { state_ = {}; }

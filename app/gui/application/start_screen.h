@@ -15,6 +15,7 @@ class StartScreen final : public Screen {
   /// `recent` must outlive it.
   StartScreen(ScreenHost& host, RecentStudies& recent) : host_(host), recent_(recent) {}
   [[nodiscard]] const char* name() const noexcept override { return "start"; }
+  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kStart; }
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }

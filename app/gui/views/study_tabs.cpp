@@ -1,25 +1,12 @@
 #include "app/gui/views/study_tabs.h"
 
 #include <algorithm>
-#include <array>
 
 #include "app/gui/views/layout.h"
 #include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
-
-struct Tab {
-  StudyTab tab;
-  const char *name, *label;
-  char digit;
-};
-/// From the right.
-constexpr std::array kTabs = {
-    Tab{StudyTab::kStudy, "tab_study", tr_later("Study"), '3'},
-    Tab{StudyTab::kResults, "tab_results", tr_later("Results"), '2'},
-    Tab{StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'},
-    Tab{StudyTab::kStart, "tab_start", tr_later("Start"), '0'}};
 
 struct HeaderChip {
   const char* words;
@@ -47,7 +34,7 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   strip.take_left(20);
   strip.take_right(20);
   if (own_width > 0) header.own_buttons = strip.take_right(own_width, 12);
-  for (const Tab& tab : kTabs) {
+  for (const StudyTabLook& tab : kStudyTabs) {
     const ButtonStyle style{.tone = Tone::kQuiet,
                             .key = {.key = letter(tab.digit), .control = true},
                             .selected = tab.tab == current};

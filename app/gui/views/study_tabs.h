@@ -1,17 +1,31 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "app/gui/ui.h"
+#include "app/language/words.h"
 #include "app/operator/study_folder.h"
 
 namespace jnd::app::gui {
 
 enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy };
 
-/// The header of every view of a study: its name, its marks, and the tabs "Start" (Ctrl 0),
-/// "Sessions" (Ctrl 1), "Results" (Ctrl 2), "Study" (Ctrl 3). Leaves room at the right for a
-/// view's own buttons: `own_buttons` is that rectangle. Returns the tab that was chosen.
+struct StudyTabLook {
+  StudyTab tab;
+  const char *name, *label;
+  char digit;  ///< Its key, with Ctrl.
+};
+/// From the right.
+inline constexpr std::array kStudyTabs = {
+    StudyTabLook{StudyTab::kStudy, "tab_study", tr_later("Study"), '3'},
+    StudyTabLook{StudyTab::kResults, "tab_results", tr_later("Results"), '2'},
+    StudyTabLook{StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'},
+    StudyTabLook{StudyTab::kStart, "tab_start", tr_later("Start"), '0'}};
+
+/// The header of every view of a study: its name, its marks, and the tabs. Leaves room at the
+/// right for a view's own buttons: `own_buttons` is that rectangle. Returns the tab that was
+/// chosen.
 struct StudyHeader {
   StudyTab chosen = StudyTab::kNone;
   Rect own_buttons;
