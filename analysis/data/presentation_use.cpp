@@ -32,8 +32,8 @@ ByLevel sums_of(const StudyData& data, const std::string& block, const std::stri
       if (!is_used(row)) continue;
       ++sum.num_used;
       sum.participants.insert(participant.participant);
-      sum.width_m += row.stroke_width_m.value_or(0.0);
-      sum.speed_m_per_s += row.max_speed_m_per_s.value_or(0.0);
+      sum.width_m += row.measures.stroke_width_m.value_or(0.0);
+      sum.speed_m_per_s += row.measures.max_speed_m_per_s.value_or(0.0);
     }
   }
   return sums;
@@ -55,7 +55,8 @@ std::map<std::string, std::set<double>> levels_by_interval(const StudyData& data
 }  // namespace
 
 bool is_used(const core::PresentationRow& row) {
-  return row.interval != "free_space" && row.num_strokes > 0 && row.stroke_width_m;
+  return row.interval != "free_space" && row.measures.num_strokes > 0 &&
+         row.measures.stroke_width_m;
 }
 
 std::vector<PresentationUse> presentation_uses(const StudyData& data) {

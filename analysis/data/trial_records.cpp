@@ -61,8 +61,9 @@ std::vector<TrialRecord> trial_records(const core::StudyStore& store, std::int64
   for (const core::PresentationRow& row : store.presentations(session)) {
     TrialRecord* const record = find(records, row.trial);
     if (record == nullptr || row.interval == "free_space") continue;
-    if (row.limited_ticks > 0) record->is_limited = true;
-    if (!is_pressed[row.trial]) has_stroke[{row.trial, row.interval}] |= row.num_strokes > 0;
+    if (row.measures.limited_ticks > 0) record->is_limited = true;
+    if (!is_pressed[row.trial])
+      has_stroke[{row.trial, row.interval}] |= row.measures.num_strokes > 0;
   }
   for (const auto& [presented, has] : has_stroke) {
     if (!has) records.at(presented.first).is_strokeless = true;

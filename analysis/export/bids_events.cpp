@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +7,7 @@
 #include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
 #include "analysis/export/study_tables.h"
+#include "analysis/export/table_columns.h"
 
 namespace jnd::analysis {
 namespace {
@@ -34,6 +36,28 @@ const std::vector<CsvColumn>& bids_event_columns() {
   return kColumns;
 }
 
+/// What was measured, as far as events tell of it.
+const Columns<core::PresentationMeasures>& measured_columns() {
+  static const Columns<core::PresentationMeasures> kColumns = [] {
+    auto all = stored_columns<core::PresentationMeasures>(
+        [](const core::PresentationMeasures& it) -> const auto& { return it; });
+    core::for_each_column<core::PresentationMeasures>([&](const auto& column, const auto&) {
+      if (column.bids_events == core::BidsEvents::kHave) return;
+      std::erase_if(all, [&](const auto& one) {
+        return std::string_view(one.column.name) == column.name;
+      });
+    });
+    return all;
+  }();
+  return kColumns;
+}
+
+std::vector<CsvColumn> all_event_columns() {
+  std::vector<CsvColumn> all = bids_event_columns();
+  std::ranges::copy(told(measured_columns()), std::back_inserter(all));
+  return all;
+}
+
 struct BidsEvent {
   std::int64_t first_tick = 0, last_tick = 0;
   // Neither: samples are missing.
@@ -59,7 +83,18 @@ void write_presented(TableWriter& table, const core::PresentationRow& row,
                      const core::TrialRow& trial) {
   table.cell(row.interval).cell(row.trial).cell(row.attempt).cell(row.presentation);
   table.cell(row.interval == "free_space" ? row.interval : trial.medium).cell(row.intensity);
-  table.cell(trial.response).cell(trial.response_time_s);
+  table.cell(trial.response).cell(trial.measures.response_time_s);
+}
+
+/// Of a presentation, or nothing.
+void write_measured(TableWriter& table, const ExportedPresentation* presentation) {
+  for (const auto& column : measured_columns()) {
+    if (presentation != nullptr) {
+      column.put(table, presentation->row.measures);
+    } else {
+      table.nothing();
+    }
+  }
 }
 
 void write_explored(TableWriter& table, const BidsExploration& one) {
@@ -79,7 +114,7 @@ void write_bids_events(const fs::path& front, const BidsBlock& block,
                        const std::vector<core::TickRange>& gaps) {
   std::map<std::int64_t, const core::TrialRow*> trials;
   for (const ExportedTrial& trial : block.trials) trials[trial.row.trial] = &trial.row;
-  CsvTableWriter table(front.string() + "_events.tsv", bids_event_columns(), TableStyle::kBids);
+  CsvTableWriter table(front.string() + "_events.tsv", all_event_columns(), TableStyle::kBids);
   for (const BidsEvent& event : events_of(block, gaps)) {
     const std::int64_t sample = event.first_tick - block.first_tick;
     table.cell(static_cast<double>(sample) / session.rate_hz);
@@ -98,10 +133,12 @@ void write_bids_events(const fs::path& front, const BidsBlock& block,
     } else {
       table.nothing();
     }
-    table.cell(session.simulated).end_row();
+    table.cell(session.simulated);
+    write_measured(table, event.presentation);
+    table.end_row();
   }
   table.finish();
-  write_json(front.string() + "_events.json", described(bids_event_columns()));
+  write_json(front.string() + "_events.json", described(all_event_columns()));
 }
 
 void write_bids_beh(const fs::path& folder, const BidsTask& task, const BidsBlock& block,

@@ -1,37 +1,40 @@
 #include "analysis/export/study_tables.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
+#include <utility>
+
+#include "analysis/export/table_columns.h"
 
 namespace jnd::analysis {
 namespace {
 
 using enum ColumnType;
 
-/// A column of a table: how the codebook tells it, and what a row puts there. So a column is
-/// one line, for CSV, BIDS, HDF5 and the codebook alike.
-template <typename Row>
-struct Column {
-  CsvColumn column;
-  void (*put)(TableWriter& to, const Row& it);
-};
-template <typename Row>
-using Columns = std::vector<Column<Row>>;
-
-template <typename Row>
-std::vector<CsvColumn> told(const Columns<Row>& columns) {
-  std::vector<CsvColumn> all;
-  for (const Column<Row>& one : columns) all.push_back(one.column);
-  return all;
+template <typename Cells>
+typename Columns<Cells>::iterator place_of(Columns<Cells>& columns, std::string_view name) {
+  return std::ranges::find(columns, name,
+                           [](const auto& one) { return std::string_view(one.column.name); });
 }
 
-/// The cells of a row from the column `first` on.
-template <typename Row>
-TableWriter& put(TableWriter& table, const Columns<Row>& columns, const Row& row,
-                 std::size_t first = 0) {
-  for (std::size_t i = first; i < columns.size(); ++i) columns[i].put(table, row);
-  return table;
+/// Puts a column behind the one of that name.
+template <typename Cells>
+void insert_after(Columns<Cells>& columns, std::string_view name, Column<Cells> column) {
+  columns.insert(std::next(place_of(columns, name)), std::move(column));
+}
+
+/// Whose the row is, then its columns. `Cells` has the session.
+template <typename Cells>
+Columns<Cells> owned(Columns<Cells> columns) {
+  Columns<Cells> all = stored_columns<Cells>(
+      [](const Cells& it) -> const core::SessionRow& { return it.session; });
+  all.erase(std::next(place_of(all, "simulated")), all.end());
+  std::ranges::move(columns, std::back_inserter(all));
+  return all;
 }
 
 /// On one line, so that tools which know no quoted line ends read the table, too.
@@ -97,241 +100,75 @@ struct GapCells {
 };
 
 const Columns<SessionCells>& session_table() {
-  static const Columns<SessionCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
-      {{"cells", "", "Counterbalancing: which arms in which order"},
-       [](auto& to, const auto& it) { to.cell(it.session.cells); }},
-      {{"seed", "", "Of everything drawn in the session; 64 bits, so read it as text"},
-       [](auto& to, const auto& it) { to.cell(std::to_string(it.session.seed)); }},
-      {{"pilot", "", "1: a pilot, not for analysis", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.pilot); }},
-      {{"completed", "", "1: every stage was run", kCount},
-       [](auto& to, const auto& it) { to.cell(it.completed); }},
-      {{"device", "", "Name of the device"},
-       [](auto& to, const auto& it) { to.cell(it.session.device); }},
-      {{"rate_hz", "Hz", "Rate of the haptic loop and of the recording", kReal},
-       [](auto& to, const auto& it) { to.cell(it.session.rate_hz); }},
-      {{"realtime", "", "What the loop was given by the system"},
-       [](auto& to, const auto& it) { to.cell(it.session.realtime); }},
-      {{"recorded", "", "1: samples are kept", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.recorded); }},
-      {{"program_version", "", "Of the jnd that ran the session"},
-       [](auto& to, const auto& it) { to.cell(it.session.program_version); }},
-      {{"protocol_sha256", "", "Identifies the study file"},
-       [](auto& to, const auto& it) { to.cell(it.session.protocol_sha256); }},
-      {{"language", "", "Of the texts that the participant got; empty where nobody read them"},
-       [](auto& to, const auto& it) { to.cell(it.start.language); }},
-      {{"fields", "",
-        "What was known of the participant before, as in sex=female;hand=left; empty where "
-        "nothing was asked"},
-       [](auto& to, const auto& it) { to.cell(it.start.fields); }},
-      {{"started_time_ns", "ns", "Since 1970-01-01 UTC; a simulated session counts from 0",
-        kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.started_time_ns); }},
-      {{"laboratory", "", "Who and what was simulated, as JSON; empty with a person"},
-       [](auto& to, const auto& it) { to.cell(on_one_line(it.session.laboratory)); }},
-  };
+  static const Columns<SessionCells> kColumns = [] {
+    auto all = stored_columns<SessionCells>(
+        [](const SessionCells& it) -> const core::SessionRow& { return it.session; });
+    insert_after(all, "pilot",
+                 {{"completed", "", "1: every stage was run", kCount},
+                  [](auto& to, const auto& it) { to.cell(it.completed); }});
+    insert_after(all, "protocol_sha256",
+                 {{"language", "",
+                   "Of the texts that the participant got; empty where nobody read them"},
+                  [](auto& to, const auto& it) { to.cell(it.start.language); }});
+    insert_after(
+        all, "language",
+        {{"fields", "",
+          "What was known of the participant before, as in sex=female;hand=left; empty "
+          "where nothing was asked"},
+         [](auto& to, const auto& it) { to.cell(it.start.fields); }});
+    place_of(all, "laboratory")->put = [](auto& to, const auto& it) {
+      to.cell(on_one_line(it.session.laboratory));
+    };
+    return all;
+  }();
   return kColumns;
 }
 
 const Columns<TrialCells>& trial_table() {
-  static const Columns<TrialCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
-      {{"trial", "", "Running number in the session, from 1", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.trial); }},
-      {{"attempt", "", "1, or more if the trial was repeated", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.attempt); }},
-      {{"block", "", "Name of the block in the study file"},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.block); }},
-      {{"procedure", "", "How the block asks"},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.procedure); }},
-      {{"medium", "", "What was rendered"},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.medium); }},
-      {{"quantity", "",
-        "What intensities mean: scale (ratio), viscosity_pa_s (Pa s) or stiffness_n_per_m "
-        "(N/m)"},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.quantity); }},
-      {{"repetition", "", "From 1; in each, every stimulus once", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.repetition); }},
-      {{"position", "", "Within the repetition, from 1", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.position); }},
-      {{"series", "", "Staircase or series of the block, from 1; empty where there is one",
-        kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.series); }},
-      {{"test_interval", "",
-        "Where the order is drawn: interval of the test stimulus, 1 or 2. The interval that "
-        "was "
-        "chosen in a two-interval task is test_interval where response is 1, else "
-        "3 - test_interval",
-        kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.test_interval); }},
-      {{"is_catch", "",
-        "1: a catch trial, in which nothing is there or the test equals the reference", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.is_catch); }},
-      {{"is_practice", "", "1: of a practice block, not for analysis", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.is_practice); }},
-      {{"intensity", "unit of quantity", "Test stimulus; of an adjustment the value set",
-        kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.intensity); }},
-      {{"reference_intensity", "unit of quantity",
-        "Reference stimulus; of a block with a standard_medium in the unit of that medium's "
-        "quantity",
-        kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.reference_intensity); }},
-      {{"standard_medium", "", "What the reference stimulus is; empty: the medium"},
-       [](auto& to, const auto& it) { to.cell(it.trial.standard_medium); }},
-      {{"starting_intensity", "unit of quantity",
-        "Production and matching: where the adjustment began", kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.starting_intensity); }},
-      {{"target_percent", "%", "Production: what it should feel like, water being 100", kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.target_percent); }},
-      {{"response", "",
-        "Percent, or a number in another modulus; 1: yes, different, or the interval of the "
-        "test, 0: otherwise; of an adjustment the value set",
-        kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.response); }},
-      {{"response_time_s", "s",
-        "From the start of the last stimulus to the answer; where one is adjusted, from the "
-        "start "
-        "of that",
-        kReal},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.response_time_s); }},
-      {{"num_presentations", "", "Stimuli felt in this attempt", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.num_presentations); }},
-      {{"num_steps", "", "Production and matching: steps of adjustment", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.num_steps); }},
-      {{"first_tick", "tick", "First sample of the trial in the recording", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.first_tick); }},
-      {{"last_tick", "tick", "Last sample of the trial in the recording", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.row.last_tick); }},
-      {{"excluded", "", "1: set aside; the event trial_excluded has the reason", kCount},
-       [](auto& to, const auto& it) { to.cell(it.trial.excluded); }},
-  };
+  static const Columns<TrialCells> kColumns = [] {
+    auto all = owned(stored_columns<TrialCells>(
+        [](const TrialCells& it) -> const core::TrialRow& { return it.trial.row; }));
+    insert_after(all, "is_catch",
+                 {{"is_practice", "", "1: of a practice block, not for analysis", kCount},
+                  [](auto& to, const auto& it) { to.cell(it.trial.is_practice); }});
+    insert_after(all, "reference_intensity",
+                 {{"standard_medium", "", "What the reference stimulus is; empty: the medium"},
+                  [](auto& to, const auto& it) { to.cell(it.trial.standard_medium); }});
+    all.push_back(
+        {{"excluded", "", "1: set aside; the event trial_excluded has the reason", kCount},
+         [](auto& to, const auto& it) { to.cell(it.trial.excluded); }});
+    return all;
+  }();
   return kColumns;
 }
 
 const Columns<PresentationCells>& presentation_table() {
-  static const Columns<PresentationCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
-      {{"trial", "", "Running number in the session", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.trial); }},
-      {{"attempt", "", "Attempt whose answer stands", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.attempt); }},
-      {{"presentation", "", "Within the attempt, from 1", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.presentation); }},
-      {{"interval", "", "test, reference or free_space"},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.interval); }},
-      {{"intensity", "unit of quantity", "What was presented", kReal},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.intensity); }},
-      {{"first_tick", "tick", "First sample in the recording", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.first_tick); }},
-      {{"last_tick", "tick", "Last sample in the recording", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.last_tick); }},
-      {{"num_strokes", "", "Whole strokes: to a turning point and back", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.num_strokes); }},
-      {{"stroke_width_m", "m", "Mean distance between turning points", kReal},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.stroke_width_m); }},
-      {{"max_speed_m_per_s", "m/s", "Mean of the highest speed in each stroke", kReal},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.max_speed_m_per_s); }},
-      {{"mean_height_m", "m", "Mean height of the hand, workspace frame", kReal},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.mean_height_m); }},
-      {{"delivered_damping_n_s_per_m", "N s/m", "Delivered force over speed, regression slope",
-        kReal},
-       [](auto& to, const auto& it) {
-         to.cell(it.presentation.row.delivered_damping_n_s_per_m);
-       }},
-      {{"commanded_damping_n_s_per_m", "N s/m", "Commanded; empty for water", kReal},
-       [](auto& to, const auto& it) {
-         to.cell(it.presentation.row.commanded_damping_n_s_per_m);
-       }},
-      {{"limited_ticks", "ticks", "Ticks in which the force limiter changed the force", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.limited_ticks); }},
-      {{"missed_ticks", "ticks", "Ticks that were due and never ran", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.missed_ticks); }},
-      {{"finger_lag_s", "s", "By which thumb, index and middle trail behind the palm", kReal},
-       [](auto& to, const auto& it) { to.cell(it.presentation.row.finger_lag_s); }},
-      {{"excluded", "", "1: its trial is set aside", kCount},
-       [](auto& to, const auto& it) { to.cell(it.presentation.excluded); }},
-  };
+  static const Columns<PresentationCells> kColumns = [] {
+    auto all = owned(stored_columns<PresentationCells>(
+        [](const PresentationCells& it) -> const core::PresentationRow& {
+          return it.presentation.row;
+        }));
+    all.push_back({{"excluded", "", "1: its trial is set aside", kCount},
+                   [](auto& to, const auto& it) { to.cell(it.presentation.excluded); }});
+    return all;
+  }();
   return kColumns;
 }
 
 const Columns<EventCells>& event_table() {
-  static const Columns<EventCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
-      {{"sequence", "", "1, 2, 3 ... in the order in which it happened", kCount},
-       [](auto& to, const auto& it) { to.cell(it.row.sequence); }},
-      {{"kind", "", "What happened"}, [](auto& to, const auto& it) { to.cell(it.row.kind); }},
-      {{"version", "", "Of the layout of data", kCount},
-       [](auto& to, const auto& it) { to.cell(std::int64_t{it.row.version}); }},
-      {{"time_ns", "ns", "Since 1970-01-01 UTC; a simulated session counts from 0", kCount},
-       [](auto& to, const auto& it) { to.cell(it.row.time_ns); }},
-      {{"stage", "", "Place of the stage in the participant's list, from 0", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.stage); }},
-      {{"trial", "", "Running number in the session", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.trial); }},
-      {{"attempt", "", "1 is the first", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.attempt); }},
-      {{"first_tick", "tick", "In the recording", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.first_tick); }},
-      {{"last_tick", "tick", "In the recording", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.last_tick); }},
-      {{"intensity", "unit of quantity", "Presented or set", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.intensity); }},
-      {{"supersedes", "", "Sequence of the event that no longer counts", kReal},
-       [](auto& to, const auto& it) { to.cell(it.row.supersedes); }},
-      {{"data", "", "Everything else, as JSON"},
-       [](auto& to, const auto& it) { to.cell(it.row.data); }},
-  };
+  static const Columns<EventCells> kColumns = owned(stored_columns<EventCells>(
+      [](const EventCells& it) -> const core::EventRow& { return it.row; }));
   return kColumns;
 }
 
 const Columns<AnswerCells>& answer_table() {
-  static const Columns<AnswerCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
-      {{"stage", "", "Name of the stage in the study file"},
-       [](auto& to, const auto& it) { to.cell(it.row.stage); }},
-      {{"item", "", "Name of the question or point of a checklist"},
-       [](auto& to, const auto& it) { to.cell(it.row.item); }},
-      {{"answer", "", "As it was given; the last one if corrected"},
-       [](auto& to, const auto& it) { to.cell(it.row.answer); }},
-  };
+  static const Columns<AnswerCells> kColumns = owned(stored_columns<AnswerCells>(
+      [](const AnswerCells& it) -> const core::AnswerRow& { return it.row; }));
   return kColumns;
 }
 
 const Columns<QuestionCells>& questionnaire_table() {
-  static const Columns<QuestionCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
+  static const Columns<QuestionCells> kColumns = owned(Columns<QuestionCells>{
       {{"stage", "", "Name of the questionnaire in the study file"},
        [](auto& to, const auto& it) { to.cell(it.item.stage); }},
       {{"item", "", "Name of the question in the study file"},
@@ -349,18 +186,12 @@ const Columns<QuestionCells>& questionnaire_table() {
        }},
       {{"answer", "", "As it was given, the last one if corrected; empty: none"},
        [](auto& to, const auto& it) { to.cell(it.given); }},
-  };
+  });
   return kColumns;
 }
 
 const Columns<GapCells>& gap_table() {
-  static const Columns<GapCells> kColumns = {
-      {{"session", "", "Number of the session in the study", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.session); }},
-      {{"participant", "", "Pseudonym"},
-       [](auto& to, const auto& it) { to.cell(it.session.participant); }},
-      {{"simulated", "", "1: SIMULATED participant and apparatus", kCount},
-       [](auto& to, const auto& it) { to.cell(it.session.simulated); }},
+  static const Columns<GapCells> kColumns = owned(Columns<GapCells>{
       {{"first_tick", "tick", "First tick without a sample", kCount},
        [](auto& to, const auto& it) { to.cell(it.gap.first_tick); }},
       {{"last_tick", "tick", "Last tick without a sample; nothing is filled in", kCount},
@@ -368,7 +199,7 @@ const Columns<GapCells>& gap_table() {
       {{"missed_ticks", "ticks",
         "Those that never ran, for the loop was held up; others are lost", kCount},
        [](auto& to, const auto& it) { to.cell(it.num_missed); }},
-  };
+  });
   return kColumns;
 }
 

@@ -115,8 +115,8 @@ DeliveredIntensities delivered_intensities(const StudyData& data) {
   for (const ParticipantData& participant : data.participants) {
     for (const auto& [block, rows] : participant.presentations) {
       for (const core::PresentationRow& row : rows) {
-        const double commanded = row.commanded_damping_n_s_per_m.value_or(0.0);
-        const double delivered = row.delivered_damping_n_s_per_m.value_or(0.0);
+        const double commanded = row.measures.commanded_damping_n_s_per_m.value_or(0.0);
+        const double delivered = row.measures.delivered_damping_n_s_per_m.value_or(0.0);
         if (!is_measured(commanded, delivered)) continue;
         deliveries[{row.session, row.trial}].push_back(
             {row.interval, row.intensity, row.intensity * delivered / commanded});

@@ -62,7 +62,7 @@ PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& p
                        .intensity = row.intensity,
                        .first_tick = row.first_tick,
                        .last_tick = row.last_tick},
-          .commanded = {medium, row.intensity, row.commanded_damping_n_s_per_m},
+          .commanded = {medium, row.intensity, row.measures.commanded_damping_n_s_per_m},
           .is_level = !is_free && plan.levels.size() <= kMostPlannedLevels &&
                       plan.levels.contains(row.intensity)};
 }

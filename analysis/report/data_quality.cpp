@@ -174,9 +174,9 @@ std::vector<SessionQuality> session_quality(const core::StudyStore& store,
     quality.num_excluded = std::ssize(store.trials(session.session, true)) - answered;
     for (const core::PresentationRow& row : store.presentations(session.session)) {
       ++quality.num_presentations;
-      quality.num_limited += row.limited_ticks > 0 ? 1 : 0;
+      quality.num_limited += row.measures.limited_ticks > 0 ? 1 : 0;
       const bool is_stimulus = row.interval != "free_space";
-      quality.num_strokeless += is_stimulus && row.num_strokes < 1 ? 1 : 0;
+      quality.num_strokeless += is_stimulus && row.measures.num_strokes < 1 ? 1 : 0;
     }
     count_events(store, quality);
     check_limit(store, quality);

@@ -10,12 +10,13 @@ namespace {
 struct StrokeQuantity {
   const char* name;
   const char* axis;
-  std::optional<double> core::PresentationRow::*value;
+  std::optional<double> core::PresentationMeasures::*value;
 };
 
 constexpr StrokeQuantity kStrokeQuantities[] = {
-    {"stroke_width_m", "Stroke width [m]", &core::PresentationRow::stroke_width_m},
-    {"max_speed_m_per_s", "Highest speed [m/s]", &core::PresentationRow::max_speed_m_per_s},
+    {"stroke_width_m", "Stroke width [m]", &core::PresentationMeasures::stroke_width_m},
+    {"max_speed_m_per_s", "Highest speed [m/s]",
+     &core::PresentationMeasures::max_speed_m_per_s},
 };
 
 FigureTable strokes_table(const FigureSource& source) {

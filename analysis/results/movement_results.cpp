@@ -12,16 +12,16 @@ struct Quantity {
   const char* name;
   const char* unit;
   const char* meaning;
-  std::optional<double> core::PresentationRow::*value;
+  std::optional<double> core::PresentationMeasures::*value;
 };
 
 constexpr Quantity kQuantities[] = {
     {"stroke_width_m", "m", "mean distance between turning points",
-     &core::PresentationRow::stroke_width_m},
+     &core::PresentationMeasures::stroke_width_m},
     {"max_speed_m_per_s", "m/s", "mean of the highest speed in each stroke",
-     &core::PresentationRow::max_speed_m_per_s},
+     &core::PresentationMeasures::max_speed_m_per_s},
     {"finger_lag_s", "s", "by which thumb, index and middle trail behind the palm",
-     &core::PresentationRow::finger_lag_s},
+     &core::PresentationMeasures::finger_lag_s},
 };
 
 using Rows = std::vector<core::PresentationRow>;
@@ -41,11 +41,13 @@ std::int64_t num_stimuli(const Rows& rows) {
 }
 
 /// A device whose points move as one gives no lag, one of layout 2 neither.
-bool anyone_has(const StudyData& data, std::optional<double> core::PresentationRow::*value) {
-  if (value != &core::PresentationRow::finger_lag_s) return true;
+bool anyone_has(const StudyData& data,
+                std::optional<double> core::PresentationMeasures::*value) {
+  if (value != &core::PresentationMeasures::finger_lag_s) return true;
   return std::ranges::any_of(data.participants, [value](const ParticipantData& participant) {
-    return std::ranges::any_of(all_presentations(participant),
-                               [value](const auto& row) { return (row.*value).has_value(); });
+    return std::ranges::any_of(all_presentations(participant), [value](const auto& row) {
+      return (row.measures.*value).has_value();
+    });
   });
 }
 
@@ -170,12 +172,13 @@ void add_blocks(ResultsSection& section, const StudyData& data, const Quantity& 
 }  // namespace
 
 std::optional<double> movement_mean(const std::vector<core::PresentationRow>& presentations,
-                                    std::optional<double> core::PresentationRow::*value) {
+                                    std::optional<double> core::PresentationMeasures::*value) {
   double sum = 0.0;
   int count = 0;
   for (const core::PresentationRow& row : presentations) {
-    if (row.interval == "free_space" || row.num_strokes < 1 || !(row.*value)) continue;
-    sum += *(row.*value);
+    if (row.interval == "free_space" || row.measures.num_strokes < 1 || !(row.measures.*value))
+      continue;
+    sum += *(row.measures.*value);
     ++count;
   }
   if (count == 0) return std::nullopt;

@@ -28,9 +28,9 @@ void add_means(const MagnitudeBlock& magnitudes, const std::string& block,
 }
 
 void add_movement(const ParticipantData& participant, PersonOutcome& person) {
-  constexpr std::pair<const char*, std::optional<double> core::PresentationRow::*>
-      kMovements[] = {{"stroke_width_m", &core::PresentationRow::stroke_width_m},
-                      {"max_speed_m_per_s", &core::PresentationRow::max_speed_m_per_s}};
+  constexpr std::pair<const char*, std::optional<double> core::PresentationMeasures::*>
+      kMovements[] = {{"stroke_width_m", &core::PresentationMeasures::stroke_width_m},
+                      {"max_speed_m_per_s", &core::PresentationMeasures::max_speed_m_per_s}};
   for (const auto& [name, value] : kMovements) {
     std::vector<core::PresentationRow> all;
     for (const auto& [block, rows] : participant.presentations) {

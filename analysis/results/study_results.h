@@ -170,6 +170,6 @@ struct ResultsOptions {
 /// what `movement_results` rests on. `value` is a column such as stroke_width_m.
 [[nodiscard]] std::optional<double> movement_mean(
     const std::vector<core::PresentationRow>& presentations,
-    std::optional<double> core::PresentationRow::*value);
+    std::optional<double> core::PresentationMeasures::*value);
 
 }  // namespace jnd::analysis

@@ -130,7 +130,7 @@ struct OperatedSession::Act {
     const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
     require_ticks(felt,
                   fmt::format(fmt::runtime(as_is("; the answer was {:g}")), answer.value));
-    my.session_.answer(answer.value, response_time_s, felt.last_tick);
+    my.session_.answer(answer.value, {.response_time_s = response_time_s}, felt.last_tick);
   }
 
   void operator()(const operate::Adjust& adjust) const {

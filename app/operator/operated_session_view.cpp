@@ -329,7 +329,7 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
                     .in_block = in_block[its_stage],
                     .block = title_of(its_stage),
                     .kind = kind,
-                    .response_time_s = trial.response_time_s};
+                    .response_time_s = trial.measures.response_time_s.value_or(0.0)};
     line.answer = answer_in_words(its_block, kind, trial);
     line.can_undo = last == line.trial && trial.stage == state().stage && !state().ended;
     lines.push_back(std::move(line));

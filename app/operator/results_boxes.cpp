@@ -34,7 +34,7 @@ bool has_free_pse(const ResultsSource& source, const BlockDesign& block) {
   return section != nullptr && section->own_fractions_free_pse;
 }
 
-using MovementColumn = std::optional<double> core::PresentationRow::*;
+using MovementColumn = std::optional<double> core::PresentationMeasures::*;
 
 Values movement_values(const ResultsSource& source, const std::string& block,
                        MovementColumn column) {
@@ -181,9 +181,10 @@ std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
     }
     if (block.matches()) add_matches(source, block, match);
     add_box(stroke, label,
-            movement_values(source, block.block, &core::PresentationRow::stroke_width_m));
-    add_box(speed, label,
-            movement_values(source, block.block, &core::PresentationRow::max_speed_m_per_s));
+            movement_values(source, block.block, &core::PresentationMeasures::stroke_width_m));
+    add_box(
+        speed, label,
+        movement_values(source, block.block, &core::PresentationMeasures::max_speed_m_per_s));
   }
   std::vector<BoxFigure> figures;
   for (BoxFigure* figure : {&weber, &exponent, &match, &stroke, &speed}) {
@@ -210,9 +211,10 @@ void add_table(const ResultsSource& source, ResultsModel& model) {
           source.own(block.block, participant.participant, block.block + estimate);
       row.values.push_back(own != nullptr ? own->value : std::nullopt);
     }
-    row.values.push_back(whole_movement(participant, &core::PresentationRow::stroke_width_m));
     row.values.push_back(
-        whole_movement(participant, &core::PresentationRow::max_speed_m_per_s));
+        whole_movement(participant, &core::PresentationMeasures::stroke_width_m));
+    row.values.push_back(
+        whole_movement(participant, &core::PresentationMeasures::max_speed_m_per_s));
     row.note = note_of(source, participant.participant);
     model.rows.push_back(std::move(row));
   }

@@ -55,25 +55,27 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
     // A solid is pressed: what its hand does along the surface is no stroke.
     const bool is_pressed = amounts_.plane().is_there();
     if (!is_pressed) {
-      summary.stroke_width_m = strokes.stroke_width_m;
-      summary.max_speed_m_per_s = strokes.max_speed_m_per_s;
-      summary.mean_height_m = strokes.mean_height_m;
-      summary.num_strokes = strokes.num_strokes;
-      summary.finger_lag_s = apparatus_.metered_finger_lag_s();
+      summary.measures.stroke_width_m = strokes.stroke_width_m;
+      summary.measures.max_speed_m_per_s = strokes.max_speed_m_per_s;
+      summary.measures.mean_height_m = strokes.mean_height_m;
+      summary.measures.num_strokes = strokes.num_strokes;
+      summary.measures.finger_lag_s = apparatus_.metered_finger_lag_s();
     }
     if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
     // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
     felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();
-    if (!is_pressed) summary.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
+    if (!is_pressed)
+      summary.measures.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
   }
   if (amounts_.is_plain_damping()) {
-    summary.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
+    summary.measures.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
   }
   felt.num_ticks = felt.last_tick - presentation().first_tick + 1;
   felt.missed_ticks = last.num_missed_ticks - missed_before_;
-  summary.missed_ticks = felt.missed_ticks;
-  summary.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
+  summary.measures.missed_ticks = felt.missed_ticks;
+  summary.measures.limited_ticks =
+      static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
   summary.exposure = exposure_since_last();
   session_.end_presentation(felt.last_tick, summary);
   tell_guards();

@@ -48,16 +48,10 @@ class ReplayCheck {
     for (const core::DesignRow& row : design) {
       const TrialState* trial = of(row.trial, "design");
       if (trial == nullptr) continue;
-      const experiments::PlannedTrial& planned = trial->planned;
-      const bool same =
-          row.stage == trial->stage && row.repetition == planned.repetition &&
-          row.position == planned.position && row.intensity == planned.intensity &&
-          row.reference_intensity == planned.reference_intensity &&
-          row.starting_intensity == planned.starting_intensity &&
-          row.target_percent == planned.target_percent && row.series == planned.series &&
-          row.test_interval == planned.test_interval && row.is_catch == planned.is_catch &&
-          row.sequence.value_or(trial->drawn_sequence) == trial->drawn_sequence &&
-          in_force.contains(row.trial) != trial->is_void;
+      const bool same = row.stage == trial->stage &&
+                        core::has_same_columns(trial->planned, row) &&
+                        row.sequence.value_or(trial->drawn_sequence) == trial->drawn_sequence &&
+                        in_force.contains(row.trial) != trial->is_void;
       if (!same) problem(row.trial, "design");
     }
   }

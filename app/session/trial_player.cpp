@@ -323,7 +323,7 @@ void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
         sum_ln / looks, moment(block), previous,
         counting_of(run_.laboratory, participant_, block, felt_standard_ln, map.get()));
   }
-  session_.answer(answer, felt.duration_s, felt.last_tick);
+  session_.answer(answer, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 /// Whether anything is there, against free space as it is remembered.
@@ -339,7 +339,7 @@ void TrialPlayer::detect(const Block& block) {
   } while (perceiver.looks_again(moment(block)));
   const bool there =
       perceiver.says_present(test_ln / looks, perceiver.free_space_ln(), moment(block));
-  session_.answer(there ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+  session_.answer(there ? 1.0 : 0.0, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 void TrialPlayer::compare(const Block& block) {
@@ -355,7 +355,7 @@ void TrialPlayer::compare(const Block& block) {
   } while (participant_.perceiver(block).looks_again(moment(block)));
   const bool thicker = participant_.perceiver(block).says_thicker(
       test_ln / looks, reference_ln / looks, moment(block));
-  session_.answer(thicker ? 1.0 : 0.0, felt.duration_s, felt.last_tick);
+  session_.answer(thicker ? 1.0 : 0.0, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
@@ -376,7 +376,7 @@ void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
       asked == AnswerKind::kInterval
           ? (person.says_thicker(second_ln, first_ln, moment(block)) ? 2.0 : 1.0)
           : (person.says_different(first_ln, second_ln, moment(block)) ? 1.0 : 0.0);
-  session_.answer(answer, felt.duration_s, felt.last_tick);
+  session_.answer(answer, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 /// A production; with a reference a matching, in which the person may go back to it.
@@ -435,7 +435,7 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
     }
     reading_ln = look();
   }
-  session_.answer(0.0, duration_s, felt.last_tick);
+  session_.answer(0.0, {.response_time_s = duration_s}, felt.last_tick);
 }
 
 }  // namespace jnd::app

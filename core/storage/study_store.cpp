@@ -6,9 +6,9 @@
 #include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
 #include "core/storage/files.h"
+#include "core/storage/row_statements.h"
 #include "core/storage/sha256.h"
 #include "core/storage/study_format.h"
-#include "core/storage/study_rows.h"
 #include "core/storage/writer_lock.h"
 
 namespace jnd::core {
@@ -66,11 +66,11 @@ struct StudyStore::Implementation {
         owner(opened(file, mode, durability)),
         database(*owner) {
     if (mode == Mode::kReadOnly) return;
-    insert_event.emplace(database, insert_into("event", kEventColumns));
-    insert_design.emplace(database, insert_into("design", kDesignColumns));
-    insert_presentation.emplace(database, insert_into("presentation", kPresentationColumns));
-    insert_trial.emplace(database, insert_into("trial", kTrialColumns));
-    insert_answer.emplace(database, insert_into("answer", kAnswerColumns));
+    insert_event.emplace(database, insert_into<EventRow>("event"));
+    insert_design.emplace(database, insert_into<DesignRow>("design"));
+    insert_presentation.emplace(database, insert_into<PresentationRow>("presentation"));
+    insert_trial.emplace(database, insert_into<TrialRow>("trial"));
+    insert_answer.emplace(database, insert_into<AnswerRow>("answer"));
     last_sequence.emplace(database,
                           "SELECT COALESCE(MAX(sequence), 0) FROM event WHERE session = ?");
   }
@@ -151,8 +151,8 @@ std::int64_t StudyStore::add_session(SessionRow row) {
     std::error_code error;
     while (fs::exists(recording_file(row.session), error)) ++row.session;
   }
-  Statement statement(database, insert_into("session", kSessionColumns));
-  bind(row, statement);
+  Statement statement(database, insert_into<SessionRow>("session"));
+  insert(row, statement);
   transaction.commit();
   return row.session;
 }
@@ -174,18 +174,18 @@ void StudyStore::append(const Commit& commit) {
                 ": expected event " + std::to_string(last + 1) + ", found " +
                 std::to_string(event.sequence) + "; another program wrote to this session");
   }
-  bind(event, *my.insert_event);
+  insert(event, *my.insert_event);
   for (const DesignRow& row : commit.design) {
-    bind(row, *my.insert_design);
+    insert(row, *my.insert_design);
   }
   if (commit.presentation) {
-    bind(*commit.presentation, *my.insert_presentation);
+    insert(*commit.presentation, *my.insert_presentation);
   }
   if (commit.trial) {
-    bind(*commit.trial, *my.insert_trial);
+    insert(*commit.trial, *my.insert_trial);
   }
   for (const AnswerRow& row : commit.answers) {
-    bind(row, *my.insert_answer);
+    insert(row, *my.insert_answer);
   }
   transaction.commit();
 }
@@ -193,8 +193,8 @@ void StudyStore::append(const Commit& commit) {
 SessionRow StudyStore::session(std::int64_t number) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 std::string("SELECT ") + kSessionColumns + " FROM session WHERE session = ?");
-  if (rows.bind(number).step()) return session_row(rows);
+                 select_from<SessionRow>("session") + " WHERE session = ?");
+  if (rows.bind(number).step()) return read_row<SessionRow>(rows);
   throw Error(implementation_->folder.string() + ": expected session " +
               std::to_string(number) + ", found none of that number");
 }
@@ -202,12 +202,8 @@ SessionRow StudyStore::session(std::int64_t number) const {
 std::vector<SessionRow> StudyStore::sessions() const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 std::string("SELECT ") + kSessionColumns + " FROM session ORDER BY session");
-  std::vector<SessionRow> all;
-  while (rows.step()) {
-    all.push_back(session_row(rows));
-  }
-  return all;
+                 select_from<SessionRow>("session") + " ORDER BY session");
+  return read_rows<SessionRow>(rows);
 }
 
 std::vector<SessionOverview> StudyStore::overview() const {
@@ -239,74 +235,51 @@ std::vector<SessionOverview> StudyStore::overview() const {
 std::vector<EventRow> StudyStore::events(std::int64_t session) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 std::string("SELECT ") + kEventColumns +
-                     " FROM event WHERE session = ? ORDER BY sequence");
+                 select_from<EventRow>("event") + " WHERE session = ? ORDER BY sequence");
   rows.bind(session);
-  std::vector<EventRow> all;
-  while (rows.step()) {
-    all.push_back(event_row(rows));
-  }
-  return all;
+  return read_rows<EventRow>(rows);
 }
 
 std::vector<DesignRow> StudyStore::design(std::int64_t session, bool include_voided) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 std::string("SELECT ") + kDesignColumns + " FROM " +
-                     (include_voided ? "design" : "design_in_force") +
+                 select_from<DesignRow>(include_voided ? "design" : "design_in_force") +
                      " WHERE session = ? ORDER BY trial");
   rows.bind(session);
-  std::vector<DesignRow> all;
-  while (rows.step()) {
-    all.push_back(design_row(rows));
-  }
-  return all;
+  return read_rows<DesignRow>(rows);
 }
 
 std::vector<TrialRow> StudyStore::trials(std::int64_t session, bool include_excluded) const {
   const std::lock_guard guard(implementation_->mutex);
-  Statement rows(implementation_->database, std::string("SELECT ") + kTrialColumns +
-                                                " FROM trial_in_force WHERE session = ?" +
+  Statement rows(implementation_->database, select_from<TrialRow>("trial_in_force") +
+                                                " WHERE session = ?" +
                                                 (include_excluded ? "" : " AND NOT excluded") +
                                                 " ORDER BY trial, attempt");
   rows.bind(session);
-  std::vector<TrialRow> all;
-  while (rows.step()) {
-    all.push_back(trial_row(rows));
-  }
-  return all;
+  return read_rows<TrialRow>(rows);
 }
 
 std::vector<PresentationRow> StudyStore::presentations(std::int64_t session,
                                                        bool include_excluded) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 std::string("SELECT ") + kPresentationColumns +
+                 select_from<PresentationRow>("presentation") +
                      // As in presentation_in_force, but with a table of the trials that is made
                      // once: the view looks through all of them for each presentation.
-                     " FROM presentation WHERE session = ?1 AND (trial, attempt) IN"
+                     " WHERE session = ?1 AND (trial, attempt) IN"
                      " (SELECT trial, attempt FROM trial_in_force WHERE session = ?1" +
                      (include_excluded ? "" : " AND NOT excluded") +
                      ") ORDER BY trial, attempt, presentation");
   rows.bind(session);
-  std::vector<PresentationRow> all;
-  while (rows.step()) {
-    all.push_back(presentation_row(rows));
-  }
-  return all;
+  return read_rows<PresentationRow>(rows);
 }
 
 std::vector<AnswerRow> StudyStore::answers(std::int64_t session) const {
   const std::lock_guard guard(implementation_->mutex);
-  Statement rows(implementation_->database,
-                 std::string("SELECT ") + kAnswerColumns +
-                     " FROM answer_in_force WHERE session = ? ORDER BY sequence, item");
+  Statement rows(implementation_->database, select_from<AnswerRow>("answer_in_force") +
+                                                " WHERE session = ? ORDER BY sequence, item");
   rows.bind(session);
-  std::vector<AnswerRow> all;
-  while (rows.step()) {
-    all.push_back(answer_row(rows));
-  }
-  return all;
+  return read_rows<AnswerRow>(rows);
 }
 
 bool StudyStore::completed(std::int64_t session) const {

@@ -7,22 +7,10 @@
 
 #include "core/random_stream.h"
 #include "experiments/procedures/block_key.h"
+#include "experiments/procedures/planned_trial.h"
 #include "experiments/study/study.h"
 
 namespace jnd::experiments {
-
-/// One trial as it was drawn. Which fields are set depends on the procedure.
-struct PlannedTrial {
-  int repetition = 1;                         ///< From 1.
-  int position = 1;                           ///< Within the repetition, from 1.
-  std::optional<double> intensity;            ///< Of the test stimulus, unit of the quantity.
-  std::optional<double> reference_intensity;  ///< Unit of the quantity.
-  std::optional<double> starting_intensity;   ///< Production.
-  std::optional<double> target_percent;       ///< Production.
-  std::optional<int> series;                  ///< Staircase or series it is of, from 1.
-  std::optional<int> test_interval;           ///< 1 or 2, where the order is drawn.
-  bool is_catch = false;                      ///< Nothing is there to be found.
-};
 
 /// A trial with its answer, as an adaptive procedure needs it.
 struct AnsweredTrial {

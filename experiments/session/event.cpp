@@ -1,12 +1,11 @@
 #include "experiments/session/event.h"
 
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/error.h"
+#include "experiments/session/event_json.h"
 #include "experiments/study/shown_text.h"
 
 namespace jnd::experiments {
@@ -39,31 +38,6 @@ core::Exposure exposure_from_json(const json& data) {
 /// Of the layout of `data`, for every kind.
 constexpr int kVersion = 1;
 
-json optional_number(const std::optional<double>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-std::optional<double> optional_number(const json& data, const char* key) {
-  const json& value = data.at(key);
-  if (value.is_null()) return std::nullopt;
-  return value.get<double>();
-}
-
-constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;  ///< What JSON and SQL agree on.
-
-/// A whole number of the data. The library would cut 1.5 to 1 and 2^40 to an int.
-template <typename Whole = std::int64_t>
-Whole whole_number(const json& value, const char* key) {
-  constexpr std::int64_t kLargest =
-      std::min<std::int64_t>(kLargestWhole, std::numeric_limits<Whole>::max());
-  const bool fits = value.is_number_unsigned()
-                        ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(kLargest)
-                        : value.is_number_integer() && value.get<std::int64_t>() >= -kLargest;
-  if (fits) return value.get<Whole>();
-  throw core::Error(std::string(key) + ": expected a whole number up to " +
-                    std::to_string(kLargest) + ", found " + shown_text(value.dump()));
-}
-
 /// A column that this kind of event has, of a size that the fold can count with.
 template <typename Number>
 Number column(const std::optional<Number>& value, const char* name) {
@@ -78,37 +52,6 @@ const json& list_at(const json& data, const char* key) {
   const json& list = data.at(key);
   if (list.is_array()) return list;
   throw core::Error(std::string(key) + ": expected a list, found " + list.type_name());
-}
-
-json planned_to_json(const PlannedTrial& trial) {
-  json data = {{"repetition", trial.repetition},
-               {"position", trial.position},
-               {"intensity", optional_number(trial.intensity)},
-               {"reference_intensity", optional_number(trial.reference_intensity)},
-               {"starting_intensity", optional_number(trial.starting_intensity)},
-               {"target_percent", optional_number(trial.target_percent)}};
-  if (trial.series) data["series"] = *trial.series;
-  if (trial.test_interval) data["test_interval"] = *trial.test_interval;
-  if (trial.is_catch) data["is_catch"] = true;
-  return data;
-}
-
-std::optional<int> optional_whole(const json& data, const char* key) {
-  const auto found = data.find(key);
-  if (found == data.end()) return std::nullopt;
-  return whole_number<int>(*found, key);
-}
-
-PlannedTrial planned_from_json(const json& data) {
-  return {.repetition = whole_number<int>(data.at("repetition"), "repetition"),
-          .position = whole_number<int>(data.at("position"), "position"),
-          .intensity = optional_number(data, "intensity"),
-          .reference_intensity = optional_number(data, "reference_intensity"),
-          .starting_intensity = optional_number(data, "starting_intensity"),
-          .target_percent = optional_number(data, "target_percent"),
-          .series = optional_whole(data, "series"),
-          .test_interval = optional_whole(data, "test_interval"),
-          .is_catch = data.value("is_catch", false)};
 }
 
 json buckets_to_json(const std::vector<DurationBucket>& buckets) {
@@ -152,7 +95,9 @@ struct Writer {
     row.stage = e.stage;
     row.trial = e.first_trial;
     data["trials"] = json::array();
-    for (const PlannedTrial& trial : e.trials) data["trials"].push_back(planned_to_json(trial));
+    for (const PlannedTrial& trial : e.trials) {
+      write_columns(trial, data["trials"].emplace_back(json::object()));
+    }
   }
   void operator()(const TrialStarted& e) const {
     place(e.trial, e.attempt);
@@ -167,18 +112,9 @@ struct Writer {
   void operator()(const PresentationEnded& e) const {
     place(e.trial, e.attempt);
     row.last_tick = e.last_tick;
-    const PresentationSummary& s = e.summary;
-    data = {{"presentation", e.presentation},
-            {"stroke_width_m", optional_number(s.stroke_width_m)},
-            {"max_speed_m_per_s", optional_number(s.max_speed_m_per_s)},
-            {"mean_height_m", optional_number(s.mean_height_m)},
-            {"num_strokes", s.num_strokes},
-            {"delivered_damping_n_s_per_m", optional_number(s.delivered_damping_n_s_per_m)},
-            {"commanded_damping_n_s_per_m", optional_number(s.commanded_damping_n_s_per_m)},
-            {"limited_ticks", s.limited_ticks},
-            {"finger_lag_s", optional_number(s.finger_lag_s)}};
-    if (s.missed_ticks > 0) data["missed_ticks"] = s.missed_ticks;
-    if (s.exposure) data.update(exposure_json(*s.exposure));
+    data = {{"presentation", e.presentation}};
+    write_columns(e.summary.measures, data);
+    if (e.summary.exposure) data.update(exposure_json(*e.summary.exposure));
   }
   void operator()(const IntensityAdjusted& e) const {
     place(e.trial, e.attempt);
@@ -188,7 +124,8 @@ struct Writer {
   void operator()(const TrialAnswered& e) const {
     place(e.trial, e.attempt);
     row.last_tick = e.last_tick;
-    data = {{"response", e.response}, {"response_time_s", e.response_time_s}};
+    data = {{"response", e.response}};
+    write_columns(e.measures, data);
     if (e.feedback_right) data["feedback_right"] = *e.feedback_right;
   }
   void operator()(const AnswerUndone& e) const {
@@ -282,8 +219,9 @@ struct Reader {
   void operator()(TrialsDrawn& e) const {
     e.stage = column(row.stage, "stage");
     e.first_trial = column(row.trial, "trial");
-    for (const json& trial : list_at(data, "trials"))
-      e.trials.push_back(planned_from_json(trial));
+    for (const json& trial : list_at(data, "trials")) {
+      read_columns(trial, e.trials.emplace_back());
+    }
   }
   void operator()(TrialStarted& e) const {
     place(e);
@@ -300,22 +238,8 @@ struct Reader {
     place(e);
     e.last_tick = column(row.last_tick, "last_tick");
     e.presentation = whole_number(data.at("presentation"), "presentation");
-    PresentationSummary& s = e.summary;
-    s.stroke_width_m = optional_number(data, "stroke_width_m");
-    s.max_speed_m_per_s = optional_number(data, "max_speed_m_per_s");
-    s.mean_height_m = optional_number(data, "mean_height_m");
-    s.num_strokes = whole_number(data.at("num_strokes"), "num_strokes");
-    s.delivered_damping_n_s_per_m = optional_number(data, "delivered_damping_n_s_per_m");
-    s.commanded_damping_n_s_per_m = optional_number(data, "commanded_damping_n_s_per_m");
-    s.limited_ticks = whole_number(data.at("limited_ticks"), "limited_ticks");
-    // Sessions before layout 3 have none.
-    if (data.contains("finger_lag_s")) s.finger_lag_s = optional_number(data, "finger_lag_s");
-    if (data.contains("missed_ticks")) {
-      s.missed_ticks = whole_number(data.at("missed_ticks"), "missed_ticks");
-    }
-    if (data.contains("force_time_n_s")) {
-      s.exposure = exposure_from_json(data);
-    }
+    read_columns(data, e.summary.measures);
+    if (data.contains("force_time_n_s")) e.summary.exposure = exposure_from_json(data);
   }
   void operator()(IntensityAdjusted& e) const {
     place(e);
@@ -326,7 +250,7 @@ struct Reader {
     place(e);
     e.last_tick = column(row.last_tick, "last_tick");
     data.at("response").get_to(e.response);
-    data.at("response_time_s").get_to(e.response_time_s);
+    read_columns(data, e.measures);
     if (const auto told = data.find("feedback_right"); told != data.end()) {
       e.feedback_right = told->get<bool>();
     }

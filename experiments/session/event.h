@@ -68,14 +68,9 @@ struct PresentationStarted {
   std::int64_t first_tick = 0;
 };
 
-/// How the hand moved and what was delivered in one presentation.
+/// What came of one presentation.
 struct PresentationSummary {
-  std::optional<double> stroke_width_m, max_speed_m_per_s, mean_height_m;
-  std::int64_t num_strokes = 0;
-  std::optional<double> delivered_damping_n_s_per_m, commanded_damping_n_s_per_m;
-  std::int64_t limited_ticks = 0;
-  std::int64_t missed_ticks = 0;       ///< That were due and never ran.
-  std::optional<double> finger_lag_s;  ///< By which the fingers trail behind the palm.
+  core::PresentationMeasures measures;
   /// Of the hand since the presentation before, in between as well: of a real device, or where
   /// the study limits it.
   std::optional<core::Exposure> exposure{};
@@ -96,7 +91,7 @@ struct IntensityAdjusted {
 struct TrialAnswered {
   std::int64_t trial = 0, attempt = 1;
   double response = 0.0;  ///< Percent; 1 or 0; the intensity set.
-  double response_time_s = 0.0;
+  core::AnswerMeasures measures;
   std::int64_t last_tick = 0;
   std::optional<bool> feedback_right;  ///< What was told of it; none where nothing is.
 };

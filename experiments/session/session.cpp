@@ -107,23 +107,16 @@ void Session::draw_trials() {
   core::Commit rows;
   std::int64_t number = drawn.first_trial;
   for (const PlannedTrial& trial : trials) {
-    rows.design.push_back({.session = parameters_.session,
-                           .trial = number++,
-                           .stage = state_.stage,
-                           .block = stage.name,
-                           .procedure = block.procedure,
-                           .medium = block.medium,
-                           .quantity = block.quantity,
-                           .repetition = trial.repetition,
-                           .position = trial.position,
-                           .intensity = trial.intensity,
-                           .reference_intensity = trial.reference_intensity,
-                           .starting_intensity = trial.starting_intensity,
-                           .target_percent = trial.target_percent,
-                           .sequence = state_.last_sequence + 1,
-                           .series = trial.series,
-                           .test_interval = trial.test_interval,
-                           .is_catch = trial.is_catch});
+    core::DesignRow& row = rows.design.emplace_back();
+    row = {.session = parameters_.session,
+           .trial = number++,
+           .stage = state_.stage,
+           .block = stage.name,
+           .procedure = block.procedure,
+           .medium = block.medium,
+           .quantity = block.quantity,
+           .sequence = state_.last_sequence + 1};
+    core::copy_columns(trial, row);
   }
   commit(std::move(drawn), std::move(rows));
 }
@@ -216,25 +209,16 @@ void Session::end_presentation(std::int64_t last_tick, const PresentationSummary
   const PresentationState& open = trial.presentations.back();
   const auto presentation = static_cast<std::int64_t>(trial.presentations.size());
   core::Commit rows;
-  rows.presentation =
-      core::PresentationRow{.session = parameters_.session,
-                            .trial = number,
-                            .attempt = trial.attempt,
-                            .presentation = presentation,
-                            .sequence = state_.last_sequence + 1,
-                            .interval = open.interval,
-                            .intensity = open.intensity,
-                            .first_tick = open.first_tick,
-                            .last_tick = last_tick,
-                            .stroke_width_m = summary.stroke_width_m,
-                            .max_speed_m_per_s = summary.max_speed_m_per_s,
-                            .mean_height_m = summary.mean_height_m,
-                            .num_strokes = summary.num_strokes,
-                            .delivered_damping_n_s_per_m = summary.delivered_damping_n_s_per_m,
-                            .commanded_damping_n_s_per_m = summary.commanded_damping_n_s_per_m,
-                            .limited_ticks = summary.limited_ticks,
-                            .finger_lag_s = summary.finger_lag_s,
-                            .missed_ticks = summary.missed_ticks};
+  rows.presentation = core::PresentationRow{.session = parameters_.session,
+                                            .trial = number,
+                                            .attempt = trial.attempt,
+                                            .presentation = presentation,
+                                            .sequence = state_.last_sequence + 1,
+                                            .interval = open.interval,
+                                            .intensity = open.intensity,
+                                            .first_tick = open.first_tick,
+                                            .last_tick = last_tick,
+                                            .measures = summary.measures};
   commit(PresentationEnded{number, trial.attempt, presentation, last_tick, summary},
          std::move(rows));
 }
@@ -268,29 +252,23 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
   const Block& block = std::get<Block>(stage.content);
   const bool is_match =
       procedure_named(block.procedure).form(block).answer == AnswerKind::kMatch;
-  return {.session = parameters_.session,
-          .trial = number,
-          .attempt = trial.attempt,
-          .sequence = state_.last_sequence + 1,
-          .block = stage.name,
-          .procedure = block.procedure,
-          .medium = block.medium,
-          .quantity = block.quantity,
-          .repetition = trial.planned.repetition,
-          .position = trial.planned.position,
-          .intensity = is_match ? response : trial.planned.intensity,
-          .reference_intensity = trial.planned.reference_intensity,
-          .starting_intensity = trial.planned.starting_intensity,
-          .target_percent = trial.planned.target_percent,
-          .response = response,
-          .response_time_s = trial.response_time_s,
-          .num_presentations = static_cast<std::int64_t>(trial.presentations.size()),
-          .num_steps = trial.num_steps,
-          .first_tick = trial.first_tick,
-          .last_tick = trial.last_tick,
-          .series = trial.planned.series,
-          .test_interval = trial.planned.test_interval,
-          .is_catch = trial.planned.is_catch};
+  core::TrialRow row{.session = parameters_.session,
+                     .trial = number,
+                     .attempt = trial.attempt,
+                     .sequence = state_.last_sequence + 1,
+                     .block = stage.name,
+                     .procedure = block.procedure,
+                     .medium = block.medium,
+                     .quantity = block.quantity,
+                     .response = response,
+                     .measures = trial.measures,
+                     .num_presentations = static_cast<std::int64_t>(trial.presentations.size()),
+                     .num_steps = trial.num_steps,
+                     .first_tick = trial.first_tick,
+                     .last_tick = trial.last_tick};
+  core::copy_columns(trial.planned, row);
+  if (is_match) row.intensity = response;
+  return row;
 }
 
 /// What is stored for a value that was answered.
@@ -313,24 +291,26 @@ std::optional<bool> Session::feedback(const PlannedTrial& trial, double response
 
 void Session::require_answer(double value) const { (void)response_for(value); }
 
-void Session::answer(double value, double response_time_s, std::int64_t last_tick) {
+void Session::answer(double value, const core::AnswerMeasures& measures,
+                     std::int64_t last_tick) {
   const std::int64_t number = open_trial("take an answer");
   const TrialState& trial = state_.trial(number);
   if (trial.presentations.empty() || !trial.presentations.back().last_tick) {
     cannot("take an answer", "a finished presentation");
   }
   const double response = response_for(value);
+  const double response_time_s = measures.response_time_s.value_or(-1.0);
   if (!(response_time_s >= 0.0) || !std::isfinite(response_time_s)) {
     cannot("take an answer", "a response time >= 0");
   }
   core::Commit rows;
   rows.trial = answered_row(number, response);
-  rows.trial->response_time_s = response_time_s;
+  rows.trial->measures = measures;
   rows.trial->last_tick = last_tick;
   commit(TrialAnswered{.trial = number,
                        .attempt = trial.attempt,
                        .response = response,
-                       .response_time_s = response_time_s,
+                       .measures = measures,
                        .last_tick = last_tick,
                        .feedback_right = feedback(trial.planned, response)},
          std::move(rows));

@@ -87,7 +87,7 @@ class Session {
   void require_answer(double value) const;
   /// The answer as it was given: percent, 1 and 0, or the interval that was chosen; in
   /// production the set intensity is the answer and `value` is ignored.
-  void answer(double value, double response_time_s, std::int64_t last_tick);
+  void answer(double value, const core::AnswerMeasures& measures, std::int64_t last_tick);
   /// Gives the attempt under way up; its trial is the next one again.
   void discard_attempt(const std::string& reason);
   /// Gives it up for what the apparatus or the machine did. Its trial comes again at a later

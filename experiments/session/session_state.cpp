@@ -76,7 +76,7 @@ struct Fold {
     TrialState& trial = of(e.trial);
     trial.under_way = false;
     trial.response = e.response;
-    trial.response_time_s = e.response_time_s;
+    trial.measures = e.measures;
     trial.answer_sequence = event.sequence;
     trial.last_tick = e.last_tick;
     state.feedback_right = e.feedback_right;

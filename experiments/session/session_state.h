@@ -33,7 +33,7 @@ struct TrialState {
   std::int64_t num_steps = 0;
   std::optional<double> response;
   std::int64_t answer_sequence = 0;  ///< Of the event that holds the answer.
-  double response_time_s = 0.0;
+  core::AnswerMeasures measures;     ///< Of it.
   bool excluded = false;
 };
 

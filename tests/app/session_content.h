@@ -3,6 +3,8 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"
@@ -50,58 +52,37 @@ inline std::string difference(const std::string& a, const std::string& b) {
   return line_a + "\n" + line_b;
 }
 
-inline std::string design_text(const core::StudyStore& store, std::int64_t session) {
+/// All columns of the rows but the number of their session.
+template <typename Row>
+std::string rows_text(const std::vector<Row>& rows) {
   RowText text;
-  for (const core::DesignRow& r : store.design(session)) {
-    text << r.trial << r.stage << r.block << r.procedure << r.medium << r.quantity
-         << r.repetition << r.position << r.intensity << r.reference_intensity
-         << r.starting_intensity << r.target_percent;
+  for (const Row& row : rows) {
+    core::for_each_column<Row>([&](const auto& column, const auto& value_in) {
+      if (std::string_view(column.name) != "session") text << value_in(row);
+    });
     text.end();
   }
   return text.text();
+}
+
+inline std::string design_text(const core::StudyStore& store, std::int64_t session) {
+  return rows_text(store.design(session));
 }
 
 inline std::string trials_text(const core::StudyStore& store, std::int64_t session) {
-  RowText text;
-  for (const core::TrialRow& r : store.trials(session, /*include_excluded=*/true)) {
-    text << r.trial << r.attempt << r.sequence << r.block << r.procedure << r.medium
-         << r.quantity << r.repetition << r.position << r.intensity << r.reference_intensity
-         << r.starting_intensity << r.target_percent << r.response << r.response_time_s
-         << r.num_presentations << r.num_steps << r.first_tick << r.last_tick;
-    text.end();
-  }
-  return text.text();
+  return rows_text(store.trials(session, /*include_excluded=*/true));
 }
 
 inline std::string presentations_text(const core::StudyStore& store, std::int64_t session) {
-  RowText text;
-  for (const core::PresentationRow& r : store.presentations(session)) {
-    text << r.trial << r.attempt << r.presentation << r.sequence << r.interval << r.intensity
-         << r.first_tick << r.last_tick << r.stroke_width_m << r.max_speed_m_per_s
-         << r.mean_height_m << r.num_strokes << r.delivered_damping_n_s_per_m
-         << r.commanded_damping_n_s_per_m << r.limited_ticks << r.finger_lag_s;
-    text.end();
-  }
-  return text.text();
+  return rows_text(store.presentations(session));
 }
 
 inline std::string events_text(const core::StudyStore& store, std::int64_t session) {
-  RowText text;
-  for (const core::EventRow& r : store.events(session)) {
-    text << r.sequence << r.kind << r.version << r.time_ns << r.stage << r.trial << r.attempt
-         << r.first_tick << r.last_tick << r.intensity << r.supersedes << r.data;
-    text.end();
-  }
-  return text.text();
+  return rows_text(store.events(session));
 }
 
 inline std::string answers_text(const core::StudyStore& store, std::int64_t session) {
-  RowText text;
-  for (const core::AnswerRow& r : store.answers(session)) {
-    text << r.sequence << r.stage << r.item << r.answer;
-    text.end();
-  }
-  return text.text();
+  return rows_text(store.answers(session));
 }
 
 /// Samples of the recording, or "" without one.

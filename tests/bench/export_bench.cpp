@@ -44,15 +44,15 @@ class LargeStudy {
                                  .trial = trial,
                                  .attempt = 1,
                                  .intensity = number}};
-    shown.presentation = core::PresentationRow{.session = session,
-                                               .trial = trial,
-                                               .attempt = 1,
-                                               .presentation = 1,
-                                               .sequence = sequence - 1,
-                                               .interval = "test",
-                                               .intensity = number,
-                                               .stroke_width_m = number / 3.0,
-                                               .max_speed_m_per_s = number / 7.0};
+    shown.presentation = core::PresentationRow{
+        .session = session,
+        .trial = trial,
+        .attempt = 1,
+        .presentation = 1,
+        .sequence = sequence - 1,
+        .interval = "test",
+        .intensity = number,
+        .measures = {.stroke_width_m = number / 3.0, .max_speed_m_per_s = number / 7.0}};
     store.append(shown);
     core::Commit answered{.event = {.session = session,
                                     .sequence = sequence,
@@ -69,7 +69,7 @@ class LargeStudy {
                                     .quantity = "scale",
                                     .intensity = number,
                                     .response = 100.0 * number,
-                                    .response_time_s = 3.0 * number};
+                                    .measures = {.response_time_s = 3.0 * number}};
     store.append(answered);
   }
 

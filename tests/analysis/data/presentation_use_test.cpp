@@ -16,9 +16,9 @@ void present(HandMadeStudy& study, const std::string& block, const std::string& 
   study.move({.presentation = interval == "test" ? 2 : 1,
               .interval = interval,
               .intensity = intensity,
-              .stroke_width_m = width_m,
-              .max_speed_m_per_s = width_m,
-              .num_strokes = width_m ? 1 : 0});
+              .measures = {.num_strokes = width_m ? 1 : 0,
+                           .stroke_width_m = width_m,
+                           .max_speed_m_per_s = width_m}});
 }
 
 /// Wide references, narrow tests; in group_e most tests have no whole stroke.

@@ -30,7 +30,7 @@ class BidsExportTest : public ::testing::Test {
                          .intensity = 4.0,
                          .reference_intensity = 8.0,
                          .response = 0.0,
-                         .response_time_s = 1.5,
+                         .measures = {.response_time_s = 1.5},
                          .first_tick = 100,
                          .last_tick = 109});
     study_.move({.presentation = 1,

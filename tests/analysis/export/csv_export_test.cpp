@@ -34,12 +34,11 @@ class CsvExportTest : public ::testing::Test {
                          .intensity = kAwkward,
                          .reference_intensity = 8.0,
                          .response = 1.0,
-                         .response_time_s = 1.5e-7});
+                         .measures = {.response_time_s = 1.5e-7}});
     study_.move({.presentation = 1,
                  .interval = "test",
                  .intensity = kAwkward,
-                 .stroke_width_m = 1.0 / 3.0,
-                 .num_strokes = 2});
+                 .measures = {.num_strokes = 2, .stroke_width_m = 1.0 / 3.0}});
     study_.exclude(study_.answer({.block = "group_d",
                                   .procedure = "constant_stimuli",
                                   .quantity = "viscosity_pa_s",

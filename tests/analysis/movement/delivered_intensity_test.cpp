@@ -26,8 +26,8 @@ core::PresentationRow felt(std::int64_t trial, const char* interval, double inte
           .trial = trial,
           .interval = interval,
           .intensity = intensity,
-          .delivered_damping_n_s_per_m = delivered_ratio * 1.5 * intensity,
-          .commanded_damping_n_s_per_m = 1.5 * intensity};
+          .measures = {.delivered_damping_n_s_per_m = delivered_ratio * 1.5 * intensity,
+                       .commanded_damping_n_s_per_m = 1.5 * intensity}};
 }
 
 StudyData one_person(std::vector<core::TrialRow> trials,
@@ -90,7 +90,7 @@ TEST(DeliveredIntensity, OfAProductionIsThatOfTheValueSet) {
 
 TEST(DeliveredIntensity, WhatNobodyMeasuredIsLeftOutAndCounted) {
   core::PresentationRow nothing = felt(2, "test", 1.0, 1.0);
-  nothing.delivered_damping_n_s_per_m = std::nan("");
+  nothing.measures.delivered_damping_n_s_per_m = std::nan("");
   const StudyData data =
       one_person({comparison(1, 4.0, true), comparison(2, 1.0, false)},
                  {felt(1, "reference", 2.0, 1.0), felt(1, "test", 4.0, 1.0), nothing});
@@ -108,7 +108,7 @@ TEST(DeliveredIntensity, WhereTheDatabaseIsSilentTheRecordingSays) {
   study.finish();
   StudyData data = load_study(study.store());
   for (auto& [block, rows] : data.participants[0].presentations) {
-    for (core::PresentationRow& row : rows) row.commanded_damping_n_s_per_m.reset();
+    for (core::PresentationRow& row : rows) row.measures.commanded_damping_n_s_per_m.reset();
   }
   EXPECT_TRUE(delivered_intensities(data).empty());
   const DeliveredStudy found = with_delivered(data, study.store());

@@ -142,8 +142,9 @@ class RecordedStudy {
         .intensity = intensity,
         .first_tick = first_tick,
         .last_tick = tick_ - 1,
-        .delivered_damping_n_s_per_m = kDampingPerPaS * intensity * delivered_ratio_,
-        .commanded_damping_n_s_per_m = kDampingPerPaS * intensity};
+        .measures = {
+            .delivered_damping_n_s_per_m = kDampingPerPaS * intensity * delivered_ratio_,
+            .commanded_damping_n_s_per_m = kDampingPerPaS * intensity}};
     store_.append(ended);
   }
 

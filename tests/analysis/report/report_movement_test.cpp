@@ -32,9 +32,9 @@ void present(HandMadeStudy& study, const std::string& interval, std::int64_t pre
   study.move({.presentation = presentation,
               .interval = interval,
               .intensity = 8.0,
-              .stroke_width_m = width_m,
-              .max_speed_m_per_s = width_m,
-              .num_strokes = width_m ? 1 : 0});
+              .measures = {.num_strokes = width_m ? 1 : 0,
+                           .stroke_width_m = width_m,
+                           .max_speed_m_per_s = width_m}});
 }
 
 TEST(ReportMovement, WarnsWhereMoreThanATenthHoldNoWholeStroke) {

@@ -260,9 +260,7 @@ void move_widely(HandMadeStudy& study) {
   study.move({.presentation = 1,
               .interval = "test",
               .intensity = 12.0,
-              .stroke_width_m = 0.3,
-              .max_speed_m_per_s = 0.4,
-              .num_strokes = 3});
+              .measures = {.num_strokes = 3, .stroke_width_m = 0.3, .max_speed_m_per_s = 0.4}});
 }
 
 /// P01 and P02 in the one arm, P03 in the other; P04 and P05 left either before it began.
@@ -459,9 +457,9 @@ TEST(StudyResults, MovementIsTheMeanOverParticipantsOfPresentationsWithAWholeStr
     study.compare(block, 12.0, 8.0, true);
     study.move({.presentation = 1,
                 .interval = interval,
-                .stroke_width_m = width_m,
-                .max_speed_m_per_s = speed_m_per_s,
-                .num_strokes = num_strokes});
+                .measures = {.num_strokes = num_strokes,
+                             .stroke_width_m = width_m,
+                             .max_speed_m_per_s = speed_m_per_s}});
   };
   study.add("P01");
   present("group_d", 0.2, 0.40, 2);
@@ -494,10 +492,10 @@ TEST(StudyResults, FingersTrailBehindThePalmOfADeviceThatHasThem) {
     study.compare(block, 12.0, 8.0, true);
     study.move({.presentation = 1,
                 .interval = "test",
-                .stroke_width_m = 0.3,
-                .max_speed_m_per_s = 0.4,
-                .num_strokes = 2,
-                .finger_lag_s = finger_lag_s});
+                .measures = {.num_strokes = 2,
+                             .stroke_width_m = 0.3,
+                             .max_speed_m_per_s = 0.4,
+                             .finger_lag_s = finger_lag_s}});
   };
   study.add("P01");
   present("group_d", std::nullopt);

@@ -23,11 +23,13 @@ core::TrialRow trial_at(double intensity, bool yes, const std::string& block = "
 
 /// Of the trial answered last: the reference with a stroke, the test with or without.
 void felt(HandMadeStudy& study, std::int64_t num_strokes, std::int64_t limited_ticks = 0) {
-  study.move({.presentation = 1, .interval = "reference", .intensity = 8.0, .num_strokes = 2});
+  study.move({.presentation = 1,
+              .interval = "reference",
+              .intensity = 8.0,
+              .measures = {.num_strokes = 2}});
   study.move({.presentation = 2,
               .interval = "test",
-              .num_strokes = num_strokes,
-              .limited_ticks = limited_ticks});
+              .measures = {.num_strokes = num_strokes, .limited_ticks = limited_ticks}});
 }
 
 /// Ten answers at each of four levels, all as they were meant to be.
@@ -50,7 +52,7 @@ TEST(TrialLosses, AreCountedByLevel) {
   study.add("P01");
   add_sound_answers(study);
   // The test was felt once more, without a stroke: it had one before.
-  study.move({.presentation = 3, .interval = "test", .num_strokes = 0});
+  study.move({.presentation = 3, .interval = "test", .measures = {.num_strokes = 0}});
   (void)study.answer(trial_at(16.0, true));
   felt(study, 0);
   (void)study.answer(trial_at(16.0, true));
@@ -169,7 +171,8 @@ TEST(TrialLosses, WhatARuleMadeOfThemHasNothingToSayWithoutThem) {
     row.procedure = "staircase";
     row.reference_intensity.reset();
     (void)study.answer(row);
-    study.move({.presentation = 1, .interval = "test", .num_strokes = i == 0 ? 0 : 1});
+    study.move(
+        {.presentation = 1, .interval = "test", .measures = {.num_strokes = i == 0 ? 0 : 1}});
   }
   StudyData data = load_study(study.store());
   data.runs.clear();  // By hand instead.

@@ -138,10 +138,11 @@ TEST_F(OperatedSessionTest, ThePresentationIsStoredWithWhatWasDelivered) {
   const core::PresentationRow& reference = rows.at(rows.size() - 2);
   EXPECT_EQ(reference.interval, "reference");
   EXPECT_EQ(reference.intensity, 8.0);
-  ASSERT_TRUE(reference.delivered_damping_n_s_per_m.has_value());
-  EXPECT_NEAR(*reference.delivered_damping_n_s_per_m, *reference.commanded_damping_n_s_per_m,
-              0.05 * *reference.commanded_damping_n_s_per_m);
-  EXPECT_GE(reference.num_strokes, 1);
+  ASSERT_TRUE(reference.measures.delivered_damping_n_s_per_m.has_value());
+  EXPECT_NEAR(*reference.measures.delivered_damping_n_s_per_m,
+              *reference.measures.commanded_damping_n_s_per_m,
+              0.05 * *reference.measures.commanded_damping_n_s_per_m);
+  EXPECT_GE(reference.measures.num_strokes, 1);
   EXPECT_EQ(rows.back().interval, "test");
 }
 

@@ -80,7 +80,7 @@ TEST_F(SessionRefusalsTest, NoneEndsThePresentationUnderWay) {
   const core::TrialRow row = store_->trials(session_number_).back();
   EXPECT_EQ(row.trial, trial);
   EXPECT_EQ(row.attempt, 1);
-  EXPECT_NEAR(row.response_time_s.value(), felt_s, 0.02);
+  EXPECT_NEAR(row.measures.response_time_s.value(), felt_s, 0.02);
 }
 
 TEST_F(SessionRefusalsTest, NoneTakesTheMediumOutsideOfTrialsAway) {

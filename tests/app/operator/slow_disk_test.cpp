@@ -106,7 +106,7 @@ TEST_F(SlowDiskTest, SoDoesAnAnswerWhichIsStoredAsItWasGiven) {
   const core::TrialRow row = store_->trials(session_number_).back();
   EXPECT_EQ(row.trial, trial);
   EXPECT_EQ(row.response, 0.0);
-  EXPECT_NEAR(row.response_time_s.value(), felt_s, 0.5);
+  EXPECT_NEAR(row.measures.response_time_s.value(), felt_s, 0.5);
   EXPECT_EQ(store_->presentations(session_number_).back().last_tick, row.last_tick);
   EXPECT_TRUE(core::verify(*store_).problems.empty());
 }

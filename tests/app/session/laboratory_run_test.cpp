@@ -376,16 +376,16 @@ TEST_F(LaboratoryRunTest, AParticipantJudgesWhatWasDeliveredNotWhatWasAskedFor) 
   for (const core::PresentationRow& row : b) {
     if (row.interval != "test" || row.trial < 7 || row.intensity != 16.0) continue;
     ++num_compared;
-    EXPECT_GT(row.limited_ticks, 0);
-    EXPECT_LT(row.delivered_damping_n_s_per_m.value(),
-              0.8 * row.commanded_damping_n_s_per_m.value());
+    EXPECT_GT(row.measures.limited_ticks, 0);
+    EXPECT_LT(row.measures.delivered_damping_n_s_per_m.value(),
+              0.8 * row.measures.commanded_damping_n_s_per_m.value());
   }
   EXPECT_GT(num_compared, 0);
   for (const core::PresentationRow& row : a) {
     if (row.trial < 7 || row.intensity != 4.0) continue;
-    EXPECT_NEAR(
-        row.delivered_damping_n_s_per_m.value() / row.commanded_damping_n_s_per_m.value(), 1.0,
-        0.05);
+    EXPECT_NEAR(row.measures.delivered_damping_n_s_per_m.value() /
+                    row.measures.commanded_damping_n_s_per_m.value(),
+                1.0, 0.05);
   }
 }
 
@@ -429,7 +429,7 @@ TEST_F(LaboratoryRunTest, ATrialWithTooManyMissedTicksIsRepeated) {
   EXPECT_GE(num_discarded, 1);
   ASSERT_EQ(store->trials(1).size(), 1U);
   for (const core::PresentationRow& row : store->presentations(1)) {
-    EXPECT_LE(row.missed_ticks, (row.last_tick - row.first_tick + 1) / 4);
+    EXPECT_LE(row.measures.missed_ticks, (row.last_tick - row.first_tick + 1) / 4);
   }
   const core::Integrity integrity = core::verify(*store);
   EXPECT_TRUE(integrity.complete);

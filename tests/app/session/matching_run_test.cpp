@@ -82,7 +82,7 @@ TEST_F(MatchingRun, TheStandardIsRenderedInItsOwnMedium) {
   for (const core::PresentationRow& row : store_.presentations(sessions_.front())) {
     // The drag constants of a sphere and of the hand.
     const double constant = row.interval == "reference" ? 1.2322 : 1.7760;
-    EXPECT_NEAR(row.commanded_damping_n_s_per_m.value(), constant * row.intensity,
+    EXPECT_NEAR(row.measures.commanded_damping_n_s_per_m.value(), constant * row.intensity,
                 1e-3 * row.intensity);
   }
 }

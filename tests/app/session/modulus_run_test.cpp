@@ -56,7 +56,7 @@ TEST(ModulusRun, VerifiesAndHasResults) {
   for (const core::PresentationRow& row : store.presentations(sessions.front())) {
     if (row.interval != "reference") continue;
     ++num_standards;
-    EXPECT_NEAR(row.commanded_damping_n_s_per_m.value(), 1.2322 * 8.0, 0.01);
+    EXPECT_NEAR(row.measures.commanded_damping_n_s_per_m.value(), 1.2322 * 8.0, 0.01);
   }
   EXPECT_GE(num_standards, 2) << "two trials of four, and looks again";
   const analysis::StudyResults results =

@@ -82,10 +82,10 @@ TEST_F(SolidRun, APressIsNoStroke) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   simulate();
   for (const core::PresentationRow& row : store_.presentations(sessions_.front())) {
-    EXPECT_EQ(row.num_strokes, 0);
-    EXPECT_FALSE(row.stroke_width_m);
-    EXPECT_FALSE(row.delivered_damping_n_s_per_m);
-    EXPECT_EQ(row.limited_ticks, 0) << "the limiter kept out of the way";
+    EXPECT_EQ(row.measures.num_strokes, 0);
+    EXPECT_FALSE(row.measures.stroke_width_m);
+    EXPECT_FALSE(row.measures.delivered_damping_n_s_per_m);
+    EXPECT_EQ(row.measures.limited_ticks, 0) << "the limiter kept out of the way";
   }
   const analysis::StudyResults results =
       analysis::results_of(analysis::load_study(store_), {}, {.num_resamples = 50});

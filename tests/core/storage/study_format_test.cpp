@@ -50,8 +50,8 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
     ASSERT_EQ(store.design(1).size(), 6U);
     EXPECT_FALSE(store.design(1)[0].series || store.design(1)[0].is_catch);
     ASSERT_EQ(store.presentations(1).size(), 4U);
-    EXPECT_FALSE(store.presentations(1)[0].finger_lag_s);
-    EXPECT_EQ(store.presentations(1)[0].missed_ticks, 0);
+    EXPECT_FALSE(store.presentations(1)[0].measures.finger_lag_s);
+    EXPECT_EQ(store.presentations(1)[0].measures.missed_ticks, 0);
     EXPECT_TRUE(verify(store).complete);
 
     EXPECT_EQ(store.study_id().size(), 32U);
@@ -68,13 +68,13 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
     }
     if (has(3)) {
       ASSERT_EQ(store.presentations(3).size(), 1U);
-      EXPECT_EQ(store.presentations(3)[0].finger_lag_s, 0.0125);
-      EXPECT_EQ(store.presentations(3)[0].missed_ticks, 0);
+      EXPECT_EQ(store.presentations(3)[0].measures.finger_lag_s, 0.0125);
+      EXPECT_EQ(store.presentations(3)[0].measures.missed_ticks, 0);
     }
     if (has(4)) expect_adaptive_trials(store);
     if (has(5)) {
       ASSERT_EQ(store.presentations(5).size(), 1U);
-      EXPECT_EQ(store.presentations(5)[0].missed_ticks, 3);
+      EXPECT_EQ(store.presentations(5)[0].measures.missed_ticks, 3);
     }
     EXPECT_THAT(store.adverse_events(), IsEmpty());
   }

@@ -36,7 +36,7 @@ class AdaptiveSessionTest : public ::testing::Test {
     s.start_trial(s.state().last_tick + 1);
     present(s, "reference");
     present(s, "test");
-    s.answer(response, 1.5, s.state().last_tick);
+    s.answer(response, {.response_time_s = 1.5}, s.state().last_tick);
   }
   /// "Yes" above 6 Pa s.
   static void run_to_end(Session& s) {

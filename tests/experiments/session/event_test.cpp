@@ -11,14 +11,14 @@ namespace event_test {
 
 /// One of each kind, no field left at its default.
 std::vector<EventData> one_of_each() {
-  const PresentationSummary summary{.stroke_width_m = 0.26,
-                                    .max_speed_m_per_s = 0.44,
-                                    .mean_height_m = -0.4,
-                                    .num_strokes = 3,
-                                    .delivered_damping_n_s_per_m = 3.2,
-                                    .commanded_damping_n_s_per_m = std::nullopt,
-                                    .limited_ticks = 4,
-                                    .finger_lag_s = 0.012};
+  const PresentationSummary summary{.measures = {.num_strokes = 3,
+                                                 .stroke_width_m = 0.26,
+                                                 .max_speed_m_per_s = 0.44,
+                                                 .mean_height_m = -0.4,
+                                                 .delivered_damping_n_s_per_m = 3.2,
+                                                 .commanded_damping_n_s_per_m = std::nullopt,
+                                                 .limited_ticks = 4,
+                                                 .finger_lag_s = 0.012}};
   return {SessionStarted{"de", {{"sex", "female"}}},
           StageEntered{2},
           ItemAnswered{2, "about_you", "body_height_m", "1.75"},
@@ -29,7 +29,7 @@ std::vector<EventData> one_of_each() {
           PresentationStarted{4, 2, 3, "reference", 1.853, 31},
           PresentationEnded{4, 2, 3, 40, summary},
           IntensityAdjusted{4, 2, 1.0, 1.5},
-          TrialAnswered{4, 2, 1.0, 2.5, 41},
+          TrialAnswered{4, 2, 1.0, {2.5}, 41},
           AnswerUndone{4, 2, 17, "why"},
           AnswerCorrected{4, 2, 17, 0.0, "why"},
           AttemptDiscarded{4, 2, "why", 7},
@@ -80,6 +80,58 @@ TEST(Event, EveryKindComesBackFromItsRowAsItWas) {
   }
 }
 
+core::PresentationMeasures measures_of(const std::string& data) {
+  const core::EventRow row{.session = 1,
+                           .sequence = 1,
+                           .kind = "presentation_ended",
+                           .trial = 1,
+                           .attempt = 1,
+                           .last_tick = 1,
+                           .data = data};
+  return std::get<PresentationEnded>(event_from_row(row).data).summary.measures;
+}
+
+/// What every event has of a presentation, and nothing that came later.
+constexpr char kFirstKeys[] =
+    R"("presentation":1,"stroke_width_m":0.26,"max_speed_m_per_s":null,"mean_height_m":-0.4,)"
+    R"("num_strokes":3,"delivered_damping_n_s_per_m":3.2,"commanded_damping_n_s_per_m":null,)"
+    R"("limited_ticks":4)";
+
+TEST(Event, OfAnOlderProgramLacksWhatCameLater) {
+  const core::PresentationMeasures measures = measures_of(std::string("{") + kFirstKeys + "}");
+  EXPECT_EQ(measures.num_strokes, 3);
+  EXPECT_EQ(measures.stroke_width_m, 0.26);
+  EXPECT_FALSE(measures.max_speed_m_per_s);
+  EXPECT_EQ(measures.limited_ticks, 4);
+  EXPECT_EQ(measures.missed_ticks, 0);
+  EXPECT_FALSE(measures.finger_lag_s);
+  const core::PresentationMeasures later =
+      measures_of(std::string("{") + kFirstKeys + R"(,"finger_lag_s":0.5,"missed_ticks":2})");
+  EXPECT_EQ(later.finger_lag_s, 0.5);
+  EXPECT_EQ(later.missed_ticks, 2);
+}
+
+TEST(Event, WithoutWhatEveryEventOfItsKindHasIsDamaged) {
+  EXPECT_THROW((void)measures_of(R"({"presentation":1})"), core::Error);
+  EXPECT_THROW((void)measures_of(std::string("{") + kFirstKeys + R"(,"missed_ticks":1.5})"),
+               core::Error);
+  EXPECT_THROW((void)measures_of(std::string("{") + kFirstKeys + R"(,"finger_lag_s":"a"})"),
+               core::Error);
+}
+
+TEST(Event, StoresWhatWasMeasuredUnderTheNamesOfItsColumns) {
+  const auto data_of = [](const core::PresentationMeasures& measures) {
+    return row_from_event(1, {.sequence = 1,
+                              .data = PresentationEnded{1, 1, 1, 9, {.measures = measures}}})
+        .data;
+  };
+  EXPECT_EQ(data_of({.num_strokes = 2, .stroke_width_m = 0.0}),
+            R"({"commanded_damping_n_s_per_m":null,"delivered_damping_n_s_per_m":null,)"
+            R"("finger_lag_s":null,"limited_ticks":0,"max_speed_m_per_s":null,)"
+            R"("mean_height_m":null,"num_strokes":2,"presentation":1,"stroke_width_m":0.0})");
+  EXPECT_NE(data_of({.missed_ticks = 7}).find(R"("missed_ticks":7)"), std::string::npos);
+}
+
 TEST(Event, OneOfANewerProgramIsRefusedAndNotGuessedAt) {
   core::EventRow row = row_from_event(3, {.sequence = 9, .data = NoteAdded{"a"}});
   EXPECT_NO_THROW((void)event_from_row(row));
@@ -96,7 +148,7 @@ TEST(Event, OneOfANewerProgramIsRefusedAndNotGuessedAt) {
 
 TEST(Event, StoresAnAnswerUnderReadableWords) {
   const core::EventRow row =
-      row_from_event(1, {.sequence = 1, .data = TrialAnswered{4, 2, 120, 2.5, 41}});
+      row_from_event(1, {.sequence = 1, .data = TrialAnswered{4, 2, 120, {2.5}, 41}});
   EXPECT_EQ(row.kind, "trial_answered");
   EXPECT_EQ(row.trial, 4);
   EXPECT_EQ(row.last_tick, 41);

@@ -19,7 +19,7 @@ class MatchingSession : public ::testing::Test {
     EXPECT_TRUE(session.adjust(Direction::kRaise, StepSize::kCoarse));
     present(session, "reference");
     present(session, "test");
-    session.answer(0.0, 1.5, session.state().last_tick);
+    session.answer(0.0, {.response_time_s = 1.5}, session.state().last_tick);
   }
 
   const core::TrialRow& last_trial_row() const {

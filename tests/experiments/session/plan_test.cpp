@@ -96,7 +96,7 @@ void expect_orders_as_planned(const Study& study) {
         session.start_trial(tick);
         session.begin_presentation("test", tick);
         session.end_presentation(tick += 10, {});
-        session.answer(1.0, 1.0, tick);
+        session.answer(1.0, {.response_time_s = 1.0}, tick);
         tick += 1;
       }
       session.finish_stage();

@@ -44,7 +44,7 @@ class SessionTest : public ::testing::Test {
     session.start_trial(session.state().last_tick + 1);
     if (session.current_form().has_reference) present(session, "reference");
     present(session, "test");
-    session.answer(response, 1.5, session.state().last_tick);
+    session.answer(response, {.response_time_s = 1.5}, session.state().last_tick);
   }
 
   Stage checklist_{.name = "before", .content = Checklist{.items = {{}, {}}}};
@@ -90,7 +90,7 @@ TEST_F(SessionTest, WhatWouldBeRefusedCanBeAskedBeforeAndChangesNothing) {
   EXPECT_THROW(s.require_interval("honey"), core::Error);
   EXPECT_EQ(log_.events.size(), num_events);
   s.end_presentation(99, {});
-  s.answer(1.0, 1.0, 99);
+  s.answer(1.0, {.response_time_s = 1.0}, 99);
   EXPECT_NO_THROW(s.require_undo());
 }
 
@@ -191,7 +191,7 @@ std::vector<std::int64_t> order_with_first_put_off(Session& s) {
       s.begin_presentation(interval, tick);
       s.end_presentation(tick + 99, {});
     }
-    s.answer(1.0, 1.5, s.state().last_tick);
+    s.answer(1.0, {.response_time_s = 1.5}, s.state().last_tick);
   }
   return order;
 }
@@ -275,7 +275,7 @@ TEST_F(SessionTest, StepsLeaveTheStartingRangeUpwardsAndStopAtZero) {
     EXPECT_EQ(log_.events.size(), before);
   }
   present(s, "test");
-  s.answer(0.0, 1.0, 100);
+  s.answer(0.0, {.response_time_s = 1.0}, 100);
   EXPECT_DOUBLE_EQ(*log_.commits.back().trial->intensity, s.state().trial(1).set_intensity);
 }
 
@@ -299,7 +299,7 @@ TEST_F(SessionTest, RefusesActsOutOfOrderAndStoresNothing) {
   const std::size_t before = log_.events.size();
   EXPECT_THROW(s.finish_stage(), core::Error);
   EXPECT_THROW(s.start_trial(0), core::Error);
-  EXPECT_THROW(s.answer(1.0, 1.0, 0), core::Error);
+  EXPECT_THROW(s.answer(1.0, {.response_time_s = 1.0}, 0), core::Error);
   EXPECT_THROW(s.begin_presentation("test", 0), core::Error);
   EXPECT_THROW(s.undo(""), core::Error);
   EXPECT_THROW(s.start(), core::Error);
@@ -312,13 +312,14 @@ TEST_F(SessionTest, TakesOnlyAnswersThatFitTheQuestion) {
   s.start();
   s.enter_stage();
   s.start_trial(0);
-  EXPECT_THROW(s.answer(1.0, 1.0, 0), core::Error) << "nothing was presented";
+  EXPECT_THROW(s.answer(1.0, {.response_time_s = 1.0}, 0), core::Error)
+      << "nothing was presented";
   present(s, "reference");
   present(s, "test");
   for (const double wrong : {0.5, -1.0, double{NAN}, double{INFINITY}}) {
-    EXPECT_THROW(s.answer(wrong, 1.0, 0), core::Error) << wrong;
+    EXPECT_THROW(s.answer(wrong, {.response_time_s = 1.0}, 0), core::Error) << wrong;
   }
-  s.answer(1.0, 1.0, s.state().last_tick);
+  s.answer(1.0, {.response_time_s = 1.0}, s.state().last_tick);
   EXPECT_EQ(s.state().trial(1).response, 1.0);
 }
 
@@ -379,7 +380,7 @@ TEST_F(SessionTest, AHandThatWasExposedToAllThatIsAllowedBeginsNoTrial) {
     s.begin_presentation("test", tick);
     s.end_presentation(
         tick + 99, {.exposure = core::Exposure{.force_time_n_s = 15.0, .under_force_s = 5.0}});
-    s.answer(1.0, 1.5, s.state().last_tick);
+    s.answer(1.0, {.response_time_s = 1.5}, s.state().last_tick);
   }
   EXPECT_EQ(s.state().exposure.force_time_n_s, 30.0);
   EXPECT_THROW(s.start_trial(s.state().last_tick + 1), core::Error);

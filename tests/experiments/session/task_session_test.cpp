@@ -59,7 +59,7 @@ class TaskSessionTest : public ::testing::Test {
       if (form.has_reference) present(s, "reference");
       present(s, "test");
     }
-    s.answer(answer, 1.5, s.state().last_tick);
+    s.answer(answer, {.response_time_s = 1.5}, s.state().last_tick);
   }
   /// The right answer as a person gives it, or the other one.
   static double answer(const Session& s, bool right) {
@@ -141,7 +141,7 @@ TEST_F(TaskSessionTest, FirstAndSecondPresentTestAndReferenceAsTheOrderWasDrawn)
     EXPECT_EQ(felt[1].interval, test_first ? "reference" : "test");
     EXPECT_EQ(felt[test_first ? 0 : 1].intensity, *planned.intensity);
     EXPECT_EQ(felt[test_first ? 1 : 0].intensity, 8.0);
-    s.answer(1.0, 1.0, s.state().last_tick);
+    s.answer(1.0, {.response_time_s = 1.0}, s.state().last_tick);
   }
   EXPECT_EQ(orders.size(), 2U);
 }
