@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -11,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "analysis/movement/finger_lag.h"
+#include "app/session/movement_meter.h"
 #include "app/session/sleep_inhibitor.h"
 #include "core/error.h"
 #include "core/exchange/latest_value.h"
@@ -186,54 +185,8 @@ struct Apparatus::Implementation {
     work();
   }
 
-  /// Of the points that the device has.
-  void feed_lag(const core::Sample& sample) noexcept {
-    constexpr int kNumPalmPoints = 2;
-    constexpr unsigned kPalmBits = 0b00011;
-    const unsigned bits = core::measured_bits(sample);
-    const int num_palm = std::popcount(bits & kPalmBits);
-    const int num_fingers = std::popcount(bits & ~kPalmBits);
-    if (num_palm == 0 || num_fingers == 0) return;
-    Eigen::Vector3d palm_m = Eigen::Vector3d::Zero();
-    Eigen::Vector3d palm_velocity_m_per_s = Eigen::Vector3d::Zero();
-    Eigen::Vector3d fingers_m = Eigen::Vector3d::Zero();
-    for (int point = 0; point < core::kNumContactPoints; ++point) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double position_m = sample.tip_position_m[point][axis];
-        if (point < kNumPalmPoints) {
-          palm_m[axis] += position_m / num_palm;
-          palm_velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis] / num_palm;
-        } else {
-          fingers_m[axis] += position_m / num_fingers;
-        }
-      }
-    }
-    lag.feed(fingers_m, palm_m, palm_velocity_m_per_s);
-  }
-
   void feed_meter(const core::Sample& sample) noexcept {
-    const int num_points = core::num_measured_points(sample);
-    feed_lag(sample);
-    Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-    Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
-    Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
-    for (int point = 0; point < core::kNumContactPoints; ++point) {
-      for (int axis = 0; axis < 3; ++axis) {
-        position_m[axis] += sample.tip_position_m[point][axis];
-        velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis];
-        force_n[axis] += sample.tip_force_n[point][axis];
-      }
-    }
-    velocity_m_per_s /= num_points;
-    const double num_periods = static_cast<double>(1 + sample.num_missed_before);
-    meter.feed(position_m / num_points, velocity_m_per_s, num_periods * loop.period_s());
-    const double speed_m_per_s = velocity_m_per_s.norm();
-    ++sums.num_ticks;
-    sums.speed_m_per_s += speed_m_per_s;
-    if (speed_m_per_s > 0.0) {
-      sums.rendered_opposing_n -= force_n.dot(velocity_m_per_s) / speed_m_per_s;
-      sums.opposing_n = sums.rendered_opposing_n;
-    }
+    meter.feed(sample, loop.period_s());
     num_metered_strokes.store(meter.num_strokes(), std::memory_order_relaxed);
   }
 
@@ -296,10 +249,7 @@ struct Apparatus::Implementation {
   double max_total_force_n;
   device::HapticLoop loop;
   std::optional<core::RecordingWriter> recording;
-  analysis::StrokeMeter meter{analysis::StrokeMeter::Parameters{}};
-  analysis::FingerLag lag;
-  std::optional<double> finger_lag_s;  ///< Of the strokes finished last.
-  core::ContactSums sums;              ///< Since the meter was started.
+  MovementMeter meter;
   bool metering = false;
   std::atomic<int> num_metered_strokes{0};
   std::optional<core::StorageThread> storage;
@@ -418,9 +368,7 @@ double Apparatus::max_total_force_n() const noexcept {
 void Apparatus::meter_strokes() {
   Implementation& my = *implementation_;
   my.after_samples(next_tick() - 1, [&my] {
-    (void)my.meter.finish();
-    (void)my.lag.finish();
-    my.sums = {};
+    my.meter.start();
     my.num_metered_strokes = 0;
     my.metering = true;
   });
@@ -430,16 +378,15 @@ int Apparatus::num_metered_strokes() const noexcept {
   return implementation_->num_metered_strokes.load(std::memory_order_relaxed);
 }
 
-analysis::StrokeSummary Apparatus::finish_strokes() {
+core::PresentationMeasures Apparatus::finish_strokes() {
   Implementation& my = *implementation_;
-  analysis::StrokeSummary summary;
+  core::PresentationMeasures measures;
   my.after_samples(next_tick() - 1, [&] {
-    summary = my.meter.finish();
-    my.finger_lag_s = my.lag.finish();
+    measures = my.meter.finish();
     my.num_metered_strokes = 0;
     my.metering = false;
   });
-  return summary;
+  return measures;
 }
 
 void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
@@ -448,12 +395,8 @@ void Apparatus::commit(core::StudyStore& store, const core::Commit& commit) {
   my.consumer.commit(store, commit);
 }
 
-std::optional<double> Apparatus::metered_finger_lag_s() const noexcept {
-  return implementation_->finger_lag_s;
-}
-
 const core::ContactSums& Apparatus::metered_sums() const noexcept {
-  return implementation_->sums;
+  return implementation_->meter.sums();
 }
 
 const device::RealtimeThread* Apparatus::realtime_thread() const noexcept {

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/movement/strokes.h"
 #include "app/session/operator_exchange.h"
 #include "core/clock.h"
 #include "core/exchange/haptic_command.h"
@@ -109,12 +108,11 @@ class Apparatus {
   /// Whole strokes since `meter_strokes`, as far as samples have been taken; 0 while none are
   /// metered. Any thread.
   [[nodiscard]] int num_metered_strokes() const noexcept;
-  [[nodiscard]] analysis::StrokeSummary finish_strokes();
+  /// How the hand moved since `meter_strokes`; see `MovementMeter`.
+  [[nodiscard]] core::PresentationMeasures finish_strokes();
   /// What was sent while the strokes finished last were metered, for devices that do not know
   /// what their hand has been through: nothing but the rendered force is in it.
   [[nodiscard]] const core::ContactSums& metered_sums() const noexcept;
-  /// By how much the fingers trailed behind the palm in them; see analysis::FingerLag.
-  [[nodiscard]] std::optional<double> metered_finger_lag_s() const noexcept;
   /// The recording up to the commit's last tick is on disk before the commit is, and both are
   /// when this returns.
   void commit(core::StudyStore& store, const core::Commit& commit);

@@ -42,7 +42,7 @@ void Presenter::ramp_is_over() {
 }
 
 Presenter::Felt Presenter::end(Afterwards afterwards) {
-  PresentationSummary summary;
+  core::PresentationMeasures measures;
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   Felt felt{.delivered_damping_n_s_per_m = kUnknown, .device_damping_n_s_per_m = kUnknown};
   const core::Telemetry last = apparatus_.telemetry();
@@ -51,33 +51,25 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   if (afterwards == Afterwards::kFreeSpace) apparatus_.render(core::free_space());
   if (measuring_) {
     core::ContactSums sums = last.contact_sums - sums_before_;
-    const analysis::StrokeSummary strokes = apparatus_.finish_strokes();
+    const core::PresentationMeasures moved = apparatus_.finish_strokes();
     // A solid is pressed: what its hand does along the surface is no stroke.
     const bool is_pressed = amounts_.plane().is_there();
-    if (!is_pressed) {
-      summary.measures.stroke_width_m = strokes.stroke_width_m;
-      summary.measures.max_speed_m_per_s = strokes.max_speed_m_per_s;
-      summary.measures.mean_height_m = strokes.mean_height_m;
-      summary.measures.num_strokes = strokes.num_strokes;
-      summary.measures.finger_lag_s = apparatus_.metered_finger_lag_s();
-    }
+    if (!is_pressed) measures = moved;
     if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
     // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
     felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();
-    if (!is_pressed)
-      summary.measures.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
+    if (!is_pressed) measures.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
   }
   if (amounts_.is_plain_damping()) {
-    summary.measures.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
+    measures.commanded_damping_n_s_per_m = amounts_.damping_n_s_per_m;
   }
   felt.num_ticks = felt.last_tick - presentation().first_tick + 1;
   felt.missed_ticks = last.num_missed_ticks - missed_before_;
-  summary.measures.missed_ticks = felt.missed_ticks;
-  summary.measures.limited_ticks =
-      static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
-  summary.exposure = exposure_since_last();
-  session_.end_presentation(felt.last_tick, summary);
+  measures.missed_ticks = felt.missed_ticks;
+  measures.limited_ticks = static_cast<std::int64_t>(last.num_limited_ticks) - limited_before_;
+  session_.end_presentation(felt.last_tick,
+                            {.measures = measures, .exposure = exposure_since_last()});
   tell_guards();
   under_way_ = false;
   measuring_ = false;
