@@ -6,7 +6,9 @@
 #include "core/contact_sums.h"
 #include "core/error.h"
 #include "core/haptic_state.h"
+#include "core/require.h"
 #include "core/safety/fault.h"
+#include "core/safety/workspace.h"
 
 namespace jnd::device {
 
@@ -44,7 +46,11 @@ struct DeviceCapabilities {
   /// its resolution and its friction make likely. Of no meaning for a simulation, which comes
   /// to rest exactly.
   double max_still_s = 2.0;
-  bool moves_by_itself = false;  ///< By a simulated arm: nobody has to be there.
+  bool moves_by_itself = false;                ///< By a simulated arm: nobody has to be there.
+  double max_slew_n_per_s = core::kInfinity;   ///< Change of a point's force that it follows.
+  double max_speed_m_per_s = core::kInfinity;  ///< Of a point, above which it is not sound.
+  /// In which it may give force, within that of the loop.
+  core::Workspace workspace{core::kInfinity, core::kInfinity, core::kInfinity};
 };
 
 /// How good the way to a device is that is elsewhere.

@@ -16,7 +16,15 @@ core::ForceLimiter::Parameters within(core::ForceLimiter::Parameters limits,
                                       const DeviceCapabilities& device) {
   limits.per_point_n = std::min(limits.per_point_n, device.max_force_per_point_n);
   limits.total_n = std::min(limits.total_n, device.max_total_force_n);
+  limits.slew_n_per_s = std::min(limits.slew_n_per_s, device.max_slew_n_per_s);
+  limits.max_speed_m_per_s = std::min(limits.max_speed_m_per_s, device.max_speed_m_per_s);
   return limits;
+}
+
+core::Workspace within(const core::Workspace& loop, const core::Workspace& device) {
+  return {.half_width_x_m = std::min(loop.half_width_x_m, device.half_width_x_m),
+          .half_width_y_m = std::min(loop.half_width_y_m, device.half_width_y_m),
+          .half_width_z_m = std::min(loop.half_width_z_m, device.half_width_z_m)};
 }
 
 std::int64_t ticks(double duration_s, double rate_hz) {
@@ -70,7 +78,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
                .oscillation = parameters.oscillation,
                .velocity_check = parameters.velocity_check,
                .stillness = {.max_still_s = device.capabilities().max_still_s},
-               .workspace = parameters.workspace,
+               .workspace = within(parameters.workspace, device.capabilities().workspace),
                .warn_margin_m = parameters.warn_margin_m,
                .watches_port = watches_port_,
                .watches_stillness = !device.capabilities().simulated,
