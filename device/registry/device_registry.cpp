@@ -14,6 +14,7 @@
 #include "device/network/network_device.h"
 #include "device/network/network_options.h"
 #include "device/network/udp_port.h"
+#include "device/plugin/plugin_device.h"
 #include "device/unplugged_device.h"
 
 namespace jnd::device {
@@ -99,6 +100,13 @@ constexpr std::array kDevices = {
                                "behind the address key=NAME, simulated or real, with commas "
                                "between",
                 .make = network_device},
+    DeviceEntry{.name = "plugin",
+                .argument = "PATH",
+                .description = "a device by a driver of your own, a shared object with the "
+                               "functions of jnd_device.h; behind the path and a colon "
+                               "simulated or real, and KEY=VALUE for the driver, with commas "
+                               "between",
+                .make = make_plugin_device},
     DeviceEntry{.name = "unplugged",
                 .argument = "",
                 .description = "a device that never starts, to rehearse what happens then",

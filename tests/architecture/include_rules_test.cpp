@@ -27,7 +27,9 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"device", {"core", "core/safety", "core/media", "core/exchange"}},
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
-    {"device/registry", {"core", "device", "device/exoskeleton", "device/network"}},
+    {"device/plugin", {"core", "core/safety", "device"}},
+    {"device/registry",
+     {"core", "device", "device/exoskeleton", "device/network", "device/plugin"}},
     {"experiments/study", {"core", "core/media"}},
     {"experiments/order", {"core", "experiments/study"}},
     {"experiments/adaptive", {"core"}},
@@ -139,7 +141,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "app/results",
       "app/planning",
       "app/operator"}},
-    {"app", {"core", "device", "app/command_line", "app/commands"}},
+    {"app", {"core", "device", "device/plugin", "app/command_line", "app/commands"}},
 };
 
 // The only places that may name a third-party library other than Eigen, as beginnings of paths.

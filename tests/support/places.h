@@ -10,4 +10,7 @@ namespace jnd::test_support {
 /// The jnd program that was built with them.
 [[nodiscard]] std::filesystem::path program_file();
 
+/// The program that runs drivers, likewise.
+[[nodiscard]] std::filesystem::path device_host_file();
+
 }  // namespace jnd::test_support

@@ -1,0 +1,218 @@
+#include "device/plugin/device_host.h"
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "device/plugin/driver_pages.h"
+#include "device/plugin/driver_session.h"
+#include "device/plugin/futex.h"
+#include "device/realtime_report.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Fault;
+
+constexpr std::int64_t kLookEvery_ns = 2'000'000;
+/// For a driver to close when the program has ended.
+constexpr std::int64_t kLastPatience_ns = 1'000'000'000;
+/// Below the loop's and its watchdog's: a driver that never sleeps must not starve them.
+constexpr int kDriverPriority = 79;
+constexpr int kHostWatchPriority = 81;
+
+constexpr int kProgramIsGone = 1;
+constexpr int kStartedByOthers = 2;
+
+/// The files that the program has opened for its host: anything else is no start of ours.
+bool are_pages() noexcept {
+  struct stat program {
+  }, host{};
+  return ::fstat(kProgramPageFile, &program) == 0 && ::fstat(kHostPageFile, &host) == 0 &&
+         program.st_size == sizeof(ProgramPage) && host.st_size == sizeof(HostPage);
+}
+
+class DeviceHost {
+ public:
+  DeviceHost(const ProgramPage& program, HostPage& host)
+      : program_(program), host_(host), order_(program.order) {}
+
+  int run() noexcept {
+    try {
+      tell(DriverPhase::kLoading);
+      DriverSession session(order_.file.data(), order_.options.data(), order_.rate_hz);
+      report_.description = session.description();
+      tell(DriverPhase::kDescribed);
+      if (order_.only_describes != 0) return 0;
+      has_own_clock_ =
+          capabilities_of(session.description(), order_.rate_hz, order_.believes_simulated != 0)
+              .has_own_clock;
+      timeout_ns_ = std::llround(1e9 * command_timeout_s(order_.believes_simulated != 0));
+      return run(session);
+    } catch (const std::exception& error) {
+      const std::string_view words = error.what();
+      std::copy_n(words.begin(), std::min(words.size(), report_.problem.size() - 1),
+                  report_.problem.begin());
+      tell(DriverPhase::kFailed);
+      return 0;
+    }
+  }
+
+ private:
+  int run(DriverSession& session) {
+    std::thread watch([this, &session] { watch_over(session); });
+    const auto end_watch = [&] {
+      is_over_ = true;
+      watch.join();
+    };
+    try {
+      tell(DriverPhase::kOpening);
+      session.open();
+    } catch (...) {
+      end_watch();
+      throw;
+    }
+    report_.description = session.description();
+    RealtimeReport ignored;
+    obtain_scheduler(kDriverPriority, ignored);
+    obtain_locked_memory(ignored);
+    prefault_stack();
+    tell(DriverPhase::kOpen);
+    answer_until_the_end(session);
+    tell(DriverPhase::kClosing);
+    session.close();
+    tell(DriverPhase::kClosed);
+    end_watch();
+    return program_is_gone() ? kProgramIsGone : 0;
+  }
+
+  void tell(DriverPhase phase) noexcept {
+    report_.phase = phase;
+    host_.report.store(report_);
+    futex_wake(host_.report.version());
+  }
+
+  [[nodiscard]] bool program_is_gone() const noexcept { return ::getppid() != order_.program; }
+
+  void answer_until_the_end(DriverSession& session) noexcept {
+    while (!program_is_gone()) {
+      const std::uint32_t seen = program_.request.version().load(std::memory_order_acquire);
+      DriverRequest request;
+      if (program_.request.load(request)) {
+        if (request.ends != 0) return;
+        take_force(session, request);
+        take_question(session, request);
+      }
+      futex_wait_until(program_.request.version(), seen, monotonic_ns() + kLookEvery_ns * 10);
+    }
+  }
+
+  void take_force(DriverSession& session, const DriverRequest& request) noexcept {
+    if (request.write_number <= last_write_) return;
+    answer_.num_skipped += request.write_number - last_write_ - 1;
+    last_write_ = request.write_number;
+    core::PointVectors force_n;
+    for (std::size_t i = 0; i < force_n.size(); ++i) {
+      const auto& point = request.force_on_hand_n[i];
+      force_n[i] = {point[0], point[1], point[2]};
+    }
+    last_command_ns_ = request.written_ns;
+    // Held up with the whole machine, what waits here may be as old as the pause.
+    if (is_too_old(request)) session.halt();
+    write_fault_ = session.write(force_n);
+    if (is_too_old(request)) session.halt();
+    ++answer_.num_writes;
+  }
+
+  /// Where time moves on by writes alone, a force is as old as it is long.
+  [[nodiscard]] bool is_too_old(const DriverRequest& request) const noexcept {
+    return has_own_clock_ && monotonic_ns() - request.written_ns >= timeout_ns_;
+  }
+
+  void take_question(DriverSession& session, const DriverRequest& request) noexcept {
+    if (request.read_number <= answer_.read_number) return;
+    const Fault found = session.read(answer_.measured);
+    answer_.is_measured = found == Fault::kNone ? 1 : 0;
+    answer_.fault = static_cast<std::uint32_t>(found != Fault::kNone ? found : write_fault_);
+    answer_.read_number = request.read_number;
+    host_.answer.store(answer_);
+    futex_wake(host_.answer.version());
+  }
+
+  /// The other thread: whatever the driver is stuck in.
+  void watch_over(DriverSession& session) noexcept {
+    RealtimeReport ignored;
+    obtain_scheduler(kHostWatchPriority, ignored);
+    std::uint32_t known_halts = program_.num_halts.load();
+    std::optional<std::int64_t> gone_since_ns;
+    std::int64_t last_halt_ns = 0;
+    while (!is_over_) {
+      futex_wait_until(program_.num_halts, known_halts, monotonic_ns() + kLookEvery_ns);
+      const std::int64_t now_ns = monotonic_ns();
+      if (const std::uint32_t halts = program_.num_halts.load(); halts != known_halts) {
+        known_halts = halts;
+        session.halt();
+      }
+      const bool is_gone = program_is_gone();
+      const std::int64_t command_ns = last_command_ns_.load();
+      const bool is_silent =
+          command_ns != 0 && has_own_clock_ && now_ns - command_ns >= timeout_ns_;
+      if ((is_gone || is_silent) && now_ns - last_halt_ns >= timeout_ns_) {
+        last_halt_ns = now_ns;
+        session.halt();
+      }
+      if (!is_gone) continue;
+      if (!gone_since_ns) gone_since_ns = now_ns;
+      if (now_ns - *gone_since_ns >= kLastPatience_ns) std::_Exit(kProgramIsGone);
+    }
+  }
+
+  const ProgramPage& program_;
+  HostPage& host_;
+  const DriverOrder order_;
+  DriverReport report_;
+  DriverAnswer answer_;
+  bool has_own_clock_ = true;
+  std::int64_t timeout_ns_ = 0;
+  std::uint64_t last_write_ = 0;
+  Fault write_fault_ = Fault::kNone;
+  std::atomic<std::int64_t> last_command_ns_{0};
+  std::atomic<bool> is_over_{false};
+};
+
+}  // namespace
+
+int run_device_host() noexcept {
+  if (!are_pages()) return kStartedByOthers;
+  // The signal only wakes what waits: it comes as well where just a thread of the program has
+  // ended, so `program_is_gone` decides.
+  struct sigaction woken {};
+  woken.sa_handler = [](int) {};
+  ::sigaction(SIGTERM, &woken, nullptr);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  try {
+    const MappedPage program(kProgramPageFile, sizeof(ProgramPage), false);
+    const MappedPage host(kHostPageFile, sizeof(HostPage), true);
+    const auto& order = *static_cast<const ProgramPage*>(program.memory());
+    if (order.order.version != kDriverPagesVersion) return kStartedByOthers;
+    if (::getppid() != order.order.program) return kProgramIsGone;
+    // Whatever destructors a vendor's library has registered: the device is closed.
+    std::_Exit(DeviceHost(order, *static_cast<HostPage*>(host.memory())).run());
+  } catch (const std::exception&) {
+    return kStartedByOthers;
+  }
+}
+
+}  // namespace jnd::device

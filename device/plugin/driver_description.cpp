@@ -1,0 +1,184 @@
+#include "device/plugin/driver_description.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "core/require.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Fault;
+
+constexpr std::uint32_t kKnownFlags = (JND_DEVICE_HAS_BUTTONS << 1) - 1;
+constexpr double kLongestOpening_s = 120.0;
+
+bool has(const jnd_device_description& description, std::uint32_t flag) noexcept {
+  return (description.flags & flag) != 0;
+}
+
+void require_text(const char (&text)[JND_DEVICE_TEXT_SIZE], std::string_view field) {
+  const char* end = std::find(std::begin(text), std::end(text), '\0');
+  const bool printable =
+      std::all_of(std::begin(text), end, [](char c) { return c >= 0x20 && c < 0x7f; });
+  if (end != std::end(text) && printable) return;
+  throw core::Error(std::string(field) +
+                    ": expected printable ASCII and a zero behind it, found something else");
+}
+
+/// The program distributes forces by the areas of a hand; who assumed others is told.
+void require_shares(const jnd_device_description& description) {
+  const auto num_points = static_cast<int>(description.num_contact_points);
+  const auto& told = description.area_share_ratio;
+  if (std::all_of(std::begin(told), std::end(told), [](double one) { return one == 0.0; })) {
+    return;
+  }
+  for (int i = 0; i < core::kNumContactPoints; ++i) {
+    const double ours = i < num_points ? core::kAreaShareRatio[static_cast<std::size_t>(i)] /
+                                             core::declared_share_ratio(num_points)
+                                       : 0.0;
+    core::require(
+        std::abs(told[i] - ours) <= 0.005, "area_share_ratio[" + std::to_string(i) + "]",
+        "all zero, or " + std::to_string(ours) + " as this program distributes", told[i]);
+  }
+}
+
+bool is_finite(const double* numbers, int count) noexcept {
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i) sum += std::abs(numbers[i]);
+  // Beyond this no unit is right, and sums of squares would overflow.
+  return sum < 1e100;
+}
+
+template <int kCount>
+Eigen::Vector3d vector_of(const double (&numbers)[kCount]) noexcept {
+  static_assert(kCount == 3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+}  // namespace
+
+void require_description(const jnd_device_description& description) {
+  const auto require = core::require;
+  require(description.struct_size == sizeof description, "struct_size",
+          "what the program set, left as it is", description.struct_size);
+  require((description.flags & ~kKnownFlags) == 0, "flags", "those of jnd_device.h alone",
+          description.flags);
+  require_text(description.name, "name");
+  require_text(description.serial, "serial");
+  require_text(description.firmware, "firmware");
+  if (description.name[0] == '\0') throw core::Error("name: expected one, found none");
+  require(description.num_contact_points >= 1 &&
+              description.num_contact_points <= JND_DEVICE_MAX_POINTS,
+          "num_contact_points", "a number from 1 to 5", description.num_contact_points);
+  require_shares(description);
+  core::require_positive(description.rate_hz, "rate_hz");
+  core::require_positive(description.max_force_per_point_n, "max_force_per_point_n");
+  core::require_positive(description.max_total_force_n, "max_total_force_n");
+  core::require_positive(description.max_slew_n_per_s, "max_slew_n_per_s");
+  core::require_positive(description.max_speed_m_per_s, "max_speed_m_per_s");
+  for (const double half_width_m : description.workspace_half_width_m) {
+    core::require_positive(half_width_m, "workspace_half_width_m");
+  }
+  core::require_not_negative(description.own_mass_kg, "own_mass_kg");
+  core::require_not_negative(description.own_damping_n_s_per_m, "own_damping_n_s_per_m");
+  core::require_not_negative(description.closed_loop_delay_s, "closed_loop_delay_s");
+  require(description.open_timeout_s >= 0.0 && description.open_timeout_s <= kLongestOpening_s,
+          "open_timeout_s", "a number from 0 to 120", description.open_timeout_s);
+  if (!has(description, JND_DEVICE_IS_SIMULATED) &&
+      !has(description, JND_DEVICE_HAS_OWN_CLOCK)) {
+    throw core::Error(
+        "flags: expected a real device to have JND_DEVICE_HAS_OWN_CLOCK, found "
+        "that it does not");
+  }
+}
+
+void require_same_device(const jnd_device_description& before,
+                         const jnd_device_description& now) {
+  require_description(now);
+  jnd_device_description compared = now;
+  std::memcpy(compared.serial, before.serial, sizeof compared.serial);
+  std::memcpy(compared.firmware, before.firmware, sizeof compared.firmware);
+  if (std::memcmp(&compared, &before, sizeof compared) == 0) return;
+  throw core::Error(
+      "expected a device that is described alike before and after it is opened, "
+      "but for serial and firmware, found that it is not");
+}
+
+DeviceCapabilities capabilities_of(const jnd_device_description& description, double rate_hz,
+                                   bool believes_simulated) noexcept {
+  const bool simulated = believes_simulated && has(description, JND_DEVICE_IS_SIMULATED);
+  return {.num_contact_points = static_cast<int>(description.num_contact_points),
+          .rate_hz = rate_hz,
+          .max_force_per_point_n = description.max_force_per_point_n,
+          .max_total_force_n = description.max_total_force_n,
+          .watchdog_timeout_s = command_timeout_s(simulated),
+          .has_own_clock = has(description, JND_DEVICE_HAS_OWN_CLOCK) || !simulated,
+          .simulated = simulated,
+          .tells_acting_force = has(description, JND_DEVICE_TELLS_ACTED_FORCE),
+          .moves_by_itself = has(description, JND_DEVICE_MOVES_BY_ITSELF),
+          .max_slew_n_per_s = description.max_slew_n_per_s,
+          .max_speed_m_per_s = description.max_speed_m_per_s,
+          .workspace = {description.workspace_half_width_m[0],
+                        description.workspace_half_width_m[1],
+                        description.workspace_half_width_m[2]}};
+}
+
+Fault checked_state(const jnd_device_description& description, const jnd_device_state& measured,
+                    core::HapticState& state) noexcept {
+  constexpr int kNumCoordinates = 3 * JND_DEVICE_MAX_POINTS;
+  if (!is_finite(&measured.position_m[0][0], kNumCoordinates) ||
+      !is_finite(&measured.velocity_m_per_s[0][0], kNumCoordinates) ||
+      !is_finite(&measured.acted_n[0][0], kNumCoordinates) ||
+      !is_finite(measured.end_effector_position_m, 3) ||
+      !is_finite(measured.orientation_wxyz, 4) || !is_finite(measured.torque_n_m, 3) ||
+      !is_finite(&measured.gripper_m, 1)) {
+    return Fault::kNonFiniteState;
+  }
+  constexpr double kMostOffUnit = 0.01;
+  double squared = 0.0;
+  for (const double one : measured.orientation_wxyz) squared += one * one;
+  if (measured.attached_bits >> description.num_contact_points != 0 || measured.enabled > 1 ||
+      (has(description, JND_DEVICE_HAS_ORIENTATION) &&
+       !(std::abs(squared - 1.0) <= kMostOffUnit))) {
+    return Fault::kDeviceReadFailed;
+  }
+  state = {};
+  state.device_time_ns = measured.device_time_ns;
+  state.enabled = !has(description, JND_DEVICE_HAS_ENABLE_SWITCH) || measured.enabled == 1;
+  state.end_effector_position_m = vector_of(measured.end_effector_position_m);
+  for (int i = 0; i < core::kNumContactPoints; ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    state.attached[point] = (measured.attached_bits >> i & 1) != 0;
+    state.tip_position_m[point] = vector_of(measured.position_m[i]);
+    state.tip_velocity_m_per_s[point] = vector_of(measured.velocity_m_per_s[i]);
+    state.acted_n[point] = vector_of(measured.acted_n[i]);
+  }
+  return Fault::kNone;
+}
+
+double command_timeout_s(bool simulated) noexcept { return simulated ? 0.250 : 0.020; }
+
+std::vector<std::string> features_of(const jnd_device_description& description) {
+  constexpr std::array<std::pair<std::uint32_t, std::string_view>, 9> kFeatures = {{
+      {JND_DEVICE_MOVES_BY_ITSELF, "own_movement"},
+      {JND_DEVICE_HAS_OWN_CLOCK, "own_clock"},
+      {JND_DEVICE_TELLS_ACTED_FORCE, "acted_force"},
+      {JND_DEVICE_HAS_DEVICE_TIME, "device_time"},
+      {JND_DEVICE_HAS_ENABLE_SWITCH, "enable_switch"},
+      {JND_DEVICE_HAS_ORIENTATION, "orientation"},
+      {JND_DEVICE_HAS_TORQUE, "torque"},
+      {JND_DEVICE_HAS_GRIPPER, "gripper"},
+      {JND_DEVICE_HAS_BUTTONS, "buttons"},
+  }};
+  std::vector<std::string> words;
+  for (const auto& [flag, word] : kFeatures) {
+    if (has(description, flag)) words.emplace_back(word);
+  }
+  return words;
+}
+
+}  // namespace jnd::device

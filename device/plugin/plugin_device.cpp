@@ -1,0 +1,177 @@
+#include "device/plugin/plugin_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "device/plugin/futex.h"
+
+namespace jnd::device {
+namespace {
+
+using core::Fault;
+
+/// Of a tick: the rest is for the loop and the write.
+constexpr double kWaitRatio = 0.4;
+/// Where nothing but a simulation is waited for, and its time stands still meanwhile; within
+/// the watchdog's 0.25 s.
+constexpr std::int64_t kWaitForSimulation_ns = 200'000'000;
+/// Of the last 256 answers, so many may have nothing new: a tenth.
+constexpr int kMostMissing = 25;
+
+std::int64_t in_ns(double duration_s) noexcept { return std::llround(1e9 * duration_s); }
+
+}  // namespace
+
+PluginDevice::PluginDevice(const Parameters& parameters)
+    : parameters_(parameters), process_(parameters.process) {
+  core::require_positive(parameters.max_stale_s, "max_stale_s");
+  description_ = process_.describe();
+  has_own_clock_ = capabilities().has_own_clock;
+  const double rate_hz = parameters.process.rate_hz;
+  if (has_own_clock_ && std::abs(description_.rate_hz / rate_hz - 1.0) > 0.001) {
+    throw core::Error(parameters.process.place + ": expected a device at " +
+                      std::to_string(rate_hz) + " Hz, found one at " +
+                      std::to_string(description_.rate_hz) +
+                      " Hz; choose a study of its rate, or set the device to the study's");
+  }
+}
+
+DeviceCapabilities PluginDevice::capabilities() const noexcept {
+  return capabilities_of(description_, parameters_.process.rate_hz,
+                         parameters_.believes_simulated);
+}
+
+void PluginDevice::open() {
+  close();
+  const jnd_device_description now = process_.open(capabilities().simulated);
+  is_open_ = true;
+  try {
+    require_same_device(description_, now);
+  } catch (const core::Error& error) {
+    close();
+    throw DeviceUnreachable(parameters_.process.place + ": " + error.what());
+  }
+  description_ = now;
+}
+
+void PluginDevice::close() noexcept {
+  process_.end();
+  is_open_ = is_lost_ = is_well_ = false;
+  fault_ = write_fault_ = Fault::kNone;
+  request_ = {};
+  taken_number_ = newest_sample_ = 0;
+  newest_ns_ = 0;
+  counts_ = {};
+  missing_.reset();
+  next_judged_ = 0;
+  num_missing_ = 0;
+}
+
+bool PluginDevice::read(core::HapticState& state) noexcept {
+  if (!is_open_) return fail(Fault::kDeviceReadFailed);
+  const std::int64_t now_ns = monotonic_ns();
+  ++request_.read_number;
+  ++counts_.num_reads;
+  process_.request(request_, true);
+  const std::int64_t patience_ns =
+      !has_own_clock_ ? kWaitForSimulation_ns : in_ns(kWaitRatio / parameters_.process.rate_hz);
+  DriverAnswer answer;
+  is_well_ = false;
+  // Who was lost is not waited for: the loop's time is not his.
+  if (!receive(is_lost_ ? now_ns : now_ns + patience_ns, answer)) {
+    is_lost_ = true;
+    ++counts_.num_late;
+    return stand_in(state, now_ns);
+  }
+  is_lost_ = answer.read_number != request_.read_number;
+  if (!take(answer)) return false;
+  state = newest_;
+  is_well_ = !is_lost_ && write_fault_ == Fault::kNone && num_missing_ <= kMostMissing;
+  return true;
+}
+
+/// The answer to this read; where that does not come in time, one to a read before that was
+/// late. Of a simulation only the very answer, for there is no time to be late in.
+bool PluginDevice::receive(std::int64_t deadline_ns, DriverAnswer& answer) noexcept {
+  while (true) {
+    const std::uint32_t seen = process_.answer_version();
+    const bool is_there = process_.answer(answer);
+    if (is_there && answer.read_number == request_.read_number) return true;
+    if (monotonic_ns() >= deadline_ns) {
+      return is_there && has_own_clock_ && answer.read_number > taken_number_ &&
+             answer.read_number < request_.read_number;
+    }
+    process_.wait_for_answer(seen, deadline_ns);
+  }
+}
+
+/// Whatever the other side has checked: its memory may be broken.
+bool PluginDevice::take(const DriverAnswer& answer) noexcept {
+  taken_number_ = answer.read_number;
+  const Fault told = answer.fault <= static_cast<std::uint32_t>(core::kLastFault)
+                         ? static_cast<Fault>(answer.fault)
+                         : Fault::kDeviceReadFailed;
+  if (answer.is_measured != 1) {
+    return fail(told != Fault::kNone ? told : Fault::kDeviceReadFailed);
+  }
+  write_fault_ = told;
+  const jnd_device_state& measured = answer.measured;
+  core::HapticState state;
+  if (const Fault found = checked_state(description_, measured, state); found != Fault::kNone) {
+    return fail(found);
+  }
+  const bool is_new = newest_ns_ == 0 || measured.sample_number != newest_sample_;
+  count_newness(is_new);
+  if (is_new) {
+    newest_ = state;
+    newest_sample_ = measured.sample_number;
+    newest_ns_ = monotonic_ns();
+  }
+  if (num_missing_ > kMostMissing) return fail(Fault::kStaleSample);
+  fault_ = Fault::kNone;
+  return true;
+}
+
+/// The loop excuses a measurement that stands in for 5 ms; a device at half the rate always
+/// has one, and would never be found.
+void PluginDevice::count_newness(bool is_new) noexcept {
+  counts_.num_repeated += is_new ? 0 : 1;
+  num_missing_ += (is_new ? 0 : 1) - (missing_[next_judged_] ? 1 : 0);
+  missing_[next_judged_] = !is_new;
+  next_judged_ = (next_judged_ + 1) % kNumJudged;
+}
+
+bool PluginDevice::stand_in(core::HapticState& state, std::int64_t now_ns) noexcept {
+  // The loop's own watch over the device's time comes first, by these two ticks.
+  const double longest_s = parameters_.max_stale_s + 2.0 / parameters_.process.rate_hz;
+  if (newest_ns_ == 0 || !has_own_clock_ || now_ns - newest_ns_ > in_ns(longest_s)) {
+    return fail(Fault::kDeviceReadFailed);
+  }
+  state = newest_;
+  return true;
+}
+
+bool PluginDevice::fail(Fault fault) noexcept {
+  fault_ = fault;
+  is_well_ = false;
+  return false;
+}
+
+bool PluginDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
+  if (!is_open_) return fail(Fault::kDeviceWriteFailed);
+  for (std::size_t i = 0; i < force_on_hand_n.size(); ++i) {
+    // The driver keeps the force before; the loop halts it.
+    if (!force_on_hand_n[i].allFinite()) return fail(Fault::kNonFiniteForce);
+    for (int axis = 0; axis < 3; ++axis) {
+      request_.force_on_hand_n[i][static_cast<std::size_t>(axis)] = force_on_hand_n[i][axis];
+    }
+  }
+  ++request_.write_number;
+  request_.written_ns = monotonic_ns();
+  // The time of a simulation moves on by writes alone: it may as well do so at the next read.
+  process_.request(request_, has_own_clock_);
+  if (write_fault_ != Fault::kNone) return fail(write_fault_);
+  return fault_ == Fault::kNone;
+}
+
+}  // namespace jnd::device
