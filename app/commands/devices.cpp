@@ -1,10 +1,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
+#include "app/command_line/usage_message.h"
+#include "core/error.h"
+#include "device/plugin/driver_description.h"
+#include "device/plugin/plugin_device.h"
+#include "device/plugin/plugin_options.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app {
@@ -12,7 +21,59 @@ namespace {
 
 constexpr double kUsualRateHz = 1000.0;
 
-int run_devices(bool json) {
+struct DevicesOptions {
+  std::string device;  ///< "plugin:PATH"; "": all.
+  bool json = false;
+};
+
+/// What a driver of somebody else's says of its device.
+int describe_plugin(const DevicesOptions& options) {
+  if (device::kind_of(options.device) != "plugin") {
+    throw UsageError("--device: expected plugin:PATH, found `" +
+                     one_line(options.device.substr(0, 80)) +
+                     "`; `jnd devices` alone tells of the others");
+  }
+  jnd_device_description told{};
+  try {
+    told = device::described_plugin(device::argument_of(options.device));
+  } catch (const device::DeviceUnreachable&) {
+    throw;
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+  const auto num_points = static_cast<std::ptrdiff_t>(told.num_contact_points);
+  nlohmann::ordered_json out;
+  out["name"] = told.name;
+  out["serial"] = told.serial;
+  out["firmware"] = told.firmware;
+  out["simulated"] = (told.flags & JND_DEVICE_IS_SIMULATED) != 0;
+  out["tried_on_hardware"] = false;
+  out["has"] = device::features_of(told);
+  out["num_contact_points"] = told.num_contact_points;
+  out["area_share_ratio"] =
+      std::vector<double>(told.area_share_ratio, told.area_share_ratio + num_points);
+  out["rate_hz"] = told.rate_hz;
+  out["max_force_per_point_n"] = told.max_force_per_point_n;
+  out["max_total_force_n"] = told.max_total_force_n;
+  out["max_slew_n_per_s"] = told.max_slew_n_per_s;
+  out["max_speed_m_per_s"] = told.max_speed_m_per_s;
+  out["workspace_half_width_m"] = told.workspace_half_width_m;
+  out["own_mass_kg"] = told.own_mass_kg;
+  out["own_damping_n_s_per_m"] = told.own_damping_n_s_per_m;
+  out["closed_loop_delay_s"] = told.closed_loop_delay_s;
+  if (options.json) {
+    fmt::print("{}\n", json_text(out));
+    return kDone;
+  }
+  for (const auto& [key, value] : out.items()) {
+    fmt::print("{:<24} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return kDone;
+}
+
+int run_devices(const DevicesOptions& options) {
+  if (!options.device.empty()) return describe_plugin(options);
+  const bool json = options.json;
   auto list = nlohmann::ordered_json::array();
   for (const device::DeviceEntry& entry : device::devices()) {
     const device::DeviceCapabilities can = entry.make("", kUsualRateHz)->capabilities();
@@ -32,18 +93,31 @@ int run_devices(bool json) {
                     {"max_force_per_point_n", can.max_force_per_point_n},
                     {"max_total_force_n", can.max_total_force_n}});
   }
-  if (json) fmt::print("{}\n", json_text(nlohmann::ordered_json{{"devices", list}}));
+  auto plugins = nlohmann::ordered_json::array();
+  for (const std::filesystem::path& file : device::found_plugins()) {
+    plugins.push_back(file.string());
+    if (!json) fmt::print("plugin:{:<5} {}\n", file.stem().string(), file.string());
+  }
+  if (json) {
+    fmt::print("{}\n",
+               json_text(nlohmann::ordered_json{
+                   {"devices", list}, {"plugins", plugins}, {"tried_on_hardware", false}}));
+  } else {
+    fmt::print("All of this was tried with simulations alone, and not tried on hardware.\n");
+  }
   return kDone;
 }
 
 }  // namespace
 
 void add_devices(CLI::App& program, Invocation& invocation) {
-  auto json = std::make_shared<bool>(false);
+  auto options = std::make_shared<DevicesOptions>();
   CLI::App* command = program.add_subcommand("devices", "The devices that can be used here");
-  command->add_flag("--json", *json, "Print one JSON document");
+  command->add_option("--device", options->device,
+                      "plugin:PATH: what its driver says of it, without opening it");
+  command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
-      [json, &invocation] { invocation.run = [json] { return run_devices(*json); }; });
+      [options, &invocation] { invocation.run = [options] { return run_devices(*options); }; });
 }
 
 }  // namespace jnd::app

@@ -123,6 +123,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "device",
       "device/exoskeleton",
       "device/network",
+      "device/plugin",
       "device/registry",
       "experiments/study",
       "experiments/order",

@@ -1,0 +1,144 @@
+// The whole way of a laboratory that brings its own driver: built with the header alone, used
+// by the program, and lost in the middle of a session.
+#include <signal.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "app/commands/command_fixture.h"
+#include "app/json_document.h"
+#include "app/sentence.h"
+#include "device/plugin/plugin_fixture.h"
+
+namespace jnd::app {
+namespace plugin_command_test {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOutcome;
+using test_support::RunningProgram;
+
+class PluginCommandTest : public CommandTest {
+ protected:
+  void SetUp() override {
+    (void)device::built_driver(device::example_source(), temporary_.path(), "example");
+    options_.environment.emplace_back("JND_DEVICE_PATH", temporary_.path().string());
+  }
+  [[nodiscard]] fs::path hostile(const std::string& definition = "") const {
+    return device::built_driver(
+        test_support::source_folder() / "tests" / "device" / "plugin" / "hostile_driver.c",
+        temporary_.path(), "hostile" + definition, definition);
+  }
+  static std::vector<std::string> run_words(const std::string& device) {
+    return {"run",    "short_tour", "--study",    "tour.study", "--participant", "P01",
+            "--seed", "7",          "--headless", "--device",   device};
+  }
+  /// The process in which the driver of this test runs; -1: none.
+  [[nodiscard]] pid_t host() const {
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      std::ifstream stream(entry.path() / "cmdline", std::ios::binary);
+      const std::string line{std::istreambuf_iterator<char>(stream), {}};
+      if (line.starts_with("jnd-device-host") &&
+          line.find(temporary_.path().string()) != std::string::npos) {
+        return std::stoi(entry.path().filename());
+      }
+    }
+    return -1;
+  }
+};
+
+TEST_F(PluginCommandTest, AWholeStudyRunsThroughTheExample) {
+  const ProgramOutcome outcome = jnd(run_words("plugin:example:simulated"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(opened("tour.study").completed(1));
+  EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
+  EXPECT_EQ(host(), -1) << "its process is gone";
+  // Whoever is simulated feels what the driver let through: thicker is more.
+  const auto results = jnd({"results", "tour.study", "--json"});
+  EXPECT_EQ(results.exit_code, 0) << results.err;
+}
+
+TEST_F(PluginCommandTest, ASessionSurvivesTheDeathOfTheDriver) {
+  std::vector<std::string> words = run_words("plugin:example:simulated");
+  words.emplace_back("--acknowledge");
+  RunningProgram session(words, options_);
+  int num_answers = 0, num_events = 0;
+  while (const std::optional<std::string> line = session.read_line()) {
+    ++num_events;
+    num_answers += line->find("trial_answered") != std::string::npos ? 1 : 0;
+    if (num_answers == 3) break;
+  }
+  ASSERT_EQ(num_answers, 3);
+  const pid_t driver = host();
+  ASSERT_GT(driver, 0);
+  ASSERT_EQ(::kill(driver, SIGKILL), 0);
+  const ProgramOutcome ended = session.wait();
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("The device could not be read"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("jnd resume"), std::string::npos) << ended.err;
+  EXPECT_FALSE(opened("tour.study").finished(1));
+  EXPECT_GE(static_cast<int>(opened("tour.study").events(1).size()), num_events);
+  EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
+
+  const ProgramOutcome resumed = jnd({"resume", "tour.study", "--headless"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_TRUE(opened("tour.study").completed(1));
+  EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
+}
+
+TEST_F(PluginCommandTest, TheLoopAndThePlanTakeItToo) {
+  const ProgramOutcome loop =
+      jnd({"loop", "--device", "plugin:./example.so:simulated", "--seconds", "0.3", "--json"});
+  EXPECT_EQ(loop.exit_code, 0) << loop.err;
+  EXPECT_GT(document(loop.out)["num_ticks"], 100);
+  const ProgramOutcome plan =
+      jnd({"plan", "short_tour", "--device", "plugin:example:simulated", "--json"});
+  EXPECT_EQ(plan.exit_code, 0) << plan.err << plan.out;
+}
+
+TEST_F(PluginCommandTest, ADriverThatCannotBeUsedIsALackOfThisMachine) {
+  const std::string bad = hostile().string() + ":simulated,trouble=";
+  for (const std::string& device :
+       {std::string("plugin:nowhere:simulated"), "plugin:" + temporary_.path().string(),
+        "plugin:" + device::example_source().string() + ":simulated",
+        "plugin:" + hostile("WRONG_ABI").string() + ":simulated",
+        "plugin:" + hostile("LACKS_CLOSE").string() + ":simulated",
+        "plugin:" + hostile("ABORTS_IN_LOAD").string() + ":simulated",
+        "plugin:" + bad + "crash_in_open", "plugin:" + bad + "hang_in_open"}) {
+    const ProgramOutcome loop = jnd({"loop", "--device", device, "--seconds", "0.1"});
+    EXPECT_EQ(loop.exit_code, 3) << device << loop.err;
+    EXPECT_EQ(sentence_flaw(loop.err), "") << device;
+  }
+  const ProgramOutcome run = jnd(run_words("plugin:" + bad + "crash_in_describe"));
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(sentence_flaw(run.err, {"crashed (Aborted) while loading it"}), "");
+  EXPECT_FALSE(fs::exists(path("tour.study"))) << "nothing is stored for it";
+  EXPECT_EQ(jnd({"loop", "--device", "plugin:example:quick"}).exit_code, 2);
+  EXPECT_EQ(jnd({"loop", "--device", "plugin"}).exit_code, 2);
+}
+
+TEST_F(PluginCommandTest, DevicesListsWhatIsInTheFolders) {
+  const ProgramOutcome outcome = jnd({"devices", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["plugins"].size(), 1U) << json;
+  EXPECT_EQ(json["plugins"][0], path("example.so").string());
+  const ProgramOutcome text = jnd({"devices"});
+  EXPECT_NE(text.out.find("plugin:example"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("not tried on hardware"), std::string::npos) << text.out;
+}
+
+TEST_F(PluginCommandTest, DevicesTellsWhatADriverSaysOfItself) {
+  const ProgramOutcome outcome =
+      jnd({"devices", "--device", "plugin:example:simulated", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  EXPECT_EQ(json["name"], "example hand");
+  EXPECT_EQ(json["own_mass_kg"], 1.0);
+  EXPECT_EQ(json["workspace_half_width_m"][2], 1.0);
+  EXPECT_EQ(json["has"], nlohmann::json({"own_movement", "acted_force", "device_time"}));
+  EXPECT_EQ(jnd({"devices", "--device", "plugin:nowhere:simulated"}).exit_code, 3);
+  EXPECT_EQ(jnd({"devices", "--device", "lumped"}).exit_code, 2);
+}
+
+}  // namespace plugin_command_test
+}  // namespace jnd::app
