@@ -183,14 +183,18 @@ TEST_F(PluginDeviceTest, ForcesEndAndTheProcessGoesWhenTheProgramDies) {
   if (program == 0) {
     const auto device = opened(argument);
     core::HapticState state;
-    while (motors().force_n != 1.0) {
-      (void)device->read(state);
-      (void)device->write(pushed(1.0));
+    if (!comes_to([&] {
+          (void)device->read(state);
+          (void)device->write(pushed(1.0));
+          return motors().force_n == 1.0;
+        })) {
+      ::_exit(1);
     }
     const pid_t host = dynamic_cast<PluginDevice&>(*device).process();
     if (::write(told[1], &host, sizeof host) < 0) ::_exit(1);
     ::kill(::getpid(), SIGKILL);
   }
+  ::close(told[1]);
   pid_t host = -1;
   ASSERT_EQ(::read(told[0], &host, sizeof host), static_cast<ssize_t>(sizeof host));
   ASSERT_GT(host, 0);
@@ -203,7 +207,6 @@ TEST_F(PluginDeviceTest, ForcesEndAndTheProcessGoesWhenTheProgramDies) {
     return !std::getline(status, line) || line.find(") Z ") != std::string::npos;
   }));
   ::close(told[0]);
-  ::close(told[1]);
 }
 
 TEST_F(PluginDeviceTest, ItsWordThatNobodyCanBeHurtIsNotEnough) {
