@@ -52,21 +52,23 @@ inline std::string difference(const std::string& a, const std::string& b) {
   return line_a + "\n" + line_b;
 }
 
-/// All columns of the rows but the number of their session.
+/// All columns of the rows but the number of their session, and another.
 template <typename Row>
-std::string rows_text(const std::vector<Row>& rows) {
+std::string rows_text(const std::vector<Row>& rows, std::string_view left_out = "session") {
   RowText text;
   for (const Row& row : rows) {
     core::for_each_column<Row>([&](const auto& column, const auto& value_in) {
-      if (std::string_view(column.name) != "session") text << value_in(row);
+      const std::string_view name = column.name;
+      if (name != "session" && name != left_out) text << value_in(row);
     });
     text.end();
   }
   return text.text();
 }
 
+/// An interruption moves the events that draw, not what they draw.
 inline std::string design_text(const core::StudyStore& store, std::int64_t session) {
-  return rows_text(store.design(session));
+  return rows_text(store.design(session), "sequence");
 }
 
 inline std::string trials_text(const core::StudyStore& store, std::int64_t session) {

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/storage/row_statements.h"
 #include "core/storage/study_store.h"
-#include "support/files.h"
+#include "support/temporary_folder.h"
 
 namespace jnd::core {
 namespace study_rows_test {
