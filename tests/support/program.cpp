@@ -43,7 +43,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
                                const ProgramOptions& options) {
   std::vector<std::string> words = options.wrapper;
-  words.push_back(program_file());
+  words.push_back(options.program.empty() ? program_file().string() : options.program);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> environment = environment_of(options);
   std::array<int, 2> pipe{};

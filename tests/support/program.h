@@ -24,6 +24,7 @@ struct ProgramOptions {
   std::vector<std::pair<std::string, std::string>> environment;
   std::vector<std::string> wrapper = {};  ///< Runs the program: {"strace", "-f"}.
   std::filesystem::path out_file = {};    ///< Where stdout goes instead of to the test.
+  std::string program = {};  ///< Another one instead of jnd: a path, or a name on PATH.
 };
 
 /// The jnd program as a child of the test, every signal at its default. Throws
