@@ -1,0 +1,491 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The jnd authors. It may be used, copied, changed and sold by anybody for
+# anything, without any warranty, as long as this notice stays in it.
+"""A device that jnd uses as `--device network:HOST:PORT,simulated`: a template for an own robot.
+
+    python3 python_device.py --port 4700
+
+Behind it is a hand without a robot, a damped mass that strokes by itself. Put an own robot into
+`Robot.read_robot` and `Robot.write_robot`, and into nothing else. Not tried on hardware. Python
+has no real-time guarantee: a robot that can hurt somebody needs a watchdog of its own below this
+program, and limits of force of its own.
+"""
+
+import argparse
+import math
+import secrets
+import signal
+import struct
+import sys
+import time
+from operator import add, mul
+
+import jnd_datagram as jd
+
+MOST_FORCE_N, MOST_TOTAL_FORCE_N = 8.0, 20.0
+MOST_SLEW_N_PER_S, MOST_SPEED_M_PER_S = 2000.0, 5.0
+MOST_DATAGRAMS_A_TICK, MOST_ANSWERS_A_TICK = 256, 8
+
+# What `--wrong NAME` does, for a check of devices to find. Never use one with a robot.
+WRONG = {
+    "units_mm": "tells positions and velocities in mm and mm/s",
+    "force_sign": "pushes the hand the other way and tells the force as it was asked for",
+    "silence": "keeps the last force when commands stop, come too late or after its own pause",
+    "halt": "takes no notice of a halt",
+    "bad_key": "believes what is sealed by any key",
+    "replay": "takes a command again whose number came before",
+    "stale": "measures five times a second and repeats the last measurement in between",
+    "sequence_wrap": "begins 1000 numbers before the last one of 32 bits, and stays at that one",
+    "sequence_step": "counts its datagrams by two",
+    "half_rate": "ticks half as often as its welcome says",
+    "rearms": "arms again after a fault, without a new number of an arming",
+    "arms_with_force": "arms on a command that has a force",
+    "no_limits": "has no limit of force and none of its change",
+    "echo": "echoes a clock that nobody sent, a second ahead",
+    "told_as_sent": "gives every force 30 ms late and tells it as if it acted at once",
+}
+
+
+class Robot:
+    """A hand that strokes by itself: one mass, pulled along by a spring and a damper, with all
+    points fixed to it. `simulated` False is for what can hurt somebody."""
+
+    name = "python reference"
+    simulated = True
+    # A person's hand moves by itself and takes no orders; a simulated one does both.
+    moves_by_itself = True
+    _HOME_M = (0.0, 0.0, 0.1)
+    _OFFSET_M = ((0.0, 0.0, 0.0), (0.02, 0.0, 0.0), (-0.03, 0.05, 0.0), (0.0, 0.08, 0.0),
+                 (0.02, 0.09, 0.0))
+    _MASS_KG, _STIFFNESS_N_PER_M, _DAMPING_N_S_PER_M = 1.0, 400.0, 35.0
+    _DEVICE_DAMPING_N_S_PER_M = 4.83  # The hand feels it besides the force of the program.
+
+    def __init__(self, rate_hz, num_points):
+        self.num_points = num_points
+        self._dt_s = 1.0 / rate_hz
+        self.reset()
+
+    # ===== Put your robot here: begin =====================================================
+    def read_robot(self):
+        """Measures: time_ns (device's own, rising), 15 positions in m and 15 velocities in m/s
+        (x, y, z of palm inner, palm outer, thumb, index, middle), bits of the points held to the
+        hand, whether the robot's own switch enables it. Raise OSError where that fails."""
+        self._move()
+        position_m = [self._at_m[i] + offset_m[i] for offset_m in self._OFFSET_M for i in range(3)]
+        return (self._time_ns, position_m, list(self._velocity_m_per_s) * jd.NUM_POINTS,
+                (1 << self.num_points) - 1, True)
+
+    def write_robot(self, force_n):
+        """Gives 15 forces on the hand, N, in the order of the positions, until the next call.
+        Raise OSError where that fails, after the motors were made free of force."""
+        self._force_n = force_n
+
+    # ===== Put your robot here: end =======================================================
+
+    def reset(self):
+        """As at the start, for the next program."""
+        self._time_ns, self._at_m, self._velocity_m_per_s = 0, list(self._HOME_M), [0.0] * 3
+        self._middle_m = list(self._HOME_M)
+        self._force_n = [0.0] * 15
+        self._order, self._phase_rad, self.num_strokes, self.home = None, 0.0, 0, True
+        # What a simulated participant feels, summed over ticks: how many, force against the
+        # motion in N, the same of the program's force alone, speed in m/s. A robot has zeros.
+        self.sums = [0, 0.0, 0.0, 0.0]
+
+    def obey(self, order):
+        """An order of the program to a simulated hand: stroke, or go home, as None means."""
+        if order is None or self._order is None or order.movement > self._order.movement:
+            self._phase_rad, self.num_strokes, self.home = 0.0, 0, False
+            self._middle_m = list(self._at_m)
+            self._order = order
+
+    def _wanted_m(self):
+        """Where the spring pulls to: to the height at 0.5 m/s, then left and right."""
+        order, goal_m = self._order, self._HOME_M
+        does_stroke = (order is not None and order.strokes
+                       and not 0 < order.num_strokes <= self.num_strokes)
+        if does_stroke:
+            goal_m = (0.0, 0.0, order.height_m)
+        way_m = math.dist(goal_m, self._middle_m)
+        step_m = 0.5 * self._dt_s
+        part = min(1.0, step_m / way_m) if way_m else 1.0
+        self._middle_m = [at + part * (goal - at) for at, goal in zip(self._middle_m, goal_m)]
+        self.home = self.home or not does_stroke and math.dist(self._at_m, self._HOME_M) < 0.01
+        if not does_stroke or way_m > step_m:
+            return self._middle_m
+        self._phase_rad += order.speed_m_per_s / order.half_width_m * self._dt_s
+        self.num_strokes = int(self._phase_rad / (2.0 * math.pi))  # there and back
+        return [order.half_width_m * math.sin(self._phase_rad), *self._middle_m[1:]]
+
+    def _move(self):
+        """One tick of simulated time, however late the real one is."""
+        self._time_ns += round(self._dt_s * 1e9)
+        wanted_m, velocity_m_per_s = self._wanted_m(), self._velocity_m_per_s
+        total_n = [sum(self._force_n[i::3]) for i in range(3)]
+        speed_m_per_s = math.hypot(*velocity_m_per_s)
+        if speed_m_per_s:
+            against_n = -sum(map(mul, total_n, velocity_m_per_s)) / speed_m_per_s
+            felt_n = against_n + self._DEVICE_DAMPING_N_S_PER_M * speed_m_per_s
+            self.sums = list(map(add, self.sums, (1, felt_n, against_n, speed_m_per_s)))
+        damping_n_s_per_m = self._DAMPING_N_S_PER_M + self._DEVICE_DAMPING_N_S_PER_M
+        for i in range(3):
+            force_n = (self._STIFFNESS_N_PER_M * (wanted_m[i] - self._at_m[i])
+                       - damping_n_s_per_m * velocity_m_per_s[i] + total_n[i])
+            velocity_m_per_s[i] += force_n / self._MASS_KG * self._dt_s
+            self._at_m[i] += velocity_m_per_s[i] * self._dt_s
+
+
+class Server:
+    """The protocol, one `tick` after the other."""
+
+    def __init__(self, socket, robot, rate_hz, key, wrong=""):
+        self._socket, self._robot, self._rate_hz, self._key = socket, robot, rate_hz, key
+        self._wrong = wrong
+        # Of what can hurt nobody a busy machine may be slower.
+        self._patience_ns = 100_000_000 if robot.simulated else 20_000_000
+        self._answer_age_ns = 120_000_000 if robot.simulated else 40_000_000
+        self._challenge = self._drawn()
+        self._last_tick_ns = time.monotonic_ns()
+        self._was_enabled = False
+        self._acted_n = [0.0] * 15  # what the motors were told last
+        self._waiting_n = []        # only for the wrong device that is late
+        self._measured = None
+        self.num_ticks, self.num_missed, self.num_clients, self.num_armings = 0, 0, 0, 0
+        self._forget()
+
+    @staticmethod
+    def _drawn():
+        return secrets.randbits(63) + 1
+
+    def _forget(self, address=None, token=0, stream=0):
+        """No client, or a new one: nothing of the last one counts."""
+        self._address, self._token, self._stream = address, token, stream
+        self._to_device, self._to_program = None, None
+        if self._key and stream:
+            self._to_device, self._to_program = jd.stream_keys(self._key, token, stream)
+        self._link = jd.Link()
+        self._number = 2**32 - 1000 if self._wrong == "sequence_wrap" else 0
+        self._sent_at_ns = {}  # when the last states were sent, by their number
+        self._command, self._command_number, self._came_at_ns, self._recent = None, None, 0, False
+        self._armed, self._armed_number, self._fault, self._order_number = False, 0, 0, 0
+        self._last_heard_ns = time.monotonic_ns()
+
+    def _disarm(self, fault):
+        if self._armed:
+            self._armed, self._fault = False, fault
+
+    # ----- What comes -----
+
+    def _receive(self, now_ns):
+        self._num_answers = 0
+        for _ in range(MOST_DATAGRAMS_A_TICK):
+            try:
+                data, address = self._socket.recvfrom(2048)
+            except (BlockingIOError, InterruptedError):
+                return
+            except OSError:
+                continue  # A client that is gone; its silence ends the connection.
+            self._take(data, address, now_ns)
+
+    def _take(self, data, address, now_ns):
+        found = jd.unpack(data, self._key is not None)
+        if found is None:
+            self._say_what_is_wrong(data, address, now_ns)
+            return
+        is_of_client = address == self._address and found.stream == self._stream != 0
+        if self._key and self._wrong != "bad_key":
+            key = self._key if found.kind <= jd.REFUSAL else self._to_device
+            if key is None or found.kind > jd.REFUSAL and not is_of_client:
+                return  # Nobody can tell who sealed what is of another stream.
+            if not jd.is_sealed(data, key):
+                if found.kind == jd.HELLO:
+                    self._refuse(jd.OTHER_KEY, address, now_ns, token=found.token)
+                return
+        if found.kind == jd.HELLO:
+            self._answer(found, address, now_ns)
+        elif not is_of_client:
+            if found.kind == jd.COMMAND and not self._key:
+                self._refuse(jd.UNKNOWN_STREAM, address, now_ns, stream=found.stream)
+        elif found.kind >= jd.COMMAND:
+            is_new = self._link.take(found.number, found.clock_ns, found.echo_ns, now_ns)
+            if is_new or self._wrong == "replay":
+                self._take_of_client(found, now_ns)
+
+    def _say_what_is_wrong(self, data, address, now_ns):
+        """A hello of another version or key: its sender is told so, and nothing else."""
+        if len(data) < 53 or data[:4] != b"JDLK" or data[6:8] != b"\x01\x00":
+            return
+        token = struct.unpack_from("<Q", data, 40)[0]
+        if struct.unpack_from("<H", data, 4)[0] != jd.VERSION:
+            self._refuse(jd.OTHER_VERSION, address, now_ns, token=token)
+        elif jd.unpack(data, self._key is None) is not None:  # One side alone has a key.
+            self._refuse(jd.OTHER_KEY, address, now_ns, token=token)
+
+    def _take_of_client(self, found, now_ns):
+        self._last_heard_ns = now_ns
+        if found.kind == jd.COMMAND:
+            last = self._command_number
+            is_later = last is None or 0 < (found.number - last) & 0xFFFFFFFF < 1 << 31
+            if is_later or self._wrong == "replay":
+                self._command, self._command_number = found, found.number
+                self._came_at_ns, self._recent = now_ns, True
+        elif found.kind == jd.ORDER and self._robot.moves_by_itself:
+            if found.order_number > self._order_number:
+                self._order_number = found.order_number
+                self._robot.obey(found)
+        elif found.kind == jd.HALT and self._wrong != "halt":
+            self._disarm(11)
+        elif found.kind == jd.GOODBYE:
+            self._end()
+
+    def _end(self):
+        self._forget()
+        if self._robot.simulated:
+            self._robot.reset()
+
+    def _answer(self, hello, address, now_ns):
+        is_of_client = address == self._address
+        if self._address is not None and not is_of_client and not hello.only_asks:
+            if hello.challenge == self._challenge:
+                self._challenge = self._drawn()  # Refused, it is worth nothing later.
+            self._refuse(jd.BUSY, address, now_ns, token=hello.token, key=self._key)
+            return
+        stream = 0
+        if not hello.only_asks:
+            if is_of_client and hello.token == self._token:
+                stream = self._stream  # The welcome was lost.
+            elif hello.challenge == self._challenge:
+                stream = self._drawn()
+                self._challenge = self._drawn()
+                if is_of_client and self._robot.simulated:
+                    self._robot.obey(None)  # It said hello anew: the hand goes on from here.
+                self._forget(address, hello.token, stream)
+                self.num_clients += 1
+                self._num_answers = 0
+        self._reply(jd.pack(
+            jd.WELCOME, stream, 0, now_ns, hello.clock_ns, self._key, token=hello.token,
+            rate_hz=self._rate_hz, most_force_n=MOST_FORCE_N,
+            most_total_force_n=MOST_TOTAL_FORCE_N, stand_in_s=self._patience_ns / 1e9,
+            num_points=self._robot.num_points, num_joints=0, simulated=self._robot.simulated,
+            moves_by_itself=self._robot.moves_by_itself,
+            name=self._robot.name.encode("ascii"), challenge=self._challenge), address)
+
+    def _refuse(self, reason, address, now_ns, token=0, stream=0, key=None):
+        self._reply(jd.pack(jd.REFUSAL, stream, 0, now_ns, 0, key, token=token, reason=reason),
+                    address)
+
+    def _reply(self, data, address):
+        self._num_answers += 1
+        if self._num_answers <= MOST_ANSWERS_A_TICK:
+            self._send(data, address)
+
+    def _send(self, data, address):
+        try:
+            self._socket.sendto(data, address)
+        except OSError:
+            pass  # As if it had been lost on the way.
+
+    # ----- Who may give force -----
+
+    def _answer_is_older(self, now_ns, age_ns):
+        sent_at_ns = self._sent_at_ns.get(self._command.state_number)
+        return sent_at_ns is None or now_ns - sent_at_ns >= age_ns
+
+    def _arm_or_disarm(self, now_ns):
+        command, link = self._command, self._link
+        if self._recent and command.arm_number != self._armed_number:
+            self._armed = False
+            if link.lost_in_a_row:
+                link.judge_anew()
+            last_states = range(self._number - 39, self._number + 1)
+            if (command.arm_number > 0 and link.num_good >= 100
+                    and (not any(command.force_n) or self._wrong == "arms_with_force")
+                    and command.state_number in (n & 0xFFFFFFFF for n in last_states)
+                    and self._measured is not None):
+                self._armed, self._armed_number, self._fault = True, command.arm_number, 0
+                self._acted_n = [0.0] * 15
+                self.num_armings += 1
+        if self._armed and self._wrong != "silence":
+            if (now_ns - self._came_at_ns >= self._patience_ns
+                    or self._answer_is_older(now_ns, self._answer_age_ns)
+                    or link.lost_in_a_row or link.level() == 0):
+                self._disarm(12)
+        if (self._wrong == "rearms" and not self._armed and self._armed_number
+                and self._recent and now_ns - self._came_at_ns < self._patience_ns):
+            self._armed = True
+
+    def _limited(self, force_n, velocity_m_per_s, held):
+        """What the hand gets of a command; None where it disarms."""
+        if not all(map(math.isfinite, force_n)):
+            self._disarm(3)
+            return None
+        for point in range(5):
+            here = slice(3 * point, 3 * point + 3)
+            if held >> point & 1 and math.hypot(*velocity_m_per_s[here]) > MOST_SPEED_M_PER_S:
+                self._disarm(8)
+                return None
+        if not any(force_n):
+            return [0.0] * 15  # No slew: at once.
+        points = [list(force_n[3 * point:3 * point + 3]) if held >> point & 1 else [0.0] * 3
+                  for point in range(5)]
+        if self._wrong != "no_limits":
+            for vector in points:
+                size_n = math.hypot(*vector)
+                if size_n > MOST_FORCE_N:
+                    vector[:] = [value * MOST_FORCE_N / size_n for value in vector]
+            total_n = sum(math.hypot(*vector) for vector in points)
+            scale = min(1.0, MOST_TOTAL_FORCE_N / total_n) if total_n else 1.0
+            most_change_n = MOST_SLEW_N_PER_S / self._rate_hz
+            for point, vector in enumerate(points):
+                if not held >> point & 1:
+                    continue
+                last_n = self._acted_n[3 * point:3 * point + 3]
+                change_n = [value * scale - last for value, last in zip(vector, last_n)]
+                size_n = math.hypot(*change_n)
+                part = min(1.0, most_change_n / size_n) if size_n else 1.0
+                vector[:] = [last + change * part for last, change in zip(last_n, change_n)]
+        return [value for vector in points for value in vector]
+
+    # ----- One tick -----
+
+    def _measure(self):
+        if self._wrong == "stale" and self.num_ticks % round(self._rate_hz / 5):
+            return
+        try:
+            measured = self._robot.read_robot()
+        except OSError:
+            self._measured = None
+            self._disarm(4)
+            self._fault = 4
+            return
+        if not all(map(math.isfinite, measured[1] + measured[2])):
+            self._measured = None
+            self._disarm(2)
+            self._fault = 2
+            return
+        self._measured = measured
+
+    def _give(self, force_n):
+        if self._wrong == "told_as_sent":
+            self._waiting_n.append(force_n)
+            late = self._waiting_n.pop(0) if len(self._waiting_n) > 0.03 * self._rate_hz else None
+            given_n = late or [0.0] * 15
+        else:
+            given_n = [-value for value in force_n] if self._wrong == "force_sign" else force_n
+        try:
+            self._robot.write_robot(given_n)
+            self._acted_n = force_n
+        except OSError:
+            self._disarm(5)
+            self._acted_n = [0.0] * 15
+
+    def tick(self):
+        now_ns = time.monotonic_ns()
+        self.num_ticks += 1
+        self._receive(now_ns)
+        if now_ns - self._last_tick_ns >= self._patience_ns and self._wrong != "silence":
+            self._disarm(11)  # Nobody can tell how old it is what waited.
+            self._recent = False
+        self._last_tick_ns = now_ns
+        if self._address is not None and now_ns - self._last_heard_ns >= 1_000_000_000:
+            self._end()
+        self._arm_or_disarm(now_ns)
+        acted_n = self._acted_n  # until now: it goes into the state
+        self._measure()
+        time_ns, position_m, velocity_m_per_s, held, enabled = (
+            self._measured or (0, [0.0] * 15, [0.0] * 15, 0, False))
+        wanted_n = self._command.force_n if self._command else [0.0] * 15
+        if self._was_enabled and not enabled or enabled and not self._was_enabled and any(wanted_n):
+            self._disarm(21)
+        self._was_enabled = enabled
+        force_n = None
+        if self._armed and enabled:
+            force_n = self._limited(wanted_n, velocity_m_per_s, held)
+        self._give(force_n if force_n is not None else [0.0] * 15)
+        if self._address is not None:
+            self._send_state(time_ns, position_m, velocity_m_per_s, held, enabled, acted_n)
+
+    def _send_state(self, time_ns, position_m, velocity_m_per_s, held, enabled, acted_n):
+        if self._wrong == "sequence_wrap":
+            self._number = min(self._number + 1, 2**32 - 1)
+        else:
+            step = 2 if self._wrong == "sequence_step" else 1
+            self._number = (self._number + step) & 0xFFFFFFFF
+        if self._wrong == "units_mm":
+            position_m = [1000.0 * value for value in position_m]
+            velocity_m_per_s = [1000.0 * value for value in velocity_m_per_s]
+        now_ns = time.monotonic_ns()
+        self._sent_at_ns[self._number] = now_ns
+        if len(self._sent_at_ns) > 512:
+            del self._sent_at_ns[next(iter(self._sent_at_ns))]
+        summed = self._robot.sums
+        echo_ns = self._link.peer_clock_ns + (10**9 if self._wrong == "echo" else 0)
+        self._send(jd.pack(
+            jd.STATE, self._stream, self._number, now_ns, echo_ns, self._to_program,
+            time_ns=time_ns, position_m=position_m, velocity_m_per_s=velocity_m_per_s,
+            end_effector_m=position_m[:3], joint_rad=[0.0] * 22, joint_torque_n_m=[0.0] * 22,
+            num_summed=summed[0], opposing_n=summed[1], rendered_opposing_n=summed[2],
+            speed_m_per_s=summed[3],
+            num_strokes=self._robot.num_strokes, armed_number=self._armed_number,
+            order_number=self._order_number, held=held, armed=self._armed,
+            measured=self._measured is not None, home=self._robot.home, fault=self._fault,
+            level=self._link.level(), acted_n=acted_n, enabled=enabled), self._address)
+
+    def run(self, until_ns):
+        """Ticks at the rate until then; what cannot be made up for counts as missed."""
+        half = 2 if self._wrong == "half_rate" else 1
+        period_ns = round(1e9 * half / self._rate_hz)
+        next_ns = time.monotonic_ns()
+        while time.monotonic_ns() < until_ns:
+            self.tick()
+            next_ns += period_ns
+            late_ns = time.monotonic_ns() - next_ns
+            if late_ns > 0:
+                self.num_missed += late_ns // period_ns
+                next_ns += late_ns // period_ns * period_ns
+            else:
+                time.sleep(-late_ns / 1e9)
+
+    def stop(self):
+        """No force, and a word to the program that it ends."""
+        self._give([0.0] * 15)
+        if self._address is not None:
+            self._number = (self._number + 1) & 0xFFFFFFFF
+            self._send(jd.pack(jd.GOODBYE, self._stream, self._number, time.monotonic_ns(),
+                               self._link.peer_clock_ns, self._to_program), self._address)
+
+
+def main():
+    words = argparse.ArgumentParser(
+        description="A device for jnd: a simulated hand, to be replaced by an own robot.",
+        epilog="Wrong devices: " + "; ".join(f"{name} {what}" for name, what in WRONG.items()))
+    words.add_argument("--listen", default="127.0.0.1", help="address to be reached at")
+    words.add_argument("--port", type=int, default=4700, help="0: any that is free")
+    words.add_argument("--key", help="file that `jnd device-key NAME` wrote")
+    words.add_argument("--rate-hz", type=float, default=1000.0, help="ticks a second, the study's")
+    words.add_argument("--points", type=int, default=5, choices=range(1, 6))
+    words.add_argument("--seconds", type=float, default=math.inf, help="how long; until stopped")
+    words.add_argument("--wrong", default="", choices=["", *WRONG], metavar="NAME",
+                       help="behave wrongly, to try a check of devices")
+    given = words.parse_args()
+    key = jd.read_key(given.key)
+    socket = jd.opened_socket(given.listen, given.port, key)
+    server = Server(socket, Robot(given.rate_hz, given.points), given.rate_hz, key, given.wrong)
+    print("listening on {}:{}".format(*socket.getsockname()), flush=True)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    jd.take_real_time_priority()
+    begin_ns = time.monotonic_ns()
+    try:
+        server.run(begin_ns + given.seconds * 1e9)
+    except (KeyboardInterrupt, SystemExit):
+        pass
+    finally:
+        server.stop()
+    seconds = (time.monotonic_ns() - begin_ns) / 1e9
+    print(f"{server.num_ticks} ticks in {seconds:.1f} s, {server.num_missed} missed; "
+          f"{server.num_clients} programs connected, {server.num_armings} armings")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,245 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/commands/command_fixture.h"
+#include "app/json_document.h"
+#include "support/files.h"
+#include "support/places.h"
+#include "support/program.h"
+
+// The devices of device/network/reference, which a laboratory takes as templates: each is
+// another program that was written from device/network/README.md alone.
+
+namespace jnd::app {
+namespace reference_devices_test {
+
+namespace fs = std::filesystem;
+using test_support::ProgramOptions;
+using test_support::ProgramOutcome;
+using test_support::RunningProgram;
+
+fs::path reference(const std::string& name) {
+  return test_support::source_folder() / "device/network/reference" / name;
+}
+
+bool is_installed(const std::string& program) {
+  try {
+    return test_support::run_program({"--version"}, {.program = program}).exit_code == 0;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+/// A device in a language, at a port of its own.
+class ReferenceDevice : public CommandTest {
+ protected:
+  void SetUp() override {
+    options_.environment.emplace_back("XDG_CONFIG_HOME", path("config").string());
+    // Nothing is to be written beside the sources.
+    options_.environment.emplace_back("PYTHONDONTWRITEBYTECODE", "1");
+    if (!is_installed("python3")) GTEST_SKIP() << "python3 is not installed here";
+  }
+
+  [[nodiscard]] ProgramOptions other(const std::string& program) const {
+    ProgramOptions options = options_;
+    options.program = program;
+    return options;
+  }
+  ProgramOutcome python(const fs::path& file, std::vector<std::string> words) const {
+    words.insert(words.begin(), file.string());
+    return test_support::run_program(words, other("python3"));
+  }
+
+  /// False where this machine lacks what it takes.
+  bool start(const std::string& language, std::vector<std::string> words = {}) {
+    words.insert(words.begin(), {"--port", "0"});
+    if (language == "python") {
+      words.insert(words.begin(), reference("python_device.py").string());
+      device_.emplace(words, other("python3"));
+    } else {
+      if (!is_installed("cc")) return false;
+      const ProgramOutcome compiled = test_support::run_program(
+          {"-std=c11", "-O2", "-Wall", "-Wextra", "-Werror", reference("c_device.c").string(),
+           "-o", path("c_device").string()},
+          other("cc"));
+      EXPECT_EQ(compiled.exit_code, 0) << compiled.err;
+      device_.emplace(words, other(path("c_device").string()));
+    }
+    const std::string line = device_->read_line().value_or("");
+    const std::string begin = "listening on ";
+    EXPECT_TRUE(line.starts_with(begin)) << line;
+    place_ = line.size() > begin.size() ? line.substr(begin.size()) : "";
+    return true;
+  }
+  /// Draws a key; the file that it is in.
+  std::string drawn_key() {
+    const ProgramOutcome drawn = jnd({"device-key", "robot", "--json"});
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    return document(drawn.out)["file"].get<std::string>();
+  }
+  ProgramOutcome rules(const std::string& key_file = "") {
+    std::vector<std::string> words = {place_};
+    if (!key_file.empty()) words.push_back(key_file);
+    return python(test_support::source_folder() / "tests/app/commands/device_rules.py", words);
+  }
+
+  std::optional<RunningProgram> device_;
+  std::string place_;
+};
+
+class EachReferenceDevice
+    : public ReferenceDevice,
+      public ::testing::WithParamInterface<std::tuple<std::string, std::string>> {
+ protected:
+  /// Started with or without a key; then the words that a program needs to find it, and the
+  /// file.
+  bool start_with_key() {
+    const auto& [language, key] = GetParam();
+    std::vector<std::string> words;
+    if (key == "key") {
+      key_file_ = drawn_key();
+      words = {"--key", key_file_};
+    }
+    if (!start(language, words)) return false;
+    at_ = "network:" + place_ + ",simulated" + (key_file_.empty() ? "" : ",key=robot");
+    return true;
+  }
+
+  std::string at_, key_file_;
+};
+
+std::string name_of(const ::testing::TestParamInfo<EachReferenceDevice::ParamType>& info) {
+  return std::get<0>(info.param) + "_" + std::get<1>(info.param);
+}
+
+TEST_P(EachReferenceDevice, KeepsTheRules) {
+  if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
+  const ProgramOutcome told = rules(key_file_);
+  EXPECT_EQ(told.out, "no rule is broken\n") << told.err;
+}
+
+/// The shipped study, with fewer trials: in real time all of them take seven minutes.
+TEST_P(EachReferenceDevice, RunsTheShortTourToItsEnd) {
+  if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
+  nlohmann::json tour = nlohmann::json::parse(
+      std::ifstream(test_support::source_folder() / "protocols/short_tour.json"));
+  for (nlohmann::json& medium : tour["stages"][0]["media"]) medium["duration_s"] = 0.5;
+  tour["stages"][1]["scale"] = {1};
+  tour["stages"][2]["target_percent"] = {50};
+  tour["stages"][2]["coarse_step_scale"] = 4;
+  tour["stages"][2]["fine_step_scale"] = 2;
+  tour["stages"][3]["viscosity_pa_s"] = {3, 21};
+  tour["stages"][3]["repetitions"] = 1;
+  test_support::write_file(path("short_tour.json"), tour.dump());
+
+  const ProgramOutcome looped = jnd({"loop", "--device", at_, "--seconds", "0.5", "--json"});
+  EXPECT_EQ(looped.exit_code, 0) << looped.err;
+  ProgramOutcome ended =
+      jnd({"run", "short_tour.json", "--study", "tour.study", "--participant", "P01",
+           "--headless", "--realtime", "--seed", "7", "--device", at_});
+  // A machine that is too busy for real time interrupts a session; then it goes on.
+  for (int i = 0; i < 20 && ended.exit_code == 1; ++i) {
+    ended = jnd({"resume", "tour.study", "--headless", "--realtime"});
+  }
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(opened("tour.study").completed(1));
+  EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
+
+  device_->send_signal(SIGTERM);
+  const ProgramOutcome served = device_->wait();
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_NE(served.out.find("programs connected"), std::string::npos) << served.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Languages, EachReferenceDevice,
+                         ::testing::Combine(::testing::Values("python", "c"),
+                                            ::testing::Values("open", "key")),
+                         name_of);
+
+/// Else nobody could try a check of devices by them.
+class WrongReferenceDevice : public ReferenceDevice,
+                             public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(WrongReferenceDevice, BreaksItsRule) {
+  const std::string key_file = drawn_key();
+  ASSERT_TRUE(start("python", {"--key", key_file, "--wrong", GetParam()}));
+  const ProgramOutcome told = rules(key_file);
+  EXPECT_NE(("\n" + told.out).find("\n" + GetParam() + ": "), std::string::npos)
+      << told.out << told.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
+                         ::testing::Values("units_mm", "force_sign", "silence", "halt",
+                                           "bad_key", "replay", "stale", "sequence_wrap",
+                                           "sequence_step", "half_rate", "rearms",
+                                           "arms_with_force", "no_limits", "echo",
+                                           "told_as_sent"),
+                         [](const auto& info) { return info.param; });
+
+TEST_F(ReferenceDevice, TheClientShowsWhatADeviceCanDoAndGivesNoForce) {
+  ASSERT_TRUE(start("python", {"--points", "2"}));
+  const ProgramOutcome asked = python(reference("python_client.py"), {place_, "--only-ask"});
+  EXPECT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_NE(asked.out.find("1000 Hz, 2 contact points, 0 joints"), std::string::npos)
+      << asked.out;
+  const ProgramOutcome watched =
+      python(reference("python_client.py"), {place_, "--seconds", "0.5", "--every-s", "0.2"});
+  EXPECT_EQ(watched.exit_code, 0) << watched.err;
+  EXPECT_NE(watched.out.find("not armed (0), fault none"), std::string::npos) << watched.out;
+  EXPECT_EQ(watched.out.find(" armed (1)"), std::string::npos) << watched.out;
+
+  RunningProgram simulator({"device-simulator", "--port", "0"}, options_);
+  const std::string line = simulator.read_line().value_or("");
+  const ProgramOutcome simulated =
+      python(reference("python_client.py"),
+             {line.substr(line.rfind(' ') + 1), "--seconds", "2", "--force-n", "0.1,0,0"});
+  EXPECT_NE(simulated.out.find("  armed (1), fault none"), std::string::npos)
+      << simulated.out << simulated.err;
+}
+
+/// What the program writes and refuses, another program reads and refuses.
+TEST_F(ReferenceDevice, ReadsTheExamplesOfDatagrams) {
+  const std::string script =
+      "import os, sys\n"
+      "sys.path.insert(0, sys.argv[1])\n"
+      "import jnd_datagram as jd\n"
+      "for name in sorted(os.listdir(sys.argv[2])):\n"
+      "    data = open(os.path.join(sys.argv[2], name), 'rb').read()\n"
+      "    found = jd.unpack(data, False)\n"
+      "    if found:\n"
+      "        content = vars(found)\n"
+      "        layout, places = jd._CONTENT[found.kind]\n"
+      "        again = jd.pack(found.kind, found.stream, found.number, found.clock_ns,\n"
+      "                        found.echo_ns, None, **{n: content[n] for n, _, _ in places})\n"
+      "        print(name, 'same' if again == data else 'other')\n";
+  test_support::write_file(path("read.py"), script);
+  const ProgramOutcome read =
+      python(path("read.py"),
+             {reference("").string(),
+              (test_support::source_folder() / "tests/fuzz/corpus/datagram").string()});
+  EXPECT_EQ(read.out,
+            "command.bin same\n"
+            "command_of_a_wrapped_sequence.bin same\n"
+            "goodbye.bin same\n"
+            "halt.bin same\n"
+            "hello.bin same\n"
+            "order_to_stroke.bin same\n"
+            "refusal_busy.bin same\n"
+            "state_of_a_moving_hand.bin same\n"
+            "state_of_an_open_switch.bin same\n"
+            "welcome.bin same\n")
+      << read.err;
+}
+
+}  // namespace reference_devices_test
+}  // namespace jnd::app
