@@ -1,9 +1,9 @@
 #include "device/plugin/device_host.h"
 
-#include <signal.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <algorithm>
 #include <atomic>

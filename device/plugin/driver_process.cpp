@@ -18,8 +18,6 @@
 #include "device/plugin/driver_library.h"
 #include "device/plugin/futex.h"
 
-extern char** environ;
-
 namespace jnd::device {
 namespace {
 

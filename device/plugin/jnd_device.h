@@ -26,6 +26,7 @@
  * controller sets its force to zero when no command has come for 20 ms.
  */
 
+/* C, which the checks of C++ do not know. NOLINTBEGIN */
 #include <stdint.h>
 
 #if defined(__cplusplus)
@@ -154,5 +155,7 @@ JND_DEVICE_EXPORT void jnd_device_close(jnd_device* device);
 /* Why the last call failed: one line of text that stays until the next call. `device` is null
  * for a failed open or a describe before it. Never null. */
 JND_DEVICE_EXPORT const char* jnd_device_error(jnd_device* device);
+
+/* NOLINTEND */
 
 #endif
