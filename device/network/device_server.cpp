@@ -282,8 +282,8 @@ void DeviceServer::arm_or_disarm() noexcept {
   // It asks for another arming, so it means no force of the one before.
   armed_ = false;
   if (quality_.is_broken()) quality_.judge_anew();
-  if (!is_without_force(command) || !quality_.is_settled() || !answers_in_time() ||
-      !state_.is_measured) {
+  if (command.arm_number == 0 || !is_without_force(command) || !quality_.is_settled() ||
+      !answers_in_time() || !state_.is_measured) {
     return;
   }
   armed_ = true;

@@ -124,6 +124,15 @@ TEST_F(DeviceServerTest, OnceDisarmedItWaitsForAnotherNumber) {
   EXPECT_EQ(felt_n(), 1.0);
 }
 
+TEST_F(DeviceServerTest, NumberZeroIsNoArming) {
+  arm();
+  talk(10, 0.0, 0);
+  EXPECT_FALSE(program.state.armed) << "it means no force of the arming before";
+  talk(10, 1.0, 0);
+  EXPECT_EQ(felt_n(), 0.0);
+  EXPECT_EQ(server.counts().num_armings, 1);
+}
+
 TEST_F(DeviceServerTest, AnotherNumberTakesTheForceOfTheOneBefore) {
   arm();
   talk(10, 1.0);
