@@ -3,41 +3,15 @@
 #include <cmath>
 
 #include "analysis/charts/charts.h"
-#include "analysis/felt_study.h"
+#include "analysis/felt_figures.h"
 
 namespace jnd::analysis {
 namespace threshold_charts_test {
 
-/// P01 felt 2, 5 and 8 of 10 at 0.1, 0.2 and 0.4 Pa s; P02 is degenerate.
-class ThresholdChartsTest : public ::testing::Test {
- protected:
-  ThresholdChartsTest() : study_(kFeltProtocol) {
-    add_felt_answers(study_);
-    data_ = load_study(study_.store());
-    data_.runs.clear();  // By hand instead.
-    data_.runs.push_back({.participant = "P01",
-                          .block = "felt",
-                          .procedure = "staircase",
-                          .is_logarithmic = true,
-                          .rule = "1 up, 2 down; Levitt 1971",
-                          .target_probability = 0.70711,
-                          .tracks = {{.series = 1,
-                                      .points = {{1, 0.4, true}, {2, 0.2, false, true, true}},
-                                      .threshold = 0.25,
-                                      .num_reversals = 2}},
-                          .threshold = 0.25});
-    results_ = results_of(data_, {}, {.num_resamples = 50});
-    titles_.stages["felt"] = "Felt";
-  }
-  [[nodiscard]] FigureSource source() const { return {data_, results_, titles_}; }
-
-  HandMadeStudy study_;
-  StudyData data_;
-  StudyResults results_;
-  StudyTitles titles_;
-};
+using ThresholdChartsTest = FeltFiguresTest;
 
 TEST_F(ThresholdChartsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
+  titles_.stages["felt"] = "Felt";
   const std::vector<ChartSet> sets = threshold_charts(source());
   ASSERT_EQ(sets.size(), 1U);
   const ChartSet& set = sets.front();
@@ -80,18 +54,18 @@ TEST_F(ThresholdChartsTest, TracksHaveTheirReversalsAndTheirThreshold) {
   const ChartSet& set = sets.front();
   EXPECT_EQ(set.section, "felt_staircase");
   EXPECT_TRUE(set.y.logarithmic);
-  ASSERT_EQ(set.participants.size(), 1U);
+  ASSERT_EQ(set.participants.size(), 2U);
   const Chart& own = set.participants[0];
-  EXPECT_EQ(own.value, "0.2500 Pa s");
+  EXPECT_EQ(own.value, "0.2000 Pa s");
   ASSERT_EQ(own.series.size(), 2U);
   EXPECT_EQ(own.series[0].look, ChartSeries::Look::kTrack);
   EXPECT_EQ(own.series[1].y, "reversal");
   const FigureTable& table = set.tables.front();
-  EXPECT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows.size(), 6U) << "three trials of each";
   EXPECT_FALSE(table.rows[0][table.place_of("reversal")].number);
   ASSERT_EQ(own.lines.size(), 1U);
-  EXPECT_NEAR(own.lines[0].at, 0.25, 1e-12);
-  EXPECT_EQ(set.everybody->value, "0.2500 Pa s");
+  EXPECT_NEAR(own.lines[0].at, 0.2, 1e-12);
+  EXPECT_EQ(set.everybody->value, "0.2000 Pa s");
 }
 
 TEST_F(ThresholdChartsTest, AllChartsStandInTheOrderOfTheReport) {

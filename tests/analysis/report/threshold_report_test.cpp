@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "analysis/charts/charts.h"
-#include "analysis/felt_study.h"
+#include "analysis/felt_figures.h"
 #include "analysis/report/chart_figures.h"
 #include "analysis/report/report_results.h"
 #include "analysis/report/threshold_methods.h"
@@ -11,38 +11,7 @@
 namespace jnd::analysis {
 namespace threshold_report_test {
 
-/// Two people who felt three levels, one of them nothing below the last; and their staircases.
-class ThresholdReportTest : public ::testing::Test {
- protected:
-  ThresholdReportTest() : study_(kFeltProtocol) {
-    add_felt_answers(study_);
-    data_ = load_study(study_.store());
-    data_.runs.clear();  // By hand instead.
-    for (const char* name : {"P01", "P02"}) {
-      data_.runs.push_back(
-          {.participant = name,
-           .block = "felt",
-           .procedure = "staircase",
-           .is_logarithmic = true,
-           .rule = "1 up, 2 down; Levitt 1971",
-           .target_probability = 0.70711,
-           .tracks = {{.series = 1,
-                       .points = {{1, 0.4, true}, {2, 0.2, false, true, true}, {3, 0.4, true}},
-                       .threshold = 0.2,
-                       .num_reversals = 2}},
-           .threshold = 0.2});
-    }
-    results_ = results_of(data_, {}, {.num_resamples = 50});
-  }
-  [[nodiscard]] FigureSource source() const {
-    return {.data = data_, .results = results_, .titles = titles_};
-  }
-
-  HandMadeStudy study_;
-  StudyData data_;
-  StudyResults results_;
-  StudyTitles titles_;
-};
+using ThresholdReportTest = FeltFiguresTest;
 
 TEST_F(ThresholdReportTest, DrawsEveryonesAnswersAndTheCurvesThatExist) {
   const std::vector<Figure> figures = chart_figures(threshold_charts(source()));
