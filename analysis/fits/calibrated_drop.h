@@ -13,6 +13,9 @@ struct CalibratedDrops {
   double slope = kLikelihoodDrop, pse = kLikelihoodDrop;
 };
 
+/// Fewer redraws have no 95 % quantile to speak of.
+inline constexpr int kFewestCalibrations = 200;
+
 /// At few answers a level the likelihood ratio exceeds its limit, chi-squared, too often: with
 /// five answers at each of eight levels and three parameters the intervals hold the truth in
 /// 91 % of sets (data/reference/coverage). So answers are drawn anew from the fitted line, and

@@ -265,6 +265,7 @@ PsychometricFit fit_by_interval_order(const std::vector<AnswerCount>& data,
       drops = calibrated_drops(design_of(cells, options.free_pse),
                                counts_of(cells, &Cell::num_trials), found.coefficients,
                                options.free_pse, options.num_calibration, options.seed);
+      fit.calibration = {options.num_calibration, drops.slope, drops.pse};
     }
     add_intervals(fit, cells, optimum, drops, options.reference);
     fit.misfit_p_value =

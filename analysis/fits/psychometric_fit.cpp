@@ -132,6 +132,7 @@ void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
     const CalibratedDrops drops = drops_of(levels, optimum.curve, options);
     drop = drops.slope;
     pse_drop = drops.pse;
+    fit.calibration = {options.num_calibration, drop, pse_drop};
   }
   if (fit.weber_fraction) {
     fit.weber_fraction_ci95 =
@@ -182,6 +183,8 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
                      !options.posterior && !options.by_order),
                 "overdispersion", "maximum likelihood without bootstrap, posterior and orders",
                 1.0);
+  core::require(options.num_calibration == 0 || options.num_calibration >= kFewestCalibrations,
+                "num_calibration", "0, or 200 and more", options.num_calibration);
   core::require(
       options.num_calibration == 0 ||
           (options.family == PsychometricFamily::kWeber &&

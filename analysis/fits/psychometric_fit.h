@@ -90,8 +90,8 @@ struct PsychometricOptions {
   int num_goodness = 0;        ///< Redraws for the p values beside them; 0 leaves those out.
   /// Redraws that widen the likelihood-ratio intervals where they are known to be too narrow:
   /// with a free pse, or orders that vary, and no level of 30 answers; see `CalibratedDrops`. 0
-  /// leaves them as they are. kWeber by maximum likelihood without lapses, guesses and
-  /// overdispersion alone.
+  /// leaves them as they are, else 200 or more. kWeber by maximum likelihood without lapses,
+  /// guesses and overdispersion alone.
   int num_calibration = 0;
   bool posterior = false;  ///< Whether the Bayesian estimate is computed as well.
   std::uint64_t seed = 1;  ///< Seed of all that is drawn: the same numbers again.
@@ -132,6 +132,12 @@ struct PsychometricOverdispersion {
   std::optional<double> correlation;     ///< beta-binomial: of two answers of one row.
   std::optional<double> log_likelihood;  ///< beta-binomial; `PsychometricFit` has the binomial.
   std::string note;                      ///< Why there is none; "" if there is.
+};
+
+/// How far the log-likelihood may fall to the ends of an interval that was calibrated.
+struct PsychometricCalibration {
+  int n = 0;  ///< Redraws; 0: the intervals are not calibrated.
+  double weber_fraction_drop = 0.0, pse_drop = 0.0;
 };
 
 /// Medians and central 95 % of the posterior.
@@ -186,6 +192,7 @@ struct PsychometricFit {
     double value;
   };
   std::vector<Parameter> parameters;  ///< In the family's own words, beside w, pse and lapse.
+  PsychometricCalibration calibration;
   PsychometricOverdispersion overdispersion;
   PsychometricGoodness goodness;
   PsychometricPosterior posterior;

@@ -51,6 +51,13 @@ void add_psychometric_details(Json& json, const PsychometricFit& fit) {
     json["bootstrap"]["bias_correction"] = number(fit.bootstrap.bias_correction);
     json["bootstrap"]["acceleration"] = number(fit.bootstrap.acceleration);
   }
+  const PsychometricCalibration& calibration = fit.calibration;
+  json["calibration"] =
+      calibration.n == 0
+          ? Json(nullptr)
+          : Json{{"n", calibration.n},
+                 {"weber_fraction_drop", number(calibration.weber_fraction_drop)},
+                 {"pse_drop", number(calibration.pse_drop)}};
   const PsychometricOverdispersion& scatter = fit.overdispersion;
   json["overdispersion"] = {{"model", to_string(scatter.model)},
                             {"factor", number(scatter.factor)},

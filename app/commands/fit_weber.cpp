@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/fits/calibrated_drop.h"
 #include "analysis/fits/fit_data.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/fit_tables.h"
@@ -66,6 +67,13 @@ void print_details(const analysis::PsychometricFit& fit) {
   if (fit.overdispersion.correlation) {
     fmt::print("  beta-binomial   {:<8}  correlation of two answers to one level\n",
                number(fit.overdispersion.correlation));
+  }
+  if (fit.calibration.n > 0) {
+    fmt::print(
+        "  calibrated by {} redraws: the log-likelihood may fall by {} for the Weber "
+        "fraction and {} for the pse, not by 1.921\n",
+        fit.calibration.n, number(fit.calibration.weber_fraction_drop),
+        number(fit.calibration.pse_drop));
   }
   if (fit.goodness.overdispersion) {
     fmt::print("  overdispersion  {:<8}  Pearson's chi-squared over {}\n",
@@ -167,6 +175,12 @@ void require_overdispersion(const FitWeberOptions& options) {
 
 void require_calibration(const FitWeberOptions& options) {
   if (options.num_calibration == 0) return;
+  if (options.num_calibration < analysis::kFewestCalibrations) {
+    throw UsageError(
+        fmt::format("--calibration {}: expected 0, or {} and more redraws; 1000 "
+                    "are enough",
+                    options.num_calibration, analysis::kFewestCalibrations));
+  }
   const bool has_lapses = options.frees_lapse() || rate_of(options.lapse) > 0.0;
   if (options.family == "weber" && options.method == "ml" && options.overdispersion == "none" &&
       !has_lapses && rate_of(options.guess) == 0.0) {
@@ -346,8 +360,8 @@ void add_fit_weber(CLI::App& fit, Invocation& invocation) {
       ->check(whole_number(0, 10'000'000));
   weber
       .add_option("--calibration", options->num_calibration,
-                  "redraws that widen the intervals of a free pse where no level has 15 "
-                  "answers; 1000 are enough")
+                  "redraws that widen the intervals of a free pse where no level has 30 "
+                  "answers: 200 or more; 1000 are enough")
       ->check(whole_number(0, 10'000'000));
   weber.add_flag("--posterior", options->posterior,
                  "also the Bayesian estimate on a grid, with its priors");

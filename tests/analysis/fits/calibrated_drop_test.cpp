@@ -121,20 +121,21 @@ TEST(CalibratedDrops, HoldTheTruthWherePlainIntervalsDoSoTooRarely) {
     if (plain.status != FitStatus::kOk) continue;
     ++num_fits;
     num_plain += holds(plain.weber_fraction_ci95) ? 1 : 0;
-    num_calibrated += holds(fit_with(100).weber_fraction_ci95) ? 1 : 0;
+    num_calibrated += holds(fit_with(200).weber_fraction_ci95) ? 1 : 0;
   }
   // On the same sets, so that one of the two fails where both are alike.
   EXPECT_LT(num_plain, 0.93 * num_fits);
   EXPECT_GT(num_calibrated, 0.93 * num_fits);
 }
 
-TEST(CalibratedDrops, AreOfTheWeberCurveByMaximumLikelihoodAlone) {
+TEST(CalibratedDrops, AreOfTheWeberCurveByMaximumLikelihoodAndOfManyRedraws) {
   for (const PsychometricOptions& options :
-       {PsychometricOptions{.reference = 1.0, .free_lapse = true, .num_calibration = 100},
+       {PsychometricOptions{.reference = 1.0, .free_lapse = true, .num_calibration = 200},
         PsychometricOptions{.reference = 1.0,
         .method = PsychometricMethod::kLeastSquares,
-        .num_calibration = 100},
-        PsychometricOptions{.reference = 1.0, .guess_rate = 0.5, .num_calibration = 100}}) {
+        .num_calibration = 200},
+        PsychometricOptions{.reference = 1.0, .guess_rate = 0.5, .num_calibration = 200},
+        PsychometricOptions{.reference = 1.0, .free_pse = true, .num_calibration = 199}}) {
     EXPECT_THROW((void)fit_psychometric(rows_of(5, false), options), core::Error);
   }
 }

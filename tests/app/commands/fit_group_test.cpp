@@ -273,6 +273,9 @@ TEST_F(FitGroupCommandTest, FewAnswersWithAFreePseAreWidenedByACalibration) {
       << plain["warnings"];
   EXPECT_EQ(wider["warnings"].dump().find("--calibration"), std::string::npos);
   EXPECT_EQ(wider["weber_fraction"], plain["weber_fraction"]);
+  EXPECT_TRUE(plain["calibration"].is_null());
+  EXPECT_EQ(wider["calibration"]["n"], 500);
+  EXPECT_GT(wider["calibration"]["weber_fraction_drop"], 1.93);
   EXPECT_GT(wider["weber_fraction_ci95"][1], plain["weber_fraction_ci95"][1]);
   EXPECT_LT(wider["weber_fraction_ci95"][0], plain["weber_fraction_ci95"][0]);
 }
