@@ -12,22 +12,30 @@ namespace jnd::analysis {
 /// Rows of one of the set's tables, and how they look.
 struct ChartSeries {
   enum class Look {
-    kCurve,        ///< A fitted line.
+    kCurve,        ///< The fitted line whose value stands beside the chart.
+    kOtherCurve,   ///< A fitted line of another value, dashed.
+    kLaw,          ///< One of several fitted lines, in the colour of `colour`.
+    kBeyond,       ///< A law where nothing was measured, dotted.
+    kFaintCurve,   ///< Somebody's fitted line behind the rest.
+    kBand,         ///< From `low` to `high`, behind everything; not in small panels.
     kAnswers,      ///< Points, `low` to `high` as bars.
     kManyAnswers,  ///< Points of so many levels that each has few answers; no bars.
+    kMeans,        ///< Points in the colour of `colour`, without bars.
     kTrack,        ///< A line from point to point.
     kReversals,    ///< Rings on a track.
-    kEverybodys,   ///< Faint lines, one a participant, behind the rest.
+    kEverybodys,   ///< Faint lines from point to point, one a participant, behind the rest.
     kIdentity,     ///< y = x; has no table.
   };
   Look look = Look::kCurve;
-  std::size_t table = 0;  ///< In the tables of the set.
-  int series = 0;         ///< The rows with this number in the column "series"; 0: all rows.
-  std::string x, y;       ///< Names of columns; rows without either are left out.
-  std::string low, high;  ///< Of the bars; a row without an end has none there.
-  std::string size;       ///< A column that makes points larger; "" for points alike.
-  int colour = 1;         ///< Of tracks, from 1.
-  std::string legend;     ///< "" for none.
+  std::size_t table = 0;      ///< In the tables of the set.
+  std::optional<int> series;  ///< The rows with this number in `series_column`; else all.
+  std::string series_column = "series";
+  std::string x, y;               ///< Names of columns; rows without either are left out.
+  std::string low, high;          ///< Of bars and band; a row without an end has none there.
+  bool has_bars_along_x = false;  ///< The bars are of x.
+  std::string size;               ///< A column that makes points larger; "" for points alike.
+  int colour = 1;                 ///< Of tracks, laws and means, from 1.
+  std::string legend;             ///< "" for none.
 };
 
 /// A line across the chart.
@@ -60,22 +68,35 @@ struct ChartAxis {
   AxisRange range;
 };
 
+/// A figure of the report, made of everybody's chart.
+struct WholeFigure {
+  std::string name;  ///< Of its files, without ending: "group_d_psychometric".
+  std::string title, caption;
+  std::string thesis;  ///< The figures of the thesis that it answers; "" if none.
+  double width_in = 5.2, height_in = 3.6;
+  bool has_key_above = false;      ///< Outside the axes, where a corner has no room.
+  bool has_linear_beside = false;  ///< Logarithmic axes; the same on linear ones to the left.
+};
+
+/// Figures of the report, made of a panel for each participant.
+struct PanelFigures {
+  std::string name;  ///< "group_d_participants"; a second figure has "_2" behind it.
+  std::string title, caption, thesis;
+  int num_columns = 5, most_panels = 20;
+  double panel_in = 1.15;
+};
+
 /// One figure as data: what the report draws with gnuplot, the window with its plot widget.
 /// Everybody's chart and those of the participants share axes and tables. Numbers in SI units.
 struct ChartSet {
-  std::string name;     ///< Of files, without ending: "felt_participants".
   std::string section;  ///< Of the results it belongs to.
-  std::string title, caption;
-  std::string heading;  ///< Above a single chart, where the title is too long: the block's.
-  std::string thesis;   ///< The figures of the thesis that it answers; "" if none.
+  std::string heading;  ///< The block's title.
+  std::optional<WholeFigure> whole;
+  std::optional<PanelFigures> panels;
   ChartAxis x, y;
   std::vector<FigureTable> tables;
   std::optional<Chart> everybody;
   std::vector<Chart> participants;
-  /// The report has a panel for each participant, so many in a row; else everybody's chart.
-  bool has_panels = true;
-  int num_columns = 5, most_panels = 20;
-  double panel_in = 1.15;
 
   /// Of this participant, or `kEverybody`; nullptr for one without.
   [[nodiscard]] const Chart* chart_of(const std::string& who) const;

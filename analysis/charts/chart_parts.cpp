@@ -11,6 +11,19 @@ ChartAxis quantity_chart_axis(const std::string& quantity, const std::string& la
           .unit = experiments::quantity_unit(quantity)};
 }
 
+std::string law_words(const std::optional<double>& k, const std::optional<double>& a) {
+  return "k = " + number_words(k, 3) + ", a = " + number_words(a, 3);
+}
+
+std::vector<double> even_grid(const AxisRange& range) {
+  constexpr int kSteps = 160;
+  std::vector<double> grid;
+  for (int i = 0; i <= kSteps; ++i) {
+    grid.push_back(range.low + (range.high - range.low) * i / kSteps);
+  }
+  return grid;
+}
+
 void add_value(Chart& chart, const std::optional<double>& value, const Interval& ci95,
                const std::string& reason, const std::vector<std::string>& cautions,
                const std::string& words) {

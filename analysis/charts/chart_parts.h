@@ -13,9 +13,15 @@ namespace jnd::analysis {
 [[nodiscard]] ChartAxis quantity_chart_axis(const std::string& quantity,
                                             const std::string& label);
 
+/// "k = 0.66, a = 0.67"
+[[nodiscard]] std::string law_words(const std::optional<double>& k,
+                                    const std::optional<double>& a);
+
+/// Where a curve is sampled: the ends and points evenly between them.
+[[nodiscard]] std::vector<double> even_grid(const AxisRange& range);
+
 /// Puts an estimate beside the chart: its value in words, the interval in words, the reason and
-/// the cautions. `words`: "w = 0.31", "0.21 Pa s"; used where there is a value. A line at the
-/// value where `has_line`.
+/// the cautions. `words`: "w = 0.31", "0.21 Pa s"; used where there is a value.
 void add_value(Chart& chart, const std::optional<double>& value, const Interval& ci95,
                const std::string& reason, const std::vector<std::string>& cautions,
                const std::string& words);

@@ -9,6 +9,10 @@ namespace jnd::analysis {
 
 // The kinds, each for all blocks.
 
+/// Means of estimation and production with their power laws, and the law between them.
+[[nodiscard]] std::vector<ChartSet> magnitude_charts(const FigureSource& source);
+/// Answers of blocks with a reference, with the median person's curve and everybody's own.
+[[nodiscard]] std::vector<ChartSet> psychometric_charts(const FigureSource& source);
 /// Matches over standards, with the matching function.
 [[nodiscard]] std::vector<ChartSet> matching_charts(const FigureSource& source);
 /// Answers of yes-no and same-different blocks with their curves.
@@ -18,7 +22,7 @@ namespace jnd::analysis {
 
 /// In the order of report and window. A new kind is a file of its own and a place here.
 inline constexpr std::vector<ChartSet> (*kChartKinds[])(const FigureSource&) = {
-    matching_charts, threshold_charts, track_charts};
+    magnitude_charts, psychometric_charts, matching_charts, threshold_charts, track_charts};
 
 /// Every chart that there are data for. Not real time.
 [[nodiscard]] std::vector<ChartSet> charts_of(const FigureSource& source);

@@ -25,10 +25,6 @@ std::set<double> standards_of(const StudyData& data, const std::string& block) {
   return standards;
 }
 
-std::string law_words(const std::optional<double>& k, const std::optional<double>& a) {
-  return "k = " + number_words(k, 3) + ", a = " + number_words(a, 3);
-}
-
 class MatchingCharts {
  public:
   MatchingCharts(const FigureSource& source, const BlockDesign& block)
@@ -47,11 +43,11 @@ class MatchingCharts {
 
   [[nodiscard]] ChartSet set() {
     add_function();
-    set_.name = file_word(block_.block) + "_matches";
     set_.section = block_.block;
-    set_.title = "Matches, " + source_.titles.title_of(block_.block);
     set_.heading = source_.titles.title_of(block_.block);
-    set_.has_panels = false;
+    set_.whole = WholeFigure{.name = file_word(block_.block) + "_matches",
+                             .title = "Matches, " + set_.heading,
+                             .caption = caption()};
     set_.x = axis("Standard", block_.standard_quantity(), block_.written.standard_medium);
     set_.y = axis("Match", block_.quantity, block_.medium);
     std::vector<double> standards, matches = drawn_;
@@ -64,7 +60,6 @@ class MatchingCharts {
     set_.x.range = axis_range(standards, /*logarithmic=*/true);
     set_.y.range = axis_range(matches, /*logarithmic=*/true);
     set_.everybody = everybody();
-    set_.caption = caption();
     if (law_.empty()) set_.tables.pop_back();
     return std::move(set_);
   }

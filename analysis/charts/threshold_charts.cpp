@@ -74,11 +74,12 @@ class ThresholdCharts {
   [[nodiscard]] ChartSet set() {
     const std::string name = file_word(block_.block);
     const std::string answer = block_.detects() ? "“yes”" : "“different”";
-    set_ = {.name = name + "_participants",
-            .section = block_.block,
-            .title = "Answers of every participant, " + source_.titles.title_of(block_.block),
-            .caption = caption(answer),
-            .heading = source_.titles.title_of(block_.block),
+    const std::string title = source_.titles.title_of(block_.block);
+    set_ = {.section = block_.block,
+            .heading = title,
+            .panels = PanelFigures{.name = name + "_participants",
+                                   .title = "Answers of every participant, " + title,
+                                   .caption = caption(answer)},
             .x = quantity_chart_axis(block_.quantity, "test"),
             .y = {.title = "Proportion of " + answer,
                   .label = answer + " in percent",
@@ -113,7 +114,7 @@ class ThresholdCharts {
            " in the title. Dashed: the same answer in catch trials.";
   }
 
-  [[nodiscard]] ChartSeries answers(std::size_t table, int series) const {
+  [[nodiscard]] ChartSeries answers(std::size_t table, std::optional<int> series) const {
     return {.look = block_.has_fixed_levels() ? ChartSeries::Look::kAnswers
                                               : ChartSeries::Look::kManyAnswers,
             .table = table,
@@ -189,7 +190,7 @@ class ThresholdCharts {
     for (const auto& [intensity, row] : levels) {
       set_.tables[kPooledTable].rows.push_back(answer_cells(row));
     }
-    Chart chart{.who = kEverybody, .series = {answers(kPooledTable, 0)}};
+    Chart chart{.who = kEverybody, .series = {answers(kPooledTable, std::nullopt)}};
     const Estimate* const found = source_.results.find(
         block_.block + (block_.detects() ? ".threshold" : ".weber_fraction"));
     if (found == nullptr) {

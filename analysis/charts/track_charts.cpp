@@ -109,20 +109,20 @@ ChartSet set_of(const FigureSource& source, const BlockDesign& block,
   const std::string name = file_word(block.block) + "_tracks";
   const RuleEstimate estimate = estimate_of(block);
   const std::string title = source.titles.title_of(block.block);
-  ChartSet set{.name = name,
-               .section = estimate.section,
-               .title = title_of(block) + ", " + title,
-               .caption = caption_of(*runs.front(), block),
+  ChartSet set{.section = estimate.section,
                .heading = title,
+               .panels = PanelFigures{.name = name,
+                                      .title = title_of(block) + ", " + title,
+                                      .caption = caption_of(*runs.front(), block),
+                                      .num_columns = 3,
+                                      .most_panels = 12,
+                                      .panel_in = 1.3},
                .x = {.title = "Trial", .label = "trial"},
                .y = quantity_chart_axis(block.quantity, "test"),
                .tables = {{.name = name,
                            .columns = {"series", "participant", "track", "trial", "level",
                                        "yes", "reversal", "averaged"}}},
-               .everybody = Chart{.who = kEverybody},
-               .num_columns = 3,
-               .most_panels = 12,
-               .panel_in = 1.3};
+               .everybody = Chart{.who = kEverybody}};
   std::vector<double> levels;
   std::int64_t last_trial = 1;
   int num_series = 0;

@@ -1,5 +1,8 @@
 #include "analysis/report/chart_figures.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <set>
 
@@ -12,10 +15,15 @@ using Look = ChartSeries::Look;
 
 std::string quoted_column(const std::string& column) { return "'" + column + "'"; }
 
+/// "(column('series')==3 ? column('ratio') : NaN)"
+std::string column_of(const ChartSeries& series, const std::string& column) {
+  return series.series ? if_series(series.series_column, *series.series, column)
+                       : quoted_column(column);
+}
+
 /// "'intensity':(column('series')==3 ? column('ratio') : NaN)"
 std::string columns_of(const ChartSeries& series) {
-  return quoted_column(series.x) + ":" +
-         (series.series > 0 ? if_series(series.series, series.y) : quoted_column(series.y));
+  return quoted_column(series.x) + ":" + column_of(series, series.y);
 }
 
 /// The end of a bar; that of a row without one is the point itself.
@@ -24,8 +32,24 @@ std::string end_of(const FigureTable& table, const std::string& column, const st
   return "(valid(" + place + ") ? column('" + column + "') : column('" + y + "'))";
 }
 
+std::string colour_of(const ChartSeries& series) {
+  return " lt " + std::to_string(series.colour);
+}
+
+/// "'intensity':'low':'high'" of its rows; a row without both ends is left out.
+std::string band_columns(const ChartSeries& series) {
+  return quoted_column(series.x) + ":" + column_of(series, series.low) + ":" +
+         column_of(series, series.high);
+}
+
+/// The more answers, the larger the point.
+std::string size_of(const FigureTable& table, const ChartSeries& series) {
+  return "(0.2+sqrt(column('" + series.size + "')/" +
+         plot_number(std::max(largest_in(table, series.size), 1.0)) + "))";
+}
+
 std::string track_style(const ChartSeries& series, bool is_small) {
-  return " with linespoints lt " + std::to_string(series.colour) +
+  return " with linespoints" + colour_of(series) +
          (is_small ? " lw 1 pt 7 ps 0.25" : " lw 1.4 pt 7 ps 0.6");
 }
 
@@ -39,13 +63,32 @@ std::string command_of(const ChartSet& set, const ChartSeries& series, bool is_s
   switch (series.look) {
     case Look::kCurve:
       return data + (is_small ? " with lines ls 11 lw 1.3" : " with lines ls 11") + legend;
-    case Look::kAnswers:
-      return data + ":" + end_of(table, series.low, series.y) + ":" +
-             end_of(table, series.high, series.y) + " with yerrorbars ls 11 lc rgb '#0072B2'" +
+    case Look::kOtherCurve:
+      return data + (is_small ? " with lines lt 2 lw 1.3" : " with lines lt 2 lw 1.4 dt 2") +
+             legend;
+    case Look::kLaw:
+      return data + " with lines" + colour_of(series) + " lw 2" + legend;
+    case Look::kBeyond:
+      return data + " with lines" + colour_of(series) + " lw 1 dt (1,3)" + legend;
+    case Look::kFaintCurve:
+      return data + " with lines ls 10";
+    case Look::kBand:
+      return from_table(table) + band_columns(series) +
+             " with filledcurves lc rgb '#56B4E9' fill transparent solid 0.25" + legend;
+    case Look::kAnswers: {
+      const std::string& measured = series.has_bars_along_x ? series.x : series.y;
+      return data + ":" + end_of(table, series.low, measured) + ":" +
+             end_of(table, series.high, measured) + " with " +
+             (series.has_bars_along_x ? "x" : "y") + "errorbars ls 11 lc rgb '#0072B2'" +
              (is_small ? " lw 1 pt 7 ps 0.4" : " ps 0.9") + legend;
+    }
     case Look::kManyAnswers:
-      return data + " with points ls 11 lc rgb '#0072B2' lw 1 pt 7 ps " +
-             (is_small ? "0.4" : "0.7") + legend;
+      if (is_small)
+        return data + " with points ls 11 lc rgb '#0072B2' lw 1 pt 7 ps 0.4" + legend;
+      return data + ":" + size_of(table, series) +
+             " with points pt 7 ps variable lc rgb '#0072B2'" + legend;
+    case Look::kMeans:
+      return data + " with points" + colour_of(series) + " ps 0.75" + legend;
     case Look::kTrack:
       return data + track_style(series, is_small) + legend;
     case Look::kReversals:
@@ -59,11 +102,17 @@ std::string command_of(const ChartSet& set, const ChartSeries& series, bool is_s
 }
 
 std::string plot_of(const ChartSet& set, const Chart& chart, bool is_small) {
-  std::string plot = "plot ";
+  std::vector<std::string> commands;
   for (const ChartSeries& series : chart.series) {
-    plot += (&series == &chart.series.front() ? "" : ", ") + command_of(set, series, is_small);
+    if (is_small && series.look == Look::kBand) continue;
+    commands.push_back(command_of(set, series, is_small));
   }
-  return plot;
+  // Named last: the eye begins with what the chart is about.
+  for (const ChartSeries& series : chart.series) {
+    if (series.look != Look::kFaintCurve || series.legend.empty()) continue;
+    commands.push_back("keyentry with lines ls 10 title " + gnuplot_quoted(series.legend));
+  }
+  return fmt::format("plot {}", fmt::join(commands, ", "));
 }
 
 std::string line_of(const ChartLine& line, std::size_t number) {
@@ -112,34 +161,36 @@ std::vector<FigureTable> tables_of(const ChartSet& set, const Chart* first, cons
   return tables;
 }
 
-Figure figure_of(const ChartSet& set) {
-  return {.name = set.name,
+/// Words of the report's figure, whole or of panels.
+template <typename Words>
+Figure figure_of(const ChartSet& set, const Words& words) {
+  return {.name = words.name,
           .section = set.section,
-          .title = set.title,
-          .caption = set.caption,
-          .thesis = set.thesis};
+          .title = words.title,
+          .caption = words.caption,
+          .thesis = words.thesis};
 }
 
 std::string panel_title(const Chart& chart) {
   return chart.who + "   " + (chart.value.empty() ? "no value" : chart.value);
 }
 
-std::vector<Figure> panel_figures(const ChartSet& set) {
+std::vector<Figure> panel_figures(const ChartSet& set, const PanelFigures& layout) {
   std::vector<Figure> figures;
   std::size_t most_lines = 0;
   for (const Chart& chart : set.participants) {
     most_lines = std::max(most_lines, chart.lines.size());
   }
   const Chart* const charts = set.participants.data();
-  const auto most = static_cast<std::size_t>(set.most_panels);
+  const auto most = static_cast<std::size_t>(layout.most_panels);
   for (std::size_t first = 0; first < set.participants.size(); first += most) {
     const std::size_t end = std::min(first + most, set.participants.size());
-    Figure figure = figure_of(set);
+    Figure figure = figure_of(set, layout);
     if (first > 0) figure.name += "_" + std::to_string(first / most + 1);
-    const PanelGrid grid{.num_columns = set.num_columns,
+    const PanelGrid grid{.num_columns = layout.num_columns,
                          .x_title = set.x.title,
                          .y_title = set.y.title,
-                         .gap_x_in = set.num_columns > 3 ? 0.3 : 0.35};
+                         .gap_x_in = layout.num_columns > 3 ? 0.3 : 0.35};
     std::vector<Panel> panels;
     for (std::size_t i = first; i < end; ++i) {
       Panel panel{.title = panel_title(charts[i]), .before = lines_of(charts[i], most_lines)};
@@ -150,7 +201,7 @@ std::vector<Figure> panel_figures(const ChartSet& set) {
       panel.plot = plot_of(set, charts[i], /*is_small=*/true);
       panels.push_back(std::move(panel));
     }
-    figure.height_in = grid_height_in(grid, panels.size(), set.panel_in);
+    figure.height_in = grid_height_in(grid, panels.size(), layout.panel_in);
     figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
     figure.tables = tables_of(set, charts + first, charts + end);
     figures.push_back(std::move(figure));
@@ -158,17 +209,57 @@ std::vector<Figure> panel_figures(const ChartSet& set) {
   return figures;
 }
 
-Figure whole_figure(const ChartSet& set, const Chart& chart) {
-  Figure figure = figure_of(set);
-  figure.width_in = 5.2;
-  figure.height_in = 3.6;
-  figure.plot = axis_settings("x", set.x, /*is_small=*/false) +
-                axis_settings("y", set.y, /*is_small=*/false) + "  set xlabel " +
-                gnuplot_quoted(set.x.title) + "\n  set ylabel " + gnuplot_quoted(set.y.title) +
-                "\n  set key top left reverse Left samplen 2\n" +
-                lines_of(chart, chart.lines.size()) + "  " +
-                plot_of(set, chart, /*is_small=*/false) + "\n";
+/// Linear axes from nothing to the ends of the logarithmic ones.
+ChartSet on_linear_axes(const ChartSet& set) {
+  ChartSet linear{.x = set.x, .y = set.y, .tables = set.tables};
+  linear.x.logarithmic = linear.y.logarithmic = false;
+  linear.x.range.low = -0.02 * set.x.range.high;
+  linear.y.range.low = 0.0;
+  return linear;
+}
+
+/// The chart on linear axes, and on its own beside.
+std::string plot_on_both_axes(const ChartSet& set, const WholeFigure& layout,
+                              const Chart& chart) {
+  const PanelGrid grid{.num_columns = 2,
+                       .x_title = set.x.title,
+                       .y_title = set.y.title,
+                       .top_in = 0.62,
+                       .gap_x_in = 0.55};
+  const ChartSet linear = on_linear_axes(set);
+  Chart without_legend = chart;
+  for (ChartSeries& series : without_legend.series) series.legend.clear();
+  const std::string key =
+      "  set key at screen 0.5,0.99 center top vertical reverse Left samplen 3 font small\n";
+  return grid_plot(grid,
+                   {{.title = "",
+                     .before = key + axis_settings("x", linear.x, /*is_small=*/false) +
+                               axis_settings("y", linear.y, /*is_small=*/false),
+                     .plot = plot_of(linear, chart, /*is_small=*/false)},
+                    {.title = "",
+                     .before = axis_settings("x", set.x, /*is_small=*/false) +
+                               axis_settings("y", set.y, /*is_small=*/false),
+                     .plot = plot_of(set, without_legend, /*is_small=*/false)}},
+                   layout.width_in, layout.height_in);
+}
+
+Figure whole_figure(const ChartSet& set, const WholeFigure& layout, const Chart& chart) {
+  Figure figure = figure_of(set, layout);
+  figure.width_in = layout.width_in;
+  figure.height_in = layout.height_in;
   figure.tables = tables_of(set, &chart, &chart + 1);
+  if (layout.has_linear_beside) {
+    figure.plot = plot_on_both_axes(set, layout, chart);
+    return figure;
+  }
+  figure.plot =
+      axis_settings("x", set.x, /*is_small=*/false) +
+      axis_settings("y", set.y, /*is_small=*/false) + "  set xlabel " +
+      gnuplot_quoted(set.x.title) + "\n  set ylabel " + gnuplot_quoted(set.y.title) +
+      (layout.has_key_above ? "\n  set key outside top center reverse Left samplen 2\n"
+                            : "\n  set key top left reverse Left samplen 2\n") +
+      lines_of(chart, chart.lines.size()) + "  " + plot_of(set, chart, /*is_small=*/false) +
+      "\n";
   return figure;
 }
 
@@ -177,11 +268,11 @@ Figure whole_figure(const ChartSet& set, const Chart& chart) {
 std::vector<Figure> chart_figures(const std::vector<ChartSet>& charts) {
   std::vector<Figure> figures;
   for (const ChartSet& set : charts) {
-    if (set.has_panels) {
-      for (Figure& figure : panel_figures(set)) figures.push_back(std::move(figure));
-    } else if (set.everybody) {
-      figures.push_back(whole_figure(set, *set.everybody));
+    if (set.whole && set.everybody) {
+      figures.push_back(whole_figure(set, *set.whole, *set.everybody));
     }
+    if (!set.panels) continue;
+    for (Figure& figure : panel_figures(set, *set.panels)) figures.push_back(std::move(figure));
   }
   return figures;
 }

@@ -13,18 +13,12 @@ namespace jnd::analysis {
 // report; what the window shows as well are charts, see analysis/charts/charts.h. Not real
 // time.
 
-/// Psychometric curves (fig. 5, D.5, D.6, D.20, D.23 of the thesis).
-[[nodiscard]] std::vector<Figure> discrimination_figures(const FigureSource& source);
 /// Weber fractions (D.21) and difference thresholds (D.22, which calls them absolute ones) of
 /// every block.
 [[nodiscard]] std::vector<Figure> weber_figures(const FigureSource& source);
 
-/// Curves of estimation and production (fig. 4a and b, D.3, D.9, D.12, D.14), repetitions
-/// (D.8), boxes (D.1, D.2, D.10, D.11), ratios of productions (D.13).
+/// Repetitions of estimation (D.8), boxes (D.1, D.2, D.10, D.11), ratios of productions (D.13).
 [[nodiscard]] std::vector<Figure> magnitude_figures(const FigureSource& source);
-
-/// The power laws of both and between them (fig. 4c, D.4, D.15).
-[[nodiscard]] std::vector<Figure> power_law_figures(const FigureSource& source);
 
 /// Published values among simulated studies where those are known, else ours over published,
 /// estimate by estimate.

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/box_plot.h"
-#include "analysis/report/magnitude_data.h"
+#include "analysis/charts/magnitude_data.h"
+#include "analysis/charts/box_plot.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/plot_parts.h"
 #include "analysis/results/report_words.h"
 #include "analysis/statistics/comparison.h"
 
@@ -10,81 +12,6 @@ namespace jnd::analysis {
 namespace {
 
 constexpr char kMagnitudeAxis[] = "Perceived magnitude (modulus = 1)";
-
-std::string law_words(const FigureSource& source, const std::string& estimate) {
-  const Estimate* const k = source.results.find(estimate + ".k");
-  const Estimate* const a = source.results.find(estimate + ".a");
-  if (k == nullptr || a == nullptr || !k->value || !a->value) return "";
-  return "k = " + number_words(k->value, 3) + ", a = " + number_words(a->value, 3);
-}
-
-/// Ends of the intensities shown: from nothing to the largest mean of anybody.
-AxisRange shown_intensities(const FigureTable& own, const FigureTable& group) {
-  double most = 0.0;
-  for (const FigureTable* table : {&own, &group}) {
-    const std::size_t column = table == &own ? 2 : 0;
-    for (const auto& row : table->rows) most = std::max(most, row[column].number.value_or(0.0));
-  }
-  return {0.0, most > 0.0 ? 1.04 * most : 1.0};
-}
-
-AxisRange measured_intensities(const FigureTable& group) {
-  AxisRange range{0.0, 0.0};
-  bool first = true;
-  for (const auto& row : group.rows) {
-    const double intensity = row[0].number.value_or(0.0);
-    range.low = first ? intensity : std::min(range.low, intensity);
-    range.high = first ? intensity : std::max(range.high, intensity);
-    first = false;
-  }
-  return range;
-}
-
-/// Fig. 4a and b, D.3, D.9, D.12, D.14: everybody's means, those of the group, its power law.
-Figure curves_figure(const FigureSource& source, const MagnitudeData& data) {
-  FigureTable own = own_means_table(data);
-  FigureTable group = group_means_table(data);
-  const AxisRange shown = shown_intensities(own, group);
-  FigureTable curve = power_curve_table(file_word(data.block) + "_curve", source, data.block,
-                                        shown, measured_intensities(group));
-  Figure figure{.name = file_word(data.block) + "_curves",
-                .section = data.block,
-                .title = data.title + ": means and power law",
-                .thesis = data.is_production ? "Fig. 4b, D.3, D.12 and D.14"
-                                             : "Fig. 4a, D.3, D.9 and D.14",
-                .width_in = 5.2,
-                .height_in = 3.3};
-  const std::string law = law_words(source, data.block);
-  figure.plot =
-      "  set xrange " + range_words({-0.02 * shown.high, shown.high}) +
-      "\n  set yrange [0:*]\n  set xlabel " +
-      gnuplot_quoted(quantity_axis(data.quantity) + (data.is_production ? ", as set" : "")) +
-      "\n  set ylabel " + gnuplot_quoted(kMagnitudeAxis) +
-      "\n  set key top left reverse Left samplen 2\n  plot ";
-  for (std::size_t i = 1; i <= data.participants.size(); ++i) {
-    figure.plot +=
-        from_table(own) + "'intensity':" + if_series(static_cast<int>(i), "magnitude") +
-        " with linespoints ls 10 ps 0.3" + (i == 1 ? " title 'participants'" : "") + ", ";
-  }
-  if (!law.empty()) {
-    figure.plot += from_table(curve) + "'intensity':'magnitude' with lines ls 11 title " +
-                   gnuplot_quoted("power law, " + law) + ", ";
-  }
-  figure.plot +=
-      from_table(group) +
-      (data.is_production ? "'intensity':'magnitude':'low':'high' with xerrorbars "
-                          : "'intensity':'magnitude':'low':'high' with yerrorbars ") +
-      "ls 11 lc rgb '#0072B2' ps 0.9 title 'mean ± sd'\n";
-  figure.caption =
-      std::string(data.is_production ? "Intensities that were set for each magnitude asked for"
-                                     : "Magnitudes that were told at each intensity") +
-      ": means of each of " + counted_words(std::ssize(data.participants), "participant") +
-      " (grey), mean and standard deviation between them (squares), and the power law through "
-      "these means" +
-      (law.empty() ? ", which does not exist here." : ", S = k Iᵃ with " + law + ".");
-  figure.tables = {std::move(own), std::move(group), std::move(curve)};
-  return figure;
-}
 
 /// The largest answer of a participant; 1 if none is above 0.
 double largest(const MagnitudeData::Own& own) {
@@ -289,7 +216,6 @@ std::vector<Figure> magnitude_figures(const FigureSource& source) {
     }
     const MagnitudeData data = magnitude_data(source, block);
     if (data.participants.empty()) continue;
-    figures.push_back(curves_figure(source, data));
     if (data.is_production) {
       figures.push_back(production_boxes(data));
       if (auto figure = ratios_figure(data)) figures.push_back(std::move(*figure));

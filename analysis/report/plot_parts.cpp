@@ -18,8 +18,13 @@ std::string plot_number(double value) {
 
 std::string from_table(const FigureTable& table) { return "'" + table.name + ".csv' using "; }
 
+std::string if_series(const std::string& series_column, int series, const std::string& column) {
+  return "(column('" + series_column + "')==" + std::to_string(series) + " ? column('" +
+         column + "') : NaN)";
+}
+
 std::string if_series(int series, const std::string& column) {
-  return "(column('series')==" + std::to_string(series) + " ? column('" + column + "') : NaN)";
+  return if_series("series", series, column);
 }
 
 double largest_in(const FigureTable& table, const std::string& column) {
@@ -163,6 +168,18 @@ std::string named_tics(const std::string& axis, const std::vector<std::string>& 
   tics += ")";
   if (upright) tics += " rotate by 90 right";
   return tics + "\n";
+}
+
+std::string box_plot_commands(const FigureTable& boxes, const FigureTable& values,
+                              double width) {
+  const std::string box_width = ":(" + plot_number(width) + ")";
+  return from_table(boxes) +
+         "'position':'lower_quartile':'lower_whisker':'upper_whisker':" + "'upper_quartile'" +
+         box_width + " with candlesticks lc rgb '#333333' lw 1.2 fill empty whiskerbars 0.5, " +
+         from_table(boxes) + "'position':'median':'median':'median':'median'" + box_width +
+         " with candlesticks lc rgb '#D55E00' lw 2.5 dt 1 fill empty, " + from_table(values) +
+         "(column('position')+" + plot_number(0.12 * width) +
+         "*column('aside')):'value' with points pt 6 ps 0.45 lc rgb '#0072B2'";
 }
 
 }  // namespace jnd::analysis

@@ -19,7 +19,9 @@ namespace jnd::analysis {
 /// The largest number in a column of a table; 0 where none is larger.
 [[nodiscard]] double largest_in(const FigureTable& table, const std::string& column);
 
-/// "(column('series')==3 ? column('mean') : NaN)": one series of a table.
+/// "(column('series')==3 ? column('mean') : NaN)": the rows of a table that have this number.
+[[nodiscard]] std::string if_series(const std::string& series_column, int series,
+                                    const std::string& column);
 [[nodiscard]] std::string if_series(int series, const std::string& column);
 
 /// Many panels alike: each is a title and its own plot command.
@@ -58,5 +60,9 @@ struct PanelGrid {
 /// "set xtics ('P01' 1, 'P02' 2)", standing on end where there are many.
 [[nodiscard]] std::string named_tics(const std::string& axis,
                                      const std::vector<std::string>& names, bool upright);
+
+/// What "plot" draws of `box_table` and `box_values_table`; `width` of a box in units of x.
+[[nodiscard]] std::string box_plot_commands(const FigureTable& boxes, const FigureTable& values,
+                                            double width);
 
 }  // namespace jnd::analysis

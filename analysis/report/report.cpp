@@ -99,10 +99,8 @@ std::vector<Figure> figures_of(const ReportSource& source) {
     }
   };
   add(published_figures(from));
-  add(magnitude_figures(from));
-  add(power_law_figures(from));
-  add(discrimination_figures(from));
   add(chart_figures(charts_of(from)));
+  add(magnitude_figures(from));
   add(weber_figures(from));
   add(stroke_figures(from));
   add(explored_figures(from, source.movement));

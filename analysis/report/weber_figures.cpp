@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/report/box_plot.h"
+#include "analysis/charts/box_plot.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/discrimination_own_values.h"

@@ -79,7 +79,7 @@ void draw_legend(Ui& ui, Rect strip, const PlotModel& model) {
     if (series.name.empty()) continue;
     const float y = strip.y + strip.height / 2;
     const float width = ui.text_width(series.name, Font::kSmall);
-    if (strip.width < width + 26) return;
+    if (strip.width < width + 26) continue;  // A shorter one may still have room.
     switch (series.style) {
       case PlotSeries::Style::kLine:
         if (series.dashed) {

@@ -67,23 +67,27 @@ void stroke(Ui& ui, const std::vector<ImVec2>& points, const PlotSeries& series)
                                thickness);
     return;
   }
+  // The dashes go on from piece to piece: a curve is made of pieces shorter than one.
+  float drawn = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     draw_dashes(ui, points[i - 1].x, points[i - 1].y, points[i].x, points[i].y, colour,
-                thickness);
+                thickness, drawn);
+    drawn += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
   }
 }
 
 }  // namespace
 
 void draw_dashes(Ui& ui, float x0, float y0, float x1, float y1, std::uint32_t colour,
-                 float thickness) {
+                 float thickness, float drawn) {
   const float length = std::hypot(x1 - x0, y1 - y0);
   const float dash = ui.px(4);
   const float period = ui.px(8);
   if (!(length > 0) || length > 1e5f) return;
-  for (float at = 0; at < length; at += period) {
-    const float from = at / length;
+  for (float at = -std::fmod(drawn, period); at < length; at += period) {
+    const float from = std::max(at, 0.0f) / length;
     const float to = std::min(at + dash, length) / length;
+    if (to <= from) continue;
     ui.draw_list().AddLine(ImVec2(x0 + from * (x1 - x0), y0 + from * (y1 - y0)),
                            ImVec2(x0 + to * (x1 - x0), y0 + to * (y1 - y0)), colour, thickness);
   }

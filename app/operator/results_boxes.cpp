@@ -4,6 +4,7 @@
 #include <set>
 
 #include "analysis/statistics/summary.h"
+#include "app/language/words.h"
 #include "app/operator/results_model.h"
 #include "app/operator/study_words.h"
 #include "experiments/study/media.h"
@@ -81,7 +82,7 @@ void add_matches(const ResultsSource& source, const BlockDesign& block, BoxFigur
   }
   std::ranges::sort(standards);
   for (const auto& [number, standard] : standards) {
-    const std::string label = "to " + standard;
+    const std::string label = tr("to {}", standard);
     add_box(figure, num_blocks > 1 ? title + ", " + label : label, matches.at(standard));
   }
 }
@@ -105,11 +106,11 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
   std::string title = short_title(source.title(block.block));
   if (block.detects()) return title;
   if (block.matches()) {
-    return (block.standard_is_of_its_quantity() ? "ratio " : "a ") + title;
+    return block.standard_is_of_its_quantity() ? tr("ratio {}", title) : tr("a {}", title);
   }
-  if (!is_magnitude(block)) return "w " + title;
-  if (same > 1) return "a " + title;
-  return block.estimates() ? "a estimation" : "a production";
+  if (!is_magnitude(block)) return tr("w {}", title);
+  if (same > 1) return tr("a {}", title);
+  return block.estimates() ? tr("a estimation") : tr("a production");
 }
 
 /// The participants' own estimate that stands for the primary value of the block, within its
@@ -142,38 +143,30 @@ std::string note_of(const ResultsSource& source, const std::string& participant)
 }  // namespace
 
 Box box_of(const std::string& label, const Values& values) {
-  std::vector<double> ascending;
-  for (const auto& [participant, value] : values) ascending.push_back(value);
-  std::sort(ascending.begin(), ascending.end());
+  std::vector<double> numbers;
+  for (const auto& [participant, value] : values) numbers.push_back(value);
   Box box{.label = label,
-          .median = analysis::percentile(ascending, 0.5),
-          .lower_quartile = analysis::percentile(ascending, 0.25),
-          .upper_quartile = analysis::percentile(ascending, 0.75),
+          .plot = analysis::box_plot_of(numbers),
           .n = static_cast<int>(values.size())};
-  constexpr double kReach = 1.5;  // Tukey 1977
-  const double reach = kReach * (box.upper_quartile - box.lower_quartile);
-  const double lowest = box.lower_quartile - reach;
-  const double highest = box.upper_quartile + reach;
-  // The quartiles lie between values within reach, so there is always one.
-  box.lower_whisker = *std::lower_bound(ascending.begin(), ascending.end(), lowest);
-  box.upper_whisker = *std::prev(std::upper_bound(ascending.begin(), ascending.end(), highest));
   for (const auto& [participant, value] : values) {
-    if (value < lowest || value > highest) box.outliers.push_back({participant, value});
+    if (value < box.plot.lower_whisker || value > box.plot.upper_whisker) {
+      box.outliers.push_back({participant, value});
+    }
   }
   return box;
 }
 
 std::vector<BoxFigure> boxes_of(const ResultsSource& source) {
-  BoxFigure weber{.name = "weber_fraction", .title = "Weber fraction", .unit = ""};
-  BoxFigure exponent{.name = "exponent", .title = "Exponent", .unit = ""};
-  BoxFigure match{.name = "match", .title = "Match to a standard", .unit = ""};
-  BoxFigure stroke{.name = "stroke_width_m", .title = "Stroke width", .unit = "m"};
-  BoxFigure speed{.name = "max_speed_m_per_s", .title = "Largest speed", .unit = "m/s"};
+  BoxFigure weber{.name = "weber_fraction", .title = tr("Weber fraction"), .unit = ""};
+  BoxFigure exponent{.name = "exponent", .title = tr("Exponent"), .unit = ""};
+  BoxFigure match{.name = "match", .title = tr("Match to a standard"), .unit = ""};
+  BoxFigure stroke{.name = "stroke_width_m", .title = tr("Stroke width"), .unit = "m"};
+  BoxFigure speed{.name = "max_speed_m_per_s", .title = tr("Largest speed"), .unit = "m/s"};
   for (const BlockDesign& block : source.data.blocks) {
     const std::string label = short_title(source.title(block.block));
     if (block.compares() || block.tells_apart()) {
       const bool free_pse = has_free_pse(source, block);
-      add_box(weber, label + (free_pse ? ", pse free" : ""),
+      add_box(weber, free_pse ? tr("{}, pse free", label) : label,
               own_values(source, block.block, block.block + column_estimate(source, block)));
     }
     if (is_magnitude(block)) {
@@ -200,8 +193,8 @@ void add_table(const ResultsSource& source, ResultsModel& model) {
         {column_title(source, block),
          block.detects() ? experiments::quantity_unit(block.quantity) : ""});
   }
-  model.columns.push_back({"Stroke", "m"});
-  model.columns.push_back({"Speed", "m/s"});
+  model.columns.push_back({tr("Stroke"), "m"});
+  model.columns.push_back({tr("Speed"), "m/s"});
   for (const ParticipantData& participant : source.data.participants) {
     TableRow row{.participant = participant.participant};
     for (const BlockDesign& block : source.data.blocks) {

@@ -15,6 +15,7 @@
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/results/block_words.h"
 #include "analysis/results/report_words.h"
+#include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
 #include "app/results/published_words.h"
@@ -30,7 +31,6 @@ namespace jnd::app {
 namespace {
 
 using namespace results;
-using analysis::counted_words;
 using analysis::Estimate;
 using analysis::Interval;
 using Tone = QualityChip::Tone;
@@ -43,9 +43,9 @@ std::string number(double value, const std::string& unit) {
 /// "95 % 0.38 to 1.04"; "" where both ends are open.
 std::string open_interval_words(const Interval& ci95) {
   if (!ci95.low && !ci95.high) return "";
-  if (!ci95.low) return fmt::format("95 % below {:.3g}", *ci95.high);
-  if (!ci95.high) return fmt::format("95 % above {:.3g}", *ci95.low);
-  return fmt::format("95 % {:.3g} to {:.3g}", *ci95.low, *ci95.high);
+  if (!ci95.low) return tr("95 % below {:.3g}", *ci95.high);
+  if (!ci95.high) return tr("95 % above {:.3g}", *ci95.low);
+  return tr("95 % {:.3g} to {:.3g}", *ci95.low, *ci95.high);
 }
 
 std::string published_words(const Estimate& estimate) {
@@ -68,9 +68,9 @@ std::string comparison_words(const analysis::NamedComparison& named) {
   };
   if (c.statistic) add(statistic_words(c));
   if (c.p_value) add(p_words(*c.p_value));
-  if (named.p_value_holm) add("Holm " + p_words(*named.p_value_holm));
+  if (named.p_value_holm) add(tr("Holm {}", p_words(*named.p_value_holm)));
   if (!named.family.empty()) add(named.family);
-  for (const std::string& caution : named.cautions) add("caution: " + caution);
+  for (const std::string& caution : named.cautions) add(tr("caution: {}", caution));
   return words;
 }
 
@@ -78,14 +78,14 @@ std::string comparison_words(const analysis::NamedComparison& named) {
 std::string basis_words(const analysis::StudyResults& results, const Estimate& estimate) {
   if (!results.simulated || !estimate.published) return "";
   const std::string tail = tail_words(estimate, results.predictive);
-  return basis_of(estimate) + (tail.empty() ? "" : ", tail " + tail);
+  return basis_of(estimate) + (tail.empty() ? "" : tr(", tail {}", tail));
 }
 
 /// "group_d - group_e: stroke_width_m, paired" by titles: "Group D - Group E: stroke width [m],
 /// paired".
 std::string with_titles(const ResultsSource& source, std::string name) {
-  for (const auto& [column, words] : {std::pair{"stroke_width_m", "stroke width [m]"},
-                                      {"max_speed_m_per_s", "largest speed [m/s]"}}) {
+  for (const auto& [column, words] : {std::pair{"stroke_width_m", tr("stroke width [m]")},
+                                      {"max_speed_m_per_s", tr("largest speed [m/s]")}}) {
     const std::size_t at = name.find(column);
     if (at != std::string::npos) name.replace(at, std::string(column).size(), words);
   }
@@ -121,9 +121,9 @@ std::string label_of(const ResultsSource& source, const std::string& name) {
 std::string meaning_words(const Estimate& estimate) {
   const std::string& published = estimate.published_statistic;
   const bool says_more = !published.empty() && published != estimate.meaning;
-  return (estimate.primary ? "primary value: " : "") + estimate.meaning +
-         (estimate.reason.empty() ? "" : "; no value: " + estimate.reason) +
-         (says_more ? "; published: " + published : "");
+  return (estimate.primary ? tr("primary value: {}", estimate.meaning) : estimate.meaning) +
+         (estimate.reason.empty() ? "" : tr("; no value: {}", estimate.reason)) +
+         (says_more ? tr("; published: {}", published) : "");
 }
 
 void add_numbers(const ResultsSource& source, ResultsModel& model) {
@@ -201,21 +201,24 @@ class Quality {
   void describe(const ResultsSource& source, std::vector<QualityChip>& chips) const {
     const analysis::StudyResults& results = source.results;
     if (results.simulated) {
-      chips.push_back(
-          {results.laboratory_changed ? "simulated data, laboratory changed" : "simulated data",
-           Tone::kWarning});
+      chips.push_back({results.laboratory_changed ? tr("simulated data, laboratory changed")
+                                                  : tr("simulated data"),
+                       Tone::kWarning});
     }
-    chips.push_back({fmt::format("{} of {} answers", answers_, expected_),
+    chips.push_back({tr("{} of {} answers", answers_, expected_),
                      answers_ >= expected_ ? Tone::kGood : Tone::kWarning});
     describe_recordings(chips);
     if (open_ > 0) {
-      chips.push_back({counted_words(open_, "session") + " not finished", Tone::kWarning});
+      chips.push_back(
+          {trn("{} session not finished", "{} sessions not finished", open_), Tone::kWarning});
     }
     if (excluded_ > 0) {
-      chips.push_back({counted_words(excluded_, "trial") + " set aside", Tone::kWarning});
+      chips.push_back(
+          {trn("{} trial set aside", "{} trials set aside", excluded_), Tone::kWarning});
     }
     if (num_pilots_ > 0) {
-      chips.push_back({counted_words(num_pilots_, "pilot") + " left out", Tone::kNeutral});
+      chips.push_back(
+          {trn("{} pilot left out", "{} pilots left out", num_pilots_), Tone::kNeutral});
     }
     std::set<std::string> known;
     for (const analysis::ResultsSection& section : results.sections) {
@@ -243,18 +246,18 @@ class Quality {
   }
 
   void describe_recordings(std::vector<QualityChip>& chips) const {
-    if (num_recordings_ == 0) return chips.push_back({"no recordings kept", Tone::kNeutral});
-    const std::string recordings = counted_words(num_recordings_, "recording");
+    if (num_recordings_ == 0)
+      return chips.push_back({tr("no recordings kept"), Tone::kNeutral});
+    const std::string recordings = trn("{} recording", "{} recordings", num_recordings_);
     if (unreadable_ > 0) {
-      chips.push_back(
-          {fmt::format("{} of {} cannot be read", unreadable_, recordings), Tone::kWarning});
+      chips.push_back({tr("{} of {} cannot be read", unreadable_, recordings), Tone::kWarning});
     }
     if (missing_ticks_ > 0) {
       chips.push_back(
-          {fmt::format("{} missing in {}", counted_words(missing_ticks_, "sample"), recordings),
+          {tr("{} missing in {}", trn("{} sample", "{} samples", missing_ticks_), recordings),
            Tone::kWarning});
     } else if (unreadable_ == 0) {
-      chips.push_back({"no gap in " + recordings, Tone::kGood});
+      chips.push_back({tr("no gap in {}", recordings), Tone::kGood});
     }
   }
 
@@ -272,15 +275,6 @@ std::map<std::string, std::string> titles_of(const experiments::Study& study,
 }
 
 }  // namespace
-
-std::vector<double> results::logarithmic_grid(double low, double high) {
-  constexpr int kPoints = 121;
-  std::vector<double> grid;
-  for (int i = 0; i < kPoints; ++i) {
-    grid.push_back(low * std::pow(high / low, static_cast<double>(i) / (kPoints - 1)));
-  }
-  return grid;
-}
 
 std::string ResultsSource::title(const std::string& block) const {
   const auto found = titles.find(block);
@@ -334,15 +328,14 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
   control.progress(0.8);
   control.stop_if_cancelled();
   const ResultsSource source{data, results, titles_of(study, data.blocks)};
-  const analysis::StudyTitles chart_titles = analysis::titles_of(study);
+  analysis::StudyTitles chart_titles = analysis::titles_of(study);
+  chart_titles.stages.insert(source.titles.begin(), source.titles.end());
   ResultsModel model{.study = results.study,
                      .title = title_of(study),
                      .simulated = results.simulated,
                      .citation = results.citation,
                      .num_participants = results.num_participants,
-                     .discriminations = discriminations_of(source),
                      .charts = analysis::charts_of({data, results, chart_titles}),
-                     .magnitudes = magnitudes_of(source),
                      .boxes = boxes_of(source)};
   add_table(source, model);
   add_numbers(source, model);

@@ -37,10 +37,6 @@ const std::map<std::string, std::string> kWithout = {
     {"app/gui/widget_log.", "a log for tests"},
     {"app/gui/window_opening.", "said on the terminal, for there is no window"},
     {"app/gui/application/open_window.", "said on the terminal, for there is no window"},
-    // They are being divided, and come to the catalogue with their next change.
-    {"app/gui/views/results_curves_page.", "not in the catalogue yet"},
-    {"app/gui/views/results_plots.", "not in the catalogue yet"},
-    {"app/operator/results_", "not in the catalogue yet"},
 };
 
 // What looks like words and is none, in whole.

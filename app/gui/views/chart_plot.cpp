@@ -16,7 +16,8 @@ using Look = ChartSeries::Look;
 constexpr double kPercent = 100.0;
 
 Colour track_colour(int number) {
-  constexpr Colour kColours[] = {Colour::kBlue, Colour::kAmber, Colour::kGreen};
+  constexpr Colour kColours[] = {Colour::kBlue, Colour::kAmber, Colour::kGreen, Colour::kRed,
+                                 Colour::kInk};
   return kColours[static_cast<std::size_t>(number - 1) % std::size(kColours)];
 }
 
@@ -25,6 +26,22 @@ PlotSeries look_of(const ChartSeries& series) {
   switch (series.look) {
     case Look::kCurve:
       return {.style = Style::kLine, .thickness = 2.5f};
+    case Look::kOtherCurve:
+      return {
+          .style = Style::kLine, .colour = Colour::kAmber, .dashed = true, .thickness = 1.5f};
+    case Look::kLaw:
+      return {.style = Style::kLine, .colour = track_colour(series.colour), .thickness = 2.5f};
+    case Look::kBeyond:
+      return {.style = Style::kLine,
+              .colour = track_colour(series.colour),
+              .dashed = true,
+              .thickness = 1.0f};
+    case Look::kFaintCurve:
+      return {.style = Style::kLine, .colour = Colour::kSoft, .thickness = 1.0f, .alpha = 0.4f};
+    case Look::kBand:
+      return {.style = Style::kBand};
+    case Look::kMeans:
+      return {.style = Style::kPoints, .colour = track_colour(series.colour), .hollow = false};
     case Look::kAnswers:
     case Look::kManyAnswers:
       return {.style = Style::kPoints, .colour = Colour::kInk};
@@ -45,13 +62,13 @@ PlotSeries look_of(const ChartSeries& series) {
 class SeriesRows {
  public:
   SeriesRows(const FigureTable& table, const ChartSeries& series)
-      : table_(table), series_(series), series_at_(table.place_of("series")) {}
+      : table_(table), series_(series), series_at_(table.place_of(series.series_column)) {}
 
   /// `show` is called with a row that has an x and a y.
   template <typename Show>
   void each(const Show& show) const {
     for (const auto& row : table_.rows) {
-      if (series_.series > 0 && row[series_at_].number != series_.series) continue;
+      if (series_.series && row[series_at_].number != *series_.series) continue;
       if (number(row, series_.x) && number(row, series_.y)) show(row);
     }
   }
@@ -79,7 +96,8 @@ PlotSeries series_of(const FigureTable& table, const ChartSeries& series, double
   PlotSeries plotted = look_of(series);
   plotted.name = series.legend;
   const SeriesRows rows(table, series);
-  const bool has_bars = series.look == Look::kAnswers && !series.low.empty();
+  const bool has_bars =
+      series.look == Look::kAnswers && !series.low.empty() && !series.has_bars_along_x;
   double largest = 0.0;
   rows.each([&](const auto& row) {
     largest = std::max(largest, rows.number(row, series.size).value_or(0.0));
@@ -106,6 +124,36 @@ PlotSeries series_of(const FigureTable& table, const ChartSeries& series, double
   return plotted;
 }
 
+PlotSeries band_of(const FigureTable& table, const ChartSeries& series, double y_unit) {
+  PlotSeries plotted = look_of(series);
+  const SeriesRows rows(table, series);
+  rows.each([&](const auto& row) {
+    const auto low = rows.number(row, series.low), high = rows.number(row, series.high);
+    if (!low || !high) return;
+    plotted.x.push_back(*rows.number(row, series.x));
+    plotted.low.push_back(y_unit * *low);
+    plotted.high.push_back(y_unit * *high);
+  });
+  return plotted;
+}
+
+/// Bars along x: a line for each row, broken between them.
+PlotSeries bars_along_x(const FigureTable& table, const ChartSeries& series, double y_unit) {
+  PlotSeries plotted = look_of(series);
+  plotted.style = PlotSeries::Style::kLine;
+  plotted.thickness = 1.5f;
+  const double gap = std::numeric_limits<double>::quiet_NaN();
+  const SeriesRows rows(table, series);
+  rows.each([&](const auto& row) {
+    const auto low = rows.number(row, series.low), high = rows.number(row, series.high);
+    if (!low || !high) return;
+    const double y = y_unit * *rows.number(row, series.y);
+    plotted.x.insert(plotted.x.end(), {*low, *high, gap});
+    plotted.y.insert(plotted.y.end(), {y, y, gap});
+  });
+  return plotted;
+}
+
 PlotSeries identity_of(const analysis::ChartSet& set, const ChartSeries& series) {
   PlotSeries plotted = look_of(series);
   plotted.name = series.legend;
@@ -116,6 +164,13 @@ PlotSeries identity_of(const analysis::ChartSet& set, const ChartSeries& series)
     plotted.y = {low, high};
   }
   return plotted;
+}
+
+PlotSeries drawn(const analysis::ChartSet& set, const ChartSeries& series, double y_unit) {
+  if (series.look == Look::kIdentity) return identity_of(set, series);
+  const FigureTable& table = set.tables[series.table];
+  if (series.look == Look::kBand) return band_of(table, series, y_unit);
+  return series_of(table, series, y_unit);
 }
 
 PlotMark mark_of(const analysis::ChartLine& line, double unit, double until_unit) {
@@ -143,6 +198,9 @@ PlotAxis axis_of(const analysis::ChartAxis& axis) {
   }
   plotted.label = axis.label;
   plotted.unit = axis.unit;
+  // Where the report's axes end, too; linear ones end at ticks.
+  if (axis.logarithmic || axis.range.low == 0.0) plotted.minimum = axis.range.low;
+  if (axis.logarithmic) plotted.maximum = axis.range.high;
   return plotted;
 }
 
@@ -159,14 +217,44 @@ PlotModel chart_plot(const analysis::ChartSet& set, const analysis::Chart& chart
   const double x_unit = set.x.is_proportion ? kPercent : 1.0;
   const double y_unit = set.y.is_proportion ? kPercent : 1.0;
   for (const ChartSeries& series : chart.series) {
-    PlotSeries plotted = series.look == Look::kIdentity
-                             ? identity_of(set, series)
-                             : series_of(set.tables[series.table], series, y_unit);
+    if (series.has_bars_along_x) {
+      plot.series.push_back(bars_along_x(set.tables[series.table], series, y_unit));
+    }
+    PlotSeries plotted = drawn(set, series, y_unit);
+    // Named last: the eye begins with what the chart is about.
+    if (series.look == Look::kFaintCurve) plotted.name.clear();
     if (!plotted.x.empty()) plot.series.push_back(std::move(plotted));
+  }
+  for (const ChartSeries& series : chart.series) {
+    if (series.look != Look::kFaintCurve || series.legend.empty()) continue;
+    plot.series.push_back(look_of(series));
+    plot.series.back().name = series.legend;
   }
   for (const analysis::ChartLine& line : chart.lines) {
     plot.marks.push_back(line.is_vertical ? mark_of(line, x_unit, y_unit)
                                           : mark_of(line, y_unit, x_unit));
+  }
+  return plot;
+}
+
+PlotModel box_plot(const results::BoxFigure& figure) {
+  PlotModel plot{.title = figure.title, .unit = figure.unit};
+  plot.y.unit = figure.unit;
+  for (std::size_t i = 0; i < figure.boxes.size(); ++i) {
+    const results::Box& box = figure.boxes[i];
+    const auto x = static_cast<double>(i + 1);
+    plot.x.ticks.push_back({x, box.label});
+    PlotBox drawn{.x = x,
+                  .lower_whisker = box.plot.lower_whisker,
+                  .lower_quartile = box.plot.lower_quartile,
+                  .median = box.plot.median,
+                  .upper_quartile = box.plot.upper_quartile,
+                  .upper_whisker = box.plot.upper_whisker,
+                  .name = box.label};
+    for (const results::Box::Outlier& outlier : box.outliers) {
+      drawn.outliers.push_back({outlier.value, outlier.participant});
+    }
+    plot.boxes.push_back(std::move(drawn));
   }
   return plot;
 }

@@ -12,19 +12,12 @@ namespace jnd::app::gui {
 
 // What the pages of figures share: a card a block, with its plot and what that comes to.
 
-/// Of the participant chosen; nullptr for one without.
-template <typename Group>
-auto figure_of(const Group& group, const std::string& who) -> decltype(&group.pooled) {
-  if (who == results::kEveryone) return &group.pooled;
-  const auto found = std::find_if(group.participants.begin(), group.participants.end(),
-                                  [&](const auto& one) { return one.who == who; });
-  return found == group.participants.end() ? nullptr : &*found;
-}
-
 /// The plot, and below it why it comes to nothing.
 void draw_without_value(Ui& ui, Rect inside, const PlotModel& plot, const std::string& why);
 
-/// The number in large letters, then what belongs to it.
+/// Of `draw_value`.
+[[nodiscard]] float value_height(Ui& ui, float width, const analysis::Chart& chart);
+/// The number in large letters, then what belongs to it, below where one line has no room.
 void draw_value(Ui& ui, Rect line, const std::string& value, const std::string& detail);
 
 /// As many side by side as have room; scrolls where there are more rows than that.

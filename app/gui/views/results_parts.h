@@ -9,7 +9,7 @@ namespace jnd::app::gui {
 
 // The parts of the results view: its pages, and the table beside them.
 
-enum class ResultsPage { kCurves, kCharts, kMagnitudes, kBoxes, kComparisons, kNumbers };
+enum class ResultsPage { kCharts, kBoxes, kComparisons, kNumbers };
 
 struct ResultsPageLook {
   ResultsPage page;
@@ -24,11 +24,7 @@ struct ResultsPageLook {
 
 void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, ResultsPage page,
                        ResultsViewState& state);
-void draw_curves_page(Ui& ui, Rect place, const ResultsModel& results, ResultsViewState& state);
-void draw_charts_page(Ui& ui, const Rect& place, const ResultsModel& results,
-                      ResultsViewState& state);
-void draw_magnitudes_page(Ui& ui, Rect place, const ResultsModel& results,
-                          ResultsViewState& state);
+void draw_charts_page(Ui& ui, Rect place, const ResultsModel& results, ResultsViewState& state);
 /// `marks`: says here that the data are simulated, for the header has no room to.
 void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, bool marks,
                        ResultsViewState& state);
@@ -37,9 +33,5 @@ float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results);
 
 /// "0.72": two digits after the point, as far as it goes.
 [[nodiscard]] std::string two_digits(double value);
-/// "95 % 0.60 to 0.88"; "" where both ends are open.
-inline constexpr double kPercent = 100.0;
-
-[[nodiscard]] std::string interval_words(const analysis::Interval& ci95);
 
 }  // namespace jnd::app::gui

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "app/gui/views/chart_plot.h"
 #include "app/gui/views/layout.h"
 #include "app/gui/views/results_parts.h"
-#include "app/gui/views/results_plots.h"
 #include "app/language/words.h"
 
 namespace jnd::app::gui {
@@ -163,14 +163,8 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
 
 std::vector<ResultsPageLook> pages_of(const ResultsModel& results) {
   std::vector<ResultsPageLook> pages;
-  if (!results.discriminations.empty()) {
-    pages.push_back({ResultsPage::kCurves, "page_curves", tr("Curves")});
-  }
   if (!results.charts.empty()) {
     pages.push_back({ResultsPage::kCharts, "page_charts", tr("Charts")});
-  }
-  if (!results.magnitudes.empty()) {
-    pages.push_back({ResultsPage::kMagnitudes, "page_magnitudes", tr("Magnitudes")});
   }
   if (!results.boxes.empty()) pages.push_back({ResultsPage::kBoxes, "page_boxes", tr("Boxes")});
   if (!results.comparisons.empty()) {
@@ -188,12 +182,8 @@ std::string shown_participant(const ResultsModel& results, const ResultsViewStat
 void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, ResultsPage page,
                        ResultsViewState& state) {
   switch (page) {
-    case ResultsPage::kCurves:
-      return draw_curves_page(ui, place, results, state);
     case ResultsPage::kCharts:
       return draw_charts_page(ui, place, results, state);
-    case ResultsPage::kMagnitudes:
-      return draw_magnitudes_page(ui, place, results, state);
     case ResultsPage::kBoxes:
       return draw_boxes_page(ui, place, results);
     case ResultsPage::kComparisons:

@@ -122,20 +122,11 @@ void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
   result.cancel = draw_work(ui, inside.middle(inside.width, 42), model.work);
 }
 
-/// Of the curves that are shown; of other pages every number's meaning tells.
-std::string method_words(ResultsPage page, const ResultsViewState& state) {
-  if (page != ResultsPage::kCurves && page != ResultsPage::kMagnitudes) return "";
-  if (page == ResultsPage::kMagnitudes) return tr("least squares, participants resampled");
-  if (state.participant > 0) return tr("maximum likelihood, likelihood-ratio intervals");
-  return tr("median person: hierarchical fit; dashed: one curve through all answers");
-}
-
 }  // namespace
 
 ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                                     ResultsViewState& state) {
   ResultsViewResult result;
-  std::string method;
   Rect rest = ui.screen();
   const StudyHeader header = draw_study_header(ui, rest.take_top(kHeaderHeight), model.study,
                                                StudyTab::kResults, own_width(ui));
@@ -159,9 +150,8 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                       results.simulated && !header.shows_marks, state);
     draw_strip(ui, rest.take_top(40, kGap), pages, results, state, result);
     draw_results_page(ui, rest, results, pages[state.page].page, state);
-    method = method_words(pages[state.page].page, state);
   }
-  draw_study_footer(ui, footer, model.work.outcome.sentence, method);
+  draw_study_footer(ui, footer, model.work.outcome.sentence, "");
   if (state.asks_to_unblind) draw_unblind_dialog(ui, state, result);
   return result;
 }

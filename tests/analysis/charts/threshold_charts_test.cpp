@@ -71,8 +71,8 @@ TEST_F(ThresholdChartsTest, TracksHaveTheirReversalsAndTheirThreshold) {
 TEST_F(ThresholdChartsTest, AllChartsStandInTheOrderOfTheReport) {
   const std::vector<ChartSet> sets = charts_of(source());
   ASSERT_EQ(sets.size(), 2U);
-  EXPECT_EQ(sets[0].name, "felt_participants");
-  EXPECT_EQ(sets[1].name, "felt_tracks");
+  EXPECT_EQ(sets[0].panels->name, "felt_participants");
+  EXPECT_EQ(sets[1].panels->name, "felt_tracks");
 }
 
 }  // namespace threshold_charts_test

@@ -1,4 +1,4 @@
-#include "analysis/report/box_plot.h"
+#include "analysis/charts/box_plot.h"
 
 #include <gtest/gtest.h>
 

@@ -41,7 +41,7 @@ TEST(ResultsBoxes, OfMatchesStandByTheirStandardsFromTheLeast) {
   ASSERT_EQ(figures[0].boxes.size(), 2U);
   EXPECT_EQ(figures[0].boxes[0].label, "to 2");
   EXPECT_EQ(figures[0].boxes[1].label, "to 16");
-  EXPECT_NEAR(figures[0].boxes[1].median, 16.0, 1e-9);
+  EXPECT_NEAR(figures[0].boxes[1].plot.median, 16.0, 1e-9);
   ResultsModel model;
   add_table(source, model);
   EXPECT_EQ(model.columns.front().title, "ratio Match it");

@@ -48,7 +48,7 @@ TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles
       take(std::string("results-") + study + "-" + widget.name.substr(5));
     }
     window_->use("participant_3");
-    window_->use(results.find("page_curves") != nullptr ? "page_curves" : "page_magnitudes");
+    window_->use("page_charts");
     take(std::string("results-") + study + "-one");
     window_->use("tab_study");
     window_->wait_for_view("study");

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "analysis/hand_made_study.h"
 #include "app/gui/headless_ui.h"
+#include "app/gui/views/chart_plot.h"
 #include "app/gui/views/results_parts.h"
-#include "app/gui/views/results_plots.h"
 #include "app/gui/views/study_fixtures.h"
 #include "app/tiny_study.h"
 
@@ -52,6 +54,10 @@ class ResultsViewTest : public ::testing::Test {
     static const ResultsModel kResults = some_results();
     return kResults;
   }
+  /// The charts of the block of comparisons.
+  static const analysis::ChartSet& comparison() {
+    return *std::ranges::find(results().charts, "comparison", &analysis::ChartSet::section);
+  }
   StudyFolder study_ = some_study();
   ResultsViewModel model_{.study = study_, .results = &results()};
   ResultsViewState state_;
@@ -60,11 +66,10 @@ class ResultsViewTest : public ::testing::Test {
 
 TEST_F(ResultsViewTest, ShowsTheFractionWithItsIntervalAndTheTable) {
   (void)draw(ui_);
-  const auto& figure = results().discriminations.front();
-  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*figure.pooled.weber_fraction)));
+  EXPECT_TRUE(ui_.drawn().shows(comparison().everybody->value));
   EXPECT_TRUE(ui_.drawn().shows("median person"));
   EXPECT_TRUE(ui_.drawn().shows("curve through all answers 0."));
-  for (const char* words : {"All participants", "P01", "P04", "p (1 + w)"}) {
+  for (const char* words : {"All participants", "P01", "P04", "pse (1 + w)"}) {
     EXPECT_TRUE(ui_.drawn().shows(words)) << words;
   }
 }
@@ -72,13 +77,13 @@ TEST_F(ResultsViewTest, ShowsTheFractionWithItsIntervalAndTheTable) {
 TEST_F(ResultsViewTest, ArrowsShowOneParticipantAfterTheOther) {
   (void)after_key({Key::kDown});
   EXPECT_EQ(shown_participant(results(), state_), "P01");
-  const auto& own = results().discriminations.front().participants.front();
-  EXPECT_TRUE(ui_.drawn().shows("w = " + two_digits(*own.weber_fraction)));
-  EXPECT_TRUE(ui_.drawn().shows(interval_words(own.ci95)));
+  const analysis::Chart& own = comparison().participants.front();
+  EXPECT_TRUE(ui_.drawn().shows(own.value));
+  EXPECT_TRUE(ui_.drawn().shows(own.detail));
   (void)after_key({Key::kUp});
   (void)after_key({Key::kUp});
   EXPECT_EQ(shown_participant(results(), state_), "P04");
-  EXPECT_TRUE(ui_.drawn().shows("No Weber fraction: ")) << all_texts(ui_.drawn());
+  EXPECT_TRUE(ui_.drawn().shows("No value: ")) << all_texts(ui_.drawn());
   ui_.click("participant_2");
   (void)draw(ui_);
   EXPECT_EQ(shown_participant(results(), state_), "P02");
@@ -86,14 +91,14 @@ TEST_F(ResultsViewTest, ArrowsShowOneParticipantAfterTheOther) {
 
 TEST_F(ResultsViewTest, EveryPageIsReachedByItsNumber) {
   const std::vector<ResultsPageLook> pages = pages_of(results());
-  ASSERT_EQ(pages.size(), 5U);
+  ASSERT_EQ(pages.size(), 4U);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     (void)after_key({letter(static_cast<char>('1' + i))});
     EXPECT_EQ(state_.page, i);
   }
   EXPECT_TRUE(ui_.drawn().shows("Weber fraction"));
-  (void)after_key({letter('2')});
-  EXPECT_TRUE(ui_.drawn().shows("combined"));
+  (void)after_key({letter('1')});
+  EXPECT_TRUE(ui_.drawn().shows("Estimation and production"));
 }
 
 TEST_F(ResultsViewTest, EveryActionHasItsKey) {
@@ -144,7 +149,7 @@ TEST_F(ResultsViewTest, SimulatedDataAreMarkedOnEveryPageOfEveryWindow) {
   simulated.simulated = true;
   model_.results = &simulated;
   HeadlessUi small(1280, 720);
-  for (std::size_t page = 0; page < 5; ++page) {
+  for (std::size_t page = 0; page < pages_of(simulated).size(); ++page) {
     state_.page = page;
     (void)draw(small);
     EXPECT_TRUE(small.drawn().shows("simulated data")) << page;
@@ -156,15 +161,40 @@ TEST_F(ResultsViewTest, SimulatedDataAreMarkedOnEveryPageOfEveryWindow) {
   }
 }
 
-TEST_F(ResultsViewTest, APlotHoldsTheModelsPointsCurveAndLine) {
-  const auto& block = results().discriminations.front();
-  const PlotModel plot = psychometric_plot(block, block.pooled);
-  EXPECT_TRUE(plot.x.logarithmic);
+TEST_F(ResultsViewTest, APlotHoldsTheChartsPointsCurveBandAndLines) {
+  const analysis::Chart& everybody = *comparison().everybody;
+  const PlotModel plot = chart_plot(comparison(), everybody);
+  EXPECT_EQ(plot.y.maximum, 100.0);
+  EXPECT_EQ(plot.series.back().name, "each participant, fitted");
+  const PlotSeries& points = plot.series[plot.series.size() - 2];
+  ASSERT_EQ(points.x.size(), 2U);
+  // 7, 8, 9 and 10 of ten right at 12, of four people.
+  EXPECT_DOUBLE_EQ(points.y[1], 85.0);
+  EXPECT_EQ(points.names[1], "34 of 40");
+  ASSERT_EQ(plot.marks.size(), everybody.lines.size());
+  EXPECT_DOUBLE_EQ(plot.marks[1].at, everybody.lines[1].at);
+  EXPECT_NEAR(plot.marks[1].until.value(), 84.13, 0.01);
+  const auto band =
+      std::ranges::find(plot.series, PlotSeries::Style::kBand, &PlotSeries::style);
+  ASSERT_NE(band, plot.series.end());
+  EXPECT_EQ(band->low.size(), band->x.size());
+  EXPECT_LE(band->high.back(), 100.0);
+  EXPECT_GT(band->high.back(), 50.0);
+}
+
+TEST_F(ResultsViewTest, SpreadOfWhatWasSetLiesAlongX) {
+  const analysis::ChartSet& production = results().charts[1];
+  const PlotModel plot = chart_plot(production, *production.everybody);
   const PlotSeries& points = plot.series.back();
-  ASSERT_EQ(points.x.size(), block.pooled.points.size());
-  EXPECT_DOUBLE_EQ(points.y[0], 100.0 * block.pooled.points[0].ratio);
-  ASSERT_EQ(plot.marks.size(), 2U);
-  EXPECT_DOUBLE_EQ(plot.marks[1].at, *block.pooled.weber_line);
+  EXPECT_TRUE(points.low.empty());
+  const PlotSeries& spread = plot.series[plot.series.size() - 2];
+  EXPECT_EQ(spread.style, PlotSeries::Style::kLine);
+  ASSERT_EQ(spread.y.size(), 6U) << "two ends and a gap for each of two means";
+  EXPECT_EQ(spread.y[0], spread.y[1]);
+  EXPECT_LT(spread.x[3], spread.x[4]);
+}
+
+TEST_F(ResultsViewTest, ABoxIsDrawnUnderItsLabel) {
   const PlotModel boxes = box_plot(results().boxes.front());
   EXPECT_EQ(boxes.boxes.size(), results().boxes.front().boxes.size());
   EXPECT_EQ(boxes.x.ticks.front().label, results().boxes.front().boxes.front().label);

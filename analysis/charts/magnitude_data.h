@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/figures.h"
-#include "analysis/report/plot_parts.h"
+#include "analysis/charts/figure_source.h"
+#include "analysis/charts/figure_table.h"
 
 namespace jnd::analysis {
 
@@ -30,16 +30,11 @@ struct MagnitudeData {
 [[nodiscard]] MagnitudeData magnitude_data(const FigureSource& source,
                                            const BlockDesign& block);
 
-/// Each participant's mean at each x: columns series, participant, intensity, magnitude.
+/// Each participant's mean at each x: columns series, participant, intensity, magnitude, and
+/// low and high of what was answered, one standard deviation of this person's answers away.
 [[nodiscard]] FigureTable own_means_table(const MagnitudeData& data);
 /// Mean and standard deviation between participants: intensity, magnitude, low, high (of what
 /// was answered), num_participants.
 [[nodiscard]] FigureTable group_means_table(const MagnitudeData& data);
-
-/// S = k I^a of the results as a curve over `shown`; empty where they have none. `extrapolated`
-/// is 1 beyond `measured`.
-[[nodiscard]] FigureTable power_curve_table(const std::string& name, const FigureSource& source,
-                                            const std::string& estimate, const AxisRange& shown,
-                                            const AxisRange& measured);
 
 }  // namespace jnd::analysis

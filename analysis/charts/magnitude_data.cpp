@@ -1,9 +1,6 @@
-#include "analysis/report/magnitude_data.h"
-
-#include <cmath>
+#include "analysis/charts/magnitude_data.h"
 
 #include "analysis/statistics/summary.h"
-#include "core/power_function.h"
 
 namespace jnd::analysis {
 
@@ -47,14 +44,20 @@ MagnitudeData magnitude_data(const FigureSource& source, const BlockDesign& bloc
 }
 
 FigureTable own_means_table(const MagnitudeData& data) {
-  FigureTable table{.name = file_word(data.block) + "_participants",
-                    .columns = {"series", "participant", "intensity", "magnitude"}};
+  FigureTable table{
+      .name = file_word(data.block) + "_participants",
+      .columns = {"series", "participant", "intensity", "magnitude", "low", "high"}};
   int series = 0;
   for (const MagnitudeData::Own& own : data.participants) {
     ++series;
-    for (const auto& [x, mean] : own.means()) {
+    for (const auto& [x, values] : own.values) {
+      const Summary summary = summary_of(values);
+      const double mean = *summary.mean;
+      const std::optional<double> sd = summary.standard_deviation;
       table.rows.push_back({series, own.participant, data.is_production ? mean : x,
-                            data.is_production ? x : mean});
+                            data.is_production ? x : mean,
+                            sd ? FigureCell(mean - *sd) : FigureCell(),
+                            sd ? FigureCell(mean + *sd) : FigureCell()});
     }
   }
   return table;
@@ -72,23 +75,6 @@ FigureTable group_means_table(const MagnitudeData& data) {
     table.rows.push_back({data.is_production ? *summary.mean : x,
                           data.is_production ? x : *summary.mean, summary.standard_deviation,
                           *summary.mean - sd, *summary.mean + sd, summary.num_values});
-  }
-  return table;
-}
-
-FigureTable power_curve_table(const std::string& name, const FigureSource& source,
-                              const std::string& estimate, const AxisRange& shown,
-                              const AxisRange& measured) {
-  FigureTable table{.name = name, .columns = {"intensity", "magnitude", "extrapolated"}};
-  const Estimate* const k = source.results.find(estimate + ".k");
-  const Estimate* const a = source.results.find(estimate + ".a");
-  if (k == nullptr || a == nullptr || !k->value || !a->value) return table;
-  const core::PowerFunction law{.k = *k->value, .a = *a->value};
-  constexpr int kPoints = 160;
-  for (int i = 0; i <= kPoints; ++i) {
-    const double intensity = shown.low + (shown.high - shown.low) * i / kPoints;
-    const bool outside = intensity < measured.low || intensity > measured.high;
-    table.rows.push_back({intensity, law.magnitude(intensity), outside ? 1 : 0});
   }
   return table;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/report/figure.h"
+#include "analysis/charts/figure_table.h"
 
 namespace jnd::analysis {
 
@@ -31,8 +31,4 @@ struct BoxGroup {
 /// One row a value, moved aside a little where several lie in one place.
 [[nodiscard]] FigureTable box_values_table(const std::string& name,
                                            const std::vector<BoxGroup>& groups);
-/// What "plot" draws of both; `width` of a box in units of x.
-[[nodiscard]] std::string box_plot_commands(const FigureTable& boxes, const FigureTable& values,
-                                            double width);
-
 }  // namespace jnd::analysis

@@ -1,8 +1,7 @@
-#include "analysis/report/box_plot.h"
+#include "analysis/charts/box_plot.h"
 
 #include <algorithm>
 
-#include "analysis/report/plot_parts.h"
 #include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
@@ -49,18 +48,6 @@ FigureTable box_values_table(const std::string& name, const std::vector<BoxGroup
     }
   }
   return table;
-}
-
-std::string box_plot_commands(const FigureTable& boxes, const FigureTable& values,
-                              double width) {
-  const std::string box_width = ":(" + plot_number(width) + ")";
-  return from_table(boxes) +
-         "'position':'lower_quartile':'lower_whisker':'upper_whisker':" + "'upper_quartile'" +
-         box_width + " with candlesticks lc rgb '#333333' lw 1.2 fill empty whiskerbars 0.5, " +
-         from_table(boxes) + "'position':'median':'median':'median':'median'" + box_width +
-         " with candlesticks lc rgb '#D55E00' lw 2.5 dt 1 fill empty, " + from_table(values) +
-         "(column('position')+" + plot_number(0.12 * width) +
-         "*column('aside')):'value' with points pt 6 ps 0.45 lc rgb '#0072B2'";
 }
 
 }  // namespace jnd::analysis

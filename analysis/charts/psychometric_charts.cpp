@@ -1,0 +1,501 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "analysis/charts/chart_parts.h"
+#include "analysis/charts/charts.h"
+#include "analysis/fits/bounded_interval.h"
+#include "analysis/fits/interval_order_fit.h"
+#include "analysis/results/report_words.h"
+#include "analysis/results/threshold_results.h"
+#include "analysis/statistics/summary.h"
+#include "analysis/statistics/wilson_interval.h"
+#include "core/psychometric_function.h"
+#include "experiments/procedures/task.h"
+#include "experiments/study/media.h"
+
+namespace jnd::analysis {
+namespace {
+
+struct LevelAnswers {
+  std::int64_t num_yes = 0, num_trials = 0;
+  [[nodiscard]] double ratio() const {
+    return static_cast<double>(num_yes) / static_cast<double>(num_trials);
+  }
+};
+
+/// A fitted curve with the interval of its Weber fraction.
+struct Curve {
+  double weber_fraction = 0.0;
+  Interval ci95;
+  double pse = 0.0;
+  double order_effect_ln = 0.0;
+  double lapse_rate = 0.0;
+
+  [[nodiscard]] double ratio(double intensity) const { return at(weber_fraction, intensity); }
+  /// Lowest and highest of the curves with the ends of the interval, the pse held. An open end
+  /// stands for a step, or for a flat line.
+  [[nodiscard]] std::pair<double, double> band(double intensity) const {
+    const double steep = at(ci95.low.value_or(0.0), intensity);
+    const double flat =
+        at(ci95.high.value_or(std::numeric_limits<double>::infinity()), intensity);
+    return std::minmax(steep, flat);
+  }
+
+ private:
+  [[nodiscard]] double at(double fraction, double intensity) const {
+    constexpr double kFlat = 0.5;
+    if (!std::isfinite(fraction)) return kFlat;
+    return lapse_rate + (1.0 - 2.0 * lapse_rate) *
+                            mean_over_orders(pse, fraction, order_effect_ln, intensity);
+  }
+};
+
+/// Answers of one participant in one block, and both of their curves.
+struct OwnAnswers {
+  std::string participant;
+  std::map<double, LevelAnswers> levels;
+  const ParticipantEstimate* fraction = nullptr;       ///< With the pse at the reference.
+  const ParticipantEstimate* free_fraction = nullptr;  ///< With the pse free.
+  std::optional<Curve> fixed, freed;
+};
+
+std::string fraction_words(const std::optional<double>& value) {
+  if (!value) return "none";
+  return number_words(value, *value < 0.1 ? 3 : 2);
+}
+
+/// "median person: w = 0.29 (0.21 .. 0.40)"
+std::string median_person_words(const Estimate& fraction) {
+  const int num_decimals = *fraction.value < 0.1 ? 3 : 2;
+  std::string words = "median person: w = " + number_words(fraction.value, num_decimals);
+  const Interval ci95 = bounded_by_data(fraction.ci95, fraction.value);
+  if (!ci95.low || !ci95.high) return words;
+  return words + " (" + number_words(ci95.low, num_decimals) + " .. " +
+         number_words(ci95.high, num_decimals) + ")";
+}
+
+/// For whoever answered, not for whoever fits.
+std::string in_plain_words(const std::string& reason, bool is_separated, bool frees) {
+  if (!is_separated) return reason;
+  const std::string place = frees ? "one level" : "the reference";
+  return "every answer fell on its side of " + place +
+         ", so the Weber fraction is smaller than these stimuli can show; stimuli nearer to " +
+         (frees ? "it" : place) + " would find it";
+}
+
+void add_word(std::string& words, const std::string& more, const char* between) {
+  if (!more.empty()) words += (words.empty() ? "" : between) + more;
+}
+
+class PsychometricCharts {
+ public:
+  PsychometricCharts(const FigureSource& source, const BlockDesign& block)
+      : source_(source),
+        block_(block),
+        frees_(source.section(block.block) != nullptr &&
+               source.section(block.block)->own_fractions_free_pse) {
+    for (const ParticipantData& participant : source.data.participants) count(participant);
+  }
+
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+
+  [[nodiscard]] ChartSet set() {
+    const std::string name = file_word(block_.block);
+    const std::string title = source_.titles.title_of(block_.block);
+    const bool is_two_interval = task_of(block_.written) == experiments::Task::kTwoInterval;
+    set_ = {.section = block_.block,
+            .heading = title,
+            .x = quantity_chart_axis(block_.quantity, "test"),
+            .y = {.title = "Proportion of answers “more”",
+                  .label = is_two_interval ? "test chosen in percent" : "“yes” in percent",
+                  .is_proportion = true,
+                  .range = {0.0, 1.0}}};
+    std::vector<double> intensities{reference_};
+    for (const auto& [intensity, level] : pooled_) intensities.push_back(intensity);
+    set_.x.range = axis_range(intensities);
+    set_.x.range.low = std::max(set_.x.range.low, 0.0);
+    set_.tables.resize(kPooledTable + 1);
+    set_.tables[kAnswersTable] = {
+        .name = name + "_answers",
+        .columns = {"series", "participant", "intensity", "num_yes", "num_trials", "ratio",
+                    "ratio_low", "ratio_high"}};
+    const std::vector<std::string> own_columns = {"series", "participant", "intensity",
+                                                  "ratio",  "ratio_low",   "ratio_high"};
+    set_.tables[kCurvesTable] = {.name = name + "_curves", .columns = own_columns};
+    set_.tables[kFreeCurvesTable] = {.name = name + "_curves_free_pse", .columns = own_columns};
+    set_.tables[kMedianPersonTable] = {
+        .name = name + "_median_person",
+        .columns = {"intensity", "ratio", "ratio_low", "ratio_high"}};
+    set_.tables[kGroupCurveTable] = {.name = name + "_group_curve",
+                                     .columns = {"intensity", "ratio"}};
+    set_.tables[kPooledTable] = block_.has_fixed_levels() ? means_table() : shares_table();
+    for (const OwnAnswers& own : all_) add_participant(own);
+    add_everybody();
+    set_.panels = PanelFigures{.name = name + "_participants",
+                               .title = "Answers of every participant, " + title,
+                               .caption = panels_caption(),
+                               .thesis = "Fig. D.5 and D.20"};
+    return std::move(set_);
+  }
+
+ private:
+  static constexpr std::size_t kAnswersTable = 0, kCurvesTable = 1, kFreeCurvesTable = 2,
+                               kMedianPersonTable = 3, kGroupCurveTable = 4, kPooledTable = 5;
+
+  void count(const ParticipantData& participant) {
+    OwnAnswers own{.participant = participant.participant};
+    for (const core::TrialRow& trial : participant.trials_in(block_.block)) {
+      if (!trial.intensity || !trial.response || !trial.reference_intensity) continue;
+      reference_ = *trial.reference_intensity;
+      for (LevelAnswers* const level :
+           {&own.levels[*trial.intensity], &pooled_[*trial.intensity]}) {
+        level->num_yes += *trial.response > 0.5 ? 1 : 0;
+        ++level->num_trials;
+      }
+    }
+    if (!own.levels.empty()) all_.push_back(std::move(own));
+  }
+
+  /// What results hold of this participant's curves.
+  void find_curves(OwnAnswers& own) const {
+    const auto value = [&](const std::string& name) {
+      return source_.own(block_.block, own.participant, block_.block + "." + name);
+    };
+    own.fraction = value("weber_fraction");
+    own.free_fraction = value("weber_fraction_free_pse");
+    if (own.fraction != nullptr && own.fraction->value) {
+      own.fixed = Curve{.weber_fraction = *own.fraction->value,
+                        .ci95 = own.fraction->ci95,
+                        .pse = reference_,
+                        .order_effect_ln = value_or_0(value("order_effect_ln_at_reference"))};
+    }
+    const ParticipantEstimate* const pse = value("pse");
+    if (own.free_fraction != nullptr && own.free_fraction->value && pse != nullptr &&
+        pse->value && *pse->value > 0.0) {
+      own.freed = Curve{.weber_fraction = *own.free_fraction->value,
+                        .ci95 = own.free_fraction->ci95,
+                        .pse = *pse->value,
+                        .order_effect_ln =
+                            value_or_0(source_.own(block_.block + "_intervals", own.participant,
+                                                   block_.block + ".order_effect_ln"))};
+    }
+  }
+
+  /// Rows of a curve, after what stands before them in each; with the band where it has one.
+  void add_curve(FigureTable& table, const std::vector<FigureCell>& first, const Curve& curve,
+                 bool has_band) const {
+    for (const double intensity : even_grid(set_.x.range)) {
+      std::vector<FigureCell> row = first;
+      row.insert(row.end(), {intensity, curve.ratio(intensity)});
+      const auto [low, high] = curve.band(intensity);
+      const bool is_closed = has_band && (curve.ci95.low || curve.ci95.high);
+      row.push_back(is_closed ? FigureCell(low) : FigureCell());
+      row.push_back(is_closed ? FigureCell(high) : FigureCell());
+      table.rows.push_back(std::move(row));
+    }
+  }
+
+  static ChartSeries curve_series(ChartSeries::Look look, std::size_t table,
+                                  std::optional<int> series = std::nullopt,
+                                  std::string legend = "") {
+    return {.look = look,
+            .table = table,
+            .series = series,
+            .x = "intensity",
+            .y = "ratio",
+            .low = "ratio_low",
+            .high = "ratio_high",
+            .legend = std::move(legend)};
+  }
+
+  void add_reference(Chart& chart) const { chart.lines.push_back({.at = reference_}); }
+
+  /// Where a curve reaches 84.13 %: no place of two orders that are drawn as their mean. One
+  /// beyond the stimuli would stretch the axis until nothing else can be seen.
+  void add_weber_line(Chart& chart, const Curve& curve) const {
+    const double at = curve.pse * (1.0 + curve.weber_fraction);
+    if (curve.order_effect_ln != 0.0 || !(at <= set_.x.range.high)) return;
+    chart.lines.push_back({.kind = ChartLine::Kind::kValue,
+                           .at = at,
+                           .until = core::standard_normal_cdf(1.0),
+                           .label = "pse (1 + w)"});
+  }
+
+  void add_participant(OwnAnswers own) {
+    find_curves(own);
+    const int series = static_cast<int>(set_.participants.size()) + 1;
+    for (const auto& [intensity, level] : own.levels) {
+      const auto [low, high] = wilson_interval(level.num_yes, level.num_trials);
+      set_.tables[kAnswersTable].rows.push_back(
+          {series, own.participant, intensity, static_cast<double>(level.num_yes),
+           static_cast<double>(level.num_trials), level.ratio(), low, high});
+    }
+    Chart chart{.who = own.participant};
+    using Look = ChartSeries::Look;
+    const std::size_t primary_table = frees_ ? kFreeCurvesTable : kCurvesTable;
+    const std::size_t other_table = frees_ ? kCurvesTable : kFreeCurvesTable;
+    const std::optional<Curve>& primary = frees_ ? own.freed : own.fixed;
+    const std::optional<Curve>& other = frees_ ? own.fixed : own.freed;
+    has_order_effects_ |= (own.fixed && own.fixed->order_effect_ln != 0.0) ||
+                          (own.freed && own.freed->order_effect_ln != 0.0);
+    if (primary) {
+      add_curve(set_.tables[primary_table], {series, own.participant}, *primary,
+                /*has_band=*/true);
+      chart.series.push_back(curve_series(Look::kBand, primary_table, series));
+    }
+    if (other) {
+      add_curve(set_.tables[other_table], {series, own.participant}, *other,
+                /*has_band=*/false);
+      chart.series.push_back(curve_series(Look::kOtherCurve, other_table, series));
+    }
+    if (primary) chart.series.push_back(curve_series(Look::kCurve, primary_table, series));
+    ChartSeries points = curve_series(
+        block_.has_fixed_levels() ? Look::kAnswers : Look::kManyAnswers, kAnswersTable, series);
+    points.size = "num_trials";
+    chart.series.push_back(std::move(points));
+    add_reference(chart);
+    if (primary) add_weber_line(chart, *primary);
+    add_own_value(chart, own);
+    set_.participants.push_back(std::move(chart));
+  }
+
+  void add_own_value(Chart& chart, const OwnAnswers& own) const {
+    const ParticipantEstimate* const primary = frees_ ? own.free_fraction : own.fraction;
+    const ParticipantEstimate* const other = frees_ ? own.fraction : own.free_fraction;
+    if (primary == nullptr) {
+      chart.reason = "no value";
+      return;
+    }
+    add_value(chart, primary->value, primary->ci95,
+              in_plain_words(primary->reason, primary->is_separated, frees_), primary->cautions,
+              "w = " + fraction_words(primary->value));
+    if (other != nullptr) {
+      add_other(chart, std::string("with the pse ") + (frees_ ? "at the reference " : "free ") +
+                           fraction_words(other->value));
+    }
+  }
+
+  /// Another value beside the chart's own, or instead of it.
+  static void add_other(Chart& chart, const std::string& words) {
+    if (chart.value.empty()) {
+      chart.reason += "; " + words;
+    } else {
+      add_word(chart.detail, words, " · ");
+    }
+  }
+
+  /// Mean and spread between participants.
+  [[nodiscard]] FigureTable means_table() const {
+    FigureTable table{.name = file_word(block_.block) + "_means",
+                      .columns = {"intensity", "mean_ratio", "sd_ratio", "low", "high",
+                                  "num_participants", "num_yes", "num_trials"}};
+    for (const auto& [intensity, pooled] : pooled_) {
+      std::vector<double> ratios;
+      for (const OwnAnswers& own : all_) {
+        const auto found = own.levels.find(intensity);
+        if (found != own.levels.end()) ratios.push_back(found->second.ratio());
+      }
+      const Summary summary = summary_of(ratios);
+      const std::optional<double> sd = summary.standard_deviation;
+      table.rows.push_back({intensity, summary.mean, sd,
+                            sd ? FigureCell(std::max(*summary.mean - *sd, 0.0)) : FigureCell(),
+                            sd ? FigureCell(std::min(*summary.mean + *sd, 1.0)) : FigureCell(),
+                            summary.num_values, static_cast<double>(pooled.num_yes),
+                            static_cast<double>(pooled.num_trials)});
+    }
+    return table;
+  }
+
+  /// Of everybody together.
+  [[nodiscard]] FigureTable shares_table() const {
+    FigureTable table{.name = file_word(block_.block) + "_shares",
+                      .columns = {"intensity", "num_yes", "num_trials", "ratio"}};
+    for (const auto& [intensity, pooled] : pooled_) {
+      table.rows.push_back({intensity, static_cast<double>(pooled.num_yes),
+                            static_cast<double>(pooled.num_trials), pooled.ratio()});
+    }
+    return table;
+  }
+
+  /// The primary value of the block, with the curve that it is of.
+  [[nodiscard]] std::optional<Curve> median_person() const {
+    const Estimate* const fraction = found("weber_fraction_median_person");
+    if (fraction == nullptr || !fraction->value) return std::nullopt;
+    const Estimate* const pse = found("pse_median_person");
+    return Curve{.weber_fraction = *fraction->value,
+                 .ci95 = fraction->ci95,
+                 .pse = frees_ && pse != nullptr && pse->value ? *pse->value : reference_,
+                 .lapse_rate = value_or_0(found("lapse_rate"))};
+  }
+
+  /// Through everybody's answers, which differences between people flatten.
+  [[nodiscard]] std::optional<Curve> group_curve() const {
+    const Estimate* const fraction = found("weber_fraction");
+    if (fraction == nullptr || !fraction->value) return std::nullopt;
+    return Curve{.weber_fraction = *fraction->value,
+                 .pse = reference_,
+                 .order_effect_ln = value_or_0(found("weber_fraction_order_effect_ln"))};
+  }
+
+  void add_everybody() {
+    using Look = ChartSeries::Look;
+    Chart chart{.who = kEverybody};
+    const std::optional<Curve> person = median_person();
+    const std::optional<Curve> group = group_curve();
+    const std::size_t own_table = frees_ ? kFreeCurvesTable : kCurvesTable;
+    for (std::size_t i = 1; i <= set_.participants.size(); ++i) {
+      const auto series = static_cast<int>(i);
+      const auto& rows = set_.tables[own_table].rows;
+      const bool has_curve = std::ranges::any_of(
+          rows, [&](const auto& row) { return row.front().number == series; });
+      if (!has_curve) continue;
+      chart.series.push_back(curve_series(Look::kFaintCurve, own_table, series));
+    }
+    if (!chart.series.empty()) chart.series.back().legend = "each participant, fitted";
+    if (person) {
+      add_curve(set_.tables[kMedianPersonTable], {}, *person, /*has_band=*/true);
+      chart.series.push_back(curve_series(Look::kBand, kMedianPersonTable));
+    }
+    if (person) {
+      chart.series.push_back(
+          curve_series(Look::kCurve, kMedianPersonTable, std::nullopt,
+                       median_person_words(*found("weber_fraction_median_person"))));
+    }
+    if (group) {
+      for (const double intensity : even_grid(set_.x.range)) {
+        set_.tables[kGroupCurveTable].rows.push_back({intensity, group->ratio(intensity)});
+      }
+      chart.series.push_back(
+          curve_series(Look::kOtherCurve, kGroupCurveTable, std::nullopt,
+                       "one curve through everybody’s answers: w = " +
+                           number_words(std::optional<double>(group->weber_fraction), 3)));
+    }
+    ChartSeries points =
+        curve_series(Look::kManyAnswers, kPooledTable, std::nullopt, "all answers");
+    points.size = "num_trials";
+    if (block_.has_fixed_levels()) {
+      points.look = Look::kAnswers;
+      points.y = "mean_ratio";
+      points.low = "low";
+      points.high = "high";
+      points.legend = "mean ± sd";
+    }
+    chart.series.push_back(std::move(points));
+    add_reference(chart);
+    if (person) add_weber_line(chart, *person);
+    add_group_value(chart);
+    set_.whole = WholeFigure{.name = file_word(block_.block) + "_psychometric",
+                             .title = "Psychometric function, " + set_.heading,
+                             .caption = whole_caption(person, group, chart.lines.size() > 1),
+                             .thesis = "Fig. 5, D.6 and D.23",
+                             .height_in = 3.7,
+                             .has_key_above = true};
+    set_.everybody = std::move(chart);
+  }
+
+  void add_group_value(Chart& chart) const {
+    const Estimate* const person = found("weber_fraction_median_person");
+    if (person == nullptr) {
+      chart.reason = "no value";
+    } else {
+      add_value(chart, person->value, person->ci95,
+                in_plain_words(person->reason, person->is_separated, frees_), person->cautions,
+                "w = " + fraction_words(person->value));
+      if (person->value) add_word(chart.detail, "median person", " · ");
+    }
+    if (const Estimate* const pooled = found("weber_fraction")) {
+      add_other(chart, "curve through all answers " + fraction_words(pooled->value) +
+                           (pooled->published
+                                ? " (published " + fraction_words(pooled->published) + ")"
+                                : ""));
+    }
+  }
+
+  /// What the caption says of the curves of the group.
+  [[nodiscard]] std::string curves_words(const std::optional<Curve>& person,
+                                         const std::optional<Curve>& group) const {
+    const bool by_order = group && group->order_effect_ln != 0.0;
+    std::string words;
+    if (person) {
+      words =
+          "Black: the curve of the median person (hierarchical fit), whose Weber fraction, " +
+          with_interval(person->weber_fraction, person->ci95) + ", is the primary value" +
+          (by_order ? ", without anybody’s bias for an interval" : "") +
+          (person->ci95.low || person->ci95.high
+               ? "; the band lies between the curves of the ends of its 95 % interval. "
+               : ". ");
+    }
+    if (!group) return words + "The answers of everybody together have no curve. ";
+    return words + "Orange, dashed: one curve through everybody’s answers (" +
+           (by_order ? "maximum likelihood, each order of the intervals with a point of "
+                       "subjective equality of its own, drawn as the mean of both"
+                     : "least squares, point of subjective equality at the reference") +
+           "), w = " + number_words(std::optional<double>(group->weber_fraction), 3) +
+           ": differences between people" + (by_order ? " and between the intervals" : "") +
+           " flatten it, so that its Weber fraction is no person’s. ";
+  }
+
+  [[nodiscard]] std::string whole_caption(const std::optional<Curve>& person,
+                                          const std::optional<Curve>& group,
+                                          bool has_weber_line) const {
+    return curves_words(person, group) +
+           "Grey: each participant’s own (maximum likelihood, point of subjective equality " +
+           (frees_ ? "free). Points: " : "at the reference). Points: ") +
+           (block_.has_fixed_levels()
+                ? "mean proportion of answers “more than the reference” and standard "
+                  "deviation between "
+                : "proportion of answers “more than the reference”, the larger a point the "
+                  "more answers, of ") +
+           counted_words(std::ssize(all_), "participant") + " at each level" +
+           (block_.has_fixed_levels() ? ", cut at 0 and 1. " : ". ") +
+           "Dashed, vertical: the reference, " + number_words(reference_) + " " +
+           experiments::quantity_unit(block_.quantity) +
+           (has_weber_line
+                ? ". Solid, vertical: where the median person answers “more” in 84.13 %."
+                : ".");
+  }
+
+  [[nodiscard]] std::string panels_caption() const {
+    return std::string("Proportion of answers “more than the reference”") +
+           (block_.has_fixed_levels() ? " with Wilson’s 95 % interval" : "") +
+           ", and the curves of maximum likelihood, where they exist: black, with its Weber "
+           "fraction w, the point of subjective equality " +
+           (frees_ ? "free, as the primary value has it; dashed, it is at the reference. "
+                   : "at the reference, as the primary value has it; dashed, it is free. ") +
+           (has_order_effects_ ? "Drawn is the mean of both orders of the intervals. " : "") +
+           "Vertical: the reference, dashed, and where the black curve reaches 84.13 %. The "
+           "values of every participant say which curves the answers reject.";
+  }
+
+  [[nodiscard]] const Estimate* found(const std::string& name) const {
+    return source_.results.find(block_.block + "." + name);
+  }
+
+  const FigureSource& source_;
+  const BlockDesign& block_;
+  bool frees_ = false;  ///< The primary value has the pse free.
+  double reference_ = 0.0;
+  std::vector<OwnAnswers> all_;  ///< Of those who answered.
+  std::map<double, LevelAnswers> pooled_;
+  bool has_order_effects_ = false;
+  ChartSet set_;
+};
+
+}  // namespace
+
+std::vector<ChartSet> psychometric_charts(const FigureSource& source) {
+  std::vector<ChartSet> sets;
+  for (const BlockDesign& block : source.data.blocks) {
+    if (!block.compares()) continue;
+    PsychometricCharts charts(source, block);
+    if (!charts.empty()) sets.push_back(charts.set());
+  }
+  return sets;
+}
+
+}  // namespace jnd::analysis
