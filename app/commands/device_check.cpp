@@ -1,84 +1,169 @@
-#include "app/commands/device_check.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <tuple>
-#include <utility>
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
 
-#include "app/session/stability_limits.h"
+#include "app/command_line/command.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/usage_message.h"
+#include "app/session/device_checks.h"
+#include "core/error.h"
+#include "device/check/driver_check.h"
+#include "device/check/network_check.h"
+#include "device/network/network_options.h"
+#include "device/network/udp_port.h"
+#include "device/realtime_report.h"
 #include "device/registry/device_registry.h"
-#include "experiments/protocol/located_json.h"
-#include "experiments/protocol/stimulus_place.h"
-#include "experiments/protocol/study_reader.h"
-#include "experiments/session/plan.h"
 
 namespace jnd::app {
 namespace {
 
-using experiments::StudyProblem;
+using device::RuleOutcome;
+using Verdict = RuleOutcome::Verdict;
 
-std::string too_strong(const experiments::RangeEntry& entry, const std::string& device,
-                       const experiments::RangeLimits& limits) {
-  return fmt::format(
-      "expected a stimulus that `{}` can render at {:g} m/s (at most {:g} N at a point and "
-      "{:g} N in all), found {:.3g} N at a point and {:.3g} N in all{}",
-      device, limits.expected_speed_m_per_s, limits.max_force_per_point_n,
-      limits.max_total_force_n, entry.largest_point_force_n, entry.total_force_n,
-      entry.fits_up_to_m_per_s
-          ? fmt::format("; it fits up to {:.2g} m/s", *entry.fits_up_to_m_per_s)
-          : "");
+struct DeviceCheckOptions {
+  std::string device;
+  double rate_hz = 1000.0;
+  bool with_force = false;
+  bool json = false;
+};
+
+/// The table, line by line as outcomes come in.
+class Outcomes {
+ public:
+  explicit Outcomes(bool json) : json_(json) {}
+
+  void add(const RuleOutcome& outcome) {
+    ++counts_[static_cast<std::size_t>(outcome.verdict)];
+    const bool is_broken = outcome.verdict == Verdict::kFailed;
+    if (json_) {
+      rules_.push_back({{"rule", outcome.rule.name},
+                        {"verdict", device::name(outcome.verdict)},
+                        {"demand", outcome.rule.demand},
+                        {"found", outcome.found},
+                        {"advice", is_broken ? outcome.rule.advice : ""}});
+      return;
+    }
+    fmt::print("{:<5} {:<16} {}\n", device::name(outcome.verdict), outcome.rule.name,
+               outcome.rule.demand);
+    if (!outcome.found.empty()) fmt::print("{:22} found: {}\n", "", outcome.found);
+    if (is_broken) fmt::print("{:22} to do: {}\n", "", outcome.rule.advice);
+    std::fflush(stdout);
+  }
+
+  void end(const std::string& device, bool is_real) const {
+    const auto count = [&](Verdict verdict) {
+      return counts_[static_cast<std::size_t>(verdict)];
+    };
+    if (json_) {
+      nlohmann::ordered_json out;
+      out["device"] = device;
+      out["simulated"] = !is_real;
+      out["num_passed"] = count(Verdict::kPassed);
+      out["num_failed"] = count(Verdict::kFailed);
+      out["num_skipped"] = count(Verdict::kSkipped);
+      out["rules"] = rules_;
+      fmt::print("{}\n", json_text(out));
+      return;
+    }
+    fmt::print("{} rules kept, {} broken, {} not tried\n", count(Verdict::kPassed),
+               count(Verdict::kFailed), count(Verdict::kSkipped));
+    if (is_real) {
+      fmt::print(
+          "This says nothing of the robot's own safety: its watchdog, its limits and its "
+          "emergency stop are to be tried by hand.\n");
+    }
+  }
+
+ private:
+  bool json_;
+  std::array<int, 3> counts_{};
+  nlohmann::ordered_json rules_ = nlohmann::ordered_json::array();
+};
+
+/// Of the options behind the address, but a device that calls itself simulated need not be
+/// believed.
+int check_network(const DeviceCheckOptions& options, Outcomes& outcomes) {
+  device::NetworkOptions network;
+  std::optional<device::DeviceKey> key;
+  device::Address server;
+  try {
+    network = device::network_options(device::argument_of(options.device));
+    server = device::resolved(network.endpoint);
+    if (!network.key_name.empty()) {
+      key = device::read_device_key(device::device_key_file(network.key_name));
+    }
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+  if (!key && !device::is_loopback(server)) {
+    throw UsageError(
+        "--device: expected a key for a device on a network where others are, found "
+        "none; write HOST:PORT,key=NAME");
+  }
+  const bool believes_simulated = network.is_simulated.value_or(false);
+  const bool is_kept = device::check_network_device(
+      {.open_port = [&] { return device::UdpPort::connected_to(server); },
+       .server = server,
+       .key = key,
+       .pushes = options.with_force,
+       .believes_simulated = believes_simulated},
+      [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
+  outcomes.end(options.device, !believes_simulated);
+  return is_kept ? kDone : kHasProblems;
 }
 
-std::string unstable(const StabilityCheck& check, const std::string& device) {
-  return fmt::format(
-      "expected a stimulus that `{}` renders stably at {:g} Hz (on the hand up to {} and {}), "
-      "found one beyond; weaken it, or raise the study's rate",
-      device, check.rate_hz, words_of(check.attached.viscosity_pa_s, "Pa s"),
-      words_of(check.attached.stiffness_n_per_m, "N/m"));
+int check_local(const DeviceCheckOptions& options, Outcomes& outcomes) {
+  std::unique_ptr<device::HapticDevice> device;
+  require_device(options.device);
+  try {
+    device = device::make_device(options.device, options.rate_hz);
+  } catch (const device::DeviceUnreachable&) {
+    throw;
+  } catch (const core::Error& error) {
+    throw UsageError(error.what());
+  }
+  const bool is_kept =
+      device::check_driver(*device, {.pushes = options.with_force},
+                           [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
+  outcomes.end(options.device, !device->capabilities().simulated);
+  return is_kept ? kDone : kHasProblems;
+}
+
+int run_device_check(const DeviceCheckOptions& options) {
+  device::RealtimeReport report;
+  device::obtain_scheduler(80, report);
+  device::prefault_stack();
+  Outcomes outcomes(options.json);
+  if (device::kind_of(options.device) == "network") return check_network(options, outcomes);
+  return check_local(options, outcomes);
 }
 
 }  // namespace
 
-std::vector<StudyProblem> device_problems(const std::filesystem::path& study_file,
-                                          const std::string& device,
-                                          double expected_speed_m_per_s) {
-  const experiments::Study study = experiments::read_study(study_file);
-  std::vector<StudyProblem> problems;
-  const experiments::LocatedJson located(study.text, study_file.string(), problems);
-  const auto add = [&](const std::string& pointer, std::string message) {
-    const experiments::TextPosition at = located.value_position(pointer);
-    problems.push_back({located.file(), at.line, at.column, pointer, std::move(message)});
-  };
-  const device::DeviceCapabilities capabilities =
-      device::make_device(device, study.device.rate_hz)->capabilities();
-  if (capabilities.num_contact_points < study.device.min_contact_points) {
-    add("/device/min_contact_points",
-        fmt::format("expected a device that holds {} points of the hand, found that `{}` holds "
-                    "{}; ask for fewer or choose another device",
-                    study.device.min_contact_points, device, capabilities.num_contact_points));
-  }
-  const experiments::RangeLimits limits = {
-      .max_force_per_point_n = capabilities.max_force_per_point_n,
-      .max_total_force_n = capabilities.max_total_force_n,
-      .num_contact_points = capabilities.num_contact_points,
-      .expected_speed_m_per_s = expected_speed_m_per_s};
-  const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);
-  std::optional<StabilityCheck> stability;
-  if (const auto map = shipped_stability_map(device)) {
-    stability = check_stability(*map, study, range, expected_speed_m_per_s);
-  }
-  for (std::size_t i = 0; i < range.size(); ++i) {
-    const std::string pointer =
-        stimulus_pointer(located.root(), range[i].stage, range[i].setting);
-    if (!range[i].fits) add(pointer, too_strong(range[i], device, limits));
-    if (stability && !stability->is_stable[i]) add(pointer, unstable(*stability, device));
-  }
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const StudyProblem& a, const StudyProblem& b) {
-                     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
-                   });
-  return problems;
+void add_device_check(CLI::App& program, Invocation& invocation) {
+  auto options = std::make_shared<DeviceCheckOptions>();
+  CLI::App* command = program.add_subcommand(
+      "device-check",
+      "Tries a device of yours, across the network or by a plug-in, rule by rule");
+  command
+      ->add_option("device", options->device,
+                   "As after --device: network:HOST:PORT,key=NAME or plugin:PATH")
+      ->required();
+  command->add_flag(
+      "--with-force", options->with_force,
+      "Push a real device by 0.5 N for moments: take every hand out of it before. "
+      "A simulation is always pushed");
+  command
+      ->add_option("--rate-hz", options->rate_hz, "Ticks a second of a plug-in (default 1000)")
+      ->check(number_between(10.0, 10'000.0));
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback([options, &invocation] {
+    invocation.run = [options] { return run_device_check(*options); };
+  });
 }
 
 }  // namespace jnd::app

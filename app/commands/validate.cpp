@@ -10,7 +10,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
-#include "app/commands/device_check.h"
+#include "app/commands/device_problems.h"
 #include "app/session/device_checks.h"
 #include "app/session/shipped_files.h"
 #include "experiments/protocol/study_reader.h"

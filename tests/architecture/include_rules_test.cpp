@@ -28,6 +28,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
     {"device/plugin", {"core", "core/safety", "device"}},
+    {"device/check", {"core", "core/safety", "device", "device/network"}},
     {"device/registry",
      {"core", "device", "device/exoskeleton", "device/network", "device/plugin"}},
     {"experiments/study", {"core", "core/media"}},
@@ -124,6 +125,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "device/exoskeleton",
       "device/network",
       "device/plugin",
+      "device/check",
       "device/registry",
       "experiments/study",
       "experiments/order",
@@ -160,7 +162,7 @@ const std::map<std::string, std::set<std::string>> kLibraryHomes = {
     {"GLFW", {"app/gui/window"}},
     {"png", {"app/gui/picture."}},
     {"CLI", {"app/command_line/", "app/commands/", "app/main."}},
-    {"fmt", {"analysis/", "app/"}},
+    {"fmt", {"analysis/", "app/", "device/check/"}},
 };
 
 struct Include {

@@ -88,6 +88,8 @@ one_study() {
   said report.txt "$jnd" report "$name/study" --out "$name/report"
   # A browser prints the page as PDF, with the time of the day in it; the page itself is compared.
   rm -f "$name/report/report.pdf"
+  # What it says was exported; its recordings would fill the disk.
+  rm -rf "$name/study"
 }
 
 studies=$(cd "$work/before/studies" && ls ./*.json | sed 's|^\./||; s|\.json$||')

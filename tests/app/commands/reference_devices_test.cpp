@@ -87,11 +87,8 @@ class ReferenceDevice : public CommandTest {
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
     return document(drawn.out)["file"].get<std::string>();
   }
-  ProgramOutcome rules(const std::string& key_file = "") {
-    std::vector<std::string> words = {place_};
-    if (!key_file.empty()) words.push_back(key_file);
-    return python(test_support::source_folder() / "tests/app/commands/device_rules.py", words);
-  }
+  /// What `jnd device-check` finds of a device that nobody uses.
+  ProgramOutcome checked(const std::string& device) { return jnd({"device-check", device}); }
 
   std::optional<RunningProgram> device_;
   std::string place_;
@@ -126,9 +123,10 @@ TEST_P(EachReferenceDevice, KeepsTheRules) {
   if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
   // A busy machine may hold a device up, and it then disarms as it should; a rule that is
   // broken is broken each time.
-  ProgramOutcome told = rules(key_file_);
-  for (int i = 0; i < 2 && told.out != "no rule is broken\n"; ++i) told = rules(key_file_);
-  EXPECT_EQ(told.out, "no rule is broken\n") << told.err;
+  ProgramOutcome told = checked(at_);
+  for (int i = 0; i < 2 && told.exit_code != 0; ++i) told = checked(at_);
+  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+  EXPECT_NE(told.out.find(" rules kept, 0 broken, "), std::string::npos) << told.out;
 }
 
 /// The shipped study, with fewer trials: in real time all of them take seven minutes.
@@ -171,16 +169,15 @@ INSTANTIATE_TEST_SUITE_P(Languages, EachReferenceDevice,
                                            std::tuple("c", "open")),
                          name_of);
 
-/// Else nobody could try a check of devices by them.
 class WrongReferenceDevice : public ReferenceDevice,
                              public ::testing::WithParamInterface<std::string> {};
 
-TEST_P(WrongReferenceDevice, BreaksItsRule) {
-  const std::string key_file = drawn_key();
-  ASSERT_TRUE(start("python", {"--key", key_file, "--wrong", GetParam()}));
-  const ProgramOutcome told = rules(key_file);
-  EXPECT_NE(("\n" + told.out).find("\n" + GetParam() + ": "), std::string::npos)
-      << told.out << told.err;
+TEST_P(WrongReferenceDevice, IsFoundByTheCheckOfDevices) {
+  ASSERT_TRUE(start("python", {"--key", drawn_key(), "--wrong", GetParam()}));
+  const ProgramOutcome told = checked("network:" + place_ + ",simulated,key=robot");
+  EXPECT_EQ(told.exit_code, 1) << told.err;
+  EXPECT_NE(told.out.find("\nfail  " + GetParam() + " "), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find(" to do: "), std::string::npos) << told.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
@@ -190,6 +187,34 @@ INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
                                            "arms_with_force", "no_limits", "echo",
                                            "told_as_sent"),
                          [](const auto& info) { return info.param; });
+
+TEST_F(ReferenceDevice, ARealDeviceIsNotPushedUnlessSomebodySaysSo) {
+  ASSERT_TRUE(start("python"));
+  // Not called simulated by the operator, it is taken for a robot.
+  const ProgramOutcome told = jnd({"device-check", "network:" + place_, "--json"});
+  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+  const auto out = document(told.out);
+  EXPECT_FALSE(out["simulated"].get<bool>());
+  EXPECT_EQ(out["num_skipped"].get<int>(), 9);
+  for (const auto& rule : out["rules"]) {
+    if (rule["rule"] != "halt") continue;
+    EXPECT_EQ(rule["verdict"], "skip");
+  }
+  device_->send_signal(SIGTERM);
+  const ProgramOutcome served = device_->wait();
+  EXPECT_NE(served.out.find(" 0 armings"), std::string::npos) << served.out;
+}
+
+TEST_F(ReferenceDevice, NobodyThereIsASentence) {
+  ASSERT_TRUE(start("python"));
+  device_->send_signal(SIGTERM);
+  (void)device_->wait();
+  const ProgramOutcome told = jnd({"device-check", "network:" + place_ + ",simulated"});
+  EXPECT_EQ(told.exit_code, 3);
+  EXPECT_NE(told.err.find("expected a device that nobody uses, found no answer"),
+            std::string::npos)
+      << told.err;
+}
 
 TEST_F(ReferenceDevice, TheClientShowsWhatADeviceCanDoAndGivesNoForce) {
   ASSERT_TRUE(start("python", {"--points", "2"}));

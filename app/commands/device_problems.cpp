@@ -1,0 +1,84 @@
+#include "app/commands/device_problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "app/session/stability_limits.h"
+#include "device/registry/device_registry.h"
+#include "experiments/protocol/located_json.h"
+#include "experiments/protocol/stimulus_place.h"
+#include "experiments/protocol/study_reader.h"
+#include "experiments/session/plan.h"
+
+namespace jnd::app {
+namespace {
+
+using experiments::StudyProblem;
+
+std::string too_strong(const experiments::RangeEntry& entry, const std::string& device,
+                       const experiments::RangeLimits& limits) {
+  return fmt::format(
+      "expected a stimulus that `{}` can render at {:g} m/s (at most {:g} N at a point and "
+      "{:g} N in all), found {:.3g} N at a point and {:.3g} N in all{}",
+      device, limits.expected_speed_m_per_s, limits.max_force_per_point_n,
+      limits.max_total_force_n, entry.largest_point_force_n, entry.total_force_n,
+      entry.fits_up_to_m_per_s
+          ? fmt::format("; it fits up to {:.2g} m/s", *entry.fits_up_to_m_per_s)
+          : "");
+}
+
+std::string unstable(const StabilityCheck& check, const std::string& device) {
+  return fmt::format(
+      "expected a stimulus that `{}` renders stably at {:g} Hz (on the hand up to {} and {}), "
+      "found one beyond; weaken it, or raise the study's rate",
+      device, check.rate_hz, words_of(check.attached.viscosity_pa_s, "Pa s"),
+      words_of(check.attached.stiffness_n_per_m, "N/m"));
+}
+
+}  // namespace
+
+std::vector<StudyProblem> device_problems(const std::filesystem::path& study_file,
+                                          const std::string& device,
+                                          double expected_speed_m_per_s) {
+  const experiments::Study study = experiments::read_study(study_file);
+  std::vector<StudyProblem> problems;
+  const experiments::LocatedJson located(study.text, study_file.string(), problems);
+  const auto add = [&](const std::string& pointer, std::string message) {
+    const experiments::TextPosition at = located.value_position(pointer);
+    problems.push_back({located.file(), at.line, at.column, pointer, std::move(message)});
+  };
+  const device::DeviceCapabilities capabilities =
+      device::make_device(device, study.device.rate_hz)->capabilities();
+  if (capabilities.num_contact_points < study.device.min_contact_points) {
+    add("/device/min_contact_points",
+        fmt::format("expected a device that holds {} points of the hand, found that `{}` holds "
+                    "{}; ask for fewer or choose another device",
+                    study.device.min_contact_points, device, capabilities.num_contact_points));
+  }
+  const experiments::RangeLimits limits = {
+      .max_force_per_point_n = capabilities.max_force_per_point_n,
+      .max_total_force_n = capabilities.max_total_force_n,
+      .num_contact_points = capabilities.num_contact_points,
+      .expected_speed_m_per_s = expected_speed_m_per_s};
+  const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);
+  std::optional<StabilityCheck> stability;
+  if (const auto map = shipped_stability_map(device)) {
+    stability = check_stability(*map, study, range, expected_speed_m_per_s);
+  }
+  for (std::size_t i = 0; i < range.size(); ++i) {
+    const std::string pointer =
+        stimulus_pointer(located.root(), range[i].stage, range[i].setting);
+    if (!range[i].fits) add(pointer, too_strong(range[i], device, limits));
+    if (stability && !stability->is_stable[i]) add(pointer, unstable(*stability, device));
+  }
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const StudyProblem& a, const StudyProblem& b) {
+                     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+                   });
+  return problems;
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,283 @@
+#include "device/check/driver_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "core/safety/force_limiter.h"
+
+namespace jnd::device {
+namespace {
+
+using Verdict = RuleOutcome::Verdict;
+using Clock = std::chrono::steady_clock;
+
+constexpr DeviceRule kDriverOpens = {"opens", "The device opens.",
+                                     "Look at what its driver says; is it switched on?"};
+constexpr DeviceRule kDriverPace = {
+    "pace", "Nearly every tick brings a new measurement.",
+    "Measure within a third of a tick, and tell the rate that the device keeps."};
+constexpr DeviceRule kDriverTime = {
+    "time", "The device time rises with every measurement, as fast as time goes.",
+    "Tell the device's own clock in ns, of the moment when it measured."};
+constexpr DeviceRule kDriverUnits = {
+    "units", "Positions are in m and velocities in m/s, of a hand.",
+    "Convert what the robot measures before it is handed over."};
+constexpr DeviceRule kDriverVelocity = {
+    "velocity", "Velocities are how fast the positions change.",
+    "Tell the velocity of the same point and axis, in m/s and not in the robot's joints."};
+constexpr DeviceRule kDriverAbsent = {
+    "absent_points", "A point that the device has not is not attached.",
+    "Set the bits of the points that are held to the hand, and no others."};
+constexpr DeviceRule kDriverHalt = {
+    "halt", "After a halt no force acts until a write of nothing but zeros.",
+    "Keep the motors free of force from a halt on."};
+constexpr DeviceRule kDriverLimits = {"limits", "The device limits its force by itself.",
+                                      "Limit each point to what the description says."};
+constexpr DeviceRule kDriverReopens = {"reopens", "It can be closed and opened again.",
+                                       "Free in close all that open takes."};
+
+struct Measured {
+  core::HapticState state;
+  double came_s = 0.0;  ///< Since the device was opened.
+  std::int64_t tick = 0;
+};
+
+class DriverChecker {
+ public:
+  DriverChecker(HapticDevice& device, const DriverCheck& check, const TellOutcome& tell)
+      : device_(device),
+        can_(device.capabilities()),
+        push_n_(can_.simulated ? 2.0 : 0.5),
+        can_push_(check.pushes || can_.simulated),
+        is_paced_(check.is_paced),
+        limiter_({.per_point_n = push_n_,
+                  .total_n = push_n_,
+                  .slew_n_per_s = can_.simulated ? 2000.0 : 100.0,
+                  .max_speed_m_per_s = can_.simulated ? 5.0 : 0.5},
+                 1.0 / can_.rate_hz),
+        tell_(tell) {}
+
+  bool run() {
+    if (!opens(kDriverOpens)) return false;
+    judge_measurements();
+    if (can_push_) {
+      judge_pushes();
+      judge_halt();
+      judge_limits();
+    } else {
+      for (const DeviceRule& rule : {kDriverVelocity, kForceSign, kDriverHalt, kDriverLimits}) {
+        tell(rule, Verdict::kSkipped,
+             "it takes a force: take every hand out and give --with-force");
+      }
+    }
+    device_.close();
+    if (opens(kDriverReopens)) device_.close();
+    return all_passed_;
+  }
+
+ private:
+  void tell(const DeviceRule& rule, Verdict verdict, std::string found) {
+    all_passed_ &= verdict != Verdict::kFailed;
+    tell_({.rule = rule, .verdict = verdict, .found = std::move(found)});
+  }
+  void judge(const DeviceRule& rule, bool is_kept, std::string found) {
+    tell(rule, is_kept ? Verdict::kPassed : Verdict::kFailed, std::move(found));
+  }
+
+  bool opens(const DeviceRule& rule) {
+    try {
+      device_.open();
+    } catch (const core::Error& error) {
+      judge(rule, false, error.what());
+      return false;
+    }
+    begin_ = Clock::now();
+    judge(rule, true, "");
+    return true;
+  }
+
+  /// Ticks at the device's rate, each with this force. The measurements that came.
+  std::vector<Measured> ticks(double duration_s, const core::PointVectors& force_n) {
+    std::vector<Measured> all;
+    const auto period = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(1.0 / can_.rate_hz));
+    const auto num_ticks = std::llround(duration_s * can_.rate_hz);
+    auto due = Clock::now();
+    num_ticks_ = num_ticks;
+    for (std::int64_t i = 0; i < num_ticks; ++i) {
+      if (is_paced_) std::this_thread::sleep_until(due);
+      due = std::max(due + period, Clock::now());
+      core::HapticState state;
+      if (device_.read(state)) {
+        all.push_back({state, std::chrono::duration<double>(Clock::now() - begin_).count(), i});
+        newest_ = state;
+      }
+      core::PointVectors limited_n = force_n;
+      limiter_.limit(newest_.attached, newest_.tip_velocity_m_per_s, limited_n);
+      if (!device_.write(limited_n)) ++num_not_taken_;
+    }
+    return all;
+  }
+
+  void judge_measurements() {
+    (void)ticks(0.3, core::zero_vectors());
+    num_not_taken_ = 0;
+    const std::vector<Measured> all = ticks(2.0, core::zero_vectors());
+    const auto num_read = static_cast<double>(all.size());
+    constexpr double kFewest = 0.99;
+    judge(kDriverPace,
+          num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0,
+          fmt::format("{} of {} ticks brought one, {} forces were not taken", all.size(),
+                      num_ticks_, num_not_taken_));
+    if (all.size() < 2) return;
+    judge_time(all);
+    double largest = 0.0;
+    for (const Measured& one : all) {
+      for (const auto& at : one.state.tip_position_m) largest = std::max(largest, at.norm());
+      for (const auto& v : one.state.tip_velocity_m_per_s)
+        largest = std::max(largest, v.norm());
+    }
+    constexpr double kLargestOfAHand = 20.0;
+    judge(kDriverUnits, largest < kLargestOfAHand,
+          fmt::format("the largest position or velocity is {:.3g}", largest));
+    int num_absent = 0;
+    for (int point = can_.num_contact_points; point < core::kNumContactPoints; ++point) {
+      num_absent += all.back().state.attached[static_cast<std::size_t>(point)] ? 1 : 0;
+    }
+    judge(kDriverAbsent, num_absent == 0,
+          fmt::format("{} of {} points are its own", can_.num_contact_points,
+                      core::kNumContactPoints));
+  }
+
+  void judge_time(const std::vector<Measured>& all) {
+    std::size_t num_risen = 0;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      num_risen += all[i].state.device_time_ns > all[i - 1].state.device_time_ns ? 1 : 0;
+    }
+    const double device_s = 1e-9 * static_cast<double>(all.back().state.device_time_ns -
+                                                       all.front().state.device_time_ns);
+    const double ours_s = all.back().came_s - all.front().came_s;
+    // One without a clock of its own moves on by a period a tick, however long that took.
+    const double expected_s =
+        can_.has_own_clock
+            ? ours_s
+            : static_cast<double>(all.back().tick - all.front().tick) / can_.rate_hz;
+    constexpr double kMostDrift = 0.02, kMostRepeated = 0.1;
+    const double drift = device_s / expected_s - 1.0;
+    judge(kDriverTime,
+          static_cast<double>(num_risen) >
+                  (1.0 - kMostRepeated) * static_cast<double>(all.size() - 1) &&
+              std::fabs(drift) < kMostDrift,
+          fmt::format("it rose {} times in {}, and is {:+.0f} parts in a million fast",
+                      num_risen, all.size() - 1, 1e6 * drift));
+  }
+
+  void judge_pushes() {
+    std::string wrong, fast;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<Measured> before = ticks(0.3, core::zero_vectors());
+      Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
+      force_n[axis] = push_n_;
+      const std::vector<Measured> pushed = ticks(0.15, push_of(force_n));
+      (void)ticks(0.3, core::zero_vectors());
+      if (before.empty() || pushed.size() < 2) continue;
+      const double moved_m =
+          (pushed.back().state.tip_position_m[0] - before.back().state.tip_position_m[0])[axis];
+      const char letter = "xyz"[axis];
+      if (moved_m < kLeastMoved_m) {
+        wrong += fmt::format("{}{:+.2f} mm along {}", wrong.empty() ? "" : ", ", 1e3 * moved_m,
+                             letter);
+      }
+      // The velocities, summed over the device's time, are the way.
+      double way_m = 0.0;
+      for (std::size_t i = 1; i < pushed.size(); ++i) {
+        const auto step_ns =
+            pushed[i].state.device_time_ns - pushed[i - 1].state.device_time_ns;
+        way_m +=
+            1e-9 * static_cast<double>(step_ns) * pushed[i].state.tip_velocity_m_per_s[0][axis];
+      }
+      const double own_way_m = (pushed.back().state.tip_position_m[0] -
+                                pushed.front().state.tip_position_m[0])[axis];
+      constexpr double kShare = 0.25, kResolution_m = 0.0005;
+      if (std::fabs(way_m - own_way_m) > kShare * std::fabs(own_way_m) + kResolution_m) {
+        fast += fmt::format("{}{:.1f} mm by velocity and {:.1f} mm by position along {}",
+                            fast.empty() ? "" : ", ", 1e3 * way_m, 1e3 * own_way_m, letter);
+      }
+    }
+    judge(kForceSign, wrong.empty(), wrong.empty() ? "" : "pushed it moved " + wrong);
+    judge(kDriverVelocity, fast.empty(), fast);
+  }
+
+  /// By what the device tells, or else by where the hand goes.
+  [[nodiscard]] bool acts(const std::vector<Measured>& all, std::size_t first) const {
+    return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())),
+                       all.end(),
+                       [](const Measured& one) { return !one.state.acted_n[0].isZero(0.0); });
+  }
+
+  void judge_halt() {
+    if (!can_.tells_acting_force) {
+      tell(kDriverHalt, Verdict::kSkipped, "the device does not tell which force acted");
+      return;
+    }
+    (void)ticks(0.05, push_of({push_n_, 0.0, 0.0}));
+    device_.halt();
+    constexpr std::size_t kUnderWay = 3;
+    const bool still_acts = acts(ticks(0.1, push_of({push_n_, 0.0, 0.0})), kUnderWay);
+    (void)ticks(0.1, core::zero_vectors());
+    const bool comes_back = acts(ticks(0.1, push_of({push_n_, 0.0, 0.0})), 0);
+    (void)ticks(0.3, core::zero_vectors());
+    judge(kDriverHalt, !still_acts && comes_back,
+          still_acts   ? "a force acted after the halt"
+          : comes_back ? ""
+                       : "no force came back after a write of zeros");
+  }
+
+  void judge_limits() {
+    if (!can_.simulated || !can_.tells_acting_force) {
+      tell(kDriverLimits, Verdict::kSkipped,
+           can_.simulated ? "the device does not tell which force acted"
+                          : "a real device is never asked for too much");
+      return;
+    }
+    double most_n = 0.0;
+    const double asked_n = 3.0 * can_.max_force_per_point_n;
+    for (int i = 0; i < 30; ++i) {
+      core::HapticState state;
+      if (device_.read(state)) most_n = std::max(most_n, state.acted_n[0].norm());
+      (void)device_.write(push_of({asked_n, 0.0, 0.0}));
+    }
+    (void)ticks(0.3, core::zero_vectors());
+    constexpr double kRounding_n = 1e-6;
+    judge(kDriverLimits, most_n <= can_.max_force_per_point_n + kRounding_n,
+          fmt::format("asked for {:g} N, {:.1f} N acted", asked_n, most_n));
+  }
+
+  static constexpr double kLeastMoved_m = 0.0002;
+
+  HapticDevice& device_;
+  DeviceCapabilities can_;
+  double push_n_;
+  bool can_push_, is_paced_;
+  core::ForceLimiter limiter_;  ///< A push that gets away ends.
+  const TellOutcome& tell_;
+  Clock::time_point begin_;
+  core::HapticState newest_;
+  std::int64_t num_ticks_ = 0;
+  int num_not_taken_ = 0;
+  bool all_passed_ = true;
+};
+
+}  // namespace
+
+bool check_driver(HapticDevice& device, const DriverCheck& check, const TellOutcome& tell) {
+  return DriverChecker(device, check, tell).run();
+}
+
+}  // namespace jnd::device

@@ -1,0 +1,469 @@
+#include "device/check/network_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "device/check/link_probe.h"
+#include "device/haptic_device.h"
+#include "device/network/crc32.h"
+
+namespace jnd::device {
+namespace {
+
+using Verdict = RuleOutcome::Verdict;
+using Seen = LinkProbe::Seen;
+using States = std::vector<Seen>;
+
+constexpr DeviceRule kOtherVersion = {
+    "other_version", "A hello of another version is refused for reason 3.",
+    "Answer a hello whose version is not yours with a refusal, so that people read why nothing "
+    "works."};
+constexpr DeviceRule kBadKey = {
+    "bad_key",
+    "A hello that is sealed by another key is refused for reason 4, and opens nothing.",
+    "Compare the seal of every hello before anything else is done with it."};
+constexpr DeviceRule kUnknownStream = {
+    "unknown_stream",
+    "A command on a stream that the device does not know is refused for "
+    "reason 2.",
+    "Answer it so, or a program does not notice that the device was started anew."};
+constexpr DeviceRule kDatagrams = {
+    "datagrams", "Every datagram is whole, finite and of the sizes of the page.",
+    "Compare the bytes with the tables of device/network/README.md, the checksum first."};
+constexpr DeviceRule kArmsWithForce = {
+    "arms_with_force", "An arming is granted to a command without any force alone.",
+    "Grant a new arm_number only where all fifteen forces are zero."};
+constexpr DeviceRule kArming = {
+    "arming", "It arms on a new number, without force, once the connection is good.",
+    "Tell armed and armed_number in the state; 100 good datagrams and a round trip are "
+    "enough."};
+constexpr DeviceRule kHalfRate = {
+    "half_rate", "States come at the rate of the welcome.",
+    "Send one state a tick, and tell the rate of the loop that really runs."};
+constexpr DeviceRule kJitter = {
+    "jitter", "Of a hundred states 99 come within the time that one may stand in.",
+    "Give the device's loop real-time priority, and look what holds it up."};
+constexpr DeviceRule kSequenceStep = {"sequence_step",
+                                      "Numbers of datagrams go on by one, whatever their kind.",
+                                      "Count each datagram of the stream once."};
+constexpr DeviceRule kSequenceWrap = {
+    "sequence_wrap", "Numbers of datagrams wrap at 2^32.",
+    "Count in an unsigned integer of 32 bits, and let it wrap."};
+constexpr DeviceRule kUnits = {
+    "units_mm", "Positions are in m and velocities in m/s, of a hand.",
+    "Convert what the robot measures before it goes into the state."};
+constexpr DeviceRule kStale = {
+    "stale", "Every state holds a new measurement, with a device time that rises.",
+    "Measure in every tick, and leave is_measured 0 where that failed."};
+constexpr DeviceRule kEcho = {
+    "echo", "It echoes a clock that the program has sent.",
+    "Copy the sender's clock of the newest datagram that came, without adding to it."};
+constexpr DeviceRule kToldAsSent = {
+    "told_as_sent", "The force in the state is the one that acts on the hand then.",
+    "Tell what the motors gave until this measurement, not what was last asked for."};
+constexpr DeviceRule kNoLimits = {
+    "no_limits", "The device limits force, and its change, below the program.",
+    "Limit each point to the most of the welcome and its change to 2000 N/s, in the device."};
+constexpr DeviceRule kReplay = {"replay", "A command that is said again counts once.",
+                                "Drop a datagram whose number came before."};
+constexpr DeviceRule kSilence = {
+    "silence", "Without commands there is no force, within the time of the welcome.",
+    "Give no force when no new command has come for 20 ms, and tell armed 0."};
+constexpr DeviceRule kRearms = {
+    "rearms", "After a fault it gives no force until it is armed by another number.",
+    "Keep armed 0 until a command with another arm_number and without force."};
+constexpr DeviceRule kHalt = {"halt", "A halt ends the force at once, until another arming.",
+                              "Take halts on the stream like commands that disarm."};
+constexpr DeviceRule kBusy = {
+    "busy", "While a program is connected another one is refused for reason 1.",
+    "Serve one program at a time."};
+constexpr DeviceRule kGoodbye = {
+    "goodbye", "After a goodbye the next program finds no force and no arming.",
+    "Forget the arming and the command with the program that leaves."};
+constexpr DeviceRule kGone = {
+    "gone", "A program that died is forgotten after a second of silence.",
+    "Count the time since the last datagram of the client, and let another one in."};
+
+bool acts(const Seen& seen) {
+  return std::ranges::any_of(seen.state.measured.acted_n,
+                             [](const auto& force) { return !force.isZero(0.0); });
+}
+
+bool is_armed_or_acts(const Seen& seen) { return seen.state.armed || acts(seen); }
+
+/// Whether any from this one on is armed or acts: what was under way is not counted.
+bool any_after(const States& states, std::size_t first) {
+  return states.size() > first &&
+         std::any_of(states.begin() + static_cast<std::ptrdiff_t>(first), states.end(),
+                     is_armed_or_acts);
+}
+
+class NetworkChecker {
+ public:
+  NetworkChecker(const NetworkCheck& check, const TellOutcome& tell)
+      : check_(check), tell_(tell) {
+    std::random_device draw;
+    token_ = std::uint64_t{draw()} << 32 | draw();
+  }
+
+  bool run() {
+    const auto port = check_.open_port();
+    LinkProbe program(*port, check_.server, check_.key, token_++);
+    require_answer(program);
+    judge_hellos(program);
+    judge_states(program);
+    if (can_push_) {
+      judge_arming(program);
+      judge_pushes(program);
+      judge_limits(program);
+      judge_replay(program);
+      judge_silence(program);
+    } else {
+      skip_pushes(program);
+    }
+    judge_others(program);
+    judge(kDatagrams, num_refused_ + program.num_refused() == 0,
+          program.num_refused() == 0
+              ? ""
+              : fmt::format("{} of another kind, the last one: {}", program.num_refused(),
+                            wire::name(program.last_problem())));
+    return all_passed_;
+  }
+
+ private:
+  void tell(const DeviceRule& rule, Verdict verdict, std::string found) {
+    all_passed_ &= verdict != Verdict::kFailed;
+    tell_({.rule = rule, .verdict = verdict, .found = std::move(found)});
+  }
+  void judge(const DeviceRule& rule, bool is_kept, std::string found) {
+    tell(rule, is_kept ? Verdict::kPassed : Verdict::kFailed, std::move(found));
+  }
+
+  void require_answer(LinkProbe& program) {
+    constexpr double kPatience_s = 2.0;
+    if (!program.connect(kPatience_s)) {
+      const auto refusal = program.refusal();
+      std::string why =
+          "found no answer; is it started, and is the key the same on both sides?";
+      if (refusal == wire::RefusalReason::kBusy) why = "found one that a program uses";
+      if (refusal == wire::RefusalReason::kOtherKey)
+        why = "found one with another key, or none";
+      if (refusal == wire::RefusalReason::kOtherVersion) {
+        why = "found one of another version of the datagrams";
+      }
+      throw DeviceUnreachable("device-check: expected a device that nobody uses, " + why);
+    }
+    const DeviceCapabilities& can = program.welcome().capabilities;
+    rate_hz_ = can.rate_hz;
+    most_force_n_ = can.max_force_per_point_n;
+    stand_in_s_ = can.max_stale_s;
+    is_simulated_ = can.simulated && check_.believes_simulated;
+    can_push_ = check_.pushes || is_simulated_;
+    push_n_ = is_simulated_ ? 2.0 : 0.5;
+    if (!is_simulated_) {
+      program.limit_by(core::ForceLimiter({.per_point_n = push_n_,
+                                           .total_n = push_n_,
+                                           .slew_n_per_s = kGentleSlew_n_per_s,
+                                           .max_speed_m_per_s = kGentleSpeed_m_per_s},
+                                          1.0 / rate_hz_));
+    }
+    // So that the hellos of others are not refused for us.
+    program.say_goodbye();
+    port_pause(0.05);
+  }
+
+  void port_pause(double duration_s) {
+    check_.open_port()->pause(std::llround(1e9 * duration_s));
+  }
+
+  /// What a fresh program hears to these bytes.
+  std::optional<wire::RefusalReason> refusal_of(std::span<const std::byte> bytes) {
+    const auto port = check_.open_port();
+    port->send(bytes, check_.server);
+    const DatagramSeal unsealed(DatagramSeal::Side::kProgram, std::nullopt);
+    std::array<std::byte, 2 * wire::kMaxBytes> heard;
+    Address from;
+    wire::Datagram datagram;
+    constexpr int kMostTries = 300;
+    for (int i = 0; i < kMostTries; ++i) {
+      port->pause(1'000'000);
+      const std::size_t size = port->receive(heard, from);
+      if (size == 0) continue;
+      if (unsealed.read(std::span(heard).first(size), datagram) != wire::Problem::kNone) {
+        continue;
+      }
+      const auto* refusal = std::get_if<wire::Refusal>(&datagram.content);
+      return refusal == nullptr ? std::nullopt : std::optional(refusal->reason);
+    }
+    return std::nullopt;
+  }
+
+  static std::vector<std::byte> bytes_of(const wire::Datagram& datagram,
+                                         const std::optional<DeviceKey>& key) {
+    std::array<std::byte, DatagramSeal::kMostBytes> bytes;
+    const DatagramSeal seal(DatagramSeal::Side::kProgram, key);
+    const std::size_t size = seal.write(datagram, bytes);
+    return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)};
+  }
+
+  /// A hello whose header says the next version, with the checksum of that.
+  static std::vector<std::byte> hello_of_next_version(const wire::Datagram& hello) {
+    std::vector<std::byte> bytes = bytes_of(hello, std::nullopt);
+    const std::uint16_t version = wire::kVersion + 1;
+    constexpr std::size_t kVersionAt = 4;
+    std::memcpy(bytes.data() + kVersionAt, &version, sizeof version);
+    const std::size_t content = bytes.size() - wire::kChecksumBytes;
+    const std::uint32_t sum = crc32(std::span(bytes).first(content));
+    std::memcpy(bytes.data() + content, &sum, sizeof sum);
+    return bytes;
+  }
+
+  void judge_hellos(LinkProbe& program) {
+    const wire::Datagram hello{.header = {.sent_ns = 1},
+                               .content = wire::Hello{.token = token_++, .only_asks = true}};
+    judge(kOtherVersion,
+          refusal_of(hello_of_next_version(hello)) == wire::RefusalReason::kOtherVersion, "");
+    DeviceKey wrong_key{};
+    if (check_.key) wrong_key = *check_.key;
+    wrong_key.front() ^= std::byte{1};
+    judge(kBadKey, refusal_of(bytes_of(hello, wrong_key)) == wire::RefusalReason::kOtherKey,
+          "");
+    if (check_.key) {
+      tell(kUnknownStream, Verdict::kSkipped,
+           "with a key nobody can tell who sealed what is of an unknown stream");
+    } else {
+      const wire::Datagram lost{.header = {.stream_id = 99, .sequence = 1, .sent_ns = 1},
+                                .content = wire::Command{.arm_number = 1}};
+      judge(kUnknownStream,
+            refusal_of(bytes_of(lost, std::nullopt)) == wire::RefusalReason::kUnknownStream,
+            "");
+    }
+    program.begin_anew(token_++);
+    if (!program.connect(2.0)) {
+      throw DeviceUnreachable(
+          "device-check: expected a device that a program may come back to "
+          "after its goodbye, found none that answers");
+    }
+  }
+
+  void judge_states(LinkProbe& program) {
+    // The first second is for the connection to settle.
+    (void)program.talk(1.0, 0, core::zero_vectors());
+    const States states = program.talk(1.0, 0, core::zero_vectors());
+    const auto num_states = static_cast<double>(states.size());
+    constexpr double kFewest = 0.65, kMost = 1.5;
+    judge(kHalfRate, num_states > kFewest * rate_hz_ && num_states < kMost * rate_hz_,
+          fmt::format("{} states in a second, {:g} Hz told", states.size(), rate_hz_));
+    if (states.size() < 2) return;
+    std::vector<double> gaps_s;
+    std::vector<std::uint32_t> steps;
+    std::size_t num_risen = 0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      gaps_s.push_back(1e-9 * static_cast<double>(states[i].came_ns - states[i - 1].came_ns));
+      steps.push_back(states[i].header.sequence - states[i - 1].header.sequence);
+      num_risen +=
+          states[i].state.measured.device_time_ns > states[i - 1].state.measured.device_time_ns
+              ? 1
+              : 0;
+    }
+    std::ranges::sort(gaps_s);
+    const double late_s = gaps_s[static_cast<std::size_t>(0.99 * num_states) - 1];
+    judge(kJitter, late_s <= stand_in_s_,
+          fmt::format("{:.1f} ms between 99 of 100, {:g} ms may be stood in for", 1e3 * late_s,
+                      1e3 * stand_in_s_));
+    const auto num_wrong = std::ranges::count_if(steps, [](auto step) { return step != 1; });
+    const bool are_wrong = static_cast<double>(num_wrong) > 0.2 * num_states;
+    const bool stand_still = std::ranges::find(steps, 0U) != steps.end();
+    judge(kSequenceStep, !are_wrong || stand_still,
+          are_wrong && !stand_still
+              ? fmt::format("they go on by {}", *std::ranges::min_element(steps))
+              : "");
+    judge(kSequenceWrap, !are_wrong || !stand_still,
+          are_wrong && stand_still
+              ? fmt::format("they stay at {}", states.back().header.sequence)
+              : "");
+    double largest_m = 0.0;
+    for (const Seen& seen : states) {
+      for (const auto& at : seen.state.measured.tip_position_m) {
+        largest_m = std::max(largest_m, at.norm());
+      }
+      for (const auto& speed : seen.state.measured.tip_velocity_m_per_s) {
+        largest_m = std::max(largest_m, speed.norm());
+      }
+    }
+    constexpr double kLargestOfAHand = 20.0;
+    judge(kUnits, largest_m < kLargestOfAHand,
+          fmt::format("the largest position or velocity is {:.3g}", largest_m));
+    judge(kStale, static_cast<double>(num_risen) > 0.5 * num_states,
+          fmt::format("the device time rose {} times in {} states", num_risen, states.size()));
+    const bool are_echoes = std::ranges::all_of(
+        states, [&](const Seen& seen) { return program.has_sent_at(seen.header.echo_ns); });
+    judge(kEcho, are_echoes, are_echoes ? "" : "a clock that was never sent");
+  }
+
+  void skip_pushes(LinkProbe&) {
+    for (const DeviceRule& rule : {kArmsWithForce, kArming, kForceSign, kToldAsSent, kNoLimits,
+                                   kReplay, kSilence, kRearms, kHalt}) {
+      tell(rule, Verdict::kSkipped,
+           "it takes a force: take every hand out and give --with-force");
+    }
+  }
+
+  void judge_arming(LinkProbe& program) {
+    const States& states = program.talk(0.3, 1, push_of({0.5 * push_n_, 0.0, 0.0}));
+    judge(kArmsWithForce,
+          !std::ranges::any_of(states, [](const Seen& seen) { return seen.state.armed; }), "");
+    judge(kArming, program.arm(2), "");
+  }
+
+  /// Where the first point is, m.
+  static Eigen::Vector3d place_of(const States& states) {
+    return states.empty() ? Eigen::Vector3d::Zero().eval()
+                          : states.back().state.measured.tip_position_m[0];
+  }
+
+  void judge_pushes(LinkProbe& program) {
+    std::string wrong;
+    bool any_acted = false, is_told_in_time = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      (void)program.arm(arm_number_++);
+      const States before = program.talk(0.3, arm_number_ - 1, core::zero_vectors());
+      Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
+      force_n[axis] = push_n_;
+      const States states = program.talk(0.15, arm_number_ - 1, push_of(force_n));
+      const auto acting = std::ranges::find_if(states, acts);
+      if (acting == states.end() || before.empty()) continue;
+      any_acted = true;
+      const double moved_m = (place_of(states) - place_of(before))[axis];
+      if (moved_m < kLeastMoved_m)
+        wrong += fmt::format("{}{:+.1f} mm along {}", wrong.empty() ? "" : ", ", 1e3 * moved_m,
+                             "xyz"[axis]);
+      const double speed_m_per_s = kLeastSpeed_m_per_s * push_n_ / 2.0;
+      const auto moving = std::ranges::find_if(states, [&](const Seen& seen) {
+        return std::fabs(seen.state.measured.tip_velocity_m_per_s[0][axis]) > speed_m_per_s;
+      });
+      const bool is_late =
+          moving == states.end() || static_cast<double>(moving - acting) > 0.02 * rate_hz_;
+      is_told_in_time &= !is_late;
+    }
+    if (!any_acted) {
+      judge(kForceSign, false, "no state tells that a force acted");
+      tell(kToldAsSent, Verdict::kSkipped, "no force acted");
+      return;
+    }
+    judge(kForceSign, wrong.empty(),
+          wrong.empty() ? "" : "pushed along the axis it moved " + wrong);
+    judge(kToldAsSent, is_told_in_time,
+          is_told_in_time ? "" : "the hand moves long after the force is told to act");
+  }
+
+  void judge_limits(LinkProbe& program) {
+    if (!is_simulated_) {
+      tell(kNoLimits, Verdict::kSkipped, "a real device is never asked for too much");
+      return;
+    }
+    (void)program.arm(arm_number_++);
+    const States states = program.talk(0.03, arm_number_ - 1, push_of({kTooMuch_n, 0.0, 0.0}));
+    constexpr double kSlew_n_per_s = 2000.0, kRounding_n = 1e-6;
+    double most_n = 0.0, most_step_n = 0.0, last_n = 0.0;
+    for (const Seen& seen : states) {
+      const double told_n = seen.state.measured.acted_n[0].norm();
+      most_n = std::max(most_n, told_n);
+      most_step_n = std::max(most_step_n, told_n - last_n);
+      last_n = told_n;
+    }
+    // Of states that were lost the steps add up.
+    const bool is_slow = most_step_n <= 3.0 * kSlew_n_per_s / rate_hz_ + kRounding_n;
+    judge(kNoLimits, most_n <= most_force_n_ + kRounding_n && is_slow,
+          fmt::format("asked for {:g} N, {:.1f} N acted, at most {:.1f} N more in a tick",
+                      kTooMuch_n, most_n, most_step_n));
+    (void)program.talk(0.5, arm_number_ - 1, core::zero_vectors());
+  }
+
+  void judge_replay(LinkProbe& program) {
+    (void)program.arm(arm_number_++);
+    (void)program.talk(0.02, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    const std::vector<std::byte> old = program.last_command();
+    (void)program.talk(0.1, arm_number_ - 1, core::zero_vectors());
+    const States& states = program.talk(0.1, arm_number_ - 1, core::zero_vectors(),
+                                        [&] { program.send_again(old); });
+    judge(kReplay, std::ranges::none_of(states, acts), "");
+  }
+
+  void judge_silence(LinkProbe& program) {
+    (void)program.arm(arm_number_++);
+    (void)program.talk(0.02, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    const States told = program.listen(0.3);
+    const double allowed_s = stand_in_s_ + kWayThere_s;
+    const std::int64_t begin_ns = told.empty() ? 0 : told.front().came_ns;
+    const auto over = std::ranges::find_if_not(told, is_armed_or_acts);
+    const double took_s =
+        over == told.end() ? 0.3 : 1e-9 * static_cast<double>(over->came_ns - begin_ns);
+    judge(kSilence,
+          over != told.end() && took_s <= allowed_s &&
+              !any_after(told, static_cast<std::size_t>(over - told.begin())),
+          told.empty() ? "it fell silent, too"
+                       : fmt::format("force for {:.0f} ms, {:.0f} ms are allowed", 1e3 * took_s,
+                                     1e3 * allowed_s));
+    const States again = program.talk(0.3, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    judge(kRearms, !any_after(again, kUnderWay), "");
+    (void)program.arm(arm_number_++);
+    (void)program.talk(0.02, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    program.halt();
+    const States halted = program.talk(0.1, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    judge(kHalt, !any_after(halted, kUnderWay), "");
+  }
+
+  void judge_others(LinkProbe& program) {
+    const auto port = check_.open_port();
+    LinkProbe second(*port, check_.server, check_.key, token_++);
+    (void)program.talk(0.2, 0, core::zero_vectors(), [&] { second.say_hello(); });
+    judge(kBusy, !second.is_connected() && second.refusal() == wire::RefusalReason::kBusy, "");
+    if (second.is_connected()) second.say_goodbye();
+    program.say_goodbye();
+    port_pause(0.05);
+    const auto next_port = check_.open_port();
+    LinkProbe next(*next_port, check_.server, check_.key, token_++);
+    const bool is_let_in = next.connect(2.0);
+    judge(kGoodbye,
+          is_let_in &&
+              std::ranges::none_of(next.talk(0.1, 0, core::zero_vectors()), is_armed_or_acts),
+          is_let_in ? "" : "it lets nobody in");
+    if (!is_let_in) return;
+    // As if it had died.
+    port_pause(kGoneAfter_s);
+    const auto last_port = check_.open_port();
+    LinkProbe last(*last_port, check_.server, check_.key, token_++);
+    judge(kGone, last.connect(2.0), "");
+    if (last.is_connected()) last.say_goodbye();
+  }
+
+  static constexpr double kLeastMoved_m = 0.0002, kLeastSpeed_m_per_s = 0.005;
+  /// Of a real device: a push that gets away ends.
+  static constexpr double kGentleSlew_n_per_s = 100.0, kGentleSpeed_m_per_s = 0.5;
+  static constexpr double kTooMuch_n = 100.0, kWayThere_s = 0.030, kGoneAfter_s = 1.3;
+  static constexpr std::size_t kUnderWay = 5;  ///< States that were sent before.
+
+  const NetworkCheck& check_;
+  const TellOutcome& tell_;
+  std::uint64_t token_ = 1;
+  std::uint32_t arm_number_ = 3;
+  double rate_hz_ = 1000.0, most_force_n_ = 0.0, stand_in_s_ = 0.0, push_n_ = 0.0;
+  bool is_simulated_ = false, can_push_ = false, all_passed_ = true;
+  int num_refused_ = 0;
+};
+
+}  // namespace
+
+bool check_network_device(const NetworkCheck& check, const TellOutcome& tell) {
+  return NetworkChecker(check, tell).run();
+}
+
+}  // namespace jnd::device
