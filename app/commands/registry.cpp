@@ -18,7 +18,8 @@
   ADD(fit) ADD(compare)                                                    \
   /* The apparatus. */                                                     \
   ADD(force) ADD(loop) ADD(devices) ADD(device_check) ADD(doctor)           \
-  ADD(stability) ADD(characterize) ADD(device_simulator) ADD(device_key)
+  ADD(stability) ADD(characterize) ADD(device_simulator)                    \
+  ADD(device_server) ADD(device_key)
 // clang-format on
 
 namespace jnd::app {

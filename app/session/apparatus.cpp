@@ -93,9 +93,12 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
   loop.rate_hz = parameters.rate_hz;
   loop.first_tick = parameters.first_tick;
   if (laboratory != nullptr) {
-    loop.limits.per_point_n = laboratory->device.max_force_per_point_n;
-    loop.limits.total_n = laboratory->device.max_total_force_n;
-    loop.limits.slew_n_per_s = laboratory->device.max_slew_n_per_s;
+    // A laboratory may ask for less than the loop allows, and never for more.
+    loop.limits.per_point_n =
+        std::min(loop.limits.per_point_n, laboratory->device.max_force_per_point_n);
+    loop.limits.total_n = std::min(loop.limits.total_n, laboratory->device.max_total_force_n);
+    loop.limits.slew_n_per_s =
+        std::min(loop.limits.slew_n_per_s, laboratory->device.max_slew_n_per_s);
   }
   return loop;
 }

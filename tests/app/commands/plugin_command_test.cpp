@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "app/commands/command_fixture.h"
 #include "app/json_document.h"
@@ -138,6 +139,47 @@ TEST_F(PluginCommandTest, DevicesTellsWhatADriverSaysOfItself) {
   EXPECT_EQ(json["has"], nlohmann::json({"own_movement", "acted_force", "device_time"}));
   EXPECT_EQ(jnd({"devices", "--device", "plugin:nowhere:simulated"}).exit_code, 3);
   EXPECT_EQ(jnd({"devices", "--device", "lumped"}).exit_code, 2);
+}
+
+/// Whoever has a driver on one machine and the window on another.
+class ServedPluginTest : public PluginCommandTest {
+ protected:
+  /// Starts to serve the example; where it is.
+  std::string serve(const std::string& as) {
+    server_.emplace(std::vector<std::string>{"device-server", "--device",
+                                             "plugin:example:" + as, "--port", "0"},
+                    options_);
+    const std::string line = server_->read_line().value_or("");
+    EXPECT_TRUE(line.starts_with("listening on ")) << line;
+    return "network:" + line.substr(line.rfind(' ') + 1);
+  }
+  std::optional<RunningProgram> server_;
+};
+
+TEST_F(ServedPluginTest, KeepsTheRulesOfADeviceAcrossTheNetwork) {
+  const std::string at = serve("simulated");
+  ProgramOutcome told = jnd({"device-check", at + ",simulated"});
+  // A busy machine may hold either side up.
+  for (int i = 0; i < 2 && told.exit_code != 0; ++i) {
+    told = jnd({"device-check", at + ",simulated"});
+  }
+  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+  server_->send_signal(SIGTERM);
+  EXPECT_EQ(server_->wait().exit_code, 0);
+}
+
+TEST_F(ServedPluginTest, ASimulatorServesNoDriverThatMayBeReal) {
+  const ProgramOutcome refused =
+      jnd({"device-simulator", "--device", "plugin:example:real", "--port", "0"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("expected a simulated device"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("device-server"), std::string::npos) << refused.err;
+}
+
+TEST_F(PluginCommandTest, TheExampleKeepsTheRulesOfDrivers) {
+  const ProgramOutcome told = jnd({"device-check", "plugin:example:simulated", "--json"});
+  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+  EXPECT_EQ(document(told.out)["num_passed"].get<int>(), 10) << told.out;
 }
 
 }  // namespace plugin_command_test

@@ -101,6 +101,8 @@ TEST_F(ApparatusTest, TheTotalForceIsTheLeastOfLaboratoryAndDevice) {
   EXPECT_EQ(Apparatus(with_doors("mouse", false), laboratory_).max_total_force_n(), 12.0);
   laboratory_.device.max_total_force_n = 100.0;
   EXPECT_EQ(Apparatus(with_doors("mouse", false), laboratory_).max_total_force_n(), 30.0);
+  EXPECT_EQ(Apparatus(with_doors("lumped", false), laboratory_).max_total_force_n(), 30.0)
+      << "a laboratory may ask for less alone";
 }
 
 TEST_F(ApparatusTest, TheWindowsStopLatchesAndRearmingBringsTheForceBack) {

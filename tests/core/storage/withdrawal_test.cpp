@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/storage/backup.h"
 #include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
@@ -82,6 +84,25 @@ TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards
                       Durability::kAtClose);
     EXPECT_THROW(database.execute(std::string("DELETE FROM ") + table), Error) << table;
   }
+}
+
+/// A new table of people's data has to go with them.
+TEST_F(WithdrawalTest, EmptiesEveryTableThatHoldsSessionsButThoseThatAreKept) {
+  const std::set<std::string> emptied = {"answer", "presentation", "trial",
+                                         "design", "event",        "session"};
+  // Tombstones, what an ethics committee is owed, and which exports the session is in.
+  const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session"};
+  Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,
+                    Durability::kAtClose);
+  Statement tables(database,
+                   "SELECT m.name FROM sqlite_master m JOIN pragma_table_info(m.name) c "
+                   "WHERE m.type = 'table' AND c.name = 'session'");
+  std::set<std::string> found;
+  while (tables.step()) found.insert(tables.text(0));
+  std::set<std::string> expected = emptied;
+  expected.insert(kept.begin(), kept.end());
+  EXPECT_EQ(found, expected)
+      << "name a new one in core/storage/withdrawal.cpp, or say here why it stays";
 }
 
 TEST_F(WithdrawalTest, ReachesTheBackupsItKnowsOfAndSaysWhichItCannot) {
