@@ -204,7 +204,7 @@ template <std::size_t kKind = 1>
 bool make_content(std::uint16_t kind, Content& content) noexcept {
   if constexpr (kKind <= std::variant_size_v<Content>) {
     if (kind != kKind) return make_content<kKind + 1>(kind, content);
-    content.emplace<kKind - 1>();
+    content = Content(std::in_place_index<kKind - 1>);
     return true;
   }
   return false;
@@ -240,7 +240,8 @@ std::string_view name(Problem problem) noexcept {
 
 std::size_t encode(const Datagram& datagram, std::span<std::byte, kMaxBytes> bytes) noexcept {
   ByteWriter contents(bytes.subspan(kHeaderBytes));
-  std::visit([&contents](const auto& content) { fields(contents, content); }, datagram.content);
+  visit_content(datagram.content,
+                [&contents](const auto& content) { fields(contents, content); });
   const std::size_t end = kHeaderBytes + contents.size();
 
   const Header& header = datagram.header;
@@ -311,7 +312,7 @@ Problem decode(std::span<const std::byte> bytes, Datagram& datagram) noexcept {
   if (!make_content(kind, datagram.content)) return Problem::kUnknownKind;
 
   ByteReader contents(bytes.subspan(kHeaderBytes, end - kHeaderBytes));
-  std::visit([&contents](auto& content) { fields(contents, content); }, datagram.content);
+  visit_content(datagram.content, [&contents](auto& content) { fields(contents, content); });
   return contents.problem();
 }
 

@@ -115,6 +115,15 @@ struct Goodbye {};
 
 using Content = std::variant<Hello, Welcome, Refusal, State, Command, Order, Halt, Goodbye>;
 
+/// `std::visit` that has nothing to throw: a content always is one of its kinds. Real time.
+template <std::size_t kIndex = 0, typename AnyContent, typename Visitor>
+void visit_content(AnyContent& content, const Visitor& visitor) noexcept {
+  if constexpr (kIndex < std::variant_size_v<Content>) {
+    if (auto* const one = std::get_if<kIndex>(&content)) return visitor(*one);
+    visit_content<kIndex + 1>(content, visitor);
+  }
+}
+
 struct Datagram {
   Header header;
   Content content;

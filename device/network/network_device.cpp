@@ -44,7 +44,7 @@ bool is_same(const wire::Welcome& a, const wire::Welcome& b) noexcept {
 
 std::string_view NetworkDevice::served_name() const noexcept {
   if (!device_) return "";
-  const auto end = std::find(device_->name.begin(), device_->name.end(), '\0');
+  const auto* const end = std::find(device_->name.begin(), device_->name.end(), '\0');
   return {device_->name.data(), static_cast<std::size_t>(end - device_->name.begin())};
 }
 
@@ -143,8 +143,8 @@ void NetworkDevice::take_in(std::int64_t now_ns) noexcept {
     }
     other_version_ = 0;
     has_other_key_ = false;
-    std::visit([&](const auto& content) { take(incoming_.header, content, now_ns); },
-               incoming_.content);
+    wire::visit_content(incoming_.content,
+                        [&](const auto& content) { take(incoming_.header, content, now_ns); });
   }
 }
 
