@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "experiments/procedures/task.h"
 
 namespace jnd::analysis {
 namespace {

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "experiments/study/media.h"
+
 namespace jnd::analysis {
 namespace {
 

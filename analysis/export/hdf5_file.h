@@ -41,7 +41,7 @@ class Hdf5Column {
   Hdf5Column(std::string place, Hdf5Handle dataset)
       : place_(std::move(place)), dataset_(std::move(dataset)) {}
 
-  void append(const void* numbers, std::size_t count, std::int64_t memory_type);
+  void append(const void* numbers, std::size_t num_numbers, std::int64_t memory_type);
 
   std::string place_;
   Hdf5Handle dataset_;

@@ -17,8 +17,7 @@ struct RecordingColumn {
   /// single precision.
   double tolerance = 1e-3;
 };
-[[nodiscard]] std::vector<RecordingColumn> recording_columns(
-    const core::SampleColumns& columns);
+[[nodiscard]] std::vector<RecordingColumn> recording_columns(const core::SampleColumns& which);
 
 /// The double nearest to the step that was stored; a value that is none stays as it is.
 [[nodiscard]] double on_grid(double value, const RecordingColumn& column);

@@ -53,15 +53,15 @@ double value_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
 }  // namespace
 
 ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
-                            const Eigen::VectorXd& num_trials, const Eigen::VectorXd& known) {
+                            const Eigen::VectorXd& num_trials, const Eigen::VectorXd& offset) {
   constexpr int kMaxSteps = 60, kMaxHalvings = 40;
   constexpr double kSmallStep = 1e-10, kDependent = 1e-12;
   core::require(num_yes.size() == design.rows() && num_trials.size() == design.rows(), "rows",
                 "as many counts as rows of the design", static_cast<double>(num_yes.size()));
-  core::require(known.size() == 0 || known.size() == design.rows(), "offset",
-                "as many as rows of the design", static_cast<double>(known.size()));
-  const Eigen::VectorXd offset =
-      known.size() > 0 ? known : Eigen::VectorXd(Eigen::VectorXd::Zero(design.rows()));
+  core::require(offset.size() == 0 || offset.size() == design.rows(), "offset",
+                "as many as rows of the design", static_cast<double>(offset.size()));
+  const Eigen::VectorXd known =
+      offset.size() > 0 ? offset : Eigen::VectorXd(Eigen::VectorXd::Zero(design.rows()));
   ProbitRegression fit;
   fit.status = FitStatus::kDegenerate;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> columns(
@@ -71,13 +71,13 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
     return fit;
   }
   fit.coefficients = Eigen::VectorXd::Zero(design.cols());
-  fit.log_likelihood = value_at(design, num_yes, num_trials, offset, fit.coefficients);
+  fit.log_likelihood = value_at(design, num_yes, num_trials, known, fit.coefficients);
   // A sum of so many terms is no better than that.
   const double rounding = std::max(1e-13, 1e-16 * static_cast<double>(design.rows()));
   double largest = 0.0;
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
     const Derivatives here =
-        derivatives_at(design, num_yes, num_trials, offset, fit.coefficients);
+        derivatives_at(design, num_yes, num_trials, known, fit.coefficients);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(here.information);
     if (cholesky.info() != Eigen::Success) break;
     Eigen::VectorXd step = cholesky.solve(here.gradient);
@@ -90,7 +90,7 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
     const double least = fit.log_likelihood - rounding * std::fabs(fit.log_likelihood);
     double value = 0.0;
     for (int halving = 0; halving < kMaxHalvings; ++halving) {
-      value = value_at(design, num_yes, num_trials, offset, fit.coefficients + step);
+      value = value_at(design, num_yes, num_trials, known, fit.coefficients + step);
       if (value >= least) break;
       step *= 0.5;
     }

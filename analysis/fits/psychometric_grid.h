@@ -12,13 +12,13 @@ namespace jnd::analysis {
 /// groups of neighbours.
 class PsychometricGrid {
  public:
-  /// `levels` is read for its intensities only; they must identify the free parameters.
-  PsychometricGrid(const PsychometricLevels& levels, bool free_pse);
+  /// `every_level` is read for its intensities only; they must identify the free parameters.
+  PsychometricGrid(const PsychometricLevels& every_level, bool free_pse);
 
   /// The grid's local minima for these answers, best first, each with its best lapse; steps
-  /// are left out, because their cost is known. `levels` has the intensities of the
+  /// are left out, because their cost is known. `every_level` has the intensities of the
   /// constructor's.
-  [[nodiscard]] std::vector<PsychometricCurve> minima(const PsychometricLevels& levels,
+  [[nodiscard]] std::vector<PsychometricCurve> minima(const PsychometricLevels& every_level,
                                                       PsychometricMethod method,
                                                       bool free_lapse) const;
 

@@ -4,6 +4,7 @@
 #include "analysis/data/presentation_use.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
+#include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {

@@ -149,11 +149,13 @@ struct ResultsOptions {
                                       const ResultsOptions& options = {});
 
 /// The sections, one function a kind of block; `results_of` calls what the design has.
-[[nodiscard]] ResultsSection estimation_results(const StudyData& data, const BlockDesign& block,
+[[nodiscard]] ResultsSection estimation_results(const StudyData& data,
+                                                const BlockDesign& design,
                                                 const ResultsOptions& options);
-[[nodiscard]] ResultsSection production_results(const StudyData& data, const BlockDesign& block,
+[[nodiscard]] ResultsSection production_results(const StudyData& data,
+                                                const BlockDesign& design,
                                                 const ResultsOptions& options);
-[[nodiscard]] ResultsSection matching_results(const StudyData& data, const BlockDesign& block,
+[[nodiscard]] ResultsSection matching_results(const StudyData& data, const BlockDesign& design,
                                               const ResultsOptions& options);
 [[nodiscard]] ResultsSection combined_results(const StudyData& data,
                                               const BlockDesign& estimation,

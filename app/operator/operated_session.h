@@ -103,7 +103,7 @@ class OperatedSession {
   [[nodiscard]] ItemView question_view(const experiments::QuestionnaireItem& question,
                                        int index) const;
   [[nodiscard]] std::vector<ItemView> answered_items() const;
-  [[nodiscard]] TrialView trial_view(std::int64_t trial) const;
+  [[nodiscard]] TrialView trial_view(std::int64_t number) const;
   [[nodiscard]] MediumView medium_view(const experiments::Exploration& medium) const;
   [[nodiscard]] std::vector<AnswerLine> answer_lines() const;
   [[nodiscard]] std::pair<std::string, std::string> labels_of(

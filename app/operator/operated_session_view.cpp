@@ -64,8 +64,8 @@ std::string OperatedSession::words(const Text& text) const {
   return first != text.end() ? first->second : text.begin()->second;
 }
 
-std::string OperatedSession::title_of(std::size_t index) const {
-  return shown_titles(session_.stages(), language_, hides_levels_).at(index);
+std::string OperatedSession::title_of(std::size_t stage) const {
+  return shown_titles(session_.stages(), language_, hides_levels_).at(stage);
 }
 
 /// The medium of an exploring stage that waits, or of the post-experiment item that does.

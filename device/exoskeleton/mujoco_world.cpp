@@ -142,12 +142,13 @@ void MujocoWorld::hold_weight() {
   }
 }
 
-bool MujocoWorld::step(const JointVector& torque_n_m, const Vector3d& pull_n) noexcept {
+bool MujocoWorld::step(const JointVector& torque_n_m,
+                       const Vector3d& pull_on_forearm_n) noexcept {
   for (int joint = 0; joint < core::kNumJoints; ++joint) {
     data_->qfrc_applied[addresses_.dof[joint]] = torque_n_m[joint];
   }
   for (int axis = 0; axis < 3; ++axis) {
-    data_->qfrc_applied[addresses_.hand_dof[axis]] = pull_n[axis];
+    data_->qfrc_applied[addresses_.hand_dof[axis]] = pull_on_forearm_n[axis];
   }
   for (int substep = 0; substep < num_substeps_ && valid_; ++substep) {
     push_from_outside();

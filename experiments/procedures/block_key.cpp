@@ -55,9 +55,9 @@ BlockKey amount_key(const char* name, const char* meaning, bool required) {
           .is_positive = true};
 }
 
-BlockKey whole_number_key(const char* key, const char* meaning, Range range,
+BlockKey whole_number_key(const char* name, const char* meaning, Range range,
                           const std::string& default_json) {
-  return {.parameter = {.key = key,
+  return {.parameter = {.key = name,
                         .kind = ValueKind::kInteger,
                         .meaning = meaning,
                         .required = false,
