@@ -34,7 +34,7 @@ class Runs {
       num_changes += before != nullptr && before->intensity != row.intensity ? 1 : 0;
       before = &row;
     }
-    is_in_order_ = num_changes > 2 * std::ssize(asked);
+    is_in_order_ = num_singles_ > 0 && num_changes > 2 * std::ssize(asked);
   }
 
   /// Of the next such row.

@@ -49,7 +49,7 @@ std::string advice_of_lapses(const PsychometricFit& fit, const PsychometricLevel
 std::string advice_of_scatter(const PsychometricFit& fit, const PsychometricLevels& levels,
                               const PsychometricOptions& options, bool free_pse) {
   if (!options.advice) return "";
-  const std::string lapses = advice_of_lapses(fit, levels, options, free_pse);
+  std::string lapses = advice_of_lapses(fit, levels, options, free_pse);
   if (!lapses.empty() || options.method != kMaximumLikelihood) return lapses;
   return "; --overdispersion scaled or --overdispersion beta-binomial have intervals as wide "
          "as "

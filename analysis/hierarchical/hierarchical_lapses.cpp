@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace jnd::analysis {
 namespace {
@@ -13,11 +14,11 @@ constexpr double kFall = 1.9207294103470617;
 }  // namespace
 
 LapseProfile::LapseProfile(const HierarchicalLikelihood& likelihood,
-                           const HierarchicalStructure& structure, const Eigen::VectorXd& start,
+                           const HierarchicalStructure& structure, Eigen::VectorXd start,
                            const HierarchicalOptimum& found)
     : likelihood_(likelihood),
       structure_(structure),
-      start_(start),
+      start_(std::move(start)),
       with_prior_(structure.lapse_rate(found.parameters)) {
   const Eigen::VectorXd& at = found.parameters;
   points_[with_prior_] = {

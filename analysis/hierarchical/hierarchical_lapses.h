@@ -21,7 +21,7 @@ class LapseProfile {
   /// `found`: the optimum with the prior; `start`: where it was sought from, people differing.
   /// The references have to outlive the profile.
   LapseProfile(const HierarchicalLikelihood& likelihood, const HierarchicalStructure& structure,
-               const Eigen::VectorXd& start, const HierarchicalOptimum& found);
+               Eigen::VectorXd start, const HierarchicalOptimum& found);
 
   /// `lapse_rate` in [0, `lapse_limit`).
   const Point& at(double lapse_rate);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 namespace jnd::analysis {
 namespace {
@@ -83,9 +84,9 @@ class PresentationCursor {
 
 }  // namespace
 
-ParticipantReading::ParticipantReading(const core::StudyStore& store,
-                                       const MovementOptions& options, std::string participant)
-    : store_(store), options_(options) {
+ParticipantReading::ParticipantReading(const core::StudyStore& store, MovementOptions options,
+                                       std::string participant)
+    : store_(store), options_(std::move(options)) {
   found_.participant = std::move(participant);
 }
 

@@ -19,7 +19,7 @@ namespace jnd::analysis {
 class ParticipantReading {
  public:
   /// The store must outlive it.
-  ParticipantReading(const core::StudyStore& store, const MovementOptions& options,
+  ParticipantReading(const core::StudyStore& store, MovementOptions options,
                      std::string participant);
 
   /// Throws `core::Error` for a damaged recording.

@@ -59,7 +59,7 @@ void require_whole(const fs::path& file, const std::string& text, const char* en
 }
 
 /// Where Inter is not installed another face without serifs comes next to it.
-std::string with_other_fonts(std::string svg) {
+std::string with_other_fonts(const std::string& svg) {
   const std::string alone = "font-family=\"Inter\"";
   const std::string with_others = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
   std::string text;

@@ -39,7 +39,8 @@ double largest_in(const FigureTable& table, const std::string& column) {
 
 double grid_height_in(const PanelGrid& grid, std::size_t num_panels, double panel_in) {
   const auto columns = static_cast<std::size_t>(grid.num_columns);
-  const auto rows = static_cast<double>((num_panels + columns - 1) / columns);
+  const std::size_t num_rows = (num_panels + columns - 1) / columns;
+  const auto rows = static_cast<double>(num_rows);
   return grid.top_in + grid.bottom_in + rows * panel_in + (rows - 1.0) * grid.gap_y_in;
 }
 
@@ -63,7 +64,8 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
       ",0.5 center rotate by 90\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const auto column = static_cast<double>(i % static_cast<std::size_t>(places));
-    const auto row = static_cast<double>(i / static_cast<std::size_t>(places));
+    const std::size_t num_above = i / static_cast<std::size_t>(places);
+    const auto row = static_cast<double>(num_above);
     const double left = grid.left_in + column * (panel_width + grid.gap_x_in);
     const double top = height_in - grid.top_in - row * (panel_height + grid.gap_y_in);
     script += "  set lmargin at screen " + plot_number(left / width_in) +

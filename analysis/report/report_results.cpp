@@ -147,7 +147,7 @@ void write_comparisons(HtmlText& html, const ResultsSection& section) {
 /// What all names begin with, up to a dot: "magnitude_estimation.".
 std::string common_start(const std::vector<std::string>& names) {
   if (names.empty()) return "";
-  const std::string start = names.front().substr(0, names.front().find('.') + 1);
+  std::string start = names.front().substr(0, names.front().find('.') + 1);
   for (const std::string& name : names) {
     if (!name.starts_with(start)) return "";
   }

@@ -111,7 +111,7 @@ fs::path find_tool(const std::vector<std::string>& names) {
     std::string_view rest = path;
     while (!rest.empty()) {
       const std::size_t end = rest.find(':');
-      const fs::path candidate = fs::path(rest.substr(0, end)) / name;
+      fs::path candidate = fs::path(rest.substr(0, end)) / name;
       rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
       std::error_code ignored;
       if (candidate.is_absolute() && fs::is_regular_file(candidate, ignored) &&

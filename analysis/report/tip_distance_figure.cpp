@@ -76,7 +76,7 @@ class TipDistances {
     for (std::size_t i = 0; i < curves.stroke_percent.size(); ++i) {
       std::vector<FigureCell> row = {static_cast<int>(people.size()), people.back().participant,
                                      series, condition.name, curves.stroke_percent[i]};
-      for (const CurveBand& band : curves.tip_distance_m) row.push_back(band.mean[i]);
+      for (const CurveBand& band : curves.tip_distance_m) row.emplace_back(band.mean[i]);
       table.rows.push_back(std::move(row));
     }
   }

@@ -215,8 +215,8 @@ Arms people_in(const StudyData& data, const std::string& counterbalance) {
 /// people, not to be told apart by the few in each. Of two methods the order is compared.
 bool is_sequence(const std::string& arm) {
   constexpr std::string_view kRow = "row_";
-  const bool is_row =
-      arm.starts_with(kRow) && arm.find_first_not_of("0123456789", kRow.size()) == arm.npos;
+  const bool is_row = arm.starts_with(kRow) &&
+                      arm.find_first_not_of("0123456789", kRow.size()) == std::string::npos;
   return is_row || std::ranges::count(arm, ',') > 1;
 }
 

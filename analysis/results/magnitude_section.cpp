@@ -62,7 +62,7 @@ bool has_no_width(const Interval& ci95) {
 PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
                        const std::string& meaning, std::size_t num_participants,
                        const GroupFit& fit, const ResultsOptions& options) {
-  const PowerFit whole = fit(everyone(num_participants), Solver::kCeres);
+  PowerFit whole = fit(everyone(num_participants), Solver::kCeres);
   if (whole.status != FitStatus::kOk) add_reason(section, prefix, whole.reason);
   Resamples resamples(fit, num_participants, options);
   for (const auto& [letter, value] : {std::pair{"k", &PowerFit::k}, {"a", &PowerFit::a}}) {

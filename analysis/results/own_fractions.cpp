@@ -49,8 +49,8 @@ std::string untold_words(const OwnFractions& fractions, const CensoredValue& med
            std::to_string(num_separated) + " of " + std::to_string(num) +
            " are separated without an error, so that the stimuli only bound their fraction";
   }
-  const std::string beyond = std::to_string(num_beyond) + " of " + std::to_string(num) +
-                             " lie beyond the largest stimulus";
+  std::string beyond = std::to_string(num_beyond) + " of " + std::to_string(num) +
+                       " lie beyond the largest stimulus";
   // Of an even number, the half: the median is the mean of a known one and one beyond.
   if (2 * num_beyond == num) return beyond;
   return "> " + number_words(fractions.largest) + ": " + beyond +

@@ -77,7 +77,7 @@ std::string words_of(const Interval& ci95, const std::optional<double>& value) {
 
 std::string value_with(const std::optional<double>& value, const Interval& ci95,
                        const std::string& interval) {
-  const std::string words = number_words(value);
+  std::string words = number_words(value);
   if (!value || (!ci95.low && !ci95.high)) return words;
   return words + " (" + interval + ")";
 }

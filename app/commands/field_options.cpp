@@ -15,7 +15,7 @@ experiments::FieldValues fields_given(const experiments::Study& study,
   experiments::FieldValues values;
   for (const std::string& one : given) {
     const std::size_t divider = one.find('=');
-    if (divider == one.npos) {
+    if (divider == std::string::npos) {
       throw UsageError("--field: expected NAME=VALUE, found `" + one_line(one) + "`");
     }
     const std::string name = one.substr(0, divider);

@@ -105,7 +105,7 @@ class DeviceWait {
       const auto left =
           std::chrono::duration_cast<std::chrono::seconds>(give_up_ - Clock::now());
       std::fprintf(stderr, "jnd: waiting for the device, for %lld s at most: %s\n",
-                   static_cast<long long>(left.count() + 1), told_.c_str());
+                   static_cast<long long>(left.count()) + 1, told_.c_str());
     }
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }

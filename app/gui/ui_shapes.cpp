@@ -86,6 +86,8 @@ void Ui::image(const Rect& place, std::uintptr_t texture, std::string_view what)
   log_text(what);
   if (texture == 0) return;
   const auto [low, high] = corners(*this, place);
+  // OpenGL's number of it, which Dear ImGui hands on in a pointer that nobody follows.
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
   draw_list().AddImage(reinterpret_cast<ImTextureID>(texture), low, high, ImVec2(0, 1),
                        ImVec2(1, 0));
 }

@@ -119,7 +119,7 @@ fs::path write_power_shard(const fs::path& folder, const PowerDesign& design,
                                  {"shard", {shard.index + 1, shard.count}},
                                  {"design", to_json(design)},
                                  {"runs", std::move(all)}};
-  const fs::path file = folder / shard_file_name(shard);
+  fs::path file = folder / shard_file_name(shard);
   // The process's own name: another task may write the same shard again.
   const fs::path unfinished = file.string() + ".unfinished-" + std::to_string(::getpid());
   try {

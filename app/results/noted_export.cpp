@@ -1,7 +1,5 @@
 #include "app/results/noted_export.h"
 
-#include <utility>
-
 #include "analysis/export/export_options.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -17,7 +15,7 @@ std::string noted_export(const core::StudyStore& store, const std::filesystem::p
     note.sessions.push_back(row.session);
   }
   if (note.sessions.empty() || !core::is_free_place(out)) return "";
-  core::note_export(store.folder(), std::move(note));
+  core::note_export(store.folder(), note);
   return "";
 } catch (const core::Error& error) {
   return "the study does not remember that it was written to " + out.string() +

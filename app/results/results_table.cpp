@@ -61,7 +61,7 @@ std::string p_text(const std::optional<double>& p_value) {
 std::string published_text(const Estimate& estimate) {
   if (estimate.published_positive) return "> 0";
   if (!estimate.published) return "-";
-  const std::string value = analysis::shortest_words(*estimate.published);
+  std::string value = analysis::shortest_words(*estimate.published);
   if (!estimate.published_sd) return value;
   return value + " (sd " + analysis::shortest_words(*estimate.published_sd) + ")";
 }

@@ -370,12 +370,14 @@ void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
     second_ln += read(felt, block);
     ++looks;
   } while (person.looks_again(moment(block)));
-  first_ln /= looks;
-  second_ln /= looks;
-  const double answer =
-      asked == AnswerKind::kInterval
-          ? (person.says_thicker(second_ln, first_ln, moment(block)) ? 2.0 : 1.0)
-          : (person.says_different(first_ln, second_ln, moment(block)) ? 1.0 : 0.0);
+  double answer = 0.0;
+  if (asked == AnswerKind::kInterval) {
+    const bool second = person.says_thicker(second_ln / looks, first_ln / looks, moment(block));
+    answer = second ? 2.0 : 1.0;
+  } else {
+    answer =
+        person.says_different(first_ln / looks, second_ln / looks, moment(block)) ? 1.0 : 0.0;
+  }
   session_.answer(answer, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 

@@ -1,5 +1,8 @@
 #include "core/media/medium.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/require.h"
 
 namespace jnd::core {
@@ -7,17 +10,12 @@ namespace jnd::core {
 bool MediumAmounts::is_plain_damping() const noexcept {
   MediumAmounts rest = *this;
   rest.damping_n_s_per_m = 0.0;
-  for (const auto amount : kAmounts) {
-    if (rest.*amount != 0.0) return false;
-  }
-  return true;
+  return std::ranges::all_of(kAmounts, [&](auto amount) { return rest.*amount == 0.0; });
 }
 
 bool MediumAmounts::is_finite() const noexcept {
-  for (const auto amount : kAmounts) {
-    if (!std::isfinite(this->*amount)) return false;
-  }
-  return true;
+  return std::ranges::all_of(kAmounts,
+                             [&](auto amount) { return std::isfinite(this->*amount); });
 }
 
 MediumAmounts MediumAmounts::times(double factor) const noexcept {

@@ -59,7 +59,7 @@ bool is_free_place(const fs::path& place) {
   return !error && fs::is_directory(status) && fs::is_empty(place, error) && !error;
 }
 
-void note_export(const fs::path& folder, ExportNote note) {
+void note_export(const fs::path& folder, const ExportNote& note) {
   bring_study_up_to_date(folder);
   Database study(folder / "study.sqlite", Database::Mode::kReadWrite, Durability::kEveryCommit);
   Transaction transaction(study);

@@ -22,7 +22,7 @@ struct ExportNote {
 /// Remembers what is about to be written to a free place, so that a program which dies
 /// meanwhile has told. A study of an older layout is brought up to date. Throws `Error`, also
 /// for a study that cannot be written to. Not real time.
-void note_export(const std::filesystem::path& folder, ExportNote note);
+void note_export(const std::filesystem::path& folder, const ExportNote& note);
 
 /// All notes, as far as the folder (a study or a backup) knows, the last one written last.
 /// Throws `Error`. Not real time.

@@ -81,7 +81,7 @@ void copy_file_durably(const fs::path& source, const fs::path& target) {
 
 void remove_recording(const fs::path& file) {
   std::vector<fs::path> files = flight_records(file);
-  for (const char* ending : {"", "-wal", "-shm"}) files.push_back(file.string() + ending);
+  for (const char* ending : {"", "-wal", "-shm"}) files.emplace_back(file.string() + ending);
   bool removed = false;
   for (const fs::path& one : files) {
     std::error_code error;

@@ -20,7 +20,7 @@ constexpr const char* kMark = ".fault-";
 /// The shortest text that is this number, whatever the locale.
 std::string text_of(double value) {
   std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
 }
 
@@ -54,7 +54,7 @@ fs::path write_flight_record(const fs::path& recording_file,
   put_line(table, sample_column_names(columns));
   for (const Sample& sample : samples) put_line(table, sample_values(sample, columns));
 
-  const fs::path file = file_for(recording_file, samples.back().tick);
+  fs::path file = file_for(recording_file, samples.back().tick);
   if (fs::exists(file)) return file;
   fs::path unfinished = file;
   unfinished += ".unfinished";

@@ -254,7 +254,7 @@ void MujocoWorld::sense_torques() noexcept {
   }
   for (int row = 0; row < data_->nefc; ++row) {
     if (data_->efc_type[row] != mjCNSTR_FRICTION_DOF) continue;
-    const auto joint =
+    const auto* const joint =
         std::find(addresses_.dof.begin(), addresses_.dof.end(), data_->efc_id[row]);
     if (joint != addresses_.dof.end()) {
       torque_n_m[joint - addresses_.dof.begin()] += data_->efc_force[row];
@@ -267,7 +267,7 @@ void MujocoWorld::let_go_where_pulled() noexcept {
   magnet_force_n_ = core::zero_vectors();
   for (int row = 0; row + 2 < data_->nefc; ++row) {
     if (data_->efc_type[row] != mjCNSTR_EQUALITY) break;  // Equalities come first.
-    const auto magnet =
+    const auto* const magnet =
         std::find(addresses_.magnet.begin(), addresses_.magnet.end(), data_->efc_id[row]);
     if (magnet == addresses_.magnet.end()) continue;
     const auto point = static_cast<int>(magnet - addresses_.magnet.begin());

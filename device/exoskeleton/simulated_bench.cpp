@@ -58,7 +58,7 @@ JointVector SimulatedBench::position_rad() const {
 Eigen::Vector3d SimulatedBench::pull_direction(FingerPose pose) const {
   const Eigen::Matrix3d& jacobian =
       exoskeleton_.kinematics().finger_jacobian(parameters_.point);
-  const Eigen::Vector3d motion = jacobian.col(joint_of(pose)).normalized();
+  Eigen::Vector3d motion = jacobian.col(joint_of(pose)).normalized();
   switch (pose) {
     case FingerPose::k0:
     case FingerPose::k90:

@@ -66,8 +66,8 @@ fs::path device_key_file(std::string_view name) {
       });
   if (!is_name) {
     throw core::Error(
-        "device key: expected a name of letters, digits, \"-\" and \"_\", found \"" +
-        std::string(name.substr(0, 80)) + "\"");
+        R"(device key: expected a name of letters, digits, "-" and "_", found ")" +
+        std::string(name.substr(0, 80)) + '"');
   }
   const fs::path folder = device_keys_folder();
   if (folder.empty()) {

@@ -83,7 +83,7 @@ std::vector<std::string> parted(const std::string& text, char divider) {
   std::vector<std::string> parts;
   if (text.empty()) return parts;
   std::size_t begin = 0;
-  for (std::size_t end = 0; end != text.npos; begin = end + 1) {
+  for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
     end = text.find(divider, begin);
     parts.push_back(text.substr(begin, end - begin));
   }
@@ -143,7 +143,7 @@ Cell cell_from_text(const Study& study, const std::string& text) {
   Cell cell;
   for (const std::string& assignment : parted(text, ';')) {
     const std::size_t divider = assignment.find('=');
-    if (divider == assignment.npos) refuse(study, text);
+    if (divider == std::string::npos) refuse(study, text);
     cell.push_back(
         {assignment.substr(0, divider), parted(assignment.substr(divider + 1), ',')});
   }

@@ -80,7 +80,6 @@ Perceiver::Perceiver(const Laboratory& laboratory, const Person& person,
       seed_(session_seed),
       weber_fraction_(person.weber_fraction),
       free_space_(laboratory.device.mechanical_viscosity_n_s_per_m),
-      threshold_(1e-6),
       standard_(laboratory.perceiver.standard_damping_n_s_per_m) {
   if (feels == Feels::kDamping) return;
   weber_fraction_ = person.stiffness_weber_fraction;

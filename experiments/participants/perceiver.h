@@ -125,9 +125,9 @@ class Perceiver {
   Person person_;
   std::uint64_t seed_;
   double weber_fraction_;
-  double free_space_;  ///< What is felt there, in the unit of what is felt.
-  double threshold_;   ///< Anything less feels like it.
-  double standard_;    ///< What a magnitude of 1 is over free space.
+  double free_space_;        ///< What is felt there, in the unit of what is felt.
+  double threshold_ = 1e-6;  ///< Anything less feels like it.
+  double standard_;          ///< What a magnitude of 1 is over free space.
 };
 
 }  // namespace jnd::experiments

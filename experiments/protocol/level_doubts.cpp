@@ -32,8 +32,8 @@ class LevelDoubts : StudyCheck {
     const json& levels = list(block, key);
     const bool are_numbers = std::ranges::all_of(levels, &json::is_number);
     if (!are_numbers || levels.size() < 2) return;
-    const bool is_in_order = std::ranges::is_sorted(levels, std::less<json>()) ||
-                             std::ranges::is_sorted(levels, std::greater<json>());
+    const bool is_in_order = std::ranges::is_sorted(levels, std::less<>()) ||
+                             std::ranges::is_sorted(levels, std::greater<>());
     const std::string place = pointer + '/' + key;
     if (is_in_order && !has_two_kinds_of_commas(levels, place)) return;
     report(place, "expected levels in order, with a comma and a space between them, found " +

@@ -119,20 +119,20 @@ std::size_t behind_value_before(std::string_view text, std::size_t byte) {
   if (text[byte] == '"') {
     do {
       byte = text.rfind('"', byte - 1);
-    } while (byte != text.npos && byte > 0 && text[byte - 1] == '\\');
+    } while (byte != std::string_view::npos && byte > 0 && text[byte - 1] == '\\');
   } else if (text[byte] != '{' && text[byte] != '[') {
     (void)word_at(text, byte);
   }
-  const std::size_t last =
-      byte == text.npos || byte == 0 ? text.npos : text.find_last_not_of(" \t\r\n", byte - 1);
-  return last == text.npos ? byte : last + 1;
+  const std::size_t last = byte == std::string_view::npos || byte == 0
+                               ? std::string_view::npos
+                               : text.find_last_not_of(" \t\r\n", byte - 1);
+  return last == std::string_view::npos ? byte : last + 1;
 }
 
 /// What the library says went wrong, in the words of this program. `byte` is moved to where the
 /// author has to look.
 std::string worded(const std::string& what, std::string_view text, std::size_t& byte) {
-  const std::string not_utf8 =
-      "expected UTF-8, found a byte that is not; save the file as UTF-8";
+  std::string not_utf8 = "expected UTF-8, found a byte that is not; save the file as UTF-8";
   // Behind this are the author's own words.
   const std::string said = what.substr(0, what.find("; last read: '"));
   if (said.find("ill-formed UTF-8") != std::string::npos) return not_utf8;

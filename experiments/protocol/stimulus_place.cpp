@@ -30,7 +30,7 @@ std::string number_pointer(const json& value, const std::string& pointer,
            word(value, decider) != setting.medium;
   };
   for (const auto& [key, inner] : value.items()) {
-    const std::string here = pointer + '/' + pointer_token(key);
+    std::string here = pointer + '/' + pointer_token(key);
     // `viscosity_pa_s`, `reference_viscosity_pa_s`, `max_viscosity_pa_s`; a step is no
     // stimulus.
     if (key.ends_with(setting.quantity) && key.find("_step_") == std::string::npos &&
@@ -42,7 +42,7 @@ std::string number_pointer(const json& value, const std::string& pointer,
         }
       }
     }
-    const std::string found = number_pointer(inner, here, setting);
+    std::string found = number_pointer(inner, here, setting);
     if (!found.empty()) return found;
   }
   return "";
@@ -52,7 +52,7 @@ std::string number_pointer(const json& value, const std::string& pointer,
 
 std::string stimulus_pointer(const json& root, const std::string& stage_name,
                              const MediumSetting& setting) {
-  const std::string stage = stage_pointer(root, stage_name);
+  std::string stage = stage_pointer(root, stage_name);
   if (stage.empty() || setting.quantity.empty()) return stage;
   const std::string found = number_pointer(root.at(json::json_pointer(stage)), stage, setting);
   return found.empty() ? stage : found;

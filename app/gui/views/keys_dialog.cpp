@@ -52,7 +52,8 @@ bool draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
   Rect row = inside.take_bottom(44, 8);
   const float width = inside.width / static_cast<float>(columns);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    Rect place = {inside.x + width * static_cast<float>(i / used),
+    const std::size_t column = i / used;
+    Rect place = {inside.x + width * static_cast<float>(column),
                   inside.y + kLine * static_cast<float>(i % used), width - 12, kLine};
     ui.text(place.take_left(140, 12), lines[i].key,
             {.font = Font::kMono, .colour = Colour::kSoft});

@@ -1,6 +1,7 @@
 #include "app/gui/views/run_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/gui/views/layout.h"
@@ -34,8 +35,8 @@ std::string clock_words(double seconds) {
 }
 
 std::string about_words(double seconds) {
-  if (seconds < 55) return tr("{} s", static_cast<long>(seconds / 5 + 0.5) * 5);
-  return tr("{} min", static_cast<long>(seconds / 60 + 0.5));
+  if (seconds < 55) return tr("{} s", std::lround(seconds / 5) * 5);
+  return tr("{} min", std::lround(seconds / 60));
 }
 
 std::string in_quotes(std::string_view words) {
