@@ -4,7 +4,7 @@
 #include "analysis/charts/chart_parts.h"
 #include "analysis/charts/charts.h"
 #include "analysis/charts/magnitude_data.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace {

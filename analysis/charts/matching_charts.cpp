@@ -4,7 +4,7 @@
 #include "analysis/charts/chart_parts.h"
 #include "analysis/charts/charts.h"
 #include "analysis/results/magnitude_section.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {

@@ -10,7 +10,7 @@
 #include "analysis/charts/charts.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/fits/interval_order_fit.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/statistics/wilson_interval.h"
@@ -217,13 +217,15 @@ class PsychometricCharts {
 
   /// Where a curve reaches 84.13 %: no place of two orders that are drawn as their mean. One
   /// beyond the stimuli would stretch the axis until nothing else can be seen.
-  void add_weber_line(Chart& chart, const Curve& curve) const {
+  /// Whether there is one.
+  bool add_weber_line(Chart& chart, const Curve& curve) const {
     const double at = curve.pse * (1.0 + curve.weber_fraction);
-    if (curve.order_effect_ln != 0.0 || !(at <= set_.x.range.high)) return;
+    if (curve.order_effect_ln != 0.0 || !(at <= set_.x.range.high)) return false;
     chart.lines.push_back({.kind = ChartLine::Kind::kValue,
                            .at = at,
                            .until = core::standard_normal_cdf(1.0),
                            .label = "pse (1 + w)"});
+    return true;
   }
 
   void add_participant(OwnAnswers own) {
@@ -259,7 +261,7 @@ class PsychometricCharts {
     points.size = "num_trials";
     chart.series.push_back(std::move(points));
     add_reference(chart);
-    if (primary) add_weber_line(chart, *primary);
+    if (primary) (void)add_weber_line(chart, *primary);
     add_own_value(chart, own);
     set_.participants.push_back(std::move(chart));
   }
@@ -387,11 +389,11 @@ class PsychometricCharts {
     }
     chart.series.push_back(std::move(points));
     add_reference(chart);
-    if (person) add_weber_line(chart, *person);
+    const bool has_weber_line = person && add_weber_line(chart, *person);
     add_group_value(chart);
     set_.whole = WholeFigure{.name = file_word(block_.block) + "_psychometric",
                              .title = "Psychometric function, " + set_.heading,
-                             .caption = whole_caption(person, group, chart.lines.size() > 1),
+                             .caption = whole_caption(person, group, has_weber_line),
                              .thesis = "Fig. 5, D.6 and D.23",
                              .height_in = 3.7,
                              .has_key_above = true};

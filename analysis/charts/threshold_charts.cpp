@@ -5,7 +5,7 @@
 #include "analysis/charts/chart_parts.h"
 #include "analysis/charts/charts.h"
 #include "analysis/fits/same_different_fit.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/threshold_answers.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"

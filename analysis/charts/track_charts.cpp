@@ -2,7 +2,7 @@
 
 #include "analysis/charts/chart_parts.h"
 #include "analysis/charts/charts.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {

@@ -117,7 +117,7 @@ void keep_common(MagnitudeBlock& first, MagnitudeBlock& second) {
   second = kept(second, places_in_second);
 }
 
-std::vector<Means> telling(const std::vector<Means>& participants) {
+std::vector<Means> with_mean_above_zero(const std::vector<Means>& participants) {
   std::vector<Means> found;
   std::ranges::copy_if(participants, std::back_inserter(found), [](const Means& own) {
     return !own.empty() && own.rbegin()->first > 0.0;

@@ -54,7 +54,7 @@ struct MagnitudeBlock {
 void keep_common(MagnitudeBlock& first, MagnitudeBlock& second);
 
 /// Those who have a mean at an x > 0: the others say nothing of a power law.
-[[nodiscard]] std::vector<Means> telling(const std::vector<Means>& participants);
+[[nodiscard]] std::vector<Means> with_mean_above_zero(const std::vector<Means>& participants);
 
 /// Mean over the participants drawn, at each x that one of them has.
 [[nodiscard]] Means group_means(const std::vector<Means>& participants,

@@ -3,7 +3,7 @@
 
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "core/hand.h"
 #include "core/joints.h"
 

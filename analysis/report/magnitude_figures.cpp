@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/charts/magnitude_data.h"
 #include "analysis/charts/box_plot.h"
+#include "analysis/charts/magnitude_data.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/statistics/comparison.h"
 
 namespace jnd::analysis {

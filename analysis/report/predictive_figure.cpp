@@ -5,7 +5,7 @@
 #include <map>
 
 #include "analysis/report/plot_parts.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {

@@ -1,7 +1,7 @@
 #include "analysis/report/recording_conditions.h"
 
 #include "analysis/report/plot_parts.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {

@@ -2,7 +2,7 @@
 
 #include "analysis/report/report_results.h"
 #include "analysis/results/discrimination_own_values.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace {

@@ -3,7 +3,7 @@
 #include "analysis/report/report.h"
 #include "analysis/report/report_methods.h"
 #include "analysis/report/report_results.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace {

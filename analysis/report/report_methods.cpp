@@ -7,7 +7,7 @@
 
 #include "analysis/data/stored_studies.h"
 #include "analysis/report/method_words.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
 #include "core/storage/sha256.h"

@@ -3,7 +3,7 @@
 #include "analysis/data/presentation_use.h"
 #include "analysis/report/explored_media.h"
 #include "analysis/report/report_results.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "analysis/report/report_methods.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {

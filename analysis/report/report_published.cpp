@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "analysis/report/report_results.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace {

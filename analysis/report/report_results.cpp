@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "analysis/report/report_published.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/test_families.h"
 
 namespace jnd::analysis {

@@ -2,7 +2,7 @@
 
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace {

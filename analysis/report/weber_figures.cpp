@@ -6,7 +6,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/discrimination_own_values.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {

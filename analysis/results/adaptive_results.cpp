@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
 #include "core/psychometric_function.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::analysis {

@@ -6,7 +6,7 @@
 
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/fits/psychometric_warnings.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
 #include "experiments/study/media.h"
 

@@ -26,7 +26,7 @@ constexpr Kind kProduction = {fit_production, fit_log_production};
 void name_without_logarithms(ResultsSection& section, const std::string& name,
                              const MagnitudeBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i) {
-    if (telling({block.means[i]}).empty() || !block.log_means[i].empty()) continue;
+    if (with_mean_above_zero({block.means[i]}).empty() || !block.log_means[i].empty()) continue;
     section.excluded.push_back(
         {block.names[i], name + ".geometric: every answer is 0, which has no logarithm"});
   }
@@ -36,7 +36,7 @@ void name_without_logarithms(ResultsSection& section, const std::string& name,
 void name_without_intensities(ResultsSection& section, const std::string& name,
                               const MagnitudeBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i) {
-    if (!telling({block.means[i]}).empty()) continue;
+    if (!with_mean_above_zero({block.means[i]}).empty()) continue;
     section.excluded.push_back(
         {block.names[i], name + ": no power law, no answer at an intensity above 0"});
   }
@@ -49,8 +49,8 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
                    const ResultsOptions& options) {
   const std::string& name = design.block;
   const std::string zeros = block.num_zeros > 0 ? std::string(", ") + kZeroRule : "";
-  const std::vector<Means> log_means = telling(block.log_means);
-  const std::vector<Means> without_zeros = telling(block.log_means_without_zeros);
+  const std::vector<Means> log_means = with_mean_above_zero(block.log_means);
+  const std::vector<Means> without_zeros = with_mean_above_zero(block.log_means_without_zeros);
   (void)add_power_law(
       section, name + ".geometric",
       "line through the logarithms of the geometric means" + zeros, log_means.size(),
@@ -74,7 +74,7 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
        .unit = "1",
        .meaning = std::string("answers of 0 where one above 0 was expected; for logarithms: ") +
                   kZeroRule +
-                  (log_means.size() < telling(block.means).size()
+                  (log_means.size() < with_mean_above_zero(block.means).size()
                        ? ", and nothing of who has none above 0"
                        : ""),
        .n = static_cast<int>(block.size())});
@@ -247,7 +247,7 @@ std::vector<Produced> produced(const Means& log_means_at_target) {
 
 void add_intensity_on_magnitude(ResultsSection& section, const std::string& name,
                                 const MagnitudeBlock& block, const ResultsOptions& options) {
-  const std::vector<Means> log_means = telling(block.log_means);
+  const std::vector<Means> log_means = with_mean_above_zero(block.log_means);
   (void)add_power_law(
       section, name + ".intensity_on_magnitude",
       "regression of I on S, in logarithms: what was answered is fitted, not what was asked",
@@ -270,7 +270,7 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
   ResultsSection section{.name = name, .excluded = block.excluded};
   if (block.size() == 0) return section;
   name_without_intensities(section, name, block);
-  const std::vector<Means> means = telling(block.means);
+  const std::vector<Means> means = with_mean_above_zero(block.means);
   const PowerFit whole = add_power_law(
       section, name, "power law through the group means", means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
 #include "core/require.h"
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "analysis/results/discrimination_group.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/threshold_results.h"
 
 namespace jnd::analysis {

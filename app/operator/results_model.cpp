@@ -14,7 +14,7 @@
 #include "analysis/data/study_data.h"
 #include "analysis/fits/bounded_interval.h"
 #include "analysis/results/block_words.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"

@@ -34,38 +34,44 @@ std::string own_words(Own what, const std::string& language) {
 /// The sentences of a trial for two people, and for one alone.
 struct TrialSentences {
   const char *present_reference, *present_fluid, *present_surface, *resting;
-  const char *reference, *back_to_fluid, *back_to_surface, *production, *estimation, *number;
-  const char *comparison, *present_first, *first, *second;
+  const char *while_feeling_reference, *back_to_fluid, *back_to_surface, *production,
+      *estimation, *number;
+  const char *comparison, *present_first, *while_feeling_first, *while_feeling_second;
 };
 constexpr TrialSentences kForTwo = {
-    tr_later("Show the fist, then present the reference."),
-    tr_later("Show one finger, then present the fluid."),
-    tr_later("Show one finger, then present the surface."),
-    tr_later("The hand rests in free space."),
-    tr_later("When the participant is ready, show one finger and present the test."),
-    tr_later("Go back to a fluid when the participant is ready."),
-    tr_later("Go back to a surface when the participant is ready."),
-    tr_later("Follow the participant's signs until it matches."),
-    tr_later("At the ready sign, ask; type the percent and press Enter."),
-    tr_later("At the ready sign, ask; type the number and press Enter."),
-    tr_later("Show one finger. At the ready sign, ask:"),
-    tr_later("Show one finger, then present the first."),
-    tr_later("When the participant is ready, show two fingers and present the second."),
-    tr_later("Show two fingers. At the ready sign, ask:")};
-constexpr TrialSentences kForOne = {tr_later("Present the reference."),
-                                    tr_later("Present the fluid."),
-                                    tr_later("Present the surface."),
-                                    tr_later("A moment of free space."),
-                                    tr_later("Feel the reference, then present the test."),
-                                    tr_later("Go back to a fluid when you are ready."),
-                                    tr_later("Go back to a surface when you are ready."),
-                                    tr_later("Lower or raise it until it feels right."),
-                                    tr_later("Feel it, type the percent and press Enter."),
-                                    tr_later("Feel it, type the number and press Enter."),
-                                    tr_later("Feel the test, then answer:"),
-                                    tr_later("Present the first."),
-                                    tr_later("Feel the first, then present the second."),
-                                    tr_later("Feel the second, then answer:")};
+    .present_reference = tr_later("Show the fist, then present the reference."),
+    .present_fluid = tr_later("Show one finger, then present the fluid."),
+    .present_surface = tr_later("Show one finger, then present the surface."),
+    .resting = tr_later("The hand rests in free space."),
+    .while_feeling_reference =
+        tr_later("When the participant is ready, show one finger and present the test."),
+    .back_to_fluid = tr_later("Go back to a fluid when the participant is ready."),
+    .back_to_surface = tr_later("Go back to a surface when the participant is ready."),
+    .production = tr_later("Follow the participant's signs until it matches."),
+    .estimation = tr_later("At the ready sign, ask; type the percent and press Enter."),
+    .number = tr_later("At the ready sign, ask; type the number and press Enter."),
+    .comparison = tr_later("Show one finger. At the ready sign, ask:"),
+    .present_first = tr_later("Show one finger, then present the first."),
+    .while_feeling_first =
+        tr_later("When the participant is ready, show two fingers and present the second."),
+    .while_feeling_second = tr_later("Show two fingers. At the ready sign, ask:"),
+};
+constexpr TrialSentences kForOne = {
+    .present_reference = tr_later("Present the reference."),
+    .present_fluid = tr_later("Present the fluid."),
+    .present_surface = tr_later("Present the surface."),
+    .resting = tr_later("A moment of free space."),
+    .while_feeling_reference = tr_later("Feel the reference, then present the test."),
+    .back_to_fluid = tr_later("Go back to a fluid when you are ready."),
+    .back_to_surface = tr_later("Go back to a surface when you are ready."),
+    .production = tr_later("Lower or raise it until it feels right."),
+    .estimation = tr_later("Feel it, type the percent and press Enter."),
+    .number = tr_later("Feel it, type the number and press Enter."),
+    .comparison = tr_later("Feel the test, then answer:"),
+    .present_first = tr_later("Present the first."),
+    .while_feeling_first = tr_later("Feel the first, then present the second."),
+    .while_feeling_second = tr_later("Feel the second, then answer:"),
+};
 
 /// What is told of the answer before, in front of what is said anyway.
 void add_feedback(SessionView& view) {
@@ -108,7 +114,7 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
   if (trial.interval == "reference") {
     view.heading = tr("Reference");
     view.sign = HandSign::kFist;
-    view.sentence = tr(sentences.reference);
+    view.sentence = tr(sentences.while_feeling_reference);
     view.participant_text.clear();
     if (trial.modulus_value) {
       view.participant_text = "= " + number_words(*trial.modulus_value);
@@ -117,12 +123,12 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
   } else if (trial.interval == "first") {
     view.heading = tr("First interval");
     view.sign = HandSign::kOneFinger;
-    view.sentence = tr(sentences.first);
+    view.sentence = tr(sentences.while_feeling_first);
     view.participant_text.clear();
   } else if (trial.interval == "second") {
     view.heading = tr("Second interval");
     view.sign = HandSign::kTwoFingers;
-    view.sentence = tr(sentences.second);
+    view.sentence = tr(sentences.while_feeling_second);
     view.say = trial.question;
   } else if (trial.interval == "free_space") {
     view.heading = tr("Free space");

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "analysis/fits/bounded_interval.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "analysis/results/test_families.h"
 #include "app/results/published_words.h"
 #include "app/results/results_output.h"

@@ -8,7 +8,7 @@
 namespace jnd::experiments {
 
 /// How many items of each label there are to be put in order, and under which constraints;
-/// labels are indices. For `constrained_shuffle`, which words and checks it.
+/// labels are indices. For `mixed_order`, which words and checks it.
 struct LabelProblem {
   std::vector<int> counts;         ///< One for each label, >= 1.
   std::vector<bool> may_be_first;  ///< One for each label.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/require.h"
-#include "experiments/order/constrained_shuffle.h"
+#include "experiments/order/mixed_order.h"
 #include "experiments/order/square_rows.h"
 
 namespace jnd::experiments {
@@ -77,7 +77,7 @@ Order mixed(const StimulusOrder& rule, const std::vector<double>& stimuli, int n
   for (std::size_t i = 0; i < stimuli.size(); ++i) {
     if (!may_be_first(rule, stimuli[i])) constraints.not_first.push_back(std::to_string(i));
   }
-  Order order = constrained_shuffle(labels, constraints, stream).order;
+  Order order = mixed_order(labels, constraints, stream).order;
   for (std::size_t& item : order) item %= stimuli.size();
   return order;
 }

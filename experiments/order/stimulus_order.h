@@ -17,7 +17,7 @@ namespace jnd::experiments {
 ///
 /// Shuffled repetitions that keep a distance are drawn one after the other, each place among
 /// those that the repetition before leaves: every order of the block that keeps to the
-/// constraints is equally likely. Mixed ones are drawn by `constrained_shuffle`. A square is
+/// constraints is equally likely. Mixed ones are drawn by `mixed_order`. A square is
 /// not drawn: repetition r takes the row r after the participant's first.
 ///
 /// Throws `Error` if no order can keep to the constraints. Not real time.

@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "core/media/force_map.h"
-#include "experiments/protocol/field_rules.h"
 #include "experiments/protocol/label_rules.h"
 #include "experiments/protocol/order_rules.h"
+#include "experiments/protocol/participant_field_rules.h"
 #include "experiments/protocol/session_rules.h"
 #include "experiments/protocol/stage_tables.h"
 #include "experiments/protocol/standard_rules.h"
@@ -342,7 +342,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_label_rules(file, problems);
   check_task_rules(file, problems);
   check_order_rules(file, problems);
-  check_field_rules(file, problems);
+  check_participant_field_rules(file, problems);
 }
 
 }  // namespace jnd::experiments

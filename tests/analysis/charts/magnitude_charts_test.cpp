@@ -5,7 +5,7 @@
 
 #include "analysis/charts/charts.h"
 #include "analysis/hand_made_study.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace magnitude_charts_test {

@@ -7,7 +7,7 @@
 #include "analysis/hand_made_study.h"
 #include "analysis/report/chart_figures.h"
 #include "analysis/report/figures.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
 namespace discrimination_figures_test {

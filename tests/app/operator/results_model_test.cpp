@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/hand_made_study.h"
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 #include "app/operator/simulated_study.h"
 #include "app/results/results_output.h"
 #include "core/error.h"

@@ -1,4 +1,4 @@
-#include "experiments/protocol/field_rules.h"
+#include "experiments/protocol/participant_field_rules.h"
 
 #include <algorithm>
 #include <map>
@@ -87,7 +87,8 @@ class FieldRules : StudyCheck {
 
 }  // namespace
 
-void check_field_rules(const LocatedJson& file, std::vector<StudyProblem>& problems) {
+void check_participant_field_rules(const LocatedJson& file,
+                                   std::vector<StudyProblem>& problems) {
   FieldRules(file, problems).run();
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/order/constrained_shuffle.h"
+#include "experiments/order/mixed_order.h"
 
 #include <algorithm>
 #include <map>
@@ -119,9 +119,9 @@ bool meets(const std::vector<std::string>& labels, const OrderConstraints& const
   return true;
 }
 
-ConstrainedOrder constrained_shuffle(const std::vector<std::string>& labels,
-                                     const OrderConstraints& constraints,
-                                     core::RandomStream& stream, const ShuffleEffort& effort) {
+ConstrainedOrder mixed_order(const std::vector<std::string>& labels,
+                             const OrderConstraints& constraints, core::RandomStream& stream,
+                             const ShuffleEffort& effort) {
   require_constraints(labels, constraints);
   if (labels.empty()) return {};
   Places places_of;

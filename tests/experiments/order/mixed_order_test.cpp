@@ -1,4 +1,4 @@
-#include "experiments/order/constrained_shuffle.h"
+#include "experiments/order/mixed_order.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 namespace jnd::experiments {
-namespace constrained_shuffle_test {
+namespace mixed_order_test {
 
 using Labels = std::vector<std::string>;
 
@@ -41,7 +41,7 @@ Labels in_order(const Labels& labels, const ConstrainedOrder& order) {
 ConstrainedOrder shuffled(const Labels& labels, const OrderConstraints& constraints, int seed,
                           const ShuffleEffort& effort = {}) {
   core::RandomStream stream(seed, "constrained_shuffle_test");
-  return constrained_shuffle(labels, constraints, stream, effort);
+  return mixed_order(labels, constraints, stream, effort);
 }
 
 /// Every order of the labels that meets the constraints, by trying all.
@@ -77,7 +77,7 @@ TEST(OrderConstraints, AreMetAsTheirFieldsSay) {
   EXPECT_TRUE(meets({}, {.max_in_a_row = 1, .min_distance = 2}));
 }
 
-TEST(ConstrainedShuffle, MeetsItsConstraintsByEveryMethod) {
+TEST(MixedOrder, MeetsItsConstraintsByEveryMethod) {
   const Labels labels = repeated(5, 4);
   const OrderConstraints several[] = {{.max_in_a_row = 2, .not_first = {"0"}},
                                       {.max_in_a_row = 1},
@@ -96,7 +96,7 @@ TEST(ConstrainedShuffle, MeetsItsConstraintsByEveryMethod) {
   }
 }
 
-TEST(ConstrainedShuffle, SaysByWhichMethodAnOrderWasFound) {
+TEST(MixedOrder, SaysByWhichMethodAnOrderWasFound) {
   const Labels labels = repeated(5, 4);
   EXPECT_EQ(shuffled(labels, {}, 1).method, OrderMethod::kRejection);
   EXPECT_EQ(shuffled(labels, {.min_distance = 4}, 1).method, OrderMethod::kCounting);
@@ -106,7 +106,7 @@ TEST(ConstrainedShuffle, SaysByWhichMethodAnOrderWasFound) {
   EXPECT_TRUE(shuffled(labels, {.min_distance = 4}, 1).is_uniform());
 }
 
-TEST(ConstrainedShuffle, CountsTheStudiesOfTheField) {
+TEST(MixedOrder, CountsTheStudiesOfTheField) {
   // 8 stimuli of 5, 40 stimuli of 2, two conditions of 100: all uniform, none by search.
   EXPECT_TRUE(shuffled(repeated(8, 5), {.min_distance = 3}, 1).is_uniform());
   EXPECT_TRUE(shuffled(repeated(8, 5), {.min_distance = 6}, 1).is_uniform());
@@ -123,7 +123,7 @@ double chi_square(const Labels& labels, const OrderConstraints& constraints,
   const std::size_t num_orders = drawn.size();
   core::RandomStream stream(3, "chi_square");
   for (int i = 0; i < num_draws; ++i) {
-    const auto order = constrained_shuffle(labels, constraints, stream, effort);
+    const auto order = mixed_order(labels, constraints, stream, effort);
     ++drawn[in_order(labels, order)];
   }
   EXPECT_EQ(drawn.size(), num_orders);
@@ -133,7 +133,7 @@ double chi_square(const Labels& labels, const OrderConstraints& constraints,
   return sum / expected;
 }
 
-TEST(ConstrainedShuffle, IsUniformByRejectionAndByCounting) {
+TEST(MixedOrder, IsUniformByRejectionAndByCounting) {
   for (const ShuffleEffort& effort : {kRejectOnly, kCountOnly}) {
     // 38 orders, 37 degrees of freedom: the 99.9th percentile is 69.3.
     EXPECT_EQ(all_that_meet(labels_of("aaabbcc"), {.max_in_a_row = 1}).size(), 38u);
@@ -148,7 +148,7 @@ TEST(ConstrainedShuffle, IsUniformByRejectionAndByCounting) {
   }
 }
 
-TEST(ConstrainedShuffle, DrawsTheItemsOfALabelInAnyOrder) {
+TEST(MixedOrder, DrawsTheItemsOfALabelInAnyOrder) {
   const Labels labels = labels_of("aaab");
   for (const ShuffleEffort& effort : {kRejectOnly, kCountOnly, kSearchOnly}) {
     std::set<std::vector<std::size_t>> seen;
@@ -159,7 +159,7 @@ TEST(ConstrainedShuffle, DrawsTheItemsOfALabelInAnyOrder) {
   }
 }
 
-TEST(ConstrainedShuffle, FindsAnOrderExactlyWhenThereIsOne) {
+TEST(MixedOrder, FindsAnOrderExactlyWhenThereIsOne) {
   core::RandomStream stream(9, "problems");
   int num_feasible = 0;
   constexpr int kNumProblems = 300;
@@ -181,7 +181,7 @@ TEST(ConstrainedShuffle, FindsAnOrderExactlyWhenThereIsOne) {
   EXPECT_LT(num_feasible, kNumProblems - 50);
 }
 
-TEST(ConstrainedShuffle, SaysWhyNoOrderCanMeetItsConstraints) {
+TEST(MixedOrder, SaysWhyNoOrderCanMeetItsConstraints) {
   EXPECT_EQ(error_of(labels_of("aaaab"), {.max_in_a_row = 1}),
             "order.max_in_a_row: expected 3 items or more between those of `a`, which stands 4 "
             "times, 1 in a row at most, found 1; no order can meet this");
@@ -203,7 +203,7 @@ TEST(ConstrainedShuffle, SaysWhyNoOrderCanMeetItsConstraints) {
   EXPECT_THAT(error_of(labels_of("ab"), {.min_distance = 0}), testing::HasSubstr("1 or more"));
 }
 
-TEST(ConstrainedShuffle, StaysAsItIsForAFixedSeed) {
+TEST(MixedOrder, StaysAsItIsForAFixedSeed) {
   // A study's orders must not change with the program: these were drawn when it was written.
   const Labels labels = labels_of("aabbccd");
   const OrderConstraints constraints = {.min_distance = 2, .not_first = {"d"}};
@@ -220,11 +220,11 @@ TEST(ConstrainedShuffle, StaysAsItIsForAFixedSeed) {
   EXPECT_EQ(letters(kSearchOnly), "cadbabc");
 }
 
-TEST(ConstrainedShuffle, OrdersNoItemsAndOne) {
+TEST(MixedOrder, OrdersNoItemsAndOne) {
   EXPECT_TRUE(shuffled({}, {.max_in_a_row = 1, .min_distance = 3}, 1).order.empty());
   EXPECT_EQ(shuffled({"a"}, {.max_in_a_row = 1, .min_distance = 3}, 1, kCountOnly).order,
             (std::vector<std::size_t>{0}));
 }
 
-}  // namespace constrained_shuffle_test
+}  // namespace mixed_order_test
 }  // namespace jnd::experiments

@@ -51,9 +51,9 @@ struct ShuffleEffort {
 ///
 /// Throws `Error` if a constraint is none, if no order can meet them (by counting places, or by
 /// having gone through all), or if none was found. Not real time.
-[[nodiscard]] ConstrainedOrder constrained_shuffle(const std::vector<std::string>& labels,
-                                                   const OrderConstraints& constraints,
-                                                   core::RandomStream& stream,
-                                                   const ShuffleEffort& effort = {});
+[[nodiscard]] ConstrainedOrder mixed_order(const std::vector<std::string>& labels,
+                                           const OrderConstraints& constraints,
+                                           core::RandomStream& stream,
+                                           const ShuffleEffort& effort = {});
 
 }  // namespace jnd::experiments

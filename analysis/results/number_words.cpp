@@ -1,4 +1,4 @@
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 #include <algorithm>
 #include <array>

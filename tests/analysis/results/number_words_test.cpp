@@ -1,11 +1,11 @@
-#include "analysis/results/report_words.h"
+#include "analysis/results/number_words.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 namespace jnd::analysis {
-namespace report_words_test {
+namespace number_words_test {
 
 TEST(ReportWords, ANumberHasFourSignificantDigits) {
   EXPECT_EQ(number_words(0.69741), "0.6974");
@@ -67,5 +67,5 @@ TEST(ReportWords, TimesAreThoseOfPeople) {
   EXPECT_EQ(date_words(1'542'000'000'000'000'000), "2018-11-12");
 }
 
-}  // namespace report_words_test
+}  // namespace number_words_test
 }  // namespace jnd::analysis
