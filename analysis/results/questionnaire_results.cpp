@@ -1,4 +1,4 @@
-#include "analysis/results/questionnaire_results.h"
+#include "analysis/results/study_sections.h"
 
 #include <algorithm>
 #include <charconv>
@@ -173,7 +173,8 @@ void name_missing(ResultsSection& section, const StudyData& data) {
 
 }  // namespace
 
-ResultsSection questionnaire_results(const StudyData& data) {
+std::optional<ResultsSection> questionnaire_results(const StudyData& data) {
+  if (data.items.empty()) return std::nullopt;
   ResultsSection section{.name = "questionnaires"};
   for (const QuestionnaireItem& item : data.items) {
     add_item(section, item, answers_to(data, item));

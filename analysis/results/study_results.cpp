@@ -9,7 +9,7 @@
 #include "analysis/results/missing_values.h"
 #include "analysis/results/primary_results.h"
 #include "analysis/results/published_comparison.h"
-#include "analysis/results/questionnaire_results.h"
+#include "analysis/results/study_sections.h"
 #include "analysis/results/test_families.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/results/trial_losses.h"
@@ -34,26 +34,6 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
     sections.push_back(interval_results(data, block));
   }
   if (has_catch_trials(data, block)) sections.push_back(catch_results(data, block));
-}
-
-/// How many trials everybody practised, how many of the last ones were right, and whether that
-/// was enough.
-ResultsSection practice_results(const StudyData& data) {
-  ResultsSection section{.name = "practice"};
-  for (const PracticeRun& run : data.practice) {
-    const auto add = [&](const std::string& name, double value, const std::string& problem) {
-      section.participants.push_back({run.participant,
-                                      run.block + "." + name,
-                                      problem.empty() ? std::optional(value) : std::nullopt,
-                                      {},
-                                      problem});
-    };
-    add("num_trials", run.num_trials, "");
-    add("num_judged", run.num_judged, run.problem);
-    add("num_correct", run.num_correct, run.problem);
-    add("criterion_met", run.criterion_met ? 1.0 : 0.0, run.problem);
-  }
-  return section;
 }
 
 /// The laboratory names an estimate alone, or with its study before a slash where two studies
@@ -139,8 +119,9 @@ StudyResults results_of(const StudyData& data, const Published& published,
       !exploratory.estimates.empty() || !exploratory.comparisons.empty()) {
     results.sections.push_back(std::move(exploratory));
   }
-  if (!data.practice.empty()) results.sections.push_back(practice_results(data));
-  if (!data.items.empty()) results.sections.push_back(questionnaire_results(data));
+  for (const auto section_of : kStudySections) {
+    if (auto section = section_of(data)) results.sections.push_back(std::move(*section));
+  }
 
   caution_of_inverted(results, data);
   explain_missing(results);

@@ -1,4 +1,4 @@
-#include "analysis/results/questionnaire_results.h"
+#include "analysis/results/study_sections.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ class Answers {
     }
     return *this;
   }
-  [[nodiscard]] ResultsSection results() const { return questionnaire_results(data_); }
+  [[nodiscard]] ResultsSection results() const { return questionnaire_results(data_).value(); }
 
  private:
   StudyData data_;
@@ -117,7 +117,7 @@ TEST(QuestionnaireResults, AScaleWithoutABetterEndIsToldAsItWasAsked) {
   data.items = items;
   data.participants.push_back({.participant = "P01"});
   data.participants.back().answers.push_back({.stage = "form", .item = "side", .answer = "2"});
-  const ResultsSection section = questionnaire_results(data);
+  const ResultsSection section = questionnaire_results(data).value();
   const Estimate& mean = *find_estimate(section, "questionnaire.side");
   EXPECT_EQ(mean.value, 2.0) << "not turned round";
   EXPECT_EQ(mean.meaning, "mean step from 1, “left”, to 7, “right”: Which side?");
@@ -148,7 +148,7 @@ TEST(QuestionnaireResults, TheTableOfTheThesisComesOutAsPrinted) {
           {.stage = "form", .item = name, .answer = std::to_string(printed)});
     }
   }
-  const ResultsSection section = questionnaire_results(data);
+  const ResultsSection section = questionnaire_results(data).value();
   EXPECT_NEAR(value_of(section, "questionnaire.safety"), 9.69, 0.005);
   EXPECT_NEAR(value_of(section, "questionnaire.safety.sd"), 0.48, 0.005);
   EXPECT_NEAR(value_of(section, "questionnaire.freedom"), 7.00, 0.005);

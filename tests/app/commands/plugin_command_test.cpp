@@ -58,6 +58,16 @@ TEST_F(PluginCommandTest, AWholeStudyRunsThroughTheExample) {
   EXPECT_EQ(results.exit_code, 0) << results.err;
 }
 
+TEST_F(PluginCommandTest, TheDiscriminationOfTheThesisRunsThroughTheExample) {
+  const ProgramOutcome outcome =
+      jnd({"run", "viscosity_discrimination", "--study", "d.study", "--participant", "P01",
+           "--seed", "7", "--headless", "--device", "plugin:example:simulated"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(opened("d.study").completed(1));
+  EXPECT_EQ(opened("d.study").trials(1).size(), 80U);
+  EXPECT_EQ(jnd({"verify", "d.study"}).exit_code, 0);
+}
+
 TEST_F(PluginCommandTest, ASessionSurvivesTheDeathOfTheDriver) {
   std::vector<std::string> words = run_words("plugin:example:simulated");
   words.emplace_back("--acknowledge");

@@ -61,8 +61,9 @@ class ReferenceDevice : public CommandTest {
   }
 
   /// False where this machine lacks what it takes.
-  bool start(const std::string& language, std::vector<std::string> words = {}) {
-    words.insert(words.begin(), {"--port", "0"});
+  bool start(const std::string& language, std::vector<std::string> words = {},
+             const std::string& port = "0") {
+    words.insert(words.begin(), {"--port", port});
     if (language == "python") {
       words.insert(words.begin(), reference("python_device.py").string());
       device_.emplace(words, other("python3"));
@@ -90,6 +91,29 @@ class ReferenceDevice : public CommandTest {
   /// What `jnd device-check` finds of a device that nobody uses.
   ProgramOutcome checked(const std::string& device) { return jnd({"device-check", device}); }
 
+  /// The shipped study, with fewer trials: in real time all of them take seven minutes.
+  void write_short_tour() {
+    nlohmann::json tour = nlohmann::json::parse(
+        std::ifstream(test_support::source_folder() / "protocols/short_tour.json"));
+    for (nlohmann::json& medium : tour["stages"][0]["media"]) medium["duration_s"] = 0.5;
+    tour["stages"][1]["scale"] = {1};
+    tour["stages"][2]["target_percent"] = {50};
+    tour["stages"][2]["coarse_step_scale"] = 4;
+    tour["stages"][2]["fine_step_scale"] = 2;
+    tour["stages"][3]["viscosity_pa_s"] = {3, 21};
+    tour["stages"][3]["repetitions"] = 1;
+    test_support::write_file(path("short_tour.json"), tour.dump());
+  }
+  /// Goes on until the session is over. A machine that is too busy for real time interrupts a
+  /// session, and may find the connection too bad to go on at once; a wrong device would never
+  /// come to the end.
+  ProgramOutcome resumed(ProgramOutcome ended) {
+    for (int i = 0; i < 20 && (ended.exit_code == 1 || ended.exit_code == 3); ++i) {
+      ended = jnd({"resume", "tour.study", "--headless", "--realtime"});
+    }
+    return ended;
+  }
+
   std::optional<RunningProgram> device_;
   std::string place_;
 };
@@ -108,11 +132,18 @@ class EachReferenceDevice
       words = {"--key", key_file_};
     }
     if (!start(language, words)) return false;
+    words_ = words;
     at_ = "network:" + place_ + ",simulated" + (key_file_.empty() ? "" : ",key=robot");
     return true;
   }
 
+  /// The same device at the same place.
+  void start_again() {
+    EXPECT_TRUE(start(std::get<0>(GetParam()), words_, place_.substr(place_.rfind(':') + 1)));
+  }
+
   std::string at_, key_file_;
+  std::vector<std::string> words_;
 };
 
 std::string name_of(const ::testing::TestParamInfo<EachReferenceDevice::ParamType>& info) {
@@ -129,30 +160,15 @@ TEST_P(EachReferenceDevice, KeepsTheRules) {
   EXPECT_NE(told.out.find(" rules kept, 0 broken, "), std::string::npos) << told.out;
 }
 
-/// The shipped study, with fewer trials: in real time all of them take seven minutes.
 TEST_P(EachReferenceDevice, RunsTheShortTourToItsEnd) {
   if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
-  nlohmann::json tour = nlohmann::json::parse(
-      std::ifstream(test_support::source_folder() / "protocols/short_tour.json"));
-  for (nlohmann::json& medium : tour["stages"][0]["media"]) medium["duration_s"] = 0.5;
-  tour["stages"][1]["scale"] = {1};
-  tour["stages"][2]["target_percent"] = {50};
-  tour["stages"][2]["coarse_step_scale"] = 4;
-  tour["stages"][2]["fine_step_scale"] = 2;
-  tour["stages"][3]["viscosity_pa_s"] = {3, 21};
-  tour["stages"][3]["repetitions"] = 1;
-  test_support::write_file(path("short_tour.json"), tour.dump());
+  write_short_tour();
 
   const ProgramOutcome looped = jnd({"loop", "--device", at_, "--seconds", "0.5", "--json"});
   EXPECT_EQ(looped.exit_code, 0) << looped.err;
-  ProgramOutcome ended =
-      jnd({"run", "short_tour.json", "--study", "tour.study", "--participant", "P01",
-           "--headless", "--realtime", "--seed", "7", "--device", at_});
-  // A machine that is too busy for real time interrupts a session, and may find the connection
-  // too bad to go on at once; a wrong device would never come to the end.
-  for (int i = 0; i < 20 && (ended.exit_code == 1 || ended.exit_code == 3); ++i) {
-    ended = jnd({"resume", "tour.study", "--headless", "--realtime"});
-  }
+  const ProgramOutcome ended =
+      resumed(jnd({"run", "short_tour.json", "--study", "tour.study", "--participant", "P01",
+                   "--headless", "--realtime", "--seed", "7", "--device", at_}));
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_TRUE(opened("tour.study").completed(1));
   EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
@@ -161,6 +177,38 @@ TEST_P(EachReferenceDevice, RunsTheShortTourToItsEnd) {
   const ProgramOutcome served = device_->wait();
   EXPECT_EQ(served.exit_code, 0) << served.err;
   EXPECT_NE(served.out.find("programs connected"), std::string::npos) << served.out;
+}
+
+/// The server dies in the middle of a session, as by `kill -9` or a cable that is pulled.
+TEST_P(EachReferenceDevice, ASessionSurvivesItsDeath) {
+  if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
+  write_short_tour();
+  RunningProgram session(
+      {"run", "short_tour.json", "--study", "tour.study", "--participant", "P01", "--headless",
+       "--realtime", "--seed", "7", "--acknowledge", "--device", at_},
+      options_);
+  int num_answers = 0;
+  while (num_answers < 1) {
+    const std::optional<std::string> line = session.read_line();
+    if (!line) break;
+    num_answers += line->find("trial_answered") != std::string::npos ? 1 : 0;
+  }
+  device_->send_signal(SIGKILL);
+  (void)device_->wait();
+  const ProgramOutcome ended = session.wait();
+  EXPECT_TRUE(ended.exit_code == 1 || ended.exit_code == 3) << ended.exit_code << ended.err;
+  EXPECT_NE(ended.err.find("jnd resume"), std::string::npos) << ended.err;
+  EXPECT_FALSE(opened("tour.study").finished(1));
+  EXPECT_GE(static_cast<int>(opened("tour.study").trials(1).size()), num_answers);
+  EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
+
+  const ProgramOutcome alone = jnd({"resume", "tour.study", "--headless", "--realtime"});
+  EXPECT_EQ(alone.exit_code, 3) << "nobody is there" << alone.err;
+  start_again();
+  const ProgramOutcome over = resumed({.exit_code = 1});
+  EXPECT_EQ(over.exit_code, 0) << over.err;
+  EXPECT_TRUE(opened("tour.study").completed(1));
+  EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
 }
 
 /// Each language and each way once: a session in real time takes most of a minute.
