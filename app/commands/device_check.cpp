@@ -16,6 +16,7 @@
 #include "device/network/network_options.h"
 #include "device/network/udp_port.h"
 #include "device/realtime_report.h"
+#include "device/realtime_thread.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app {
@@ -116,7 +117,8 @@ int check_network(const DeviceCheckOptions& options, Outcomes& outcomes) {
   return is_kept ? kDone : kHasProblems;
 }
 
-int check_local(const DeviceCheckOptions& options, Outcomes& outcomes) {
+int check_local(const DeviceCheckOptions& options, const device::RealtimeReport& report,
+                Outcomes& outcomes) {
   std::unique_ptr<device::HapticDevice> device;
   require_device(options.device);
   try {
@@ -126,6 +128,13 @@ int check_local(const DeviceCheckOptions& options, Outcomes& outcomes) {
   } catch (const core::Error& error) {
     throw UsageError(error.what());
   }
+  try {
+    // Opening it may switch its motors on.
+    device::require_realtime(*device, report,
+                             /*allow_no_realtime=*/device->capabilities().simulated);
+  } catch (const core::Error& error) {
+    throw EnvironmentError(error.what());
+  }
   const bool is_kept =
       device::check_driver(*device, {.pushes = options.with_force},
                            [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
@@ -134,12 +143,13 @@ int check_local(const DeviceCheckOptions& options, Outcomes& outcomes) {
 }
 
 int run_device_check(const DeviceCheckOptions& options) {
+  Outcomes outcomes(options.json);
   device::RealtimeReport report;
   device::obtain_scheduler(80, report);
+  device::obtain_locked_memory(report);
   device::prefault_stack();
-  Outcomes outcomes(options.json);
   if (device::kind_of(options.device) == "network") return check_network(options, outcomes);
-  return check_local(options, outcomes);
+  return check_local(options, report, outcomes);
 }
 
 }  // namespace

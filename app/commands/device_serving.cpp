@@ -169,7 +169,7 @@ int serve_device(const DeviceServing& options) {
     port = std::make_unique<device::UdpPort>(address);
     port->accept_only_from(allowed_hosts(options));
     // Of a simulation, what is not given costs punctuality alone.
-    device::require_realtime(*device, report, /*allow_non_realtime=*/is_simulated);
+    device::require_realtime(*device, report, /*allow_no_realtime=*/is_simulated);
     device->open();
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());

@@ -1,5 +1,7 @@
 #include "device/check/device_rule.h"
 
+#include <utility>
+
 namespace jnd::device {
 
 core::PointVectors push_of(const Eigen::Vector3d& force_n) {
@@ -18,6 +20,17 @@ std::string_view name(RuleOutcome::Verdict verdict) noexcept {
       break;
   }
   return "skip";
+}
+
+void RuleJudge::judge(const DeviceRule& rule, bool is_kept, std::string found) {
+  all_kept_ &= is_kept;
+  tell_({.rule = rule,
+         .verdict = is_kept ? RuleOutcome::Verdict::kPassed : RuleOutcome::Verdict::kFailed,
+         .found = std::move(found)});
+}
+
+void RuleJudge::skip(const DeviceRule& rule, std::string why) {
+  tell_({.rule = rule, .verdict = RuleOutcome::Verdict::kSkipped, .found = std::move(why)});
 }
 
 }  // namespace jnd::device

@@ -37,4 +37,22 @@ struct RuleOutcome {
 /// Is told every outcome as soon as it is known.
 using TellOutcome = std::function<void(const RuleOutcome&)>;
 
+/// Tells outcomes, and remembers whether any rule is broken.
+class RuleJudge {
+ public:
+  /// `tell` has to outlive this.
+  explicit RuleJudge(const TellOutcome& tell) : tell_(tell) {}
+
+  void judge(const DeviceRule& rule, bool is_kept, std::string found);
+  void skip(const DeviceRule& rule, std::string why);
+  [[nodiscard]] bool all_kept() const noexcept { return all_kept_; }
+
+ private:
+  const TellOutcome& tell_;
+  bool all_kept_ = true;
+};
+
+/// Why a rule that takes a push is not tried.
+inline constexpr char kNoPush[] = "it takes a force: take every hand out and give --with-force";
+
 }  // namespace jnd::device

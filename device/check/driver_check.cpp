@@ -14,7 +14,6 @@
 namespace jnd::device {
 namespace {
 
-using Verdict = RuleOutcome::Verdict;
 using Clock = std::chrono::steady_clock;
 
 constexpr DeviceRule kDriverOpens = {"opens", "The device opens.",
@@ -61,7 +60,7 @@ class DriverChecker {
                   .slew_n_per_s = can_.simulated ? 2000.0 : 100.0,
                   .max_speed_m_per_s = can_.simulated ? 5.0 : 0.5},
                  1.0 / can_.rate_hz),
-        tell_(tell) {}
+        judge_(tell) {}
 
   bool run() {
     if (!opens(kDriverOpens)) return false;
@@ -72,33 +71,24 @@ class DriverChecker {
       judge_limits();
     } else {
       for (const DeviceRule& rule : {kDriverVelocity, kForceSign, kDriverHalt, kDriverLimits}) {
-        tell(rule, Verdict::kSkipped,
-             "it takes a force: take every hand out and give --with-force");
+        judge_.skip(rule, kNoPush);
       }
     }
     device_.close();
     if (opens(kDriverReopens)) device_.close();
-    return all_passed_;
+    return judge_.all_kept();
   }
 
  private:
-  void tell(const DeviceRule& rule, Verdict verdict, std::string found) {
-    all_passed_ &= verdict != Verdict::kFailed;
-    tell_({.rule = rule, .verdict = verdict, .found = std::move(found)});
-  }
-  void judge(const DeviceRule& rule, bool is_kept, std::string found) {
-    tell(rule, is_kept ? Verdict::kPassed : Verdict::kFailed, std::move(found));
-  }
-
   bool opens(const DeviceRule& rule) {
     try {
       device_.open();
     } catch (const core::Error& error) {
-      judge(rule, false, error.what());
+      judge_.judge(rule, false, error.what());
       return false;
     }
     begin_ = Clock::now();
-    judge(rule, true, "");
+    judge_.judge(rule, true, "");
     return true;
   }
 
@@ -114,11 +104,13 @@ class DriverChecker {
       if (is_paced_) std::this_thread::sleep_until(due);
       due = std::max(due + period, Clock::now());
       core::HapticState state;
-      if (device_.read(state)) {
+      const bool is_measured = device_.read(state);
+      if (is_measured) {
         all.push_back({state, std::chrono::duration<double>(Clock::now() - begin_).count(), i});
         newest_ = state;
       }
-      core::PointVectors limited_n = force_n;
+      // A push that nobody can see is none.
+      core::PointVectors limited_n = is_measured ? force_n : core::zero_vectors();
       limiter_.limit(newest_.attached, newest_.tip_velocity_m_per_s, limited_n);
       if (!device_.write(limited_n)) ++num_not_taken_;
     }
@@ -131,10 +123,10 @@ class DriverChecker {
     const std::vector<Measured> all = ticks(2.0, core::zero_vectors());
     const auto num_read = static_cast<double>(all.size());
     constexpr double kFewest = 0.99;
-    judge(kDriverPace,
-          num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0,
-          fmt::format("{} of {} ticks brought one, {} forces were not taken", all.size(),
-                      num_ticks_, num_not_taken_));
+    judge_.judge(kDriverPace,
+                 num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0,
+                 fmt::format("{} of {} ticks brought one, {} forces were not taken", all.size(),
+                             num_ticks_, num_not_taken_));
     if (all.size() < 2) return;
     judge_time(all);
     double largest = 0.0;
@@ -144,15 +136,15 @@ class DriverChecker {
         largest = std::max(largest, v.norm());
     }
     constexpr double kLargestOfAHand = 20.0;
-    judge(kDriverUnits, largest < kLargestOfAHand,
-          fmt::format("the largest position or velocity is {:.3g}", largest));
+    judge_.judge(kDriverUnits, largest < kLargestOfAHand,
+                 fmt::format("the largest position or velocity is {:.3g}", largest));
     int num_absent = 0;
     for (int point = can_.num_contact_points; point < core::kNumContactPoints; ++point) {
       num_absent += all.back().state.attached[static_cast<std::size_t>(point)] ? 1 : 0;
     }
-    judge(kDriverAbsent, num_absent == 0,
-          fmt::format("{} of {} points are its own", can_.num_contact_points,
-                      core::kNumContactPoints));
+    judge_.judge(kDriverAbsent, num_absent == 0,
+                 fmt::format("{} of {} points are its own", can_.num_contact_points,
+                             core::kNumContactPoints));
   }
 
   void judge_time(const std::vector<Measured>& all) {
@@ -170,12 +162,12 @@ class DriverChecker {
             : static_cast<double>(all.back().tick - all.front().tick) / can_.rate_hz;
     constexpr double kMostDrift = 0.02, kMostRepeated = 0.1;
     const double drift = device_s / expected_s - 1.0;
-    judge(kDriverTime,
-          static_cast<double>(num_risen) >
-                  (1.0 - kMostRepeated) * static_cast<double>(all.size() - 1) &&
-              std::fabs(drift) < kMostDrift,
-          fmt::format("it rose {} times in {}, and is {:+.0f} parts in a million fast",
-                      num_risen, all.size() - 1, 1e6 * drift));
+    judge_.judge(kDriverTime,
+                 static_cast<double>(num_risen) >
+                         (1.0 - kMostRepeated) * static_cast<double>(all.size() - 1) &&
+                     std::fabs(drift) < kMostDrift,
+                 fmt::format("it rose {} times in {}, and is {:+.0f} parts in a million fast",
+                             num_risen, all.size() - 1, 1e6 * drift));
   }
 
   void judge_pushes() {
@@ -186,13 +178,16 @@ class DriverChecker {
       force_n[axis] = push_n_;
       const std::vector<Measured> pushed = ticks(0.15, push_of(force_n));
       (void)ticks(0.3, core::zero_vectors());
-      if (before.empty() || pushed.size() < 2) continue;
+      if (before.empty() || pushed.size() < 2) {
+        wrong = fast = "no measurement came while it was pushed";
+        break;
+      }
       const double moved_m =
           (pushed.back().state.tip_position_m[0] - before.back().state.tip_position_m[0])[axis];
       const char letter = "xyz"[axis];
       if (moved_m < kLeastMoved_m) {
-        wrong += fmt::format("{}{:+.2f} mm along {}", wrong.empty() ? "" : ", ", 1e3 * moved_m,
-                             letter);
+        wrong += fmt::format("{}it moved {:+.2f} mm along {}", wrong.empty() ? "" : ", ",
+                             1e3 * moved_m, letter);
       }
       // The velocities, summed over the device's time, are the way.
       double way_m = 0.0;
@@ -210,8 +205,8 @@ class DriverChecker {
                             fast.empty() ? "" : ", ", 1e3 * way_m, 1e3 * own_way_m, letter);
       }
     }
-    judge(kForceSign, wrong.empty(), wrong.empty() ? "" : "pushed it moved " + wrong);
-    judge(kDriverVelocity, fast.empty(), fast);
+    judge_.judge(kForceSign, wrong.empty(), wrong);
+    judge_.judge(kDriverVelocity, fast.empty(), fast);
   }
 
   /// By what the device tells, or else by where the hand goes.
@@ -223,27 +218,31 @@ class DriverChecker {
 
   void judge_halt() {
     if (!can_.tells_acting_force) {
-      tell(kDriverHalt, Verdict::kSkipped, "the device does not tell which force acted");
+      judge_.skip(kDriverHalt, "the device does not tell which force acted");
       return;
     }
     (void)ticks(0.05, push_of({push_n_, 0.0, 0.0}));
     device_.halt();
     constexpr std::size_t kUnderWay = 3;
-    const bool still_acts = acts(ticks(0.1, push_of({push_n_, 0.0, 0.0})), kUnderWay);
+    const std::vector<Measured> halted = ticks(0.1, push_of({push_n_, 0.0, 0.0}));
+    if (std::ssize(halted) < num_ticks_) {
+      judge_.skip(kDriverHalt, "a tick without a measurement wrote zeros, which ends a halt");
+      return;
+    }
+    const bool still_acts = acts(halted, kUnderWay);
     (void)ticks(0.1, core::zero_vectors());
     const bool comes_back = acts(ticks(0.1, push_of({push_n_, 0.0, 0.0})), 0);
     (void)ticks(0.3, core::zero_vectors());
-    judge(kDriverHalt, !still_acts && comes_back,
-          still_acts   ? "a force acted after the halt"
-          : comes_back ? ""
-                       : "no force came back after a write of zeros");
+    judge_.judge(kDriverHalt, !still_acts && comes_back,
+                 still_acts   ? "a force acted after the halt"
+                 : comes_back ? ""
+                              : "no force came back after a write of zeros");
   }
 
   void judge_limits() {
     if (!can_.simulated || !can_.tells_acting_force) {
-      tell(kDriverLimits, Verdict::kSkipped,
-           can_.simulated ? "the device does not tell which force acted"
-                          : "a real device is never asked for too much");
+      judge_.skip(kDriverLimits, can_.simulated ? "the device does not tell which force acted"
+                                                : "a real device is never asked for too much");
       return;
     }
     double most_n = 0.0;
@@ -255,8 +254,8 @@ class DriverChecker {
     }
     (void)ticks(0.3, core::zero_vectors());
     constexpr double kRounding_n = 1e-6;
-    judge(kDriverLimits, most_n <= can_.max_force_per_point_n + kRounding_n,
-          fmt::format("asked for {:g} N, {:.1f} N acted", asked_n, most_n));
+    judge_.judge(kDriverLimits, most_n <= can_.max_force_per_point_n + kRounding_n,
+                 fmt::format("asked for {:g} N, {:.1f} N acted", asked_n, most_n));
   }
 
   static constexpr double kLeastMoved_m = 0.0002;
@@ -266,12 +265,11 @@ class DriverChecker {
   double push_n_;
   bool can_push_, is_paced_;
   core::ForceLimiter limiter_;  ///< A push that gets away ends.
-  const TellOutcome& tell_;
+  RuleJudge judge_;
   Clock::time_point begin_;
   core::HapticState newest_;
   std::int64_t num_ticks_ = 0;
   int num_not_taken_ = 0;
-  bool all_passed_ = true;
 };
 
 }  // namespace

@@ -17,7 +17,6 @@
 namespace jnd::device {
 namespace {
 
-using Verdict = RuleOutcome::Verdict;
 using Seen = LinkProbe::Seen;
 using States = std::vector<Seen>;
 
@@ -108,7 +107,7 @@ bool any_after(const States& states, std::size_t first) {
 class NetworkChecker {
  public:
   NetworkChecker(const NetworkCheck& check, const TellOutcome& tell)
-      : check_(check), tell_(tell) {
+      : check_(check), judge_(tell) {
     std::random_device draw;
     token_ = std::uint64_t{draw()} << 32 | draw();
   }
@@ -129,23 +128,15 @@ class NetworkChecker {
       skip_pushes(program);
     }
     judge_others(program);
-    judge(kDatagrams, num_refused_ + program.num_refused() == 0,
-          program.num_refused() == 0
-              ? ""
-              : fmt::format("{} of another kind, the last one: {}", program.num_refused(),
-                            wire::name(program.last_problem())));
-    return all_passed_;
+    judge_.judge(kDatagrams, program.num_refused() == 0,
+                 program.num_refused() == 0
+                     ? ""
+                     : fmt::format("{} of another kind, the last one: {}",
+                                   program.num_refused(), wire::name(program.last_problem())));
+    return judge_.all_kept();
   }
 
  private:
-  void tell(const DeviceRule& rule, Verdict verdict, std::string found) {
-    all_passed_ &= verdict != Verdict::kFailed;
-    tell_({.rule = rule, .verdict = verdict, .found = std::move(found)});
-  }
-  void judge(const DeviceRule& rule, bool is_kept, std::string found) {
-    tell(rule, is_kept ? Verdict::kPassed : Verdict::kFailed, std::move(found));
-  }
-
   void require_answer(LinkProbe& program) {
     constexpr double kPatience_s = 2.0;
     if (!program.connect(kPatience_s)) {
@@ -228,22 +219,23 @@ class NetworkChecker {
   void judge_hellos(LinkProbe& program) {
     const wire::Datagram hello{.header = {.sent_ns = 1},
                                .content = wire::Hello{.token = token_++, .only_asks = true}};
-    judge(kOtherVersion,
-          refusal_of(hello_of_next_version(hello)) == wire::RefusalReason::kOtherVersion, "");
+    judge_.judge(kOtherVersion,
+                 refusal_of(hello_of_next_version(hello)) == wire::RefusalReason::kOtherVersion,
+                 "");
     DeviceKey wrong_key{};
     if (check_.key) wrong_key = *check_.key;
     wrong_key.front() ^= std::byte{1};
-    judge(kBadKey, refusal_of(bytes_of(hello, wrong_key)) == wire::RefusalReason::kOtherKey,
-          "");
+    judge_.judge(kBadKey,
+                 refusal_of(bytes_of(hello, wrong_key)) == wire::RefusalReason::kOtherKey, "");
     if (check_.key) {
-      tell(kUnknownStream, Verdict::kSkipped,
-           "with a key nobody can tell who sealed what is of an unknown stream");
+      judge_.skip(kUnknownStream,
+                  "with a key nobody can tell who sealed what is of an unknown stream");
     } else {
       const wire::Datagram lost{.header = {.stream_id = 99, .sequence = 1, .sent_ns = 1},
                                 .content = wire::Command{.arm_number = 1}};
-      judge(kUnknownStream,
-            refusal_of(bytes_of(lost, std::nullopt)) == wire::RefusalReason::kUnknownStream,
-            "");
+      judge_.judge(
+          kUnknownStream,
+          refusal_of(bytes_of(lost, std::nullopt)) == wire::RefusalReason::kUnknownStream, "");
     }
     program.begin_anew(token_++);
     if (!program.connect(2.0)) {
@@ -259,8 +251,8 @@ class NetworkChecker {
     const States states = program.talk(1.0, 0, core::zero_vectors());
     const auto num_states = static_cast<double>(states.size());
     constexpr double kFewest = 0.65, kMost = 1.5;
-    judge(kHalfRate, num_states > kFewest * rate_hz_ && num_states < kMost * rate_hz_,
-          fmt::format("{} states in a second, {:g} Hz told", states.size(), rate_hz_));
+    judge_.judge(kHalfRate, num_states > kFewest * rate_hz_ && num_states < kMost * rate_hz_,
+                 fmt::format("{} states in a second, {:g} Hz told", states.size(), rate_hz_));
     if (states.size() < 2) return;
     std::vector<double> gaps_s;
     std::vector<std::uint32_t> steps;
@@ -275,20 +267,20 @@ class NetworkChecker {
     }
     std::ranges::sort(gaps_s);
     const double late_s = gaps_s[static_cast<std::size_t>(0.99 * num_states) - 1];
-    judge(kJitter, late_s <= stand_in_s_,
-          fmt::format("{:.1f} ms between 99 of 100, {:g} ms may be stood in for", 1e3 * late_s,
-                      1e3 * stand_in_s_));
+    judge_.judge(kJitter, late_s <= stand_in_s_,
+                 fmt::format("{:.1f} ms between 99 of 100, {:g} ms may be stood in for",
+                             1e3 * late_s, 1e3 * stand_in_s_));
     const auto num_wrong = std::ranges::count_if(steps, [](auto step) { return step != 1; });
     const bool are_wrong = static_cast<double>(num_wrong) > 0.2 * num_states;
     const bool stand_still = std::ranges::find(steps, 0U) != steps.end();
-    judge(kSequenceStep, !are_wrong || stand_still,
-          are_wrong && !stand_still
-              ? fmt::format("they go on by {}", *std::ranges::min_element(steps))
-              : "");
-    judge(kSequenceWrap, !are_wrong || !stand_still,
-          are_wrong && stand_still
-              ? fmt::format("they stay at {}", states.back().header.sequence)
-              : "");
+    judge_.judge(kSequenceStep, !are_wrong || stand_still,
+                 are_wrong && !stand_still
+                     ? fmt::format("they go on by {}", *std::ranges::min_element(steps))
+                     : "");
+    judge_.judge(kSequenceWrap, !are_wrong || !stand_still,
+                 are_wrong && stand_still
+                     ? fmt::format("they stay at {}", states.back().header.sequence)
+                     : "");
     double largest_m = 0.0;
     for (const Seen& seen : states) {
       for (const auto& at : seen.state.measured.tip_position_m) {
@@ -299,28 +291,29 @@ class NetworkChecker {
       }
     }
     constexpr double kLargestOfAHand = 20.0;
-    judge(kUnits, largest_m < kLargestOfAHand,
-          fmt::format("the largest position or velocity is {:.3g}", largest_m));
-    judge(kStale, static_cast<double>(num_risen) > 0.5 * num_states,
-          fmt::format("the device time rose {} times in {} states", num_risen, states.size()));
+    judge_.judge(kUnits, largest_m < kLargestOfAHand,
+                 fmt::format("the largest position or velocity is {:.3g}", largest_m));
+    judge_.judge(
+        kStale, static_cast<double>(num_risen) > 0.5 * num_states,
+        fmt::format("the device time rose {} times in {} states", num_risen, states.size()));
     const bool are_echoes = std::ranges::all_of(
         states, [&](const Seen& seen) { return program.has_sent_at(seen.header.echo_ns); });
-    judge(kEcho, are_echoes, are_echoes ? "" : "a clock that was never sent");
+    judge_.judge(kEcho, are_echoes, are_echoes ? "" : "a clock that was never sent");
   }
 
   void skip_pushes(LinkProbe&) {
     for (const DeviceRule& rule : {kArmsWithForce, kArming, kForceSign, kToldAsSent, kNoLimits,
                                    kReplay, kSilence, kRearms, kHalt}) {
-      tell(rule, Verdict::kSkipped,
-           "it takes a force: take every hand out and give --with-force");
+      judge_.skip(rule, kNoPush);
     }
   }
 
   void judge_arming(LinkProbe& program) {
     const States& states = program.talk(0.3, 1, push_of({0.5 * push_n_, 0.0, 0.0}));
-    judge(kArmsWithForce,
-          !std::ranges::any_of(states, [](const Seen& seen) { return seen.state.armed; }), "");
-    judge(kArming, program.arm(2), "");
+    judge_.judge(
+        kArmsWithForce,
+        !std::ranges::any_of(states, [](const Seen& seen) { return seen.state.armed; }), "");
+    judge_.judge(kArming, program.arm(2), "");
   }
 
   /// Where the first point is, m.
@@ -339,7 +332,10 @@ class NetworkChecker {
       force_n[axis] = push_n_;
       const States states = program.talk(0.15, arm_number_ - 1, push_of(force_n));
       const auto acting = std::ranges::find_if(states, acts);
-      if (acting == states.end() || before.empty()) continue;
+      if (acting == states.end() || before.empty()) {
+        wrong += fmt::format("{}not at all along {}", wrong.empty() ? "" : ", ", "xyz"[axis]);
+        continue;
+      }
       any_acted = true;
       const double moved_m = (place_of(states) - place_of(before))[axis];
       if (moved_m < kLeastMoved_m)
@@ -354,19 +350,19 @@ class NetworkChecker {
       is_told_in_time &= !is_late;
     }
     if (!any_acted) {
-      judge(kForceSign, false, "no state tells that a force acted");
-      tell(kToldAsSent, Verdict::kSkipped, "no force acted");
+      judge_.judge(kForceSign, false, "no state tells that a force acted");
+      judge_.skip(kToldAsSent, "no force acted");
       return;
     }
-    judge(kForceSign, wrong.empty(),
-          wrong.empty() ? "" : "pushed along the axis it moved " + wrong);
-    judge(kToldAsSent, is_told_in_time,
-          is_told_in_time ? "" : "the hand moves long after the force is told to act");
+    judge_.judge(kForceSign, wrong.empty(),
+                 wrong.empty() ? "" : "pushed along the axis it moved " + wrong);
+    judge_.judge(kToldAsSent, is_told_in_time,
+                 is_told_in_time ? "" : "the hand moves long after the force is told to act");
   }
 
   void judge_limits(LinkProbe& program) {
     if (!is_simulated_) {
-      tell(kNoLimits, Verdict::kSkipped, "a real device is never asked for too much");
+      judge_.skip(kNoLimits, "a real device is never asked for too much");
       return;
     }
     (void)program.arm(arm_number_++);
@@ -381,70 +377,81 @@ class NetworkChecker {
     }
     // Of states that were lost the steps add up.
     const bool is_slow = most_step_n <= 3.0 * kSlew_n_per_s / rate_hz_ + kRounding_n;
-    judge(kNoLimits, most_n <= most_force_n_ + kRounding_n && is_slow,
-          fmt::format("asked for {:g} N, {:.1f} N acted, at most {:.1f} N more in a tick",
-                      kTooMuch_n, most_n, most_step_n));
+    judge_.judge(
+        kNoLimits, most_n <= most_force_n_ + kRounding_n && is_slow,
+        fmt::format("asked for {:g} N, {:.1f} N acted, at most {:.1f} N more in a tick",
+                    kTooMuch_n, most_n, most_step_n));
     (void)program.talk(0.5, arm_number_ - 1, core::zero_vectors());
   }
 
-  void judge_replay(LinkProbe& program) {
+  /// Arms it and pushes. Whether a force acted: else nothing is known of how it ends.
+  bool acts_when_pushed(LinkProbe& program) {
     (void)program.arm(arm_number_++);
-    (void)program.talk(0.02, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    const States& states = program.talk(0.04, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    return std::ranges::any_of(states, acts);
+  }
+
+  void judge_replay(LinkProbe& program) {
+    if (!acts_when_pushed(program)) return judge_.skip(kReplay, kNothingActed);
     const std::vector<std::byte> old = program.last_command();
     (void)program.talk(0.1, arm_number_ - 1, core::zero_vectors());
     const States& states = program.talk(0.1, arm_number_ - 1, core::zero_vectors(),
                                         [&] { program.send_again(old); });
-    judge(kReplay, std::ranges::none_of(states, acts), "");
+    judge_.judge(kReplay, std::ranges::none_of(states, acts), "");
   }
 
   void judge_silence(LinkProbe& program) {
-    (void)program.arm(arm_number_++);
-    (void)program.talk(0.02, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    if (!acts_when_pushed(program)) {
+      for (const DeviceRule& rule : {kSilence, kRearms, kHalt})
+        judge_.skip(rule, kNothingActed);
+      return;
+    }
     const States told = program.listen(0.3);
     const double allowed_s = stand_in_s_ + kWayThere_s;
     const std::int64_t begin_ns = told.empty() ? 0 : told.front().came_ns;
     const auto over = std::ranges::find_if_not(told, is_armed_or_acts);
     const double took_s =
         over == told.end() ? 0.3 : 1e-9 * static_cast<double>(over->came_ns - begin_ns);
-    judge(kSilence,
-          over != told.end() && took_s <= allowed_s &&
-              !any_after(told, static_cast<std::size_t>(over - told.begin())),
-          told.empty() ? "it fell silent, too"
-                       : fmt::format("force for {:.0f} ms, {:.0f} ms are allowed", 1e3 * took_s,
-                                     1e3 * allowed_s));
+    judge_.judge(kSilence,
+                 over != told.end() && took_s <= allowed_s &&
+                     !any_after(told, static_cast<std::size_t>(over - told.begin())),
+                 told.empty() ? "it fell silent, too"
+                              : fmt::format("force for {:.0f} ms, {:.0f} ms are allowed",
+                                            1e3 * took_s, 1e3 * allowed_s));
     const States again = program.talk(0.3, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
-    judge(kRearms, !any_after(again, kUnderWay), "");
-    (void)program.arm(arm_number_++);
-    (void)program.talk(0.02, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    judge_.judge(kRearms, !any_after(again, kUnderWay), "");
+    if (!acts_when_pushed(program)) return judge_.skip(kHalt, kNothingActed);
     program.halt();
     const States halted = program.talk(0.1, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
-    judge(kHalt, !any_after(halted, kUnderWay), "");
+    judge_.judge(kHalt, !any_after(halted, kUnderWay), "");
   }
 
   void judge_others(LinkProbe& program) {
     const auto port = check_.open_port();
     LinkProbe second(*port, check_.server, check_.key, token_++);
     (void)program.talk(0.2, 0, core::zero_vectors(), [&] { second.say_hello(); });
-    judge(kBusy, !second.is_connected() && second.refusal() == wire::RefusalReason::kBusy, "");
+    judge_.judge(kBusy,
+                 !second.is_connected() && second.refusal() == wire::RefusalReason::kBusy, "");
     if (second.is_connected()) second.say_goodbye();
     program.say_goodbye();
     port_pause(0.05);
     const auto next_port = check_.open_port();
     LinkProbe next(*next_port, check_.server, check_.key, token_++);
     const bool is_let_in = next.connect(2.0);
-    judge(kGoodbye,
-          is_let_in &&
-              std::ranges::none_of(next.talk(0.1, 0, core::zero_vectors()), is_armed_or_acts),
-          is_let_in ? "" : "it lets nobody in");
+    judge_.judge(kGoodbye,
+                 is_let_in && std::ranges::none_of(next.talk(0.1, 0, core::zero_vectors()),
+                                                   is_armed_or_acts),
+                 is_let_in ? "" : "it lets nobody in");
     if (!is_let_in) return;
     // As if it had died.
     port_pause(kGoneAfter_s);
     const auto last_port = check_.open_port();
     LinkProbe last(*last_port, check_.server, check_.key, token_++);
-    judge(kGone, last.connect(2.0), "");
+    judge_.judge(kGone, last.connect(2.0), "");
     if (last.is_connected()) last.say_goodbye();
   }
 
+  static constexpr char kNothingActed[] = "no force acted that could end";
   static constexpr double kLeastMoved_m = 0.0002, kLeastSpeed_m_per_s = 0.005;
   /// Of a real device: a push that gets away ends.
   static constexpr double kGentleSlew_n_per_s = 100.0, kGentleSpeed_m_per_s = 0.5;
@@ -452,12 +459,11 @@ class NetworkChecker {
   static constexpr std::size_t kUnderWay = 5;  ///< States that were sent before.
 
   const NetworkCheck& check_;
-  const TellOutcome& tell_;
+  RuleJudge judge_;
   std::uint64_t token_ = 1;
   std::uint32_t arm_number_ = 3;
   double rate_hz_ = 1000.0, most_force_n_ = 0.0, stand_in_s_ = 0.0, push_n_ = 0.0;
-  bool is_simulated_ = false, can_push_ = false, all_passed_ = true;
-  int num_refused_ = 0;
+  bool is_simulated_ = false, can_push_ = false;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ class WrongDevice final : public HapticDevice {
     DeviceCapabilities can = hand_.capabilities();
     can.num_contact_points = 2;
     can.tells_acting_force = true;
-    can.simulated = wrong_ != "real";
+    can.simulated = wrong_ != "real" && wrong_ != "blind";
     return can;
   }
   void open() override {
@@ -32,6 +32,7 @@ class WrongDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
     if (!hand_.read(state)) return false;
     ++num_reads_;
+    if (wrong_ == "blind" && num_reads_ > 2400) return false;
     if (wrong_ == "pace" && num_reads_ % 20 == 0) return false;
     if (wrong_ == "time") state.device_time_ns += state.device_time_ns / 10;
     for (auto& at : state.tip_position_m) at *= wrong_ == "units" ? 1000.0 : 1.0;
@@ -127,6 +128,14 @@ TEST(DriverCheck, ARealDeviceIsNeverAskedForMoreThanAGentlePush) {
   EXPECT_EQ(told.outcomes.at("halt").verdict, RuleOutcome::Verdict::kPassed);
   EXPECT_EQ(told.outcomes.at("limits").verdict, RuleOutcome::Verdict::kSkipped);
   EXPECT_NEAR(device.largest_n(), 0.5, 1e-12);
+}
+
+TEST(DriverCheck, ADeviceThatCannotBeReadAnyMoreIsNotPushed) {
+  WrongDevice device("blind");  // From before the first push on.
+  const Told told = told_of(device, /*pushes=*/true);
+  EXPECT_EQ(told.outcomes.at("force_sign").verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_EQ(told.outcomes.at("velocity").verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_EQ(device.largest_n(), 0.0);
 }
 
 }  // namespace driver_check_test
