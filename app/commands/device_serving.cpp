@@ -24,6 +24,7 @@
 #include "device/network/device_server.h"
 #include "device/network/udp_port.h"
 #include "device/realtime_report.h"
+#include "device/realtime_thread.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app {
