@@ -74,12 +74,34 @@ bool has_legend(const PlotModel& model) {
   return model.legend && named > 1;
 }
 
-void draw_legend(Ui& ui, Rect strip, const PlotModel& model) {
+constexpr float kLegendRow = 20, kLegendMark = 26, kLegendGap = 18;
+
+/// How many rows the names take, each as full as it gets.
+int num_legend_rows(Ui& ui, float width, const PlotModel& model) {
+  int rows = 1;
+  float left = width;
   for (const PlotSeries& series : model.series) {
     if (series.name.empty()) continue;
-    const float y = strip.y + strip.height / 2;
+    const float needed = kLegendMark + ui.text_width(series.name, Font::kSmall);
+    if (needed > left && left < width) {
+      ++rows;
+      left = width;
+    }
+    left -= needed + kLegendGap;
+  }
+  return rows;
+}
+
+void draw_legend(Ui& ui, Rect place, const PlotModel& model) {
+  Rect strip = place.take_top(kLegendRow);
+  const float whole = strip.width;
+  for (const PlotSeries& series : model.series) {
+    if (series.name.empty()) continue;
     const float width = ui.text_width(series.name, Font::kSmall);
-    if (strip.width < width + 26) continue;  // A shorter one may still have room.
+    if (strip.width < width + kLegendMark && strip.width < whole) {
+      strip = place.take_top(kLegendRow);
+    }
+    const float y = strip.y + strip.height / 2;
     switch (series.style) {
       case PlotSeries::Style::kLine:
         if (series.dashed) {
@@ -96,8 +118,8 @@ void draw_legend(Ui& ui, Rect strip, const PlotModel& model) {
         ui.fill({strip.x, y - 5, 18, 10}, series.colour, 2, 0.3f);
         break;
     }
-    strip.take_left(26);
-    ui.text(strip.take_left(width + 2, 18), series.name,
+    strip.take_left(kLegendMark);
+    ui.text(strip.take_left(width + 2, kLegendGap), series.name,
             {.font = Font::kSmall, .colour = Colour::kSoft});
   }
 }
@@ -147,7 +169,10 @@ bool PlotArea::can_show(double x_value, double y_value) const noexcept {
 PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
   Rect rest = place;
   if (!model.title.empty()) ui.heading(rest.take_top(18, 10), model.title, model.unit);
-  if (has_legend(model)) draw_legend(ui, rest.take_top(20, 8), model);
+  if (has_legend(model)) {
+    const auto rows = static_cast<float>(num_legend_rows(ui, rest.width, model));
+    draw_legend(ui, rest.take_top(rows * kLegendRow, 8), model);
+  }
   PlotArea area = {.x_logarithmic = model.x.logarithmic, .y_logarithmic = model.y.logarithmic};
   const int max_y_ticks = std::clamp(static_cast<int>(rest.height / 34), 2, 8);
   area.x_range = x_range_of(model);

@@ -136,7 +136,7 @@ void draw_charts_page(Ui& ui, Rect place, const ResultsModel& results,
   draw_summary(ui, place.take_bottom(summary_height(place, 330, state), kGap), results, state);
   const std::string who = shown_participant(results, state);
   draw_grid(
-      ui, "charts", place, results.charts, 320, 330,
+      ui, "charts", place, results.charts, 320, 400,
       [&](const Rect& card, const analysis::ChartSet& set) { draw_chart(ui, card, set, who); });
 }
 
