@@ -25,7 +25,7 @@ using test_support::LockedMemory;
 using test_support::PageFaultCounter;
 using test_support::SystemCallTrap;
 
-constexpr int kNumTicks = 20'000;
+constexpr int kNumTicks = 5'000;
 constexpr const char* kSanitizer = "a sanitizer has these functions for itself";
 
 core::MediumAmounts everything() {
