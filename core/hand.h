@@ -17,19 +17,43 @@ inline constexpr int kNumContactPoints = 5;
 inline constexpr std::array<std::string_view, kNumContactPoints> kContactPointNames = {
     "palm_inner", "palm_outer", "thumb", "index", "middle"};
 
-/// Share of the fluid's force that each point carries; they sum to 1. From the areas of the
-/// parts of the hand, 64/10/12/14 %, rounded by the thesis (sec. B.5).
-inline constexpr std::array<double, kNumContactPoints> kAreaShareRatio = {0.35, 0.35, 0.10,
-                                                                          0.10, 0.10};
+/// Share of the hand's force that each point carries: above 0 at the points that a device has,
+/// 0 elsewhere; together 1, so that the same study brings the same force to any number of
+/// points.
+using ShareRatios = std::array<double, kNumContactPoints>;
 
-/// What the first `num_points` points, in [1, 5], carry together: those that a device declares.
-/// A force meant for the whole hand is divided by it, so that 1, 2, 3 and 5 points come to the
-/// same. Exactly 1 for all five. Real time.
-[[nodiscard]] constexpr double declared_share_ratio(int num_points) noexcept {
-  if (num_points >= kNumContactPoints) return 1.0;
-  double sum = kAreaShareRatio[0];
-  for (int i = 1; i < num_points; ++i) sum += kAreaShareRatio[static_cast<std::size_t>(i)];
-  return sum;
+/// Of a device that has all five and says nothing else. From the areas of the parts of the
+/// hand, 64/10/12/14 %, rounded by the thesis (sec. B.5).
+inline constexpr ShareRatios kAreaShareRatio = {0.35, 0.35, 0.10, 0.10, 0.10};
+
+/// Of a device that has these points (bit i: point i) and says nothing else: their areas in
+/// relation to one another. All zeros without any point. Real time.
+[[nodiscard]] constexpr ShareRatios area_shares(unsigned point_bits) noexcept {
+  constexpr unsigned kAllPoints = (1U << kNumContactPoints) - 1;
+  if ((point_bits & kAllPoints) == kAllPoints) return kAreaShareRatio;
+  ShareRatios shares{};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if ((point_bits >> i & 1U) != 0) sum += shares[i] = kAreaShareRatio[i];
+  }
+  for (double& share : shares) share = sum > 0.0 ? share / sum : 0.0;
+  return shares;
+}
+
+/// In relation to one another as these, none below 0 and not all 0; together 1. Real time.
+[[nodiscard]] constexpr ShareRatios normalised_shares(ShareRatios shares) noexcept {
+  double sum = 0.0;
+  for (const double share : shares) sum += share;
+  // Those that only rounding parts from it stay as they are, to the last bit.
+  constexpr double kRounding = 1e-12;
+  if (sum - 1.0 <= kRounding && 1.0 - sum <= kRounding) return shares;
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+/// Of a device that has the first `num_points` of them.
+[[nodiscard]] constexpr ShareRatios area_shares_of_first(int num_points) noexcept {
+  return area_shares((1U << static_cast<unsigned>(num_points)) - 1);
 }
 
 /// One vector per contact point, in the order of `ContactPoint`.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/device_channels.h"
 #include "core/hand.h"
 #include "core/joints.h"
 
@@ -12,6 +13,8 @@ namespace jnd::core {
 /// from the participant, +z up; the surface of a fluid is the plane z = 0, the fluid is below.
 struct HapticState {
   std::int64_t device_time_ns = 0;  ///< The device's own clock; must advance every tick.
+  /// When it came, by our monotonic clock; 0: with this tick.
+  std::int64_t arrived_ns = 0;
   /// Whether the robot's own side lets it give force: an enabling switch there, or a key. Where
   /// it is open nothing this program does brings force.
   bool enabled = true;
@@ -32,6 +35,7 @@ struct HapticState {
   std::array<double, kNumJoints> joint_position_rad{};  ///< 0 from a device without joints.
   std::array<double, kNumJoints>
       joint_torque_n_m{};  ///< Measured torques; 0 from a device without joints.
+  DeviceChannels channels;
 };
 
 }  // namespace jnd::core

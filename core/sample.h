@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/device_channels.h"
 #include "core/hand.h"
 #include "core/joints.h"
 
 namespace jnd::core {
-
-/// x, y, z without Eigen, which is not trivially copyable.
-using PlainVector = std::array<double, 3>;
 
 /// One recorded tick of the haptic loop, workspace frame. Trivially copyable: it leaves the
 /// haptic thread through an `SpscQueue`.
@@ -38,9 +36,17 @@ struct Sample {
   // All 0 from a device without joints.
   std::array<float, kNumJoints> joint_position_rad{};
   std::array<float, kNumJoints> joint_torque_n_m{};  ///< As the device's sensors say.
+  DeviceChannels channels;
 };
 
 static_assert(std::is_trivially_copyable_v<Sample>);
+
+/// Force on the hand at each point that was delivered: what sensors of force measured where the
+/// device has them, else what was sent to it. Real time.
+[[nodiscard]] inline const std::array<PlainVector, kNumContactPoints>& delivered_force_n(
+    const Sample& sample) noexcept {
+  return sample.channels.has(kMeasuredForce) ? sample.channels.force_n : sample.tip_force_n;
+}
 
 /// Bit i: the device has contact point i. One that it does not have holds nothing and lies at
 /// exactly zero, so that sums over all points are sums over those. Real time.

@@ -29,6 +29,21 @@ std::vector<std::string> sample_column_names(const SampleColumns& columns) {
       names.push_back(std::string(joint) + "_torque_n_m");
     }
   }
+  if ((columns.channels & kMeasuredForce) != 0) {
+    for (const std::string_view point : kContactPointNames) {
+      add_vector_names(names, std::string(point) + "_measured_force", "n");
+    }
+  }
+  if ((columns.channels & kOrientation) != 0) {
+    for (const char* part : {"w", "x", "y", "z"}) {
+      names.push_back(std::string("end_effector_orientation_") + part);
+    }
+  }
+  if ((columns.channels & kTorque) != 0) {
+    add_vector_names(names, "end_effector_torque", "n_m");
+  }
+  if ((columns.channels & kGripper) != 0) names.emplace_back("gripper_m");
+  if ((columns.channels & kButtons) != 0) names.emplace_back("buttons");
   for (const char* flag : {"attached_bits", "immersed_bits", "limited", "fault"}) {
     names.emplace_back(flag);
   }
@@ -55,6 +70,14 @@ std::vector<double> sample_values(const Sample& sample, const SampleColumns& col
     add(sample.joint_position_rad);
     add(sample.joint_torque_n_m);
   }
+  const DeviceChannels& channels = sample.channels;
+  if ((columns.channels & kMeasuredForce) != 0) {
+    for (const PlainVector& force_n : channels.force_n) add(force_n);
+  }
+  if ((columns.channels & kOrientation) != 0) add(channels.orientation_wxyz);
+  if ((columns.channels & kTorque) != 0) add(channels.torque_n_m);
+  if ((columns.channels & kGripper) != 0) values.push_back(channels.gripper_m);
+  if ((columns.channels & kButtons) != 0) values.push_back(channels.buttons);
   for (const std::uint8_t flag :
        {sample.attached_bits, sample.immersed_bits, sample.limited, sample.fault}) {
     values.push_back(flag);

@@ -9,12 +9,15 @@ namespace jnd::core {
 
 /// Columns that not every recording has.
 struct SampleColumns {
-  bool times = false;   ///< Monotonic and device time, of sessions in real time.
-  bool joints = false;  ///< Joint angles and torques, of a device with joints.
+  bool times = false;        ///< Monotonic and device time, of sessions in real time.
+  bool joints = false;       ///< Joint angles and torques, of a device with joints.
+  ChannelBits channels = 0;  ///< What else the device measures, see `DeviceChannels`.
 
   /// The columns that either of the two has.
   friend SampleColumns operator|(const SampleColumns& a, const SampleColumns& b) noexcept {
-    return {.times = a.times || b.times, .joints = a.joints || b.joints};
+    return {.times = a.times || b.times,
+            .joints = a.joints || b.joints,
+            .channels = static_cast<ChannelBits>(a.channels | b.channels)};
   }
 };
 

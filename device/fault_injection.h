@@ -43,6 +43,10 @@ class FaultInjectingDevice final : public HapticDevice {
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
     return inner_.capabilities();
   }
+  [[nodiscard]] DeviceIdentity identity() const override { return inner_.identity(); }
+  [[nodiscard]] bool wait_for_sample(std::int64_t deadline_ns) noexcept override {
+    return inner_.wait_for_sample(deadline_ns);
+  }
   /// Ticks are counted from here.
   void open() override;
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/contact_sums.h"
@@ -21,7 +23,16 @@ class DeviceUnreachable final : public core::Error {
 };
 
 struct DeviceCapabilities {
-  int num_contact_points = core::kNumContactPoints;
+  /// Of the hand's force at each point; 0 at one that the device does not have.
+  core::ShareRatios share_ratio = core::kAreaShareRatio;
+  [[nodiscard]] bool has_point(int i) const noexcept {
+    return share_ratio[static_cast<std::size_t>(i)] > 0.0;
+  }
+  [[nodiscard]] int num_contact_points() const noexcept {
+    int num_points = 0;
+    for (int i = 0; i < core::kNumContactPoints; ++i) num_points += has_point(i) ? 1 : 0;
+    return num_points;
+  }
   double rate_hz = 1000.0;              ///< Of its control loop.
   double max_force_per_point_n = 10.0;  ///< What it can render at one point.
   double max_total_force_n = 30.0;      ///< Sum over the points.
@@ -51,6 +62,19 @@ struct DeviceCapabilities {
   double max_speed_m_per_s = core::kInfinity;  ///< Of a point, above which it is not sound.
   /// In which it may give force, within that of the loop.
   core::Workspace workspace{core::kInfinity, core::kInfinity, core::kInfinity};
+  core::ChannelBits channels = 0;  ///< What it measures besides, `HapticState::channels`.
+  bool has_enable_switch = false;  ///< Of which `HapticState::enabled` tells.
+  bool paces_loop = false;         ///< A tick is due when it has measured: `wait_for_sample`.
+  double own_mass_kg = 0.0;        ///< That a hand feels in free space; 0: it does not say.
+  double own_damping_n_s_per_m = 0.0;  ///< Likewise.
+  double closed_loop_delay_s = 0.0;  ///< From a write until a read shows its effect, likewise.
+};
+
+/// Which one of its kind it is.
+struct DeviceIdentity {
+  std::string model;     ///< What it calls itself.
+  std::string serial;    ///< "": it does not say.
+  std::string firmware;  ///< Likewise.
 };
 
 /// How good the way to a device is that is elsewhere.
@@ -79,12 +103,23 @@ class HapticDevice {
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
   [[nodiscard]] virtual DeviceCapabilities capabilities() const noexcept = 0;
 
+  /// All of it is known once it is open. Not real time.
+  [[nodiscard]] virtual DeviceIdentity identity() const {
+    return {.model = std::string(name())};
+  }
+
   /// Throws `core::Error`: the device cannot be used, and why. Motors may be on afterwards, so
   /// check for real time first (`require_realtime`). Not real time.
   virtual void open() = 0;
 
   /// The newest measurement. False: there was none; `state` is then undefined. Real time.
   [[nodiscard]] virtual bool read(core::HapticState& state) noexcept = 0;
+
+  /// Of a device that paces the loop: until it has measured anew, or this monotonic time is
+  /// over. False: it was over. Real time but for the waiting.
+  [[nodiscard]] virtual bool wait_for_sample(std::int64_t /*deadline_ns*/) noexcept {
+    return false;
+  }
 
   /// Applies these forces until the next write; a simulated device moves on by its period.
   /// False: they were not taken. Real time.

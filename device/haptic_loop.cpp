@@ -47,7 +47,14 @@ bool is_finite(const core::HapticState& state, bool has_joints, bool tells_force
     joints += std::abs(state.joint_position_rad[i]) + std::abs(state.joint_torque_n_m[i]);
   }
   // Joints are recorded as `float`, which overflows far beyond this.
-  return std::isfinite(sum.x() + sum.y() + sum.z()) && joints < 1e30;
+  return std::isfinite(sum.x() + sum.y() + sum.z()) && joints < 1e30 &&
+         (state.channels.bits == 0 || core::is_sound(state.channels));
+}
+
+bool spans_hand_plane(const DeviceCapabilities& device) noexcept {
+  std::array<bool, kNumContactPoints> has{};
+  for (int i = 0; i < kNumContactPoints; ++i) has[i] = device.has_point(i);
+  return core::tip_of_hand_plane(has).has_value();
 }
 
 }  // namespace
@@ -58,15 +65,18 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
       device_(device),
       exchange_(exchange),
       period_s_(core::period_s_at(parameters.rate_hz)),
+      is_paced_(device.capabilities().paces_loop),
       has_joints_(device.capabilities().num_joints > 0),
+      channels_(device.capabilities().channels),
       staleness_(ticks(std::max(parameters.max_stale_s, device.capabilities().max_stale_s),
                        parameters.rate_hz),
                  period_s_),
       heartbeat_(exchange.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
-      num_points_(std::clamp(device.capabilities().num_contact_points, 1, kNumContactPoints)),
-      whole_hand_ratio_(1.0 / core::declared_share_ratio(num_points_)),
+      shares_(device.capabilities().share_ratio),
+      num_points_(device.capabilities().num_contact_points()),
+      has_hand_plane_(spans_hand_plane(device.capabilities())),
       watches_port_(
           device.capabilities().simulated
               ? parameters.shadows_guards ||
@@ -97,6 +107,9 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
   core::require_not_negative(parameters.max_stale_s, "max_stale_s");
   core::require_positive(parameters.max_jump_m, "max_jump_m");
   core::require_positive(parameters.flight_recorder_s, "flight_recorder_s");
+  if (num_points_ == 0) {
+    throw core::Error("share_ratio: expected a device with at least one point, found none");
+  }
   point_authority_ratio_.fill(1.0);
   known_stop_presses_ = exchange.emergency_stop.num_presses();
   if (!parameters.starts_armed) {
@@ -256,13 +269,15 @@ Fault HapticLoop::read_device() noexcept {
     return Fault::kNone;
   }
   // Whatever a device says of points that it does not have.
-  for (int i = num_points_; i < kNumContactPoints; ++i) {
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    if (shares_[i] > 0.0) continue;
     state_.attached[i] = false;
     state_.tip_position_m[i].setZero();
     state_.tip_velocity_m_per_s[i].setZero();
     state_.acted_n[i].setZero();
   }
   if (acts_at_once_) state_.acted_n = force_on_hand_n_;
+  state_.channels.bits = channels_;
   if (!is_finite(state_, has_joints_, watches_port_)) {
     // Recordings and telemetry get the last state that was one.
     state_ = last_state_;
@@ -272,6 +287,11 @@ Fault HapticLoop::read_device() noexcept {
   has_last_state_ = true;
   // A measurement that stands in for one that is missing says nothing of the hand.
   const bool is_new = state_.device_time_ns != last_state_.device_time_ns;
+  // In simulated time there is only one clock.
+  if (is_new && monotonic_ns_ != 0) {
+    device_clock_.observe(state_.arrived_ns != 0 ? state_.arrived_ns : monotonic_ns_,
+                          state_.device_time_ns);
+  }
   if (found == Fault::kNone && is_new) found = guards_.observe_stillness(state_, contact_);
   if (!state_.enabled) found = Fault::kNotEnabled;
   watch_attachment();
@@ -348,9 +368,7 @@ void HapticLoop::take_command() noexcept {
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that had met a value that is no number would never get rid of it.
     if (command_is_finite_) {
-      ramp_.start(num_points_ == kNumContactPoints ? command.medium
-                                                   : command.medium.times(whole_hand_ratio_),
-                  command.ramp_s);
+      ramp_.start(command.medium, command.ramp_s);
     }
     guards_.medium_changed();
     passivity_.grant_credit(surrounded_bits(command));
@@ -363,13 +381,11 @@ void HapticLoop::compute_force() noexcept {
   const core::MediumAmounts& medium = ramp_.advance(period_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
-  // Without index and middle finger there is no hand plane: the hand meets the fluid head on.
-  if (num_points_ <= static_cast<int>(core::ContactPoint::kIndex) &&
-      motion_.speed_m_per_s > 0.0)
-    motion_.sin_angle_of_attack = 1.0;
+  // Of a device without a hand plane the hand meets the fluid head on.
+  if (!has_hand_plane_ && motion_.speed_m_per_s > 0.0) motion_.sin_angle_of_attack = 1.0;
   const bool is_solid = core::SolidSurfaces::are_there(medium);
   if (is_solid) {
-    solids_.render(medium, command.immersion, state_, period_s_, solid_force_n_);
+    solids_.render(medium, command.immersion, shares_, state_, period_s_, solid_force_n_);
   } else {
     solids_.release();
   }
@@ -390,9 +406,9 @@ void HapticLoop::compute_force() noexcept {
     force_on_hand_n_ = core::zero_vectors();
     return;
   }
-  core::add_up_fluid_force(medium, parameters_.force_map, motion_, state_, immersed_bits_,
-                           command.immersion.origin_z_m, parameters_.fade_speed_m_per_s,
-                           force_on_hand_n_);
+  core::add_up_fluid_force(medium, parameters_.force_map, motion_, shares_, state_,
+                           immersed_bits_, command.immersion.origin_z_m,
+                           parameters_.fade_speed_m_per_s, force_on_hand_n_);
   if (is_solid) {
     for (int i = 0; i < kNumContactPoints; ++i) force_on_hand_n_[i] += solid_force_n_[i];
   }
@@ -430,7 +446,7 @@ void HapticLoop::warm() const noexcept {
   core::PointVectors force_on_hand_n = core::zero_vectors();
   const core::HandMotion motion =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
-  core::add_up_fluid_force(ramp_.current(), parameters_.force_map, motion, state_,
+  core::add_up_fluid_force(ramp_.current(), parameters_.force_map, motion, shares_, state_,
                            immersed_bits_, 0.0, parameters_.fade_speed_m_per_s,
                            force_on_hand_n);
   core::PassivityController passivity = passivity_;
@@ -468,7 +484,7 @@ void HapticLoop::report() noexcept {
     sample.tip_position_m[i] = plain(state_.tip_position_m[i]);
     sample.tip_velocity_m_per_s[i] = plain(state_.tip_velocity_m_per_s[i]);
     sample.tip_force_n[i] = plain(force_on_hand_n_[i]);
-    if (i < num_points_) position_sum += state_.tip_position_m[i];
+    if (shares_[i] > 0.0) position_sum += state_.tip_position_m[i];
     force_sum += force_on_hand_n_[i];
   }
   sample.end_effector_position_m = plain(state_.end_effector_position_m);
@@ -478,6 +494,7 @@ void HapticLoop::report() noexcept {
       sample.joint_torque_n_m[i] = static_cast<float>(state_.joint_torque_n_m[i]);
     }
   }
+  if (channels_ != 0) sample.channels = state_.channels;
 
   add_exposure();
   guards_.end_tick(fault_ == Fault::kNone);
@@ -503,6 +520,7 @@ void HapticLoop::report() noexcept {
   telemetry_.total_force_n = plain(force_sum);
   if (limited_) ++telemetry_.num_limited_ticks;
   telemetry_.contact_sums = device_.contact_sums();
+  telemetry_.device_clock = device_clock_.drift();
   exchange_.telemetry.publish(telemetry_);
 }
 

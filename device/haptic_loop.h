@@ -139,6 +139,13 @@ class HapticLoop {
 
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
 
+  /// Whether a tick is due when the device has measured, and not by our clock.
+  [[nodiscard]] bool is_paced() const noexcept { return is_paced_; }
+  /// See `HapticDevice::wait_for_sample`. By whoever calls `tick`.
+  bool wait_for_sample(std::int64_t deadline_ns) noexcept {
+    return device_.wait_for_sample(deadline_ns);
+  }
+
   /// Whether a heartbeat reaches it and this is where it tells its watchdog that it lives.
   [[nodiscard]] bool is_watched_by(const core::WatchdogState& watched) const noexcept {
     return exchange_.heartbeat != nullptr && exchange_.watchdog == &watched;
@@ -173,7 +180,9 @@ class HapticLoop {
   HapticDevice& device_;
   Exchange exchange_;
   double period_s_;
+  bool is_paced_;
   bool has_joints_;
+  core::ChannelBits channels_;  ///< That the device has.
   bool stalled_ = false;
   bool suspended_ = false;
   bool stall_is_told_ = false;  ///< One of the two was latched, and none came since.
@@ -184,8 +193,9 @@ class HapticLoop {
   core::HeartbeatMonitor heartbeat_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
-  int num_points_;           ///< That the device declares, the first ones.
-  double whole_hand_ratio_;  ///< Of a force that only those points carry; 1 for all five.
+  core::ShareRatios shares_;  ///< Of the points that the device declares; 0: it has none there.
+  int num_points_;
+  bool has_hand_plane_;  ///< With all its points held.
   bool watches_port_;
   bool acts_at_once_;  ///< What was sent last is taken for the force that acted.
   bool may_be_armed_;
@@ -214,6 +224,7 @@ class HapticLoop {
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;
   bool limited_ = false;
+  core::ClockComparison device_clock_;
   core::Telemetry telemetry_;
 };
 

@@ -12,7 +12,6 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/require.h"
-#include "device/adaptive_spin.h"
 
 namespace jnd::device {
 namespace {
@@ -100,6 +99,33 @@ void RealtimeThread::prepare() noexcept {
   flush_denormals();
 }
 
+/// By our own clock. Returns the time when the tick begins.
+std::int64_t RealtimeThread::wait_until_due(std::int64_t due_ns, AdaptiveSpin& spin) noexcept {
+  const std::int64_t wake_up_ns = due_ns - spin.length_ns();
+  if (wake_up_ns > monotonic_ns()) {
+    sleep_until(wake_up_ns);
+    spin.woke_up_late_by(monotonic_ns() - wake_up_ns);
+  }
+  // At the last moment: what shares the cache with this CPU goes on pushing things out.
+  constexpr std::int64_t kWarmingNs = 5'000;  // Several times what it takes.
+  if (monotonic_ns() < due_ns - kWarmingNs) {
+    spin_until(due_ns - kWarmingNs);
+    loop_->warm();
+  }
+  return spin_until(due_ns);
+}
+
+/// By the device's. One that runs wild is held to twice its rate.
+std::int64_t RealtimeThread::wait_for_device(std::int64_t& due_ns,
+                                             std::int64_t period_ns) noexcept {
+  const std::int64_t half_ns = period_ns / 2;
+  if (monotonic_ns() < due_ns - half_ns) sleep_until(due_ns - half_ns);
+  (void)loop_->wait_for_sample(due_ns + half_ns);
+  const std::int64_t now_ns = monotonic_ns();
+  if (now_ns <= due_ns + half_ns) due_ns = now_ns;
+  return now_ns;
+}
+
 void RealtimeThread::run() noexcept {
   const ThreadUse at_start = thread_use();
   const std::int64_t period_ns =
@@ -115,18 +141,8 @@ void RealtimeThread::run() noexcept {
   std::int64_t due_ns = monotonic_ns() + period_ns;
   std::int64_t num_missed = 0;  // Before the next tick.
   while (!stop_.load(std::memory_order_relaxed)) {
-    const std::int64_t wake_up_ns = due_ns - spin.length_ns();
-    if (wake_up_ns > monotonic_ns()) {
-      sleep_until(wake_up_ns);
-      spin.woke_up_late_by(monotonic_ns() - wake_up_ns);
-    }
-    // At the last moment: what shares the cache with this CPU goes on pushing things out.
-    constexpr std::int64_t kWarmingNs = 5'000;  // Several times what it takes.
-    if (monotonic_ns() < due_ns - kWarmingNs) {
-      spin_until(due_ns - kWarmingNs);
-      loop_->warm();
-    }
-    const std::int64_t started_ns = spin_until(due_ns);
+    const std::int64_t started_ns =
+        loop_->is_paced() ? wait_for_device(due_ns, period_ns) : wait_until_due(due_ns, spin);
     const std::int64_t sleep_ns = slept_ns(boottime);
     if (sleep_ns - known_sleep_ns > kSleepNs) loop_->suspended();
     known_sleep_ns = std::max(known_sleep_ns, sleep_ns);

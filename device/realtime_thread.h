@@ -4,6 +4,7 @@
 #include <semaphore>
 #include <thread>
 
+#include "device/adaptive_spin.h"
 #include "device/haptic_loop.h"
 #include "device/loop_timing.h"
 #include "device/realtime_report.h"
@@ -13,6 +14,9 @@ namespace jnd::device {
 /// Drives a `HapticLoop` by absolute time: sleeps until shortly before each tick is due and
 /// spins the rest, see `AdaptiveSpin`. A tick that comes too late by whole periods is counted
 /// as missed ticks and the grid is kept; the loop never runs several ticks at once to catch up.
+///
+/// Where the device sets the pace, a tick begins when it has measured, and half a period later
+/// if it has not; the grid follows it.
 ///
 /// The thread is prepared in the constructor, before anything moves: look at `report()`, then
 /// `start_haptics`.
@@ -57,6 +61,9 @@ class RealtimeThread {
  private:
   void prepare() noexcept;
   void run() noexcept;
+  [[nodiscard]] std::int64_t wait_until_due(std::int64_t due_ns, AdaptiveSpin& spin) noexcept;
+  [[nodiscard]] std::int64_t wait_for_device(std::int64_t& due_ns,
+                                             std::int64_t period_ns) noexcept;
 
   Parameters parameters_;
   RealtimeReport report_;

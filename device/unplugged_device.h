@@ -13,8 +13,7 @@ class UnpluggedDevice final : public HapticDevice {
 
   [[nodiscard]] std::string_view name() const noexcept override { return "unplugged"; }
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
-    return {.num_contact_points = core::kNumContactPoints,
-            .rate_hz = rate_hz_,
+    return {.rate_hz = rate_hz_,
             .max_force_per_point_n = 1.0,
             .max_total_force_n = 1.0,
             .simulated = true,

@@ -19,8 +19,13 @@ struct BidsChannel {
 };
 
 std::string component_of(const std::string& name) {
+  for (const char* part : {"w", "x", "y", "z"}) {
+    if (name.ends_with(std::string("_orientation_") + part)) {
+      return std::string("quat_") + part;
+    }
+  }
   for (const char* axis : {"x", "y", "z"}) {
-    for (const char* unit : {"_m_per_s", "_m", "_n"}) {
+    for (const char* unit : {"_m_per_s", "_m", "_n", "_n_m"}) {
       if (name.ends_with(std::string("_") + axis + unit)) return axis;
     }
   }
@@ -30,12 +35,14 @@ std::string component_of(const std::string& name) {
 /// BIDS has no type of force: it goes with what is miscellaneous.
 std::string bids_type_of(const RecordingColumn& column) {
   if (column.name.ends_with("_position_rad")) return "JNTANG";
-  if (column.unit == "m") return "POS";
+  if (column.name.find("_orientation_") != std::string::npos) return "ORNT";
+  if (column.name.find("_position_") != std::string::npos) return "POS";
   return column.unit == "m/s" ? "VEL" : "MISC";
 }
 
 std::string tracked_point_of(const std::string& name) {
-  for (const char* what : {"_position_", "_velocity_", "_force_", "_torque_"}) {
+  for (const char* what : {"_position_", "_velocity_", "_measured_force_", "_force_",
+                           "_orientation_", "_torque_"}) {
     const std::size_t at = name.find(what);
     if (at != std::string::npos) return name.substr(0, at);
   }

@@ -23,7 +23,8 @@ class ExportedRecording {
   /// Those that it has beside the usual ones.
   [[nodiscard]] core::SampleColumns columns() const {
     return any() ? core::SampleColumns{.times = reader_->has_times(),
-                                       .joints = reader_->has_joints()}
+                                       .joints = reader_->has_joints(),
+                                       .channels = reader_->channels()}
                  : core::SampleColumns{};
   }
   /// The ticks of its samples, ascending and merged.

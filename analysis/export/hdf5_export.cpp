@@ -27,7 +27,7 @@ std::string group_name(std::int64_t session) {
 }
 
 Hdf5Number hdf5_type_of(const RecordingColumn& column) {
-  if (column.name == "tick") return Hdf5Number::kInt64;
+  if (column.name == "tick" || column.name == "buttons") return Hdf5Number::kInt64;
   return column.unit.empty() ? Hdf5Number::kUint8 : Hdf5Number::kDouble;
 }
 

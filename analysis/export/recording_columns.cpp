@@ -17,6 +17,17 @@ std::string meaning_of(std::string_view name) {
   if (name == "immersed_bits") return "Bit i: point i is in the medium";
   if (name == "limited") return "1: the force limiter changed the force";
   if (name == "fault") return "0: none";
+  if (name == "gripper_m") return "Only from a device with a gripper; its opening";
+  if (name == "buttons") return "Only from a device with buttons; bit i: button i is pressed";
+  if (name.starts_with("end_effector_torque")) {
+    return "Only from a device that tells of it; torque on the hand, workspace frame";
+  }
+  if (name.starts_with("end_effector_orientation")) {
+    return "Only from a device that tells of it; unit quaternion to the workspace frame";
+  }
+  if (name.find("_measured_force_") != std::string_view::npos) {
+    return "Only from a device with sensors of force; force on the hand that they measured";
+  }
   if (name.ends_with("_rad")) return "Only from a device with joints; by its encoder";
   if (name.ends_with("_n_m")) return "Only from a device with joints; by its torque sensor";
   if (name.starts_with("end_effector")) {
@@ -26,7 +37,7 @@ std::string meaning_of(std::string_view name) {
 }
 
 struct Unit {
-  const char* ending;
+  std::string_view ending;
   const char* unit;
   int decimals;
   bool of_joints = false;
@@ -34,9 +45,17 @@ struct Unit {
 
 /// The decimals are those of the units in core/storage/sample_codec.h. "_n_m" stands before
 /// "_m", for the first that fits counts.
-constexpr Unit kUnits[] = {
-    {"_n_m", "N m", 4, true}, {"_rad", "rad", 6, true}, {"_m_per_s", "m/s", 4}, {"_m", "m", 7},
-    {"_n", "N", 3},           {"_s", "s", 6},           {"tick", "tick", 0}};
+constexpr Unit kUnits[] = {{"_n_m", "N m", 4, true},
+                           {"_rad", "rad", 6, true},
+                           {"_m_per_s", "m/s", 4},
+                           {"_m", "m", 7},
+                           {"_n", "N", 3},
+                           {"_s", "s", 6},
+                           {"tick", "tick", 0},
+                           {"_orientation_w", "1", 6},
+                           {"_orientation_x", "1", 6},
+                           {"_orientation_y", "1", 6},
+                           {"_orientation_z", "1", 6}};
 
 }  // namespace
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 namespace jnd::analysis {
@@ -171,7 +173,44 @@ DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store) {
       delivered.try_emplace(key, trial);
     }
   }
-  return with_delivered(std::move(data), delivered);
+  const ForceSource source = force_source_of(data, store);
+  DeliveredStudy study = with_delivered(std::move(data), delivered);
+  study.force_source = source;
+  return study;
+}
+
+ForceSource force_source_of(const StudyData& data, const core::StudyStore& store) {
+  std::set<std::int64_t> sessions;
+  for (const ParticipantData& participant : data.participants) {
+    for (const core::TrialRow& trial : participant.trials) sessions.insert(trial.session);
+  }
+  std::size_t num_measured = 0;
+  for (const std::int64_t session : sessions) {
+    const std::vector<core::EventRow> events = store.events(session);
+    const bool is_measured = std::ranges::any_of(events, [](const core::EventRow& event) {
+      if (event.kind != "loop_started") return false;
+      const nlohmann::json told = nlohmann::json::parse(event.data, nullptr, false);
+      const auto device = told.find("device");
+      if (device == told.end() || !device->contains("has")) return false;
+      const nlohmann::json& has = device->at("has");
+      return std::find(has.begin(), has.end(), "measured_force") != has.end();
+    });
+    num_measured += is_measured ? 1 : 0;
+  }
+  if (num_measured == 0) return ForceSource::kSent;
+  return num_measured == sessions.size() ? ForceSource::kMeasured : ForceSource::kBoth;
+}
+
+std::string_view name(ForceSource source) noexcept {
+  switch (source) {
+    case ForceSource::kSent:
+      return "sent";
+    case ForceSource::kMeasured:
+      return "measured";
+    case ForceSource::kBoth:
+      return "both";
+  }
+  return "unknown";
 }
 
 }  // namespace jnd::analysis

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "analysis/data/study_data.h"
@@ -28,11 +29,21 @@ using DeliveredIntensities = std::map<std::pair<std::int64_t, std::int64_t>, Del
 /// From the samples: of every fluid whose law is known, water among them.
 [[nodiscard]] DeliveredIntensities delivered_intensities(const MovementAnalysis& movement);
 
+/// What counts as delivered: the force as it was sent to the device, after every limit, or what
+/// its sensors of force measured; `kBoth`: sessions differ.
+enum class ForceSource { kSent, kMeasured, kBoth };
+
+/// By what the devices of these sessions said of themselves.
+[[nodiscard]] ForceSource force_source_of(const StudyData& data, const core::StudyStore& store);
+/// "sent", "measured", "both".
+[[nodiscard]] std::string_view name(ForceSource source) noexcept;
+
 /// A study whose intensities are those that were delivered.
 struct DeliveredStudy {
   StudyData data;
   std::int64_t num_replaced = 0;  ///< Trials.
   std::int64_t num_left_out = 0;  ///< Trials whose stimulus nobody measured.
+  ForceSource force_source = ForceSource::kSent;
 };
 
 /// For fits on delivered intensity. A trial gets the mean of what its participant was delivered

@@ -72,6 +72,7 @@ void ForceSums::add(double speed_m_per_s, double delivered_n, double commanded_n
 
 void ForceSums::add(const ForceSums& other) noexcept {
   commanded_known_ = commanded_known_ && other.commanded_known_;
+  is_measured_ = is_measured_ || other.is_measured_;
   if (other.classes_.empty()) return;
   if (classes_.empty()) classes_.resize(kNumClasses);
   all_.add(other.all_);
@@ -79,7 +80,7 @@ void ForceSums::add(const ForceSums& other) noexcept {
 }
 
 DeliveredForce ForceSums::delivered() const noexcept {
-  DeliveredForce force;
+  DeliveredForce force{.is_measured = is_measured_};
   if (!(all_.num_ticks > 0.0)) return force;
   force.delivered_n = all_.delivered_n / all_.num_ticks;
   if (all_.speed_m_per_s > 0.0) {
@@ -92,7 +93,7 @@ DeliveredForce ForceSums::delivered() const noexcept {
 }
 
 ForceBySpeed ForceSums::by_speed() const {
-  ForceBySpeed force;
+  ForceBySpeed force{.is_measured = is_measured_};
   for (const Sums& one : classes_) {
     if (one.num_ticks < kMinTicks) continue;
     force.speed_m_per_s.push_back(one.speed_m_per_s / one.num_ticks);

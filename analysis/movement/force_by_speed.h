@@ -14,10 +14,11 @@ namespace jnd::analysis {
 
 /// What was delivered over the ticks of a presentation, after the ramp.
 struct DeliveredForce {
-  std::optional<double> delivered_n;  ///< Mean rendered force against the motion.
+  std::optional<double> delivered_n;  ///< Mean delivered force against the motion.
   std::optional<double> commanded_n;  ///< Mean of the law at the hand's speed, without limits.
   std::optional<double> delivered_damping_n_s_per_m;  ///< Mean force over mean speed.
   std::optional<double> delivered_ratio;              ///< Delivered over commanded.
+  bool is_measured = false;  ///< By sensors of force; else it is what was sent.
 };
 
 /// Rendered force against speed, in classes of speed of 2 cm/s that hold at least 20 ticks.
@@ -25,6 +26,7 @@ struct ForceBySpeed {
   std::vector<double> speed_m_per_s;  ///< Mean of the ticks of each class.
   std::vector<double> delivered_n;    ///< Mean against the motion, after every limit.
   std::vector<double> commanded_n;  ///< By the law at these speeds; empty where it is unknown.
+  bool is_measured = false;         ///< By sensors of force.
 };
 
 /// The force that a stimulus stands for, from what the database knows of it: drag alone, fully
@@ -51,6 +53,7 @@ class ForceSums {
  public:
   void add(double speed_m_per_s, double delivered_n, double commanded_n) noexcept;
   void add(const ForceSums& other) noexcept;
+  void is_measured() noexcept { is_measured_ = true; }
   void commanded_is_unknown() noexcept { commanded_known_ = false; }
   [[nodiscard]] DeliveredForce delivered() const noexcept;
   [[nodiscard]] ForceBySpeed by_speed() const;
@@ -62,6 +65,7 @@ class ForceSums {
   };
 
   bool commanded_known_ = true;
+  bool is_measured_ = false;
   Sums all_;
   std::vector<Sums> classes_;
 };

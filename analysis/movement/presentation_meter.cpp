@@ -35,7 +35,7 @@ HandTick hand_tick(const core::Sample& sample, const std::array<double, 2>& forw
   for (int point = 0; point < core::kNumContactPoints; ++point) {
     const core::PlainVector& position = sample.tip_position_m[point];
     const core::PlainVector& velocity = sample.tip_velocity_m_per_s[point];
-    const core::PlainVector& force = sample.tip_force_n[point];
+    const core::PlainVector& force = core::delivered_force_n(sample)[point];
     hand.x_m += position[0];
     hand.y_m += position[1];
     hand.z_m += position[2];
@@ -94,6 +94,7 @@ bool PresentationMeter::feed(const core::Sample& sample) {
   ++result_.sums.num_ticks;
   result_.sums.force.add(hand_.speed_m_per_s, hand_.opposing_force_n,
                          commanded_.opposing_n(sample, hand_.speed_m_per_s));
+  if (sample.channels.has(core::kMeasuredForce)) result_.sums.force.is_measured();
   buffer_.push(hand_, sample);
   if (const std::optional<HalfStroke> half = finder_.feed(hand_)) take_half(*half);
   return true;

@@ -34,7 +34,20 @@ std::optional<double> delivered_ratio(const ParticipantMovement& person,
   return sum / count;
 }
 
-std::vector<Quantity> quantities() {
+/// Where any person's device measured it.
+const char* delivered_meaning(const MovementAnalysis& movement) {
+  for (const ParticipantMovement& person : movement.participants) {
+    for (const PresentationMovement& one : person.presentations) {
+      if (one.force.is_measured) {
+        return "delivered over commanded force; delivered is what sensors of force measured, "
+               "where the device has them";
+      }
+    }
+  }
+  return "delivered over commanded force";
+}
+
+std::vector<Quantity> quantities(const MovementAnalysis& movement) {
   const auto stroke = [](std::optional<double> StrokeMeans::*value) {
     return [value](const ParticipantMovement&, const ConditionMovement& condition) {
       return condition.strokes.*value;
@@ -52,7 +65,7 @@ std::vector<Quantity> quantities() {
        [](const ParticipantMovement&, const ConditionMovement& condition) {
          return condition.hand_height_ratio;
        }},
-      {"delivered_ratio", "1", "delivered over commanded force", delivered_ratio},
+      {"delivered_ratio", "1", delivered_meaning(movement), delivered_ratio},
       {"marked_ratio", "1",
        "share of presentations with missing ticks, lost contact, fault or limited force",
        [](const ParticipantMovement&, const ConditionMovement& condition) {
@@ -140,7 +153,7 @@ ResultsSection recorded_results(const MovementAnalysis& movement) {
     if (!person.reason.empty()) section.excluded.push_back({person.participant, person.reason});
   }
   const std::set<std::string> blocks = blocks_of(movement);
-  for (const Quantity& quantity : quantities()) {
+  for (const Quantity& quantity : quantities(movement)) {
     std::map<std::string, ByParticipant> by_block;
     for (const std::string& block : blocks) {
       by_block[block] = values_of(movement, block, quantity);

@@ -23,9 +23,10 @@ struct HandTick {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< Mean of the points.
   double forward_velocity_m_per_s = 0.0;
   double speed_m_per_s = 0.0;
-  double opposing_force_n = 0.0;  ///< Rendered, against the motion.
-  double dissipated_w = 0.0;      ///< Power that the rendered force takes from the hand.
-  bool sound = true;              ///< No contact lost, no fault.
+  double opposing_force_n =
+      0.0;                    ///< Delivered (`core::delivered_force_n`), against the motion.
+  double dissipated_w = 0.0;  ///< Power that this force takes from the hand.
+  bool sound = true;          ///< No contact lost, no fault.
 };
 
 /// From one turning point to the next.

@@ -148,6 +148,9 @@ std::optional<Figure> force_figure(const FigureSource& source, const MovementAna
     }
   }
   if (blocks.empty()) return std::nullopt;
+  const bool is_measured = std::ranges::any_of(
+      person.conditions,
+      [](const ConditionMovement& condition) { return condition.force.is_measured; });
   Figure figure{.name = "force_by_speed",
                 .section = "movement",
                 .title = "Delivered and commanded force over speed"};
@@ -175,8 +178,10 @@ std::optional<Figure> force_figure(const FigureSource& source, const MovementAna
   figure.height_in = grid_height_in(grid, panels.size(), 2.0);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
   figure.caption = "Participant " + person.participant + person_selection_words(movement) +
-                   ": circles: mean force that was rendered against the motion, after every "
-                   "limit, in classes of speed; lines: what the law commands there. One line "
+                   ": circles: mean force " +
+                   (is_measured ? "against the motion that the device's sensors measured"
+                                : "that was rendered against the motion, after every limit") +
+                   ", in classes of speed; lines: what the law commands there. One line "
                    "an intensity." +
                    selection_words(kIntensities, num_there, "intensities of a block");
   figure.tables = {std::move(table)};

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/session/device_checks.h"
 #include "app/session/stability_limits.h"
 #include "device/registry/device_registry.h"
 #include "experiments/protocol/located_json.h"
@@ -52,17 +53,14 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
   };
   const device::DeviceCapabilities capabilities =
       device::make_device(device, study.device.rate_hz)->capabilities();
-  if (capabilities.num_contact_points < study.device.min_contact_points) {
+  if (capabilities.num_contact_points() < study.device.min_contact_points) {
     add("/device/min_contact_points",
         fmt::format("expected a device that holds {} points of the hand, found that `{}` holds "
                     "{}; ask for fewer or choose another device",
-                    study.device.min_contact_points, device, capabilities.num_contact_points));
+                    study.device.min_contact_points, device,
+                    capabilities.num_contact_points()));
   }
-  const experiments::RangeLimits limits = {
-      .max_force_per_point_n = capabilities.max_force_per_point_n,
-      .max_total_force_n = capabilities.max_total_force_n,
-      .num_contact_points = capabilities.num_contact_points,
-      .expected_speed_m_per_s = expected_speed_m_per_s};
+  const experiments::RangeLimits limits = range_limits_of(capabilities, expected_speed_m_per_s);
   const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);
   std::optional<StabilityCheck> stability;
   if (const auto map = shipped_stability_map(device)) {

@@ -41,7 +41,7 @@ int describe_plugin(const DevicesOptions& options) {
   } catch (const core::Error& error) {
     throw UsageError(error.what());
   }
-  const auto num_points = static_cast<std::ptrdiff_t>(told.num_contact_points);
+  const device::DeviceCapabilities can = device::capabilities_of(told, told.rate_hz, true);
   nlohmann::ordered_json out;
   out["name"] = told.name;
   out["serial"] = told.serial;
@@ -49,9 +49,12 @@ int describe_plugin(const DevicesOptions& options) {
   out["simulated"] = (told.flags & JND_DEVICE_IS_SIMULATED) != 0;
   out["tried_on_hardware"] = false;
   out["has"] = device::features_of(told);
-  out["num_contact_points"] = told.num_contact_points;
-  out["area_share_ratio"] =
-      std::vector<double>(told.area_share_ratio, told.area_share_ratio + num_points);
+  out["num_contact_points"] = can.num_contact_points();
+  auto& shares = out["share_ratio"] = nlohmann::ordered_json::object();
+  for (int i = 0; i < core::kNumContactPoints; ++i) {
+    if (!can.has_point(i)) continue;
+    shares[std::string(core::kContactPointNames[i])] = can.share_ratio[i];
+  }
   out["rate_hz"] = told.rate_hz;
   out["max_force_per_point_n"] = told.max_force_per_point_n;
   out["max_total_force_n"] = told.max_total_force_n;
@@ -82,13 +85,13 @@ int run_devices(const DevicesOptions& options) {
           "{:<12} {}\n{:<12} {}, {} contact points, {:g} Hz, at most {:g} N at a point and "
           "{:g} N in all\n",
           entry.name, entry.description, "", can.simulated ? "simulated" : "real",
-          can.num_contact_points, can.rate_hz, can.max_force_per_point_n,
+          can.num_contact_points(), can.rate_hz, can.max_force_per_point_n,
           can.max_total_force_n);
     }
     list.push_back({{"name", entry.name},
                     {"description", entry.description},
                     {"simulated", can.simulated},
-                    {"num_contact_points", can.num_contact_points},
+                    {"num_contact_points", can.num_contact_points()},
                     {"rate_hz", can.rate_hz},
                     {"max_force_per_point_n", can.max_force_per_point_n},
                     {"max_total_force_n", can.max_total_force_n}});

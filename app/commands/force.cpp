@@ -131,7 +131,7 @@ LawForce force_of(const ForceOptions& options, const Vector& velocity) {
   const core::MediumAmounts medium = medium_of(options);
   core::PointVectors points = core::zero_vectors();
   // No share fades at low speed: it is the law that is asked for.
-  core::add_up_fluid_force(medium, map_used, motion,
+  core::add_up_fluid_force(medium, map_used, motion, core::kAreaShareRatio,
                            hand_turned(velocity_m_per_s, options.angle_of_attack_rad), 0b11111,
                            0.0, 1e-150, points);
   LawForce force;

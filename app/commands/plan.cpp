@@ -97,10 +97,7 @@ PlanOutcome outcome_of(const PlanOptions& options) {
   }
   outcome.device =
       device::make_device(options.device, outcome.study.device.rate_hz)->capabilities();
-  outcome.limits = {.max_force_per_point_n = outcome.device.max_force_per_point_n,
-                    .max_total_force_n = outcome.device.max_total_force_n,
-                    .num_contact_points = outcome.device.num_contact_points,
-                    .expected_speed_m_per_s = options.speed_m_per_s};
+  outcome.limits = range_limits_of(outcome.device, options.speed_m_per_s);
   outcome.range = experiments::planned_range(outcome.study, outcome.limits);
   if (const auto map = shipped_stability_map(options.device)) {
     outcome.stability =
@@ -352,11 +349,11 @@ std::vector<std::string> problems_of(const PlanOutcome& outcome, const PlanOptio
         options.file, *limit_s, too_long, outcome.plans.size()));
   }
   const int needed = outcome.study.device.min_contact_points;
-  if (outcome.device.num_contact_points < needed) {
+  if (outcome.device.num_contact_points() < needed) {
     problems.push_back(fmt::format(
         "{}: expected a device that holds {} points of the hand, found that `{}` holds {}; "
         "choose another --device",
-        options.file, needed, options.device, outcome.device.num_contact_points));
+        options.file, needed, options.device, outcome.device.num_contact_points()));
   }
   return problems;
 }

@@ -36,8 +36,15 @@ struct ResultsOptions {
 /// What the intensities are that the fits rest on.
 nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
   return {{"basis", "delivered"},
+          {"force", analysis::name(study.force_source)},
           {"num_trials", study.num_replaced},
           {"num_left_out", study.num_left_out}};
+}
+
+const char* force_words(analysis::ForceSource source) {
+  if (source == analysis::ForceSource::kSent) return "force as it was sent";
+  if (source == analysis::ForceSource::kMeasured) return "force that sensors measured";
+  return "force that sensors measured, and as it was sent where there were none";
 }
 
 int run_results(ResultsOptions options) {
@@ -62,8 +69,8 @@ int run_results(ResultsOptions options) {
     return kDone;
   }
   if (options.delivered) {
-    std::printf("intensities: as delivered, in %lld trials; %lld left out\n",
-                static_cast<long long>(study.num_replaced),
+    std::printf("intensities: as delivered (%s), in %lld trials; %lld left out\n",
+                force_words(study.force_source), static_cast<long long>(study.num_replaced),
                 static_cast<long long>(study.num_left_out));
   }
   std::fputs(to_table(results).c_str(), stdout);

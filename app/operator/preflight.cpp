@@ -6,6 +6,7 @@
 #include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
+#include "app/session/device_checks.h"
 #include "app/session/machine_checks.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
@@ -122,9 +123,8 @@ class Look {
     return line_from(tr("Stimuli"), tr("not known"), [&] {
       const device::DeviceCapabilities can =
           device::make_device(request_.device, rate_hz_)->capabilities();
-      const experiments::RangeLimits limits{.max_force_per_point_n = can.max_force_per_point_n,
-                                            .max_total_force_n = can.max_total_force_n,
-                                            .num_contact_points = can.num_contact_points};
+      const experiments::RangeLimits limits =
+          range_limits_of(can, experiments::RangeLimits{}.expected_speed_m_per_s);
       const std::vector<experiments::RangeEntry> range =
           experiments::planned_range(*study_, limits);
       std::optional<StabilityCheck> stability;

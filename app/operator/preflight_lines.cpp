@@ -124,10 +124,10 @@ PreflightLine device_line(const std::string& device, double rate_hz, int min_con
   return line_from(name, tr("does not start"), [&]() -> PreflightLine {
     const std::unique_ptr<device::HapticDevice> made = device::make_device(device, rate_hz);
     const device::DeviceCapabilities can = made->capabilities();
-    if (can.num_contact_points < min_contact_points) {
+    if (can.num_contact_points() < min_contact_points) {
       return {.name = name,
               .status = Status::kFailed,
-              .found = tr("holds {} of {} points of the hand", can.num_contact_points,
+              .found = tr("holds {} of {} points of the hand", can.num_contact_points(),
                           min_contact_points),
               .remedy = tr("choose another device")};
     }

@@ -359,9 +359,29 @@ bool Apparatus::is_laboratory_hand() const noexcept {
   return implementation_->parameters.device == kLumped;
 }
 
+bool Apparatus::measures_force() const noexcept {
+  return (implementation_->device->capabilities().channels & core::kMeasuredForce) != 0;
+}
+
+core::ShareRatios Apparatus::share_ratio() const noexcept {
+  return implementation_->device->capabilities().share_ratio;
+}
+
+experiments::DeviceTold Apparatus::device_told() const {
+  const device::DeviceIdentity identity = implementation_->device->identity();
+  const device::DeviceCapabilities can = implementation_->device->capabilities();
+  return {.model = identity.model,
+          .serial = identity.serial,
+          .firmware = identity.firmware,
+          .share_ratio = {can.share_ratio.begin(), can.share_ratio.end()},
+          .has = core::channel_names(can.channels),
+          .own_mass_kg = can.own_mass_kg,
+          .own_damping_n_s_per_m = can.own_damping_n_s_per_m,
+          .closed_loop_delay_s = can.closed_loop_delay_s};
+}
+
 int Apparatus::num_contact_points() const noexcept {
-  return std::clamp(implementation_->device->capabilities().num_contact_points, 1,
-                    core::kNumContactPoints);
+  return implementation_->device->capabilities().num_contact_points();
 }
 
 double Apparatus::max_total_force_n() const noexcept {

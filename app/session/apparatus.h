@@ -19,6 +19,7 @@
 #include "device/realtime_thread.h"
 #include "device/stroking_arm.h"
 #include "experiments/participants/laboratory.h"
+#include "experiments/session/event.h"
 
 namespace jnd::app {
 
@@ -99,8 +100,13 @@ class Apparatus {
   [[nodiscard]] bool shadows_guards() const noexcept;
   /// The laboratory's own lumped hand, and no device with mechanics of its own.
   [[nodiscard]] bool is_laboratory_hand() const noexcept;
-  /// That the device declares: the first of the hand's.
+  /// That the device declares.
   [[nodiscard]] int num_contact_points() const noexcept;
+  [[nodiscard]] core::ShareRatios share_ratio() const noexcept;
+  /// By sensors of its own.
+  [[nodiscard]] bool measures_force() const noexcept;
+  /// What the device says of itself, for keeping. Not real time.
+  [[nodiscard]] experiments::DeviceTold device_told() const;
   /// The most that the points together ever get: the least of the limiter's and the device's.
   [[nodiscard]] double max_total_force_n() const noexcept;
   /// Strokes from now on until `finish_strokes`.

@@ -1,5 +1,6 @@
 #include "app/session/device_checks.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -48,6 +49,15 @@ void require_device_starts(const std::string& name, double rate_hz) {
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());
   }
+}
+
+experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
+                                         double expected_speed_m_per_s) {
+  return {
+      .max_force_per_point_n = can.max_force_per_point_n,
+      .max_total_force_n = can.max_total_force_n,
+      .largest_share_ratio = *std::max_element(can.share_ratio.begin(), can.share_ratio.end()),
+      .expected_speed_m_per_s = expected_speed_m_per_s};
 }
 
 }  // namespace jnd::app

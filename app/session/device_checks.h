@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include "device/haptic_device.h"
+#include "experiments/session/plan.h"
+
 namespace jnd::app {
 
 // Whether a device that was asked for by its name is one that a session can run on.
@@ -25,5 +28,9 @@ void require_device_keeps_pace(const std::string& name, const std::string& place
 /// cannot begin; a real one is left alone, for its motors may turn on. Throws
 /// `EnvironmentError` with what the device says.
 void require_device_starts(const std::string& name, double rate_hz);
+
+/// What a study's stimuli have to keep within on this device.
+[[nodiscard]] experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
+                                                       double expected_speed_m_per_s);
 
 }  // namespace jnd::app

@@ -55,7 +55,7 @@ void MovementMeter::feed(const core::Sample& sample, double period_s) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
       position_m[axis] += sample.tip_position_m[point][axis];
       velocity_m_per_s[axis] += sample.tip_velocity_m_per_s[point][axis];
-      force_n[axis] += sample.tip_force_n[point][axis];
+      force_n[axis] += core::delivered_force_n(sample)[point][axis];
     }
   }
   velocity_m_per_s /= num_points;

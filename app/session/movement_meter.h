@@ -24,7 +24,8 @@ class MovementMeter {
   /// How the hand moved since the start. What the loop knows besides, forces and ticks, is not
   /// in it.
   [[nodiscard]] core::PresentationMeasures finish() noexcept;
-  /// What was sent since the start, and how fast the hand was meanwhile.
+  /// What was delivered since the start (`core::delivered_force_n`), and how fast the hand was
+  /// meanwhile.
   [[nodiscard]] const core::ContactSums& sums() const noexcept { return sums_; }
 
  private:

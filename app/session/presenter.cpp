@@ -55,7 +55,7 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
     // A solid is pressed: what its hand does along the surface is no stroke.
     const bool is_pressed = amounts_.plane().is_there();
     if (!is_pressed) measures = moved;
-    if (sums.num_ticks == 0) sums = apparatus_.metered_sums();
+    if (sums.num_ticks == 0 || apparatus_.measures_force()) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
     // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
     felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();

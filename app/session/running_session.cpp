@@ -111,7 +111,8 @@ void RunningSession::begin(const std::string& choice, const std::string& languag
   session_.loop_started({.scheduler = given.scheduler,
                          .memory_locked = given.memory_locked,
                          .cpus = given.cpus,
-                         .first_tick = apparatus_.next_tick()});
+                         .first_tick = apparatus_.next_tick(),
+                         .device = apparatus_.device_told()});
 }
 
 void RunningSession::keep_timing() {
@@ -125,7 +126,8 @@ void RunningSession::keep_timing() {
                           .max_lateness_ns = timing.lateness.max_ns,
                           .max_tick_cost_ns = timing.tick_cost.max_ns,
                           .lateness = buckets_of(timing.lateness),
-                          .tick_cost = buckets_of(timing.tick_cost)});
+                          .tick_cost = buckets_of(timing.tick_cost),
+                          .device_clock = apparatus_.telemetry().device_clock});
 }
 
 void RunningSession::keep_arming(const std::string& by) {

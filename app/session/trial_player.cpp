@@ -143,17 +143,15 @@ core::RandomStream TrialPlayer::stroke_stream(std::int64_t trial, std::int64_t a
 /// depth in it, weighed over the points as the force is.
 class TrialPlayer::StiffnessMeter {
  public:
-  StiffnessMeter(double surface_m, int num_contact_points)
-      : surface_m_(surface_m), num_contact_points_(num_contact_points) {}
+  StiffnessMeter(double surface_m, const core::ShareRatios& share_ratio)
+      : surface_m_(surface_m), share_ratio_(share_ratio) {}
 
   void look(const core::Telemetry& telemetry) {
     double depth_m = 0.0;
-    for (int point = 0; point < num_contact_points_; ++point) {
-      const auto place = static_cast<std::size_t>(point);
-      const double height_m = telemetry.sample.tip_position_m[place][2];
-      depth_m += core::kAreaShareRatio[place] * std::max(0.0, surface_m_ - height_m);
+    for (std::size_t point = 0; point < share_ratio_.size(); ++point) {
+      const double height_m = telemetry.sample.tip_position_m[point][2];
+      depth_m += share_ratio_[point] * std::max(0.0, surface_m_ - height_m);
     }
-    depth_m /= core::declared_share_ratio(num_contact_points_);
     sum_force_depth_ += telemetry.total_force_n[2] * depth_m;
     sum_depth_depth_ += depth_m * depth_m;
   }
@@ -164,7 +162,7 @@ class TrialPlayer::StiffnessMeter {
 
  private:
   double surface_m_;
-  int num_contact_points_;
+  core::ShareRatios share_ratio_;
   double sum_force_depth_ = 0.0, sum_depth_depth_ = 0.0;
 };
 
@@ -233,7 +231,7 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
     apparatus_.run_for(1.0 / run_.study.device.rate_hz);
   }
   presenter_.ramp_is_over();
-  StiffnessMeter stiffness(surface_m, apparatus_.num_contact_points());
+  StiffnessMeter stiffness(surface_m, apparatus_.share_ratio());
   run_strokes(intent, stiffness);
   const Presenter::Felt felt = presenter_.end();
   if (const std::string reason = presenter_.missed_reason(felt); !reason.empty()) {

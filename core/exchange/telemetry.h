@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
+#include "core/clock_comparison.h"
 #include "core/contact_sums.h"
 #include "core/exposure.h"
 #include "core/safety/fault.h"
@@ -34,9 +36,10 @@ struct Telemetry {
   std::uint64_t num_faults = 0;  ///< So far: who looks now and then misses none.
   /// How often each point came off so far.
   std::array<std::uint32_t, kNumContactPoints> num_detachments{};
-  std::uint64_t num_limited_ticks = 0;  ///< So far; a difference over a trial marks it.
-  Exposure exposure;                    ///< Since the loop began, to forces as sent.
-  ContactSums contact_sums;             ///< Zeros from a device that does not know them.
+  std::uint64_t num_limited_ticks = 0;     ///< So far; a difference over a trial marks it.
+  Exposure exposure;                       ///< Since the loop began, to forces as sent.
+  ContactSums contact_sums;                ///< Zeros from a device that does not know them.
+  std::optional<ClockDrift> device_clock;  ///< Of a device with a clock of its own, in time.
 };
 
 static_assert(std::is_trivially_copyable_v<Telemetry>);

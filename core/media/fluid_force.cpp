@@ -43,10 +43,11 @@ Eigen::Vector3d unit_lift(const ForceMap& map, const Eigen::Vector3d& normal,
 }  // namespace
 
 void add_up_fluid_force(const MediumAmounts& medium, const ForceMap* map,
-                        const HandMotion& motion, const HapticState& state,
-                        std::uint8_t immersed_bits, double surface_z_m,
-                        double fade_speed_m_per_s, PointVectors& force_on_hand_n) noexcept {
-  distribute_drag(medium.drag_n(motion, map), state, immersed_bits, fade_speed_m_per_s,
+                        const HandMotion& motion, const ShareRatios& shares,
+                        const HapticState& state, std::uint8_t immersed_bits,
+                        double surface_z_m, double fade_speed_m_per_s,
+                        PointVectors& force_on_hand_n) noexcept {
+  distribute_drag(medium.drag_n(motion, map), shares, state, immersed_bits, fade_speed_m_per_s,
                   force_on_hand_n);
   const bool has_ellipsoid = medium.has_ellipsoid();
   const bool has_lift = medium.lift_kg_per_m != 0.0 && map != nullptr && map->has_lift();
@@ -59,7 +60,7 @@ void add_up_fluid_force(const MediumAmounts& medium, const ForceMap* map,
   const double lift_n = medium.lift_kg_per_m * motion.speed_m_per_s * motion.speed_m_per_s;
   for (int i = 0; i < kNumContactPoints; ++i) {
     if (!state.attached[i] || (immersed_bits >> i & 1) == 0) continue;
-    const double share = kAreaShareRatio[i];
+    const double share = shares[i];
     const Eigen::Vector3d& velocity = state.tip_velocity_m_per_s[i];
     if (has_ellipsoid) force_on_hand_n[i] -= share * (damping * velocity);
     if (has_lift) {

@@ -27,8 +27,9 @@ namespace jnd::core {
 /// Zero for a point that is not attached or not immersed. `surface_z_m` is the fluid's surface,
 /// `fade_speed_m_per_s` > 0 as in `distribute_drag`. Real time.
 void add_up_fluid_force(const MediumAmounts& medium, const ForceMap* map,
-                        const HandMotion& motion, const HapticState& state,
-                        std::uint8_t immersed_bits, double surface_z_m,
-                        double fade_speed_m_per_s, PointVectors& force_on_hand_n) noexcept;
+                        const HandMotion& motion, const ShareRatios& shares,
+                        const HapticState& state, std::uint8_t immersed_bits,
+                        double surface_z_m, double fade_speed_m_per_s,
+                        PointVectors& force_on_hand_n) noexcept;
 
 }  // namespace jnd::core

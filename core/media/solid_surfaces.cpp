@@ -12,8 +12,7 @@ bool is_same(const Immersion& left, const Immersion& right) noexcept {
          left.origin_z_m == right.origin_z_m;
 }
 
-SolidAmounts share_of(const SolidAmounts& amounts, int point) noexcept {
-  const double share = kAreaShareRatio[point];
+SolidAmounts share_of(const SolidAmounts& amounts, double share) noexcept {
   return {share * amounts.stiffness_n_per_m, share * amounts.damping_n_s_per_m,
           share * amounts.friction_n_per_m};
 }
@@ -37,7 +36,7 @@ double bottom_depth_m(const Immersion& immersion, const Eigen::Vector3d& point_m
 }  // namespace
 
 void SolidSurfaces::render(const MediumAmounts& medium, const Immersion& immersion,
-                           const HapticState& state, double period_s,
+                           const ShareRatios& shares, const HapticState& state, double period_s,
                            PointVectors& force_on_hand_n) noexcept {
   follow(immersion, state);
   const SolidAmounts plane = medium.plane();
@@ -50,14 +49,15 @@ void SolidSurfaces::render(const MediumAmounts& medium, const Immersion& immersi
     }
     if (plane.is_there()) {
       force_on_hand_n[i] = contacts_[i].plane.force_n(
-          share_of(plane, i), Eigen::Vector3d::UnitZ(),
+          share_of(plane, shares[i]), Eigen::Vector3d::UnitZ(),
           plane_depth_m(immersion, state.tip_position_m[i]), state.tip_position_m[i],
           state.tip_velocity_m_per_s[i], period_s);
     } else {
       contacts_[i].plane.release();
     }
     if (container.is_there()) {
-      force_on_hand_n[i] += container_force_n(share_of(container, i), i, state, period_s);
+      force_on_hand_n[i] +=
+          container_force_n(share_of(container, shares[i]), i, state, period_s);
     }
   }
   if (!container.is_there()) held_bits_ = 0;

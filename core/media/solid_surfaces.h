@@ -12,7 +12,7 @@
 namespace jnd::core {
 
 /// The five points on everything solid, each on surfaces of its own (`GodObject`), with
-/// the share of the hand's amounts that `kAreaShareRatio` gives it:
+/// its share of the hand's amounts:
 ///
 ///   plane:      the surface of the `Immersion`, everywhere, solid below;
 ///   container:  the wall (a cylinder) and the bottom that the `Immersion` ends at, where it is
@@ -28,8 +28,9 @@ class SolidSurfaces {
   /// Writes the forces of this tick, workspace frame: zero for a point that came off, which
   /// forgets what it touched, as `release` does for all. Call once a tick while anything solid
   /// is there.
-  void render(const MediumAmounts& medium, const Immersion& immersion, const HapticState& state,
-              double period_s, PointVectors& force_on_hand_n) noexcept;
+  void render(const MediumAmounts& medium, const Immersion& immersion,
+              const ShareRatios& shares, const HapticState& state, double period_s,
+              PointVectors& force_on_hand_n) noexcept;
 
   /// Bit i: the container holds point i, which is in its fluid however hard it presses.
   [[nodiscard]] std::uint8_t held_bits() const noexcept { return held_bits_; }

@@ -15,8 +15,13 @@ double shape_constant(const ViscousDrag::Parameters& parameters) {
     require(parameters.length_m > 0.0, "length_m", "a number > 0", parameters.length_m);
     return 12.0 * parameters.projected_area_m2 / parameters.length_m;
   }
-  return 6.0 * std::numbers::pi *
-         equal_surface_radius_m(parameters.semi_major_axis_m, parameters.semi_minor_axis_m);
+  require(parameters.radius_m >= 0.0 && std::isfinite(parameters.radius_m), "radius_m",
+          "a finite number >= 0", parameters.radius_m);
+  const double radius_m =
+      parameters.radius_m > 0.0
+          ? parameters.radius_m
+          : equal_surface_radius_m(parameters.semi_major_axis_m, parameters.semi_minor_axis_m);
+  return 6.0 * std::numbers::pi * radius_m;
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ namespace jnd::core {
 class ViscousDrag {
  public:
   enum class Shape { kFlatPlate, kSphere };
+  /// What a tool that is held like a pen moves through the fluid if nobody says.
+  static constexpr double kToolRadiusM = 0.01;
 
   struct Parameters {
     double viscosity_pa_s;  ///< Dynamic viscosity, >= 0. Honey about 10.
@@ -23,6 +25,8 @@ class ViscousDrag {
     double length_m = 0.1;              ///< Characteristic length, > 0; used by kFlatPlate.
     double semi_major_axis_m = 0.10;    ///< Of the spheroid, > semi-minor; used by kSphere.
     double semi_minor_axis_m = 0.05;    ///< > 0; used by kSphere.
+    /// Of a sphere that is given as such, > 0; 0: by the spheroid. Used by kSphere.
+    double radius_m = 0.0;
   };
 
   /// Throws `Error` naming the field. Not real time.

@@ -18,10 +18,12 @@ namespace jnd::core {
 /// `fade_speed` the point's share fades in, so that the force is continuous where one tip stops
 /// while the hand moves on. Never along a point's motion: force_i . v_i <= 0.
 ///
-/// `drag_n` >= 0; bit i of `immersed_bits` and `state.attached[i]` decide on point i;
-/// `fade_speed_m_per_s` > 0. Forces on the hand, workspace frame. Real time.
-inline void distribute_drag(double drag_n, const HapticState& state, std::uint8_t immersed_bits,
-                            double fade_speed_m_per_s, PointVectors& force_on_hand_n) noexcept {
+/// `drag_n` >= 0; `shares` as in `ShareRatios`; bit i of `immersed_bits` and
+/// `state.attached[i]` decide on point i; `fade_speed_m_per_s` > 0. Forces on the hand,
+/// workspace frame. Real time.
+inline void distribute_drag(double drag_n, const ShareRatios& shares, const HapticState& state,
+                            std::uint8_t immersed_bits, double fade_speed_m_per_s,
+                            PointVectors& force_on_hand_n) noexcept {
   for (int i = 0; i < kNumContactPoints; ++i) {
     if (!state.attached[i] || (immersed_bits >> i & 1) == 0) {
       force_on_hand_n[i].setZero();
@@ -29,7 +31,7 @@ inline void distribute_drag(double drag_n, const HapticState& state, std::uint8_
     }
     const Eigen::Vector3d& velocity = state.tip_velocity_m_per_s[i];
     const double speed = std::max(std::sqrt(velocity.squaredNorm()), fade_speed_m_per_s);
-    force_on_hand_n[i] = (-kAreaShareRatio[i] * drag_n / speed) * velocity;
+    force_on_hand_n[i] = (-shares[i] * drag_n / speed) * velocity;
   }
 }
 

@@ -48,8 +48,10 @@ void put_line(std::string& table, const Cells& cells) {
 
 fs::path write_flight_record(const fs::path& recording_file,
                              const std::vector<Sample>& samples) {
-  const SampleColumns columns{.times = std::ranges::any_of(samples, has_times),
-                              .joints = std::ranges::any_of(samples, has_joints)};
+  const SampleColumns columns{
+      .times = std::ranges::any_of(samples, has_times),
+      .joints = std::ranges::any_of(samples, has_joints),
+      .channels = samples.empty() ? ChannelBits{0} : samples.front().channels.bits};
   std::string table;
   put_line(table, sample_column_names(columns));
   for (const Sample& sample : samples) put_line(table, sample_values(sample, columns));

@@ -13,10 +13,11 @@ namespace {
 
 // About four seconds at 1 kHz: large enough to compress well, small enough to lose little.
 constexpr std::size_t kSamplesPerChunk = 4096;
-// 2: chunks may hold joints. 3: they may hold times, and a table the ticks that never ran. A
-// recording becomes one of format 3 with the first of either, so that those of simulated time
-// are as they were.
-constexpr std::int64_t kFormat = 3, kFormatWithoutTimes = 2;
+// 2: chunks may hold joints. 3: they may hold times, and a table the ticks that never ran. 4:
+// they may hold what else a device measures. A recording becomes one of format 3 or 4 with the
+// first of these, so that others are as they were.
+constexpr std::int64_t kFormat = 4, kFormatWithChannels = 4, kFormatWithTimes = 3,
+                       kFormatWithoutTimes = 2;
 
 constexpr char kSchema[] = R"sql(
 CREATE TABLE recording_format (
@@ -93,6 +94,10 @@ struct RecordingWriter::Implementation {
           .bind(first.num_missed_before)
           .run();
     }
+    if (first.channels.bits != 0 && !keeps_channels) {
+      become(kFormatWithChannels);
+      keeps_channels = true;
+    }
     const std::string bytes = encode_samples(pending);
     insert->bind(segment)
         .bind(pending.front().tick)
@@ -107,13 +112,20 @@ struct RecordingWriter::Implementation {
     if (insert_missed) return;
     Transaction transaction(database);
     database.execute(kTimesSchema);
-    Statement(database, "UPDATE recording_format SET version = ?").bind(kFormat).run();
+    become(kFormatWithTimes);
     transaction.commit();
     insert_missed.emplace(database, "INSERT OR REPLACE INTO missed VALUES (?, ?, ?)");
   }
 
+  void become(std::int64_t format) {
+    Statement(database, "UPDATE recording_format SET version = MAX(version, ?)")
+        .bind(format)
+        .run();
+  }
+
   Database database;
   std::int64_t segment = 1;
+  bool keeps_channels = false;
   std::optional<Statement> insert;
   std::optional<Statement> insert_missed;  ///< Of a recording with times.
   std::vector<Sample> pending;
@@ -178,6 +190,22 @@ bool RecordingReader::has_joints() const {
   return found;
 }
 
+ChannelBits RecordingReader::channels() const {
+  if (is_empty(implementation_->database)) return 0;
+  Statement format(implementation_->database, "SELECT version FROM recording_format");
+  if (!format.step() || format.integer(0) < kFormatWithChannels) return 0;
+  ChannelBits bits = 0;
+  // Another robot may have gone on with the session: a sample of each segment.
+  Statement firsts(implementation_->database,
+                   "SELECT MIN(first_tick) FROM chunk GROUP BY segment");
+  while (firsts.step()) {
+    read(firsts.integer(0), firsts.integer(0), [&bits](const Sample& sample) {
+      bits = static_cast<ChannelBits>(bits | sample.channels.bits);
+    });
+  }
+  return bits;
+}
+
 /// The row's own numbers are not in the hash, but the bytes know them.
 static bool decodes(const RecordingChunk& chunk, std::string_view bytes) {
   if (chunk.num_samples < 1) return false;
@@ -192,7 +220,15 @@ static bool decodes(const RecordingChunk& chunk, std::string_view bytes) {
 bool RecordingReader::has_times() const {
   if (is_empty(implementation_->database)) return false;
   Statement format(implementation_->database, "SELECT version FROM recording_format");
-  return format.step() && format.integer(0) > kFormatWithoutTimes;
+  if (!format.step() || format.integer(0) <= kFormatWithoutTimes) return false;
+  if (format.integer(0) == kFormatWithTimes) return true;
+  // Of simulated time, with times that are all zero, or not.
+  Statement first(implementation_->database, "SELECT MIN(first_tick) FROM chunk");
+  bool found = false;
+  if (!first.step()) return found;
+  read(first.integer(0), first.integer(0),
+       [&found](const Sample& sample) { found |= jnd::core::has_times(sample); });
+  return found;
 }
 
 std::vector<RecordingChunk> RecordingReader::chunks() const {

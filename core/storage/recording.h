@@ -57,6 +57,9 @@ class RecordingReader {
   /// Whether the device told of joints, as the first chunk says. Throws `Error` if that is
   /// damaged.
   [[nodiscard]] bool has_joints() const;
+  /// What else the device measured, as the first chunk of each segment says. Throws `Error` if
+  /// one is damaged.
+  [[nodiscard]] ChannelBits channels() const;
   /// Whether samples tell the monotonic time and the device's. Quick.
   [[nodiscard]] bool has_times() const;
   /// Reads and decodes everything.

@@ -22,6 +22,8 @@ constexpr int kFlags = kEndEffector + 3;  // command, attached, immersed, limite
 constexpr int kNumChannels = kFlags + 5;
 constexpr int kNumJointChannels = 2 * kNumJoints;  // position, torque
 constexpr int kNumTimeChannels = 2;                // monotonic, the device's
+// Force at each point, orientation, torque, gripper, buttons: as many as there are at most.
+constexpr int kMostChannels = 3 * kNumContactPoints + 4 + 3 + 1 + 1;
 constexpr std::int64_t kNsPerUs = 1000;
 
 // Arithmetic modulo 2^32: differences wrap and come back exactly.
@@ -141,6 +143,41 @@ TimeRow time_row_of(const Sample& sample) noexcept {
   return {microseconds(sample.monotonic_ns), microseconds(sample.device_time_ns)};
 }
 
+/// Calls `visit(value, units)` for each number of those channels that `bits` tells, in their
+/// order.
+template <typename Channels, typename Visit>
+void for_each_channel(ChannelBits bits, Channels& channels, const Visit& visit) {
+  const auto all = [&visit](auto& numbers, double units) {
+    for (auto& number : numbers) visit(number, units);
+  };
+  if ((bits & kMeasuredForce) != 0) {
+    for (auto& force_n : channels.force_n) all(force_n, 1e3);
+  }
+  if ((bits & kOrientation) != 0) all(channels.orientation_wxyz, 1e6);
+  if ((bits & kTorque) != 0) all(channels.torque_n_m, 1e4);
+  if ((bits & kGripper) != 0) visit(channels.gripper_m, 1e7);
+}
+
+/// The words of a sample; of the buttons the bits as they are.
+std::vector<Word> channel_row_of(ChannelBits bits, const DeviceChannels& channels) {
+  std::vector<Word> row;
+  row.reserve(kMostChannels);
+  for_each_channel(bits, channels, [&row](double value, double units) {
+    row.push_back(fixed_point(value, units));
+  });
+  if ((bits & kButtons) != 0) row.push_back(channels.buttons);
+  return row;
+}
+
+void take_channels(ChannelBits bits, const std::vector<Word>& row, DeviceChannels& channels) {
+  channels.bits = bits;
+  std::size_t place = 0;
+  for_each_channel(bits, channels, [&](double& value, double units) {
+    value = number(row[place++], 1.0 / units);
+  });
+  if ((bits & kButtons) != 0) channels.buttons = row[place];
+}
+
 template <typename SomeWord>
 constexpr int kBitsOf = 8 * static_cast<int>(sizeof(SomeWord));
 
@@ -167,7 +204,7 @@ template <typename SomeRow>
 void put_planes(const std::vector<SomeRow>& rows, std::string& bytes) {
   using SomeWord = typename SomeRow::value_type;
   std::vector<SomeWord> coded(rows.size());
-  for (std::size_t channel = 0; channel < SomeRow().size(); ++channel) {
+  for (std::size_t channel = 0; channel < rows[0].size(); ++channel) {
     put_word(bytes, rows[0][channel]);
     put_word(bytes, rows.size() > 1 ? rows[1][channel] : SomeWord{0});
     SomeWord used_bits = 0;
@@ -232,15 +269,16 @@ class PlaneReader {
 template <typename SomeRow>
 class Columns {
  public:
-  Columns(PlaneReader& reader, std::size_t count)
-      : count_(count), words_(SomeRow().size() * count) {
-    for (std::size_t channel = 0; channel < SomeRow().size(); ++channel) {
+  /// `like`: a row with as many channels.
+  Columns(PlaneReader& reader, std::size_t count, SomeRow like = SomeRow())
+      : count_(count), like_(std::move(like)), words_(like_.size() * count) {
+    for (std::size_t channel = 0; channel < like_.size(); ++channel) {
       take(reader, &words_[channel * count]);
     }
   }
 
-  [[nodiscard]] SomeRow row(std::size_t sample) const noexcept {
-    SomeRow row;
+  [[nodiscard]] SomeRow row(std::size_t sample) const {
+    SomeRow row = like_;
     for (std::size_t channel = 0; channel < row.size(); ++channel) {
       row[channel] = words_[channel * count_ + sample];
     }
@@ -270,6 +308,7 @@ class Columns {
   }
 
   std::size_t count_;
+  SomeRow like_;
   std::vector<SomeWord> words_;
 };
 
@@ -314,12 +353,23 @@ std::string encode_samples(const std::vector<Sample>& samples) {
     put_planes(joints, raw);
   }
   std::string bytes = compressed(raw);
-  if (std::ranges::any_of(samples, has_times)) {
+  const ChannelBits channels = samples.front().channels.bits;
+  if (channels != 0 || std::ranges::any_of(samples, has_times)) {
     std::vector<TimeRow> times;
     times.reserve(samples.size());
     for (const Sample& sample : samples) times.push_back(time_row_of(sample));
     raw.clear();
     put_planes(times, raw);
+    bytes += compressed(raw);
+  }
+  if (channels != 0) {
+    std::vector<std::vector<Word>> rows_of_channels;
+    rows_of_channels.reserve(samples.size());
+    for (const Sample& sample : samples) {
+      rows_of_channels.push_back(channel_row_of(channels, sample.channels));
+    }
+    raw.assign(1, static_cast<char>(channels));
+    put_planes(rows_of_channels, raw);
     bytes += compressed(raw);
   }
   return bytes;
@@ -336,32 +386,46 @@ std::vector<Sample> decode_samples(std::string_view bytes, std::int64_t first_ti
     damaged.fail();
   }
   const auto count = static_cast<std::size_t>(num_samples);
-  const std::size_t frame_size = ZSTD_findFrameCompressedSize(bytes.data(), bytes.size());
-  if (ZSTD_isError(frame_size) != 0) damaged.fail();
+  const auto next_frame = [&](unsigned long long largest) {
+    const std::size_t size = ZSTD_findFrameCompressedSize(bytes.data(), bytes.size());
+    if (ZSTD_isError(size) != 0) damaged.fail();
+    std::string raw = decompressed(bytes.substr(0, size), largest, damaged);
+    bytes.remove_prefix(size);
+    return raw;
+  };
   const std::string raw =
-      decompressed(bytes.substr(0, frame_size),
-                   (kNumChannels + kNumJointChannels) * (9ULL + 4ULL * count), damaged);
+      next_frame((kNumChannels + kNumJointChannels) * (9ULL + 4ULL * count));
   PlaneReader reader(raw, place);
   const Columns<Row> columns(reader, count);
   std::optional<Columns<JointRow>> joints;
   if (!reader.is_at_end()) joints.emplace(reader, count);
   reader.finish();
 
-  std::string raw_times;
   std::optional<Columns<TimeRow>> times;
-  if (frame_size < bytes.size()) {
-    raw_times = decompressed(bytes.substr(frame_size),
-                             kNumTimeChannels * (17ULL + 8ULL * count), damaged);
+  if (!bytes.empty()) {
+    const std::string raw_times = next_frame(kNumTimeChannels * (17ULL + 8ULL * count));
     PlaneReader time_reader(raw_times, place);
     times.emplace(time_reader, count);
     time_reader.finish();
   }
+  ChannelBits channel_bits = 0;
+  std::optional<Columns<std::vector<Word>>> channels;
+  if (!bytes.empty()) {
+    const std::string raw_channels = next_frame(1 + kMostChannels * (9ULL + 4ULL * count));
+    PlaneReader channel_reader(raw_channels, place);
+    channel_bits = static_cast<ChannelBits>(channel_reader.take(1)[0]);
+    if (channel_bits == 0 || (channel_bits & ~kAllChannels) != 0) damaged.fail();
+    channels.emplace(channel_reader, count, channel_row_of(channel_bits, {}));
+    channel_reader.finish();
+  }
+  if (!bytes.empty()) damaged.fail();
   std::vector<Sample> samples;
   samples.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     samples.push_back(sample_of(columns.row(i), first_tick + static_cast<std::int64_t>(i)));
     Sample& sample = samples.back();
     if (joints) take_joints(joints->row(i), sample);
+    if (channels) take_channels(channel_bits, channels->row(i), sample.channels);
     if (!times) continue;
     const TimeRow row = times->row(i);
     sample.monotonic_ns = nanoseconds(row[0]);

@@ -139,11 +139,12 @@ class DriverChecker {
     judge_.judge(kDriverUnits, largest < kLargestOfAHand,
                  fmt::format("the largest position or velocity is {:.3g}", largest));
     int num_absent = 0;
-    for (int point = can_.num_contact_points; point < core::kNumContactPoints; ++point) {
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      if (can_.has_point(point)) continue;
       num_absent += all.back().state.attached[static_cast<std::size_t>(point)] ? 1 : 0;
     }
     judge_.judge(kDriverAbsent, num_absent == 0,
-                 fmt::format("{} of {} points are its own", can_.num_contact_points,
+                 fmt::format("{} of {} points are its own", can_.num_contact_points(),
                              core::kNumContactPoints));
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <type_traits>
 
 #include "device/network/crc32.h"
@@ -82,10 +83,54 @@ void bits(Bytes& bytes, Bits& values) noexcept {
   }
 }
 
-template <typename Bytes, typename Name>
-void device_name(Bytes& bytes, Name& name) noexcept {
+/// 0 on the wire where it is infinite: the device does not say.
+template <typename Bytes, typename Number>
+void positive_or_unsaid(Bytes& bytes, Number& value) noexcept {
+  double number = std::isfinite(value) ? value : 0.0;
+  bytes.number(number);
+  if (!(number >= 0.0)) bytes.refuse(Problem::kOutOfRange);
+  if constexpr (Bytes::kReads) value = number > 0.0 ? number : core::kInfinity;
+}
+
+/// Which points there are, a bit each, 32 bits wide; the shares come later.
+template <typename Bytes, typename Shares>
+std::uint32_t point_bits(Bytes& bytes, const Shares& shares) noexcept {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) bits |= (shares[i] > 0.0 ? 1U : 0U) << i;
+  bytes.number(bits);
+  if (bits == 0 || bits >> shares.size() != 0) bytes.refuse(Problem::kOutOfRange);
+  return bits;
+}
+
+template <typename Bytes, typename Shares>
+void share_ratios(Bytes& bytes, std::uint32_t bits, Shares& shares) noexcept {
+  constexpr double kMostOff = 1e-3;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    bytes.number(shares[i]);
+    const bool is_there = (bits >> i & 1U) != 0;
+    if (is_there ? !(shares[i] > 0.0) : !(shares[i] == 0.0)) {
+      bytes.refuse(Problem::kOutOfRange);
+    }
+    sum += shares[i];
+  }
+  if (!(std::abs(sum - 1.0) <= kMostOff)) bytes.refuse(Problem::kOutOfRange);
+  if constexpr (Bytes::kReads) shares = core::normalised_shares(shares);
+}
+
+template <typename Bytes, typename Channels>
+void channel_values(Bytes& bytes, Channels& channels) noexcept {
+  for (auto& force_n : channels.force_n) vector(bytes, force_n);
+  for (auto& part : channels.orientation_wxyz) bytes.number(part);
+  vector(bytes, channels.torque_n_m);
+  bytes.number(channels.gripper_m);
+  bytes.number(channels.buttons);
+}
+
+template <typename Bytes, typename Text>
+void device_text(Bytes& bytes, Text& text) noexcept {
   bool ended = false;
-  for (auto& letter : name) {
+  for (auto& letter : text) {
     auto byte = static_cast<std::uint8_t>(letter);
     bytes.number(byte);
     const bool is_printable = byte >= 0x20 && byte < 0x7f;
@@ -107,6 +152,7 @@ void fields(Bytes& bytes, T& hello) noexcept {
   bytes.number(hello.token);
   flag(bytes, hello.only_asks);
   bytes.number(hello.challenge);
+  positive(bytes, hello.rate_hz);
 }
 
 template <typename Bytes, typename T>
@@ -119,13 +165,26 @@ void fields(Bytes& bytes, T& welcome) noexcept {
   positive(bytes, can.max_total_force_n);
   not_negative(bytes, can.max_stale_s);
   if (!(can.max_stale_s <= kMostStale_s)) bytes.refuse(Problem::kOutOfRange);
-  count(bytes, can.num_contact_points, core::kNumContactPoints);
-  if (can.num_contact_points < 1) bytes.refuse(Problem::kOutOfRange);
+  const std::uint32_t points = point_bits(bytes, can.share_ratio);
   count(bytes, can.num_joints, core::kNumJoints);
   flag(bytes, can.simulated);
   flag(bytes, can.moves_by_itself);
-  device_name(bytes, welcome.name);
+  device_text(bytes, welcome.name);
   bytes.number(welcome.challenge);
+  share_ratios(bytes, points, can.share_ratio);
+  positive_or_unsaid(bytes, can.max_slew_n_per_s);
+  positive_or_unsaid(bytes, can.max_speed_m_per_s);
+  positive_or_unsaid(bytes, can.workspace.half_width_x_m);
+  positive_or_unsaid(bytes, can.workspace.half_width_y_m);
+  positive_or_unsaid(bytes, can.workspace.half_width_z_m);
+  not_negative(bytes, can.own_mass_kg);
+  not_negative(bytes, can.own_damping_n_s_per_m);
+  not_negative(bytes, can.closed_loop_delay_s);
+  bytes.number(can.channels);
+  if ((can.channels & ~core::kAllChannels) != 0) bytes.refuse(Problem::kOutOfRange);
+  flag(bytes, can.has_enable_switch);
+  device_text(bytes, welcome.serial);
+  device_text(bytes, welcome.firmware);
 }
 
 template <typename Bytes, typename T>
@@ -160,6 +219,7 @@ void fields(Bytes& bytes, T& state) noexcept {
   choice(bytes, state.level, LinkLevel::kUnacceptable, LinkLevel::kExcellent);
   for (auto& force : measured.acted_n) vector(bytes, force);
   flag(bytes, measured.enabled);
+  channel_values(bytes, measured.channels);
 }
 
 template <typename Bytes, typename T>

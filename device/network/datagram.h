@@ -21,11 +21,11 @@
 /// trusted: see `decode`.
 namespace jnd::device::wire {
 
-inline constexpr std::uint16_t kVersion = 2;
+inline constexpr std::uint16_t kVersion = 3;
 inline constexpr std::size_t kHeaderBytes = 40;
 inline constexpr std::size_t kChecksumBytes = 4;
 /// Of the largest datagram; below what any Ethernet carries in one piece.
-inline constexpr std::size_t kMaxBytes = 1024;
+inline constexpr std::size_t kMaxBytes = 1280;
 /// However long a device says that its measurements may stand in: more is refused.
 inline constexpr double kMostStale_s = 0.1;
 
@@ -47,15 +47,18 @@ struct Hello {
   std::uint64_t token = 0;  ///< Drawn by the program; the answer repeats it.
   bool only_asks = false;
   std::uint64_t challenge = 0;  ///< Of the last welcome: no old hello opens a stream.
+  double rate_hz = 1000.0;      ///< Of the commands that will come, > 0.
 };
 
-using DeviceName = std::array<char, 32>;  ///< Printable ASCII, zeros behind it.
+using DeviceText = std::array<char, 32>;  ///< Printable ASCII, zeros behind it.
 
 /// Device to program: what it can do, and the stream from now on, in the header.
 struct Welcome {
   std::uint64_t token = 0;
   DeviceCapabilities capabilities;
-  DeviceName name{};
+  DeviceText name{};
+  DeviceText serial{};          ///< Empty: it does not say.
+  DeviceText firmware{};        ///< Likewise.
   std::uint64_t challenge = 0;  ///< What the next hello that opens a stream has to repeat.
 };
 

@@ -31,6 +31,9 @@ class DatagramPort {
   [[nodiscard]] virtual std::size_t receive(std::span<std::byte> bytes,
                                             Address& from) noexcept = 0;
 
+  /// When the last datagram that `receive` gave came to this machine, by `now_ns`. Real time.
+  [[nodiscard]] virtual std::int64_t arrived_ns() const noexcept { return now_ns(); }
+
   /// Of a clock that never goes back. Real time.
   [[nodiscard]] virtual std::int64_t now_ns() const noexcept = 0;
 

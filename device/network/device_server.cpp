@@ -24,8 +24,24 @@ core::ForceLimiter::Parameters limits_of(const DeviceCapabilities& can, double s
   core::ForceLimiter::Parameters limits;
   limits.per_point_n = can.max_force_per_point_n;
   limits.total_n = can.max_total_force_n;
-  limits.slew_n_per_s = slew_n_per_s;
+  limits.slew_n_per_s = std::min(slew_n_per_s, can.max_slew_n_per_s);
+  limits.max_speed_m_per_s = std::min(limits.max_speed_m_per_s, can.max_speed_m_per_s);
   return limits;
+}
+
+/// As much of it as there is room for.
+wire::DeviceText text_of(std::string_view words) noexcept {
+  wire::DeviceText text{};
+  std::copy_n(words.begin(), std::min(words.size(), text.size()), text.begin());
+  return text;
+}
+
+/// What it says of itself, some of it once it is open.
+void introduce(const HapticDevice& device, wire::Welcome& welcome) {
+  const DeviceIdentity identity = device.identity();
+  welcome.name = text_of(identity.model);
+  welcome.serial = text_of(identity.serial);
+  welcome.firmware = text_of(identity.firmware);
 }
 
 /// A state may be late for as long as a command.
@@ -33,8 +49,7 @@ wire::Welcome welcome_of(const HapticDevice& device, double watchdog_s) {
   wire::Welcome welcome{.capabilities = device.capabilities()};
   double& max_stale_s = welcome.capabilities.max_stale_s;
   max_stale_s = std::min(std::max(max_stale_s, watchdog_s), wire::kMostStale_s);
-  const std::string_view name = device.name();
-  std::copy_n(name.begin(), std::min(name.size(), welcome.name.size()), welcome.name.begin());
+  introduce(device, welcome);
   return welcome;
 }
 
@@ -47,7 +62,7 @@ bool is_finite(const core::HapticState& state) noexcept {
   for (const Eigen::Vector3d& force : state.acted_n) finite &= force.allFinite();
   for (const double angle : state.joint_position_rad) finite &= std::isfinite(angle);
   for (const double torque : state.joint_torque_n_m) finite &= std::isfinite(torque);
-  return finite;
+  return finite && (state.channels.bits == 0 || core::is_sound(state.channels));
 }
 
 bool is_finite(const core::ContactSums& sums) noexcept {
@@ -77,7 +92,6 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
       limiter_(limits_of(device.capabilities(), parameters.slew_n_per_s),
                1.0 / device.capabilities().rate_hz),
       tells_acting_force_(device.capabilities().tells_acting_force),
-      quality_(parameters.quality),
       seal_(DatagramSeal::Side::kDevice, parameters.key),
       next_stream_id_(parameters.first_stream_id),
       sequence_(parameters.first_sequence) {
@@ -94,7 +108,7 @@ void DeviceServer::step(std::int64_t now_ns) noexcept {
   num_welcomed_in_step_ = 0;
   refused_in_step_ = false;
   take_in(now_ns);
-  if (client_) quality_.end_tick();
+  if (client_ && counts_.num_steps % steps_per_command_ == 0) quality_.end_tick();
   watch_own_pace(now_ns);
   watch(now_ns);
   measure();
@@ -115,6 +129,7 @@ void DeviceServer::renew_device() {
   if (!was_used_) return;
   device_.close();
   device_.open();
+  introduce(device_, welcome_);
   was_used_ = false;
 }
 
@@ -195,7 +210,9 @@ void DeviceServer::take(const wire::Hello& hello, const Address& from,
                      .last_heard_ns = now_ns};
     seal_.begin_stream(client_->token, client_->stream_id);
     ++counts_.num_clients;
-    quality_.restart();
+    quality_.restart(hello.rate_hz);
+    steps_per_command_ = std::max<std::int64_t>(
+        1, std::lround(std::min(welcome_.capabilities.rate_hz / hello.rate_hz, 1000.0)));
     sequence_ = parameters_.first_sequence;
     state_.armed_number = 0;
     state_.order_number = 0;

@@ -37,7 +37,6 @@ class DeviceServer {
     std::uint64_t first_challenge = 0;  ///< Drawn anew whenever a server starts.
     /// With it, only programs that have it too are listened to; see `DatagramSeal`.
     std::optional<DeviceKey> key;
-    LinkQuality::Parameters quality;
   };
 
   /// What there was, for a person to read at the end.
@@ -114,7 +113,8 @@ class DeviceServer {
   DatagramPort& port_;
   Parameters parameters_;
   std::int64_t watchdog_ns_, client_timeout_ns_;
-  std::uint32_t max_answer_age_;  ///< In steps.
+  std::uint32_t max_answer_age_;        ///< In steps.
+  std::int64_t steps_per_command_ = 1;  ///< By the rates of both sides.
   wire::Welcome welcome_;
   core::ForceLimiter limiter_;
   bool tells_acting_force_;

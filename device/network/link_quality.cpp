@@ -1,17 +1,21 @@
 #include "device/network/link_quality.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace jnd::device {
 namespace {
 
-constexpr std::uint32_t kFewest = 50;  ///< Datagrams to judge by.
 constexpr double kSmoothing = 1.0 / 16.0;
 
-LinkLevel level_of_missing(std::uint32_t num_missing) noexcept {
-  if (num_missing <= 1) return LinkLevel::kExcellent;
-  if (num_missing <= 10) return LinkLevel::kGood;
-  if (num_missing <= 51) return LinkLevel::kPoor;
+/// Of this many; the limits are those of 512.
+LinkLevel level_of_missing(std::uint32_t num_missing, std::uint32_t window) noexcept {
+  const auto most = [window](std::uint32_t of_512) {
+    return std::max(1U, of_512 * window / 512);
+  };
+  if (num_missing <= most(1)) return LinkLevel::kExcellent;
+  if (num_missing <= most(10)) return LinkLevel::kGood;
+  if (num_missing <= most(51)) return LinkLevel::kPoor;
   return LinkLevel::kUnacceptable;
 }
 
@@ -38,7 +42,19 @@ std::string_view name(LinkLevel level) noexcept {
   return "unknown";
 }
 
-void LinkQuality::restart() noexcept {
+void LinkQuality::restart(double rate_hz) noexcept {
+  const double rate = std::clamp(rate_hz, 100.0, 16'000.0);
+  const auto datagrams_of = [rate](double duration_s) {
+    return static_cast<std::uint32_t>(std::max(1.0, std::round(duration_s * rate)));
+  };
+  window_ = datagrams_of(0.512);
+  fewest_ = datagrams_of(0.050);
+  most_in_a_row_ = datagrams_of(0.020);
+  good_for_ = static_cast<int>(datagrams_of(0.100));
+  forget();
+}
+
+void LinkQuality::forget() noexcept {
   has_newest_ = false;
   num_expected_ = 0;
   num_came_ = 0;
@@ -51,7 +67,7 @@ void LinkQuality::restart() noexcept {
 
 void LinkQuality::judge_anew() noexcept {
   const bool had_newest = has_newest_;
-  restart();
+  forget();
   if (!had_newest) return;
   has_newest_ = true;
   num_expected_ = 1;
@@ -59,13 +75,13 @@ void LinkQuality::judge_anew() noexcept {
 }
 
 bool LinkQuality::is_marked(std::uint32_t sequence) const noexcept {
-  const std::uint32_t place = sequence % kWindow;
+  const std::uint32_t place = sequence % kRing;
   return (came_[place / 64] >> (place % 64) & 1) != 0;
 }
 
 void LinkQuality::mark(std::uint32_t sequence, bool came) noexcept {
   if (is_marked(sequence) == came) return;
-  const std::uint32_t place = sequence % kWindow;
+  const std::uint32_t place = sequence % kRing;
   came_[place / 64] ^= std::uint64_t{1} << (place % 64);
   num_came_ = came ? num_came_ + 1 : num_came_ - 1;
 }
@@ -74,10 +90,12 @@ void LinkQuality::advance_to(std::uint32_t sequence) noexcept {
   const std::uint32_t ahead = sequence - newest_;
   const std::uint32_t num_lost = ahead - 1;
   counts_.lost += num_lost;
-  if (num_lost >= static_cast<std::uint32_t>(parameters_.max_lost_in_a_row)) broken_ = true;
-  // Whatever leaves the window makes room for what is new in it.
-  for (std::uint32_t i = 1; i <= std::min(ahead, kWindow); ++i) mark(newest_ + i, false);
-  num_expected_ = std::min(kWindow, num_expected_ + std::min(ahead, kWindow));
+  if (num_lost >= most_in_a_row_) broken_ = true;
+  // Whatever leaves the window is forgotten.
+  for (std::uint32_t i = 1; i <= std::min(ahead, window_); ++i) {
+    mark(newest_ + i - window_, false);
+  }
+  num_expected_ = std::min(window_, num_expected_ + std::min(ahead, window_));
   newest_ = sequence;
 }
 
@@ -103,7 +121,7 @@ LinkQuality::Verdict LinkQuality::received(std::uint32_t sequence) noexcept {
   mark(sequence, true);
   ++counts_.received;
   came_in_tick_ = true;
-  num_good_ = level() >= LinkLevel::kGood ? std::min(num_good_ + 1, parameters_.good_for) : 0;
+  num_good_ = level() >= LinkLevel::kGood ? std::min(num_good_ + 1, good_for_) : 0;
   return verdict;
 }
 
@@ -122,9 +140,9 @@ void LinkQuality::end_tick() noexcept {
 }
 
 LinkLevel LinkQuality::level() const noexcept {
-  if (num_came_ < kFewest) return LinkLevel::kUnacceptable;
+  if (num_came_ < fewest_) return LinkLevel::kUnacceptable;
   const std::uint32_t num_missing = num_expected_ - std::min(num_came_, num_expected_);
-  return std::min(level_of_missing(num_missing), level_of_round_trip(round_trip_ns_));
+  return std::min(level_of_missing(num_missing, window_), level_of_round_trip(round_trip_ns_));
 }
 
 }  // namespace jnd::device

@@ -25,36 +25,32 @@ struct LinkCounts {
 
 /// Judges what comes in over a connection by the sequence numbers it bears; they may wrap.
 ///
-/// | level        | missing of the last 512 | round trip, smoothed |
-/// | ------------ | ----------------------- | -------------------- |
-/// | excellent    | at most 1               | at most 4 ms         |
-/// | good         | at most 10 (2 %)        | at most 8 ms         |
-/// | poor         | at most 51 (10 %)       | at most 16 ms        |
-/// | unacceptable | more                    | more                 |
+/// | level        | missing of the last 0.512 s | round trip, smoothed |
+/// | ------------ | --------------------------- | -------------------- |
+/// | excellent    | at most 1 of 512            | at most 4 ms         |
+/// | good         | at most 10 of 512           | at most 8 ms         |
+/// | poor         | at most 51 of 512           | at most 16 ms        |
+/// | unacceptable | more                        | more                 |
 ///
-/// Unacceptable also until 50 have come; whether it is settled is not known before a round trip
-/// has been measured. A round trip is from a datagram's sending until the first answer that had
-/// seen it is taken in, so it holds the waiting for the ticks of both sides: two periods and
-/// the network. Used by one thread; real time.
+/// Unacceptable also until those of 50 ms have come; whether it is settled is not known before
+/// a round trip has been measured. Times turn into numbers of datagrams by the sender's rate. A
+/// round trip is from a datagram's sending until the first answer that had seen it is taken in,
+/// so it holds the waiting for the ticks of both sides: two periods and the network. Used by
+/// one thread; real time.
 class LinkQuality {
  public:
-  struct Parameters {
-    int max_lost_in_a_row =
-        20;              ///< That many in a row break the connection, as with libfranka.
-    int good_for = 100;  ///< Datagrams at least good in a row before it is settled.
-  };
-
   enum class Verdict {
     kNewest,     ///< Newer than all before.
     kReordered,  ///< Older than the newest, and new to us.
     kRepeated,   ///< Seen before, or too old to tell, or from before the first.
   };
 
-  explicit LinkQuality(const Parameters& parameters) noexcept : parameters_(parameters) {}
+  LinkQuality() noexcept { restart(); }
 
   /// Another stream of datagrams, whose numbers begin anew: all is to be shown anew. The
-  /// counts go on, and so does our clock, of which no echo counts twice.
-  void restart() noexcept;
+  /// counts go on, and so does our clock, of which no echo counts twice. `rate_hz` > 0: so many
+  /// a second will come; below 100 counts as 100, above 16,000 as 16,000.
+  void restart(double rate_hz = 1000.0) noexcept;
   /// Judges anew in the middle of a stream, whose numbers count on: what came before stays
   /// known, so that nothing old counts as new.
   void judge_anew() noexcept;
@@ -69,7 +65,7 @@ class LinkQuality {
   [[nodiscard]] LinkLevel level() const noexcept;
   /// At least good for as long as was asked for, up to now.
   [[nodiscard]] bool is_settled() const noexcept {
-    return num_good_ >= parameters_.good_for && has_round_trip_;
+    return num_good_ >= good_for_ && has_round_trip_;
   }
   /// Too many in a row were lost since `restart`.
   [[nodiscard]] bool is_broken() const noexcept { return broken_; }
@@ -83,20 +79,26 @@ class LinkQuality {
   [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
 
  private:
-  static constexpr std::uint32_t kWindow = 512;
+  static constexpr std::uint32_t kRing = 8192;  ///< Of the largest window, a power of 2.
 
   [[nodiscard]] bool is_marked(std::uint32_t sequence) const noexcept;
   void mark(std::uint32_t sequence, bool came) noexcept;
   void advance_to(std::uint32_t sequence) noexcept;
 
-  Parameters parameters_;
+  void forget() noexcept;
+
+  std::uint32_t window_ = 512;  ///< Datagrams that are judged.
+  std::uint32_t fewest_ = 50;   ///< To judge by.
+  std::uint32_t most_in_a_row_ =
+      20;               ///< Lost, as many break the connection, as with libfranka.
+  int good_for_ = 100;  ///< Datagrams at least good in a row before it is settled.
   LinkCounts counts_;
   bool has_newest_ = false;
   std::uint32_t newest_ = 0;
   std::uint32_t num_expected_ = 0;  ///< Within the window, up to its size.
   std::uint32_t num_came_ = 0;      ///< Those of them that came.
-  /// One bit a sequence number, modulo the window.
-  std::array<std::uint64_t, kWindow / 64> came_{};
+  /// One bit a sequence number, modulo the ring; none outside of the window.
+  std::array<std::uint64_t, kRing / 64> came_{};
   bool came_in_tick_ = false;
   bool broken_ = false;
   int num_good_ = 0;

@@ -30,10 +30,20 @@ bool has_force(const core::PointVectors& force_n) noexcept {
                      [](const Eigen::Vector3d& force) { return !force.isZero(0.0); });
 }
 
+std::string_view words_of(const wire::DeviceText& text) noexcept {
+  const auto* const end = std::find(text.begin(), text.end(), '\0');
+  return {text.data(), static_cast<std::size_t>(end - text.begin())};
+}
+
 bool is_same(const wire::Welcome& a, const wire::Welcome& b) noexcept {
   const DeviceCapabilities& one = a.capabilities;
   const DeviceCapabilities& other = b.capabilities;
-  return a.name == b.name && one.num_contact_points == other.num_contact_points &&
+  return a.name == b.name && a.serial == b.serial && one.share_ratio == other.share_ratio &&
+         one.channels == other.channels && one.max_slew_n_per_s == other.max_slew_n_per_s &&
+         one.max_speed_m_per_s == other.max_speed_m_per_s &&
+         one.workspace.half_width_x_m == other.workspace.half_width_x_m &&
+         one.workspace.half_width_y_m == other.workspace.half_width_y_m &&
+         one.workspace.half_width_z_m == other.workspace.half_width_z_m &&
          one.rate_hz == other.rate_hz &&
          one.max_force_per_point_n == other.max_force_per_point_n &&
          one.max_total_force_n == other.max_total_force_n && one.simulated == other.simulated &&
@@ -43,9 +53,14 @@ bool is_same(const wire::Welcome& a, const wire::Welcome& b) noexcept {
 }  // namespace
 
 std::string_view NetworkDevice::served_name() const noexcept {
-  if (!device_) return "";
-  const auto* const end = std::find(device_->name.begin(), device_->name.end(), '\0');
-  return {device_->name.data(), static_cast<std::size_t>(end - device_->name.begin())};
+  return device_ ? words_of(device_->name) : std::string_view();
+}
+
+DeviceIdentity NetworkDevice::identity() const {
+  if (!device_) return {};
+  return {.model = std::string(words_of(device_->name)),
+          .serial = std::string(words_of(device_->serial)),
+          .firmware = std::string(words_of(device_->firmware))};
 }
 
 DeviceCapabilities NetworkDevice::capabilities() const noexcept {
@@ -164,9 +179,11 @@ void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcom
   stream_id_ = header.stream_id;
   stream_token_ = token_;
   seal_.begin_stream(token_, header.stream_id);
-  quality_.restart();
+  quality_.restart(device_->capabilities.rate_hz);
   newest_.armed = false;
   newest_.armed_number = 0;
+  newest_.measured.arrived_ns = port_->arrived_ns();
+  newest_.measured.channels.bits = device_->capabilities.channels;
   newest_ns_ = now_ns;
   peer_sent_ns_ = 0;
   arm_number_ = 1;
@@ -199,6 +216,8 @@ void NetworkDevice::take(const wire::Header& header, const wire::State& state,
   if (quality_.received(header.sequence) != LinkQuality::Verdict::kNewest) return;
   newest_ = state;
   newest_sequence_ = header.sequence;
+  newest_.measured.arrived_ns = port_->arrived_ns();
+  newest_.measured.channels.bits = device_->capabilities.channels;
   newest_ns_ = now_ns;
   peer_sent_ns_ = header.sent_ns;
   quality_.echoed(header.echo_ns, now_ns);
@@ -280,9 +299,11 @@ void NetworkDevice::speak(const core::PointVectors& force_on_hand_n,
 void NetworkDevice::say_hello(bool only_asks, std::int64_t now_ns) noexcept {
   if (last_hello_ns_ != 0 && now_ns - last_hello_ns_ < kHelloEvery_ns) return;
   last_hello_ns_ = now_ns;
-  const wire::Datagram datagram{
-      .header = {.sent_ns = now_ns},
-      .content = wire::Hello{.token = token_, .only_asks = only_asks, .challenge = challenge_}};
+  const wire::Datagram datagram{.header = {.sent_ns = now_ns},
+                                .content = wire::Hello{.token = token_,
+                                                       .only_asks = only_asks,
+                                                       .challenge = challenge_,
+                                                       .rate_hz = parameters_.rate_hz}};
   std::array<std::byte, DatagramSeal::kMostBytes> bytes;
   const std::size_t size = seal_.write(datagram, bytes);
   port_->send(std::span(bytes).first(size), server_);

@@ -32,7 +32,7 @@ namespace jnd::device {
 class NetworkDevice final : public HapticDevice {
  public:
   struct Parameters {
-    double rate_hz = 1000.0;           ///< Of the loop; the device's own has to be the same.
+    double rate_hz = 1000.0;           ///< Of the loop; the device's own is no lower.
     double max_stale_s = 0.020;        ///< > 0.
     double patience_s = 2.0;           ///< For the device to answer and the link to be good.
     std::uint64_t token = 1;           ///< Drawn anew for each run of the program.
@@ -41,7 +41,6 @@ class NetworkDevice final : public HapticDevice {
     std::optional<DeviceKey> key;
     /// Whether a device that says of itself that nobody can be hurt by it is believed.
     bool believes_simulated = true;
-    LinkQuality::Parameters quality;
   };
 
   /// Throws `core::Error` naming the field. Not real time.
@@ -58,6 +57,7 @@ class NetworkDevice final : public HapticDevice {
   /// "lumped": what the device is called where it is served; "" before it answered. Real time.
   [[nodiscard]] std::string_view served_name() const noexcept;
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override;
+  [[nodiscard]] DeviceIdentity identity() const override;
   /// What it says itself, believed or not. Real time.
   [[nodiscard]] bool says_simulated() const noexcept {
     return device_ && device_->capabilities.simulated;
@@ -112,7 +112,7 @@ class NetworkDevice final : public HapticDevice {
   void speak(const core::PointVectors& force_on_hand_n, std::int64_t now_ns) noexcept;
   void say_hello(bool only_asks, std::int64_t now_ns) noexcept;
   bool send(const wire::Content& content, std::int64_t now_ns) noexcept;
-  void require_same_rate() const;
+  void require_rate() const;
   [[nodiscard]] std::string what_is_wrong() const;
 
   std::unique_ptr<DatagramPort> port_;

@@ -56,9 +56,10 @@ class DeviceHost {
       report_.description = session.description();
       tell(DriverPhase::kDescribed);
       if (order_.only_describes != 0) return 0;
-      has_own_clock_ =
-          capabilities_of(session.description(), order_.rate_hz, order_.believes_simulated != 0)
-              .has_own_clock;
+      const DeviceCapabilities can = capabilities_of(session.description(), order_.rate_hz,
+                                                     order_.believes_simulated != 0);
+      has_own_clock_ = can.has_own_clock;
+      paces_loop_ = can.paces_loop;
       timeout_ns_ = std::llround(1e9 * command_timeout_s(order_.believes_simulated != 0));
       return run(session);
     } catch (const std::exception& error) {
@@ -90,7 +91,11 @@ class DeviceHost {
     obtain_locked_memory(ignored);
     prefault_stack();
     tell(DriverPhase::kOpen);
-    answer_until_the_end(session);
+    if (paces_loop_) {
+      pace_until_the_end(session);
+    } else {
+      answer_until_the_end(session);
+    }
     tell(DriverPhase::kClosing);
     session.close();
     tell(DriverPhase::kClosed);
@@ -119,6 +124,28 @@ class DeviceHost {
     }
   }
 
+  /// The driver waits for its device. Each measurement is told at once; then there is half a
+  /// period for the force that answers to it, and what comes later goes with the next.
+  void pace_until_the_end(DriverSession& session) noexcept {
+    const auto half_a_period_ns = std::llround(0.5e9 / order_.rate_hz);
+    while (!program_is_gone()) {
+      answer(session, answer_.read_number + 1);
+      const std::int64_t deadline_ns = monotonic_ns() + half_a_period_ns;
+      DriverRequest request;
+      while (true) {
+        const std::uint32_t seen = program_.request.version().load(std::memory_order_acquire);
+        if (program_.request.load(request) &&
+            (request.ends != 0 || request.write_number > last_write_)) {
+          break;
+        }
+        if (monotonic_ns() >= deadline_ns) break;
+        futex_wait_until(program_.request.version(), seen, deadline_ns);
+      }
+      if (request.ends != 0) return;
+      take_force(session, request);
+    }
+  }
+
   void take_force(DriverSession& session, const DriverRequest& request) noexcept {
     if (request.write_number <= last_write_) return;
     answer_.num_skipped += request.write_number - last_write_ - 1;
@@ -143,10 +170,14 @@ class DeviceHost {
 
   void take_question(DriverSession& session, const DriverRequest& request) noexcept {
     if (request.read_number <= answer_.read_number) return;
+    answer(session, request.read_number);
+  }
+
+  void answer(DriverSession& session, std::uint64_t read_number) noexcept {
     const Fault found = session.read(answer_.measured);
     answer_.is_measured = found == Fault::kNone ? 1 : 0;
     answer_.fault = static_cast<std::uint32_t>(found != Fault::kNone ? found : write_fault_);
-    answer_.read_number = request.read_number;
+    answer_.read_number = read_number;
     host_.answer.store(answer_);
     futex_wake(host_.answer.version());
   }
@@ -185,6 +216,7 @@ class DeviceHost {
   DriverReport report_;
   DriverAnswer answer_;
   bool has_own_clock_ = true;
+  bool paces_loop_ = false;
   std::int64_t timeout_ns_ = 0;
   std::uint64_t last_write_ = 0;
   Fault write_fault_ = Fault::kNone;

@@ -10,6 +10,11 @@ DirectPluginDevice::DirectPluginDevice(const std::filesystem::path& driver,
     : place_(std::move(place)), rate_hz_(rate_hz), believes_simulated_(believes_simulated) {
   try {
     session_ = std::make_unique<DriverSession>(driver, options, rate_hz);
+    if (capabilities().paces_loop) {
+      throw core::Error(
+          "expected a driver that does not pace the loop where it has no process "
+          "of its own, found one that does; leave in-process away");
+    }
   } catch (const core::Error& error) {
     throw DeviceUnreachable(place_ + ": " + error.what());
   }

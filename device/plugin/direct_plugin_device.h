@@ -19,6 +19,9 @@ class DirectPluginDevice final : public HapticDevice {
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
     return capabilities_of(session_->description(), rate_hz_, believes_simulated_);
   }
+  [[nodiscard]] DeviceIdentity identity() const override {
+    return identity_of(session_->description());
+  }
   void open() override;
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;

@@ -13,7 +13,7 @@ namespace {
 
 using core::Fault;
 
-constexpr std::uint32_t kKnownFlags = (JND_DEVICE_HAS_BUTTONS << 1) - 1;
+constexpr std::uint32_t kKnownFlags = (JND_DEVICE_PACES_LOOP << 1) - 1;
 constexpr double kLongestOpening_s = 120.0;
 
 bool has(const jnd_device_description& description, std::uint32_t flag) noexcept {
@@ -29,21 +29,48 @@ void require_text(const char (&text)[JND_DEVICE_TEXT_SIZE], std::string_view fie
                     ": expected printable ASCII and a zero behind it, found something else");
 }
 
-/// The program distributes forces by the areas of a hand; who assumed others is told.
-void require_shares(const jnd_device_description& description) {
-  const auto num_points = static_cast<int>(description.num_contact_points);
+bool has_shares(const jnd_device_description& description) noexcept {
   const auto& told = description.area_share_ratio;
-  if (std::all_of(std::begin(told), std::end(told), [](double one) { return one == 0.0; })) {
-    return;
-  }
+  return std::any_of(std::begin(told), std::end(told), [](double one) { return one != 0.0; });
+}
+
+void require_shares(const jnd_device_description& description) {
+  if (!has_shares(description)) return;
+  double sum = 0.0;
   for (int i = 0; i < core::kNumContactPoints; ++i) {
-    const double ours = i < num_points ? core::kAreaShareRatio[static_cast<std::size_t>(i)] /
-                                             core::declared_share_ratio(num_points)
-                                       : 0.0;
-    core::require(
-        std::abs(told[i] - ours) <= 0.005, "area_share_ratio[" + std::to_string(i) + "]",
-        "all zero, or " + std::to_string(ours) + " as this program distributes", told[i]);
+    const double share = description.area_share_ratio[i];
+    const std::string field = "area_share_ratio[" + std::to_string(i) + "]";
+    if ((description.contact_point_bits >> i & 1U) != 0) {
+      core::require(share > 0.0 && share <= 1.0, field,
+                    "a number above 0, for `contact_point_bits` has the point", share);
+    } else {
+      core::require(share == 0.0, field, "0, for `contact_point_bits` has no such point",
+                    share);
+    }
+    sum += share;
   }
+  constexpr double kMostOff = 1e-3;
+  core::require(std::abs(sum - 1.0) <= kMostOff, "area_share_ratio", "numbers that sum to 1",
+                sum);
+}
+
+/// Exactly 1 in all, however its numbers were rounded.
+core::ShareRatios shares_of(const jnd_device_description& description) noexcept {
+  if (!has_shares(description)) return core::area_shares(description.contact_point_bits);
+  return core::normalised_shares(std::to_array(description.area_share_ratio));
+}
+
+core::ChannelBits channels_of(const jnd_device_description& description) noexcept {
+  core::ChannelBits bits = 0;
+  const auto take = [&](std::uint32_t flag, core::ChannelBits channel) {
+    if (has(description, flag)) bits = static_cast<core::ChannelBits>(bits | channel);
+  };
+  take(JND_DEVICE_MEASURES_FORCE, core::kMeasuredForce);
+  take(JND_DEVICE_HAS_ORIENTATION, core::kOrientation);
+  take(JND_DEVICE_HAS_TORQUE, core::kTorque);
+  take(JND_DEVICE_HAS_GRIPPER, core::kGripper);
+  take(JND_DEVICE_HAS_BUTTONS, core::kButtons);
+  return bits;
 }
 
 bool is_finite(const double* numbers, int count) noexcept {
@@ -51,6 +78,23 @@ bool is_finite(const double* numbers, int count) noexcept {
   for (int i = 0; i < count; ++i) sum += std::abs(numbers[i]);
   // Beyond this no unit is right, and sums of squares would overflow.
   return sum < 1e100;
+}
+
+/// What the device does not measure stays as it is.
+void take_channels(const jnd_device_description& description, const jnd_device_state& measured,
+                   core::DeviceChannels& channels) noexcept {
+  channels.bits = channels_of(description);
+  if (channels.has(core::kMeasuredForce)) {
+    for (std::size_t i = 0; i < channels.force_n.size(); ++i) {
+      channels.force_n[i] = std::to_array(measured.measured_force_n[i]);
+    }
+  }
+  if (channels.has(core::kOrientation)) {
+    channels.orientation_wxyz = std::to_array(measured.orientation_wxyz);
+  }
+  if (channels.has(core::kTorque)) channels.torque_n_m = std::to_array(measured.torque_n_m);
+  if (channels.has(core::kGripper)) channels.gripper_m = measured.gripper_m;
+  if (channels.has(core::kButtons)) channels.buttons = measured.buttons;
 }
 
 template <int kCount>
@@ -71,9 +115,10 @@ void require_description(const jnd_device_description& description) {
   require_text(description.serial, "serial");
   require_text(description.firmware, "firmware");
   if (description.name[0] == '\0') throw core::Error("name: expected one, found none");
-  require(description.num_contact_points >= 1 &&
-              description.num_contact_points <= JND_DEVICE_MAX_POINTS,
-          "num_contact_points", "a number from 1 to 5", description.num_contact_points);
+  require(description.contact_point_bits >= 1 &&
+              description.contact_point_bits >> JND_DEVICE_MAX_POINTS == 0,
+          "contact_point_bits", "1 to 31, a bit for each of five points",
+          description.contact_point_bits);
   require_shares(description);
   core::require_positive(description.rate_hz, "rate_hz");
   core::require_positive(description.max_force_per_point_n, "max_force_per_point_n");
@@ -88,6 +133,11 @@ void require_description(const jnd_device_description& description) {
   core::require_not_negative(description.closed_loop_delay_s, "closed_loop_delay_s");
   require(description.open_timeout_s >= 0.0 && description.open_timeout_s <= kLongestOpening_s,
           "open_timeout_s", "a number from 0 to 120", description.open_timeout_s);
+  if (has(description, JND_DEVICE_PACES_LOOP) && !has(description, JND_DEVICE_HAS_OWN_CLOCK)) {
+    throw core::Error(
+        "flags: expected a device with JND_DEVICE_PACES_LOOP to have "
+        "JND_DEVICE_HAS_OWN_CLOCK, found that it does not");
+  }
   if (!has(description, JND_DEVICE_IS_SIMULATED) &&
       !has(description, JND_DEVICE_HAS_OWN_CLOCK)) {
     throw core::Error(
@@ -112,7 +162,7 @@ void require_same_device(const jnd_device_description& before,
 DeviceCapabilities capabilities_of(const jnd_device_description& description, double rate_hz,
                                    bool believes_simulated) noexcept {
   const bool simulated = believes_simulated && has(description, JND_DEVICE_IS_SIMULATED);
-  return {.num_contact_points = static_cast<int>(description.num_contact_points),
+  return {.share_ratio = shares_of(description),
           .rate_hz = rate_hz,
           .max_force_per_point_n = description.max_force_per_point_n,
           .max_total_force_n = description.max_total_force_n,
@@ -125,7 +175,32 @@ DeviceCapabilities capabilities_of(const jnd_device_description& description, do
           .max_speed_m_per_s = description.max_speed_m_per_s,
           .workspace = {description.workspace_half_width_m[0],
                         description.workspace_half_width_m[1],
-                        description.workspace_half_width_m[2]}};
+                        description.workspace_half_width_m[2]},
+          .channels = channels_of(description),
+          .has_enable_switch = has(description, JND_DEVICE_HAS_ENABLE_SWITCH),
+          .paces_loop = has(description, JND_DEVICE_PACES_LOOP),
+          .own_mass_kg = description.own_mass_kg,
+          .own_damping_n_s_per_m = description.own_damping_n_s_per_m,
+          .closed_loop_delay_s = description.closed_loop_delay_s};
+}
+
+void require_rate(const jnd_device_description& description, double rate_hz,
+                  const std::string& place) {
+  if (!has(description, JND_DEVICE_HAS_OWN_CLOCK)) return;
+  constexpr double kMostOff = 0.001;
+  const double ratio = description.rate_hz / rate_hz;
+  const bool is_paced = has(description, JND_DEVICE_PACES_LOOP);
+  if (ratio >= 1.0 - kMostOff && (!is_paced || ratio <= 1.0 + kMostOff)) return;
+  throw core::Error(place + ": expected a device at " + std::to_string(rate_hz) +
+                    (is_paced ? " Hz, for it paces the loop" : " Hz or faster") +
+                    ", found one at " + std::to_string(description.rate_hz) +
+                    " Hz; choose a study of its rate, or set the device to the study's");
+}
+
+DeviceIdentity identity_of(const jnd_device_description& description) {
+  return {.model = description.name,
+          .serial = description.serial,
+          .firmware = description.firmware};
 }
 
 Fault checked_state(const jnd_device_description& description, const jnd_device_state& measured,
@@ -135,6 +210,7 @@ Fault checked_state(const jnd_device_description& description, const jnd_device_
       !is_finite(&measured.velocity_m_per_s[0][0], kNumCoordinates) ||
       !is_finite(&measured.acted_n[0][0], kNumCoordinates) ||
       !is_finite(measured.end_effector_position_m, 3) ||
+      !is_finite(&measured.measured_force_n[0][0], kNumCoordinates) ||
       !is_finite(measured.orientation_wxyz, 4) || !is_finite(measured.torque_n_m, 3) ||
       !is_finite(&measured.gripper_m, 1)) {
     return Fault::kNonFiniteState;
@@ -142,7 +218,7 @@ Fault checked_state(const jnd_device_description& description, const jnd_device_
   constexpr double kMostOffUnit = 0.01;
   double squared = 0.0;
   for (const double one : measured.orientation_wxyz) squared += one * one;
-  if (measured.attached_bits >> description.num_contact_points != 0 || measured.enabled > 1 ||
+  if ((measured.attached_bits & ~description.contact_point_bits) != 0 || measured.enabled > 1 ||
       (has(description, JND_DEVICE_HAS_ORIENTATION) &&
        !(std::abs(squared - 1.0) <= kMostOffUnit))) {
     return Fault::kDeviceReadFailed;
@@ -158,13 +234,14 @@ Fault checked_state(const jnd_device_description& description, const jnd_device_
     state.tip_velocity_m_per_s[point] = vector_of(measured.velocity_m_per_s[i]);
     state.acted_n[point] = vector_of(measured.acted_n[i]);
   }
+  take_channels(description, measured, state.channels);
   return Fault::kNone;
 }
 
 double command_timeout_s(bool simulated) noexcept { return simulated ? 0.250 : 0.020; }
 
 std::vector<std::string> features_of(const jnd_device_description& description) {
-  constexpr std::array<std::pair<std::uint32_t, std::string_view>, 9> kFeatures = {{
+  constexpr std::array<std::pair<std::uint32_t, std::string_view>, 11> kFeatures = {{
       {JND_DEVICE_MOVES_BY_ITSELF, "own_movement"},
       {JND_DEVICE_HAS_OWN_CLOCK, "own_clock"},
       {JND_DEVICE_TELLS_ACTED_FORCE, "acted_force"},
@@ -174,6 +251,8 @@ std::vector<std::string> features_of(const jnd_device_description& description) 
       {JND_DEVICE_HAS_TORQUE, "torque"},
       {JND_DEVICE_HAS_GRIPPER, "gripper"},
       {JND_DEVICE_HAS_BUTTONS, "buttons"},
+      {JND_DEVICE_MEASURES_FORCE, "measured_force"},
+      {JND_DEVICE_PACES_LOOP, "pace"},
   }};
   std::vector<std::string> words;
   for (const auto& [flag, word] : kFeatures) {

@@ -25,6 +25,14 @@ void require_same_device(const jnd_device_description& before,
                                                  double rate_hz,
                                                  bool believes_simulated) noexcept;
 
+/// Throws `core::Error`, beginning with `place`: a device with its own clock that is slower
+/// than a loop of this rate, or paces it at another. Not real time.
+void require_rate(const jnd_device_description& description, double rate_hz,
+                  const std::string& place);
+
+/// Not real time.
+[[nodiscard]] DeviceIdentity identity_of(const jnd_device_description& description);
+
 /// The measurement as the loop has it, or what is wrong with it: a number that is none, a
 /// point, switch or orientation that there cannot be. `state` is then undefined. Real time.
 [[nodiscard]] core::Fault checked_state(const jnd_device_description& description,

@@ -46,7 +46,7 @@ int jnd_device_describe(jnd_device* device, const char* options,
   /* Its time moves on with each write, so it has no clock of its own. */
   description->flags = JND_DEVICE_IS_SIMULATED | JND_DEVICE_MOVES_BY_ITSELF |
                        JND_DEVICE_HAS_DEVICE_TIME | JND_DEVICE_TELLS_ACTED_FORCE;
-  description->num_contact_points = 1;
+  description->contact_point_bits = 1; /* The inner palm, which stands for the hand. */
   description->area_share_ratio[0] = 1.0;
   description->rate_hz = 1000.0;
   description->max_force_per_point_n = 30.0;

@@ -15,7 +15,7 @@
  * on a hand that moves to the right is negative in x.
  *
  * Contact points are at most five, always in this order: inner palm, outer palm, thumb, index,
- * middle. A device with fewer has the first ones.
+ * middle. A device with fewer says which. A tool that is held like a pen has the first alone.
  *
  * jnd calls a driver in a process of its own, by one thread: describe, open, then once a tick
  * write and read, then close. `jnd_device_halt` alone may be called by a second thread, at any
@@ -61,11 +61,17 @@ enum {
   JND_DEVICE_HAS_DEVICE_TIME = 1u << 4,
   /* `enabled` is an enabling switch's. Without it, it counts as closed. */
   JND_DEVICE_HAS_ENABLE_SWITCH = 1u << 5,
-  /* The fields of these names are measured. jnd checks them, and does not use them yet. */
+  /* The fields of these names are measured. jnd checks and records them. */
   JND_DEVICE_HAS_ORIENTATION = 1u << 6,
   JND_DEVICE_HAS_TORQUE = 1u << 7,
   JND_DEVICE_HAS_GRIPPER = 1u << 8,
-  JND_DEVICE_HAS_BUTTONS = 1u << 9
+  JND_DEVICE_HAS_BUTTONS = 1u << 9,
+  /* `measured_force_n` comes from sensors of force. What was delivered is then what they say.
+   */
+  JND_DEVICE_MEASURES_FORCE = 1u << 10,
+  /* It sets the pace: `jnd_device_read` waits for the next measurement, for two periods at
+   * most, and jnd answers to each with one write. It has its own clock. */
+  JND_DEVICE_PACES_LOOP = 1u << 11
 };
 
 /* Every number is finite. jnd clears the whole struct and sets `struct_size` beforehand. */
@@ -75,13 +81,13 @@ typedef struct jnd_device_description {
   char name[JND_DEVICE_TEXT_SIZE];     /* Printable ASCII and a zero, not empty. */
   char serial[JND_DEVICE_TEXT_SIZE];   /* Likewise, or empty; known once it is open. */
   char firmware[JND_DEVICE_TEXT_SIZE]; /* Likewise. */
-  uint32_t num_contact_points;         /* 1 to 5. */
+  uint32_t contact_point_bits;         /* Bit i: it has point i; at least one. */
   uint32_t reserved;                   /* 0. */
-  /* Share of the hand's area at each point, ratio; together 1. All zero: those of jnd, which
-   * are 0.35, 0.35, 0.10, 0.10, 0.10 over the sum of the points there are. jnd distributes
-   * forces by its own, so others than those are refused. */
+  /* Share of the hand's force that each point carries, ratio: > 0 where it has a point, 0
+   * elsewhere, together 1. All zero: by the areas of a hand, which are 0.35, 0.35, 0.10, 0.10,
+   * 0.10 over the sum of the points it has. */
   double area_share_ratio[JND_DEVICE_MAX_POINTS];
-  double rate_hz;               /* Of its control loop, Hz, nominal, > 0. */
+  double rate_hz; /* Of its control loop, Hz, nominal, at least that of the study. */
   double max_force_per_point_n; /* The largest it renders at one point, N, > 0. */
   double max_total_force_n;     /* Likewise, sum over the points, N, > 0. */
   double max_slew_n_per_s;      /* Change of the force at a point that it follows, N/s, > 0. */
@@ -107,11 +113,13 @@ typedef struct jnd_device_state {
    * were told, after every limit and delay of the device; zeros while it gives none. */
   double acted_n[JND_DEVICE_MAX_POINTS][3];
   double end_effector_position_m[3]; /* Where the arm that carries it ends, m; else zeros. */
-  double orientation_wxyz[4];        /* Of the end effector, unit quaternion to workspace. */
-  double torque_n_m[3];              /* On the hand at the end effector, N m, workspace. */
-  double gripper_m;                  /* Opening, m. */
-  uint32_t buttons;                  /* Bit i: button i is pressed. */
-  uint32_t enabled;                  /* 1: the enabling switch is closed; 0: it is open. */
+  /* Force on the hand that sensors of force measured now, N, workspace frame. */
+  double measured_force_n[JND_DEVICE_MAX_POINTS][3];
+  double orientation_wxyz[4]; /* Of the end effector, unit quaternion to workspace. */
+  double torque_n_m[3];       /* On the hand at the end effector, N m, workspace. */
+  double gripper_m;           /* Opening, m. */
+  uint32_t buttons;           /* Bit i: button i is pressed. */
+  uint32_t enabled;           /* 1: the enabling switch is closed; 0: it is open. */
 } jnd_device_state;
 
 /* What to render from now on, until the next write or halt. */
@@ -140,7 +148,8 @@ JND_DEVICE_EXPORT int jnd_device_describe(jnd_device* device, const char* option
  * `rate_hz` is that of the loop. May take `open_timeout_s`. On failure `*device` stays null. */
 JND_DEVICE_EXPORT int jnd_device_open(const char* options, double rate_hz, jnd_device** device);
 
-/* The newest measurement, without waiting for one: within 0.2 ms, without a heap or a lock. */
+/* The newest measurement, without waiting for one: within 0.2 ms, without a heap or a lock. A
+ * device that paces the loop waits for the next one here. */
 JND_DEVICE_EXPORT int jnd_device_read(jnd_device* device, jnd_device_state* state);
 
 /* Likewise. Failed: the force was not taken; jnd then halts the device. */

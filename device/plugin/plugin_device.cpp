@@ -27,13 +27,8 @@ PluginDevice::PluginDevice(const Parameters& parameters)
   core::require_positive(parameters.max_stale_s, "max_stale_s");
   description_ = process_.describe();
   has_own_clock_ = capabilities().has_own_clock;
-  const double rate_hz = parameters.process.rate_hz;
-  if (has_own_clock_ && std::abs(description_.rate_hz / rate_hz - 1.0) > 0.001) {
-    throw core::Error(parameters.process.place + ": expected a device at " +
-                      std::to_string(rate_hz) + " Hz, found one at " +
-                      std::to_string(description_.rate_hz) +
-                      " Hz; choose a study of its rate, or set the device to the study's");
-  }
+  paces_loop_ = capabilities().paces_loop;
+  require_rate(description_, parameters.process.rate_hz, parameters.process.place);
 }
 
 DeviceCapabilities PluginDevice::capabilities() const noexcept {
@@ -67,12 +62,28 @@ void PluginDevice::close() noexcept {
   num_missing_ = 0;
 }
 
+bool PluginDevice::wait_for_sample(std::int64_t deadline_ns) noexcept {
+  if (!is_open_ || !paces_loop_) return false;
+  while (true) {
+    const std::uint32_t seen = process_.answer_version();
+    DriverAnswer answer;
+    if (process_.answer(answer) && answer.read_number > taken_number_) return true;
+    if (monotonic_ns() >= deadline_ns) return false;
+    process_.wait_for_answer(seen, deadline_ns);
+  }
+}
+
 bool PluginDevice::read(core::HapticState& state) noexcept {
   if (!is_open_) return fail(Fault::kDeviceReadFailed);
   const std::int64_t now_ns = monotonic_ns();
-  ++request_.read_number;
+  if (paces_loop_) {
+    // The driver counts by itself; what it had measured before counts no more.
+    request_.read_number = taken_number_ + 1;
+  } else {
+    ++request_.read_number;
+    process_.request(request_, true);
+  }
   ++counts_.num_reads;
-  process_.request(request_, true);
   const std::int64_t patience_ns =
       !has_own_clock_ ? kWaitForSimulation_ns : in_ns(kWaitRatio / parameters_.process.rate_hz);
   DriverAnswer answer;
@@ -83,7 +94,7 @@ bool PluginDevice::read(core::HapticState& state) noexcept {
     ++counts_.num_late;
     return stand_in(state, now_ns);
   }
-  is_lost_ = answer.read_number != request_.read_number;
+  is_lost_ = !paces_loop_ && answer.read_number != request_.read_number;
   if (!take(answer)) return false;
   state = newest_;
   is_well_ = !is_lost_ && write_fault_ == Fault::kNone && num_missing_ <= kMostMissing;
@@ -96,9 +107,12 @@ bool PluginDevice::receive(std::int64_t deadline_ns, DriverAnswer& answer) noexc
   while (true) {
     const std::uint32_t seen = process_.answer_version();
     const bool is_there = process_.answer(answer);
-    if (is_there && answer.read_number == request_.read_number) return true;
+    if (is_there && (answer.read_number == request_.read_number ||
+                     (paces_loop_ && answer.read_number > taken_number_))) {
+      return true;
+    }
     if (monotonic_ns() >= deadline_ns) {
-      return is_there && has_own_clock_ && answer.read_number > taken_number_ &&
+      return is_there && has_own_clock_ && !paces_loop_ && answer.read_number > taken_number_ &&
              answer.read_number < request_.read_number;
     }
     process_.wait_for_answer(seen, deadline_ns);
@@ -125,7 +139,7 @@ bool PluginDevice::take(const DriverAnswer& answer) noexcept {
   if (is_new) {
     newest_ = state;
     newest_sample_ = measured.sample_number;
-    newest_ns_ = monotonic_ns();
+    newest_ns_ = newest_.arrived_ns = monotonic_ns();
   }
   if (num_missing_ > kMostMissing) return fail(Fault::kStaleSample);
   fault_ = Fault::kNone;

@@ -26,6 +26,9 @@ namespace jnd::device {
 /// driver's process has checked. There is no way back but `close` and `open`, which starts the
 /// driver anew, unless the driver answers again.
 ///
+/// A driver that paces the loop is not asked: it measures at its own pace, and `read` takes the
+/// newest that came; one that comes within 0.4 of a tick counts, too.
+///
 /// One thread, as every device; `halt` any.
 class PluginDevice final : public HapticDevice {
  public:
@@ -53,7 +56,10 @@ class PluginDevice final : public HapticDevice {
     return description_;
   }
 
+  [[nodiscard]] DeviceIdentity identity() const override { return identity_of(description_); }
+
   void open() override;
+  [[nodiscard]] bool wait_for_sample(std::int64_t deadline_ns) noexcept override;
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override;
@@ -78,6 +84,7 @@ class PluginDevice final : public HapticDevice {
   jnd_device_description description_{};
   bool is_open_ = false;
   bool has_own_clock_ = true;
+  bool paces_loop_ = false;
   bool is_lost_ = false;  ///< The last answer did not come: none is waited for.
   bool is_well_ = false;
   core::Fault fault_ = core::Fault::kNone;

@@ -34,7 +34,8 @@ MediumSetting setting_of(const Block& block, const std::string& interval, double
           .quantity = is_standard ? quantity_of(block.standard_medium) : block.quantity,
           .intensity = intensity,
           .friction_ratio = block.friction_ratio,
-          .buoyancy_n = block.buoyancy_n};
+          .buoyancy_n = block.buoyancy_n,
+          .sphere_radius_m = block.sphere_radius_m};
 }
 
 core::MediumAmounts surroundings_of(const DeviceNeeds& needs) {

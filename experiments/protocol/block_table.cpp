@@ -34,7 +34,10 @@ Parameter medium_parameter() {
       .meaning =
           "What is felt. `water`: drag that grows with the square of speed, varied by `scale`. "
           "`viscous`: drag that grows with speed, varied by `viscosity_pa_s`. "
-          "`viscous_stokes`: the same with the constant of a sphere. `water_map`: water with "
+          "`viscous_stokes`: the same with the constant of a sphere. `viscous_sphere`: the "
+          "drag "
+          "of a sphere of `sphere_radius_m`, for a tool with one point. `water_map`: water "
+          "with "
           "the drag and lift of the study's `force_map`. `viscous_schiller_naumann`: viscous "
           "with the fluid's inertia, up to a Reynolds number (100 speed / viscosity, SI units) "
           "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand. "
@@ -91,8 +94,7 @@ std::vector<Parameter> procedure_parameters() {
       }
     }
   }
-  of_quantities.push_back(buoyancy_parameter());
-  of_quantities.push_back(friction_parameter());
+  for (Parameter& detail : medium_details()) of_quantities.push_back(std::move(detail));
   of_quantities.insert(of_quantities.end(), others.begin(), others.end());
   return of_quantities;
 }

@@ -13,9 +13,9 @@ namespace jnd::experiments {
 /// `medium` and, in the unit of its key, the one value of its quantity; then `own`.
 [[nodiscard]] std::vector<Parameter> setting_parameters(std::vector<Parameter> own);
 
-/// `buoyancy_n`, which every fluid may have, and `friction_ratio`, which every solid may.
-[[nodiscard]] Parameter buoyancy_parameter();
-[[nodiscard]] Parameter friction_parameter();
+/// `friction_ratio`, which every solid may have, `sphere_radius_m` of a sphere, and
+/// `buoyancy_n`, which every fluid may have.
+[[nodiscard]] std::vector<Parameter> medium_details();
 
 [[nodiscard]] const ParameterTable& block_table();
 /// One alternative of a counterbalance.

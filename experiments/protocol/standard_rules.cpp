@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "experiments/protocol/study_check.h"
+#include "experiments/study/media.h"
 #include "experiments/study/rule_values.h"
 
 namespace jnd::experiments {
@@ -64,7 +65,7 @@ class StandardRules : StudyCheck {
                  std::to_string(standards.size()));
     }
     if (modulus == "standard" || modulus == "free") check_all_above_zero(modulus);
-    if (word(block_, "medium") == "solid" && (modulus.empty() || modulus == "water_is_100")) {
+    if (is_pressed(word(block_, "medium")) && (modulus.empty() || modulus == "water_is_100")) {
       report("modulus",
              "expected `standard` or `free`, as water has no stiffness to be 100, found " +
                  std::string(modulus.empty() ? "nothing" : "`water_is_100`"));
@@ -86,12 +87,13 @@ class StandardRules : StudyCheck {
   void check_touch() {
     const std::string medium = word(block_, "medium");
     const std::string standard = word(block_, "standard_medium");
-    if (standard == "solid" && !medium.empty() && medium != "solid") {
-      report("standard_medium",
-             "expected a fluid, as the block's medium is one, found `solid`");
+    if (find_medium(medium) == nullptr || find_medium(standard) == nullptr) return;
+    if (is_pressed(standard) && !is_pressed(medium)) {
+      report("standard_medium", "expected a fluid, as the block's medium is one, found `" +
+                                    shown_text(standard) + "`");
     }
-    if (medium == "solid" && has_standard() && !standard.empty() && standard != "solid") {
-      report("standard_medium", "expected `solid`, as the block's medium is one, found `" +
+    if (is_pressed(medium) && has_standard() && !is_pressed(standard)) {
+      report("standard_medium", "expected a solid, as the block's medium is one, found `" +
                                     shown_text(standard) + "`");
     }
   }

@@ -129,6 +129,7 @@ MediumSetting setting(const ObjectReader& in) {
   setting.quantity = quantity_of(setting.medium);
   if (!setting.quantity.empty()) setting.intensity = in.number(setting.quantity);
   setting.friction_ratio = in.number("friction_ratio");
+  setting.sphere_radius_m = in.number("sphere_radius_m");
   setting.buoyancy_n = in.number("buoyancy_n");
   return setting;
 }
@@ -186,6 +187,7 @@ Block block(const ObjectReader& in) {
   block.quantity = quantity_of(block.medium);
   block.buoyancy_n = in.number("buoyancy_n");
   block.friction_ratio = in.number("friction_ratio");
+  block.sphere_radius_m = in.number("sphere_radius_m");
   block.instruction = in.text("instruction");
   block.question = in.text("question");
   block.yes_label = in.text("yes_label");

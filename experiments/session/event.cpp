@@ -54,6 +54,28 @@ const json& list_at(const json& data, const char* key) {
   throw core::Error(std::string(key) + ": expected a list, found " + list.type_name());
 }
 
+json device_json(const DeviceTold& device) {
+  return {{"model", device.model},
+          {"serial", device.serial},
+          {"firmware", device.firmware},
+          {"share_ratio", device.share_ratio},
+          {"has", device.has},
+          {"own_mass_kg", device.own_mass_kg},
+          {"own_damping_n_s_per_m", device.own_damping_n_s_per_m},
+          {"closed_loop_delay_s", device.closed_loop_delay_s}};
+}
+
+DeviceTold device_from_json(const json& data) {
+  return {.model = data.at("model").get<std::string>(),
+          .serial = data.at("serial").get<std::string>(),
+          .firmware = data.at("firmware").get<std::string>(),
+          .share_ratio = data.at("share_ratio").get<std::vector<double>>(),
+          .has = data.at("has").get<std::vector<std::string>>(),
+          .own_mass_kg = data.at("own_mass_kg").get<double>(),
+          .own_damping_n_s_per_m = data.at("own_damping_n_s_per_m").get<double>(),
+          .closed_loop_delay_s = data.at("closed_loop_delay_s").get<double>()};
+}
+
 json buckets_to_json(const std::vector<DurationBucket>& buckets) {
   json list = json::array();
   for (const DurationBucket& bucket : buckets) list.push_back({bucket.up_to_ns, bucket.count});
@@ -163,6 +185,7 @@ struct Writer {
   void operator()(const LoopStarted& e) const {
     row.first_tick = e.first_tick;
     data = {{"scheduler", e.scheduler}, {"memory_locked", e.memory_locked}, {"cpus", e.cpus}};
+    if (e.device) data["device"] = device_json(*e.device);
   }
   void operator()(const LoopMeasured& e) const {
     data = {{"num_ticks", e.num_ticks},
@@ -172,6 +195,10 @@ struct Writer {
             {"max_tick_cost_ns", e.max_tick_cost_ns},
             {"lateness_ns", buckets_to_json(e.lateness)},
             {"tick_cost_ns", buckets_to_json(e.tick_cost)}};
+    if (!e.device_clock) return;
+    data["device_clock"] = {{"drift_ppm", e.device_clock->drift_ppm},
+                            {"residual_s", e.device_clock->residual_s},
+                            {"observed_s", e.device_clock->observed_s}};
   }
   void operator()(const Unblinded& e) const { data = {{"reason", e.reason}}; }
   void operator()(const ArmingChanged& e) const {
@@ -295,6 +322,7 @@ struct Reader {
     for (const json& cpu : list_at(data, "cpus")) {
       e.cpus.push_back(whole_number<int>(cpu, "cpus"));
     }
+    if (data.contains("device")) e.device = device_from_json(data.at("device"));
   }
   void operator()(LoopMeasured& e) const {
     e.num_ticks = whole_number(data.at("num_ticks"), "num_ticks");
@@ -304,6 +332,11 @@ struct Reader {
     e.max_tick_cost_ns = whole_number(data.at("max_tick_cost_ns"), "max_tick_cost_ns");
     e.lateness = buckets_from_json(list_at(data, "lateness_ns"));
     e.tick_cost = buckets_from_json(list_at(data, "tick_cost_ns"));
+    if (!data.contains("device_clock")) return;
+    const json& clock = data.at("device_clock");
+    e.device_clock = core::ClockDrift{.drift_ppm = clock.at("drift_ppm").get<double>(),
+                                      .residual_s = clock.at("residual_s").get<double>(),
+                                      .observed_s = clock.at("observed_s").get<double>()};
   }
   void operator()(Unblinded& e) const { data.at("reason").get_to(e.reason); }
   void operator()(ArmingChanged& e) const {

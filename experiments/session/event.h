@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/clock_comparison.h"
 #include "core/exposure.h"
 #include "core/storage/study_store.h"
 #include "experiments/procedures/procedure.h"
@@ -159,12 +160,21 @@ struct SessionResumed {
   std::int64_t lost_first_tick = 0, lost_last_tick = -1;  ///< Recorded, but of no answer.
 };
 
+/// What the device said of itself.
+struct DeviceTold {
+  std::string model, serial, firmware;  ///< "": it does not say.
+  std::vector<double> share_ratio;      ///< Of each contact point; 0: it has none there.
+  std::vector<std::string> has;         ///< What it measures besides: "measured_force".
+  double own_mass_kg = 0.0, own_damping_n_s_per_m = 0.0, closed_loop_delay_s = 0.0;
+};
+
 /// The real-time loop began to run, and what the system gave it.
 struct LoopStarted {
   std::string scheduler;  ///< "SCHED_FIFO 80"
   bool memory_locked = false;
   std::vector<int> cpus;  ///< That it may run on, ascending.
   std::int64_t first_tick = 0;
+  std::optional<DeviceTold> device;  ///< Not told by older programs.
 };
 
 /// How many durations were up to `up_to_ns` long, and longer than the bucket before.
@@ -177,6 +187,7 @@ struct LoopMeasured {
   std::int64_t num_ticks = 0, missed_ticks = 0, num_dropped_samples = 0;
   std::int64_t max_lateness_ns = 0, max_tick_cost_ns = 0;
   std::vector<DurationBucket> lateness, tick_cost;  ///< Buckets that are not empty, ascending.
+  std::optional<core::ClockDrift> device_clock;     ///< Where it was measured for long enough.
 };
 
 /// Somebody asked to see what a double-blind study hides.

@@ -84,14 +84,13 @@ class RangeCollector {
       if (known.stage == stage.name && known.setting.medium == setting.medium &&
           known.setting.intensity == setting.intensity &&
           known.setting.buoyancy_n == setting.buoyancy_n &&
-          known.setting.friction_ratio == setting.friction_ratio) {
+          known.setting.friction_ratio == setting.friction_ratio &&
+          known.setting.sphere_radius_m == setting.sphere_radius_m) {
         return;
       }
     }
     const core::MediumAmounts amounts = amounts_of(setting);
-    // The first point carries no less than any other.
-    const double share =
-        core::kAreaShareRatio[0] / core::declared_share_ratio(limits_.num_contact_points);
+    const double share = limits_.largest_share_ratio;
     RangeEntry entry;
     entry.stage = stage.name;
     entry.setting = setting;

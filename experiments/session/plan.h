@@ -51,9 +51,10 @@ struct PlanRequest {
 
 /// What the device can render and how the hand is expected to move.
 struct RangeLimits {
-  double max_force_per_point_n;                      ///< > 0.
-  double max_total_force_n;                          ///< > 0.
-  int num_contact_points = core::kNumContactPoints;  ///< The first ones, which carry all of it.
+  double max_force_per_point_n = 0.0;  ///< > 0.
+  double max_total_force_n = 0.0;      ///< > 0.
+  /// Of the whole force, at the point that carries most of it; > 0, at most 1.
+  double largest_share_ratio = core::kAreaShareRatio[0];
   double expected_speed_m_per_s = 0.5;  ///< > 0; the hand turned to where it feels the most.
   double expected_depth_m = 0.01;       ///< > 0; of the hand in a solid surface.
 };

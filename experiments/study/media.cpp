@@ -62,6 +62,16 @@ const std::vector<Medium>& media() {
              return core::viscous(
                  {.viscosity_pa_s = it.intensity, .shape = ViscousDrag::Shape::kSphere});
            }},
+      {.name = "viscous_sphere",
+       .quantity = "viscosity_pa_s",
+       .range = kViscosity,
+       .meaning = "dynamic viscosity, rendered as the drag of a sphere of `sphere_radius_m`",
+       .amounts =
+           [](const MediumSetting& it) {
+             return core::viscous({.viscosity_pa_s = it.intensity,
+                                   .shape = ViscousDrag::Shape::kSphere,
+                                   .radius_m = it.sphere_radius_m});
+           }},
       {.name = "water_map",
        .quantity = "scale",
        .range = kScale,

@@ -9,6 +9,7 @@
 
 #include "core/media/force_map.h"
 #include "core/media/immersion.h"
+#include "core/media/viscous_drag.h"
 #include "experiments/study/settings.h"
 
 namespace jnd::experiments {
@@ -20,9 +21,10 @@ using Text = std::map<std::string, std::string>;
 struct MediumSetting {
   std::string medium;    ///< One of `media()`: "free_space", "water", "viscous", "solid" ...
   std::string quantity;  ///< "scale", "viscosity_pa_s", "stiffness_n_per_m"; "" for free_space.
-  double intensity = 0.0;       ///< In the unit of `quantity`.
-  double friction_ratio = 0.0;  ///< Of a solid, >= 0.
-  double buoyancy_n = 0.0;      ///< Of a fluid, >= 0.
+  double intensity = 0.0;                                    ///< In the unit of `quantity`.
+  double friction_ratio = 0.0;                               ///< Of a solid, >= 0.
+  double buoyancy_n = 0.0;                                   ///< Of a fluid, >= 0.
+  double sphere_radius_m = core::ViscousDrag::kToolRadiusM;  ///< Of `viscous_sphere`, > 0.
 };
 
 /// A medium to be explored for some time outside of any trial.
@@ -88,6 +90,7 @@ struct Block {
   std::string quantity;         ///< "scale", "viscosity_pa_s" or "stiffness_n_per_m".
   double buoyancy_n = 0.0;      ///< Of the fluid, >= 0.
   double friction_ratio = 0.0;  ///< Of the solid, >= 0.
+  double sphere_radius_m = core::ViscousDrag::kToolRadiusM;  ///< Of `viscous_sphere`, > 0.
   Text instruction;
   Text question;                    ///< What the participant is asked in every trial.
   Text yes_label, no_label;         ///< What the two answers are called; may be empty.

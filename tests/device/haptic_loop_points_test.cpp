@@ -11,7 +11,8 @@ namespace haptic_loop_points_test {
 /// in a movement of 0.1 m/s.
 Eigen::Vector3d total_n(const core::MediumAmounts& medium, int num_points, int num_held) {
   ScriptedDevice device;
-  device.device_capabilities = {.num_contact_points = num_points, .simulated = true};
+  device.device_capabilities = {.share_ratio = core::area_shares_of_first(num_points),
+                                .simulated = true};
   for (int i = 0; i < core::kNumContactPoints; ++i) {
     const bool is_there = i < num_points;
     device.state.attached[static_cast<std::size_t>(i)] = i < num_held;
@@ -53,6 +54,46 @@ TEST(HapticLoopPoints, FewerPointsRenderTheSameTotal) {
   }
   const core::MediumAmounts thick = core::viscous({.viscosity_pa_s = 5.0});
   EXPECT_NEAR((total_n(thick, 3, 3) - total_n(thick, 5, 5)).norm(), 0.0, 1e-9);
+}
+
+/// Forces that a device of these shares is sent in a movement of 0.1 m/s.
+core::PointVectors forces_n(const core::ShareRatios& shares) {
+  ScriptedDevice device;
+  device.device_capabilities = {.share_ratio = shares, .simulated = true};
+  for (int i = 0; i < core::kNumContactPoints; ++i) {
+    device.state.tip_velocity_m_per_s[i] = {0.1, 0.0, 0.0};
+  }
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  commands.publish({.sequence = 1,
+                    .medium = core::viscous({.viscosity_pa_s = 5.0}),
+                    .immersion = {.radius_m = 10.0, .depth_m = 10.0},
+                    .ramp_s = 0.0});
+  HapticLoop loop({.starts_armed = true}, device, {commands, telemetry, stop});
+  for (int i = 0; i < 300; ++i) loop.tick();
+  return device.received.back();
+}
+
+TEST(HapticLoopPoints, EachPointGetsTheShareThatTheDeviceTells) {
+  const double whole_n = 0.1 * core::viscous({.viscosity_pa_s = 5.0}).damping_n_s_per_m;
+  const core::PointVectors of_pincer_n = forces_n({0.0, 0.0, 0.25, 0.75, 0.0});
+  EXPECT_NEAR(of_pincer_n[2].x(), -0.25 * whole_n, 1e-9);
+  EXPECT_NEAR(of_pincer_n[3].x(), -0.75 * whole_n, 1e-9);
+  for (const int missing : {0, 1, 4}) EXPECT_TRUE(of_pincer_n[missing].isZero(0.0)) << missing;
+  const core::PointVectors of_four_n = forces_n(core::area_shares(0b01111));
+  EXPECT_NEAR(of_four_n[0].x(), -0.35 / 0.9 * whole_n, 1e-9);
+  EXPECT_NEAR(of_four_n[3].x(), -0.10 / 0.9 * whole_n, 1e-9);
+  EXPECT_TRUE(of_four_n[4].isZero(0.0));
+}
+
+TEST(HapticLoopPoints, ADeviceWithoutAnyPointIsRefused) {
+  ScriptedDevice device;
+  device.device_capabilities = {.share_ratio = {}, .simulated = true};
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  EXPECT_THROW(HapticLoop({}, device, {commands, telemetry, stop}), core::Error);
 }
 
 TEST(HapticLoopPoints, APointThatIsDeclaredAndNotHeldTakesItsShareWithIt) {

@@ -218,7 +218,7 @@ TEST(HapticLoopProperty, WithoutThePassivityControllerTheSameSurfaceGivesOutMore
     core::HapticState state;
     ASSERT_TRUE(device.read(state));
     core::PointVectors force;
-    surfaces.render(medium, {}, state, 0.001, force);
+    surfaces.render(medium, {}, core::kAreaShareRatio, state, 0.001, force);
     ASSERT_TRUE(device.write(force));
   }
   EXPECT_GT(device.top_received_j, 2.0 * at_first_j) << "or the test above proves nothing";

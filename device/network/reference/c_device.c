@@ -37,9 +37,9 @@ enum {
   kFaultState = 2, kFaultForce = 3, kFaultRead = 4, kFaultWrite = 5, kFaultSpeed = 8,
   kFaultWatchdog = 11, kFaultLink = 12, kFaultNotEnabled = 21
 };
-enum { kVersion = 2, kPoints = 5, kHeaderBytes = 40, kSealBytes = 16, kKeyBytes = 32,
-       kMostBytes = 900, kWindow = 512, kMostTaken = 256, kMostAnswers = 8 };
-static const size_t kSize[] = {0, 61, 134, 53, 843, 172, 137, 44, 44};  // by kind
+enum { kVersion = 3, kPoints = 5, kHeaderBytes = 40, kSealBytes = 16, kKeyBytes = 32,
+       kMostBytes = 1100, kRing = 8192, kMostTaken = 256, kMostAnswers = 8 };
+static const size_t kSize[] = {0, 69, 304, 53, 1031, 172, 137, 44, 44};  // by kind
 static const double kSlewNPerS = 2000.0, kMostSpeedMPerS = 5.0;
 
 static const struct {
@@ -47,7 +47,16 @@ static const struct {
   double most_force_n, most_total_force_n;
   bool simulated;        // Nobody can be hurt by it.
   bool moves_by_itself;  // It takes orders; a person's hand does not.
-} kRobot = {"c reference", 8.0, 20.0, true, true};
+  // Each part of the hand's force, together 1, where it counts its points otherwise than by the
+  // areas of a hand; zeros: by those.
+  double share_ratio[kPoints];
+  double half_width_m[3];  // In which it may give force, about the origin.
+  double own_mass_kg, own_damping_n_s_per_m, loop_delay_s;  // 0: it does not say.
+  const char *serial, *firmware;                            // Likewise "".
+} kRobot = {"c reference", 8.0, 20.0, true,  true,        {0},
+            {1, 1, 1},     1.0, 4.83, 0.001, "simulated", "1.0"};
+// By the areas of a hand; of a device with fewer points, over the sum of those it has.
+static const double kAreaShareRatio[kPoints] = {0.35, 0.35, 0.10, 0.10, 0.10};
 
 // ----- Bytes, least first -----
 
@@ -70,6 +79,10 @@ static double get_f64(const uint8_t *from) {
   memcpy(&value, &bits, 8);
   return value;
 }
+static void put_text(uint8_t *to, const char *text) {  // 32 bytes, zeros behind it.
+  memcpy(to, text, strlen(text) < 32 ? strlen(text) : 32);
+}
+
 static void put_f64s(uint8_t *to, const double *values, int num) {
   for (int i = 0; i < num; ++i) put_f64(to + 8 * i, values[i]);
 }
@@ -163,6 +176,10 @@ typedef struct {
   double position_m[3 * kPoints], velocity_m_per_s[3 * kPoints];
   uint8_t held;  // a bit each, the lowest the inner palm
   bool enabled;  // the robot's own switch
+  // Only what the device measures of these, see `hand.channels`: forces on the hand by sensors,
+  // orientation of the end effector (unit quaternion w, x, y, z), torque on the hand there.
+  double force_n[3 * kPoints], orientation_wxyz[4], torque_n_m[3], gripper_m;
+  uint32_t buttons;
 } Measurement;
 
 typedef struct {
@@ -175,6 +192,7 @@ typedef struct {
 static const double kHomeM[3] = {0.0, 0.0, 0.1};
 static struct {
   int num_points;
+  uint8_t channels;  // a bit each: force, orientation, torque, gripper, buttons
   double dt_s;
   int64_t time_ns, num_strokes;
   double at_m[3], velocity_m_per_s[3], middle_m[3];  // what the spring pulls to is in the middle
@@ -203,7 +221,9 @@ static double length(const double v[3]) { return root(v[0] * v[0] + v[1] * v[1] 
 static void reset_hand(void) {  // As at the start, for the next program.
   const double dt_s = hand.dt_s;
   const int num_points = hand.num_points;
+  const uint8_t channels = hand.channels;
   memset(&hand, 0, sizeof hand);
+  hand.channels = channels;
   hand.dt_s = dt_s;
   hand.num_points = num_points;
   hand.cosine = 1.0;
@@ -281,6 +301,15 @@ static bool read_robot(Measurement *measured) {
   }
   measured->held = (uint8_t)((1 << hand.num_points) - 1);
   measured->enabled = true;
+  if (hand.channels == 0) return true;
+  // Made up, of where the hand is.
+  const double half_turn = 0.5 * hand.at_m[0];
+  memcpy(measured->force_n, hand.force_n, sizeof measured->force_n);
+  measured->orientation_wxyz[0] = root(1.0 - half_turn * half_turn);
+  measured->orientation_wxyz[3] = half_turn;
+  measured->torque_n_m[2] = 0.01 * hand.at_m[0];
+  measured->gripper_m = 0.05 + 0.01 * hand.at_m[1];
+  measured->buttons = hand.at_m[0] > 0.0;
   return true;
 }
 
@@ -298,15 +327,16 @@ static bool write_robot(const double force_n[3 * kPoints]) {
 typedef struct {
   bool has_newest, lost_in_a_row, has_round_trip;
   uint32_t newest;
+  int window, fewest, most_in_a_row, long_good;  // by how many are sent a second
   int num_expected, num_came, num_good;
-  bool came[kWindow];  // by number modulo the window
+  bool came[kRing];  // by number modulo the ring; none outside of the window
   int64_t newest_echo_ns, peer_clock_ns;
   double round_trip_ns;
 } Link;
 
 static void mark(Link *link, uint32_t number, bool came) {
-  link->num_came += came - link->came[number % kWindow];
-  link->came[number % kWindow] = came;
+  link->num_came += came - link->came[number % kRing];
+  link->came[number % kRing] = came;
 }
 
 static void judge_anew(Link *link) {  // Numbers that were seen stay seen.
@@ -317,12 +347,22 @@ static void judge_anew(Link *link) {  // Numbers that were seen stay seen.
   if (link->has_newest) mark(link, link->newest, true);
 }
 
+static void begin_link(Link *link, double rate_hz) {
+  const double rate = rate_hz < 100.0 ? 100.0 : rate_hz > 16000.0 ? 16000.0 : rate_hz;
+  link->window = (int)(0.512 * rate + 0.5);
+  link->fewest = (int)(0.050 * rate + 0.5);
+  link->most_in_a_row = (int)(0.020 * rate + 0.5);
+  link->long_good = (int)(0.100 * rate + 0.5);
+  judge_anew(link);
+}
+
 static int level_of(const Link *link) {
   static const int kMissing[] = {1, 10, 51};
   static const double kTripNs[] = {4e6, 8e6, 16e6};
-  if (link->num_came < 50) return 0;
+  if (link->num_came < link->fewest) return 0;
   for (int i = link->has_round_trip ? 0 : 2; i < 3; ++i) {
-    if (link->num_expected - link->num_came <= kMissing[i] &&
+    const int most = kMissing[i] * link->window / 512;
+    if (link->num_expected - link->num_came <= (most > 1 ? most : 1) &&
         (!link->has_round_trip || link->round_trip_ns <= kTripNs[i])) {
       return 3 - i;
     }
@@ -340,11 +380,14 @@ static bool take_number(Link *link, uint32_t number, int64_t clock_ns, int64_t e
   }
   const uint32_t ahead = number - link->newest;  // Wraps as it should.
   if (ahead - 1 < 0x7fffffffu) {
-    const int shift = ahead < kWindow ? (int)ahead : kWindow;
-    for (int i = 0; i < shift; ++i) mark(link, number - (uint32_t)i, false);
+    const int window = link->window;
+    const int shift = ahead < (uint32_t)window ? (int)ahead : window;
+    for (int i = 1; i <= shift; ++i) {
+      mark(link, link->newest + (uint32_t)i - (uint32_t)window, false);
+    }
     link->num_expected =
-        link->num_expected + shift < kWindow ? link->num_expected + shift : kWindow;
-    if (ahead > 20) link->lost_in_a_row = true;
+        link->num_expected + shift < window ? link->num_expected + shift : window;
+    if (ahead > (uint32_t)link->most_in_a_row) link->lost_in_a_row = true;
     link->newest = number;
     link->peer_clock_ns = clock_ns;
     if (link->newest_echo_ns < echo_ns && echo_ns <= now_ns) {
@@ -354,7 +397,7 @@ static bool take_number(Link *link, uint32_t number, int64_t clock_ns, int64_t e
       link->round_trip_ns += (trip_ns - link->round_trip_ns) / 16.0;
       link->newest_echo_ns = echo_ns;
     }
-  } else if (0u - ahead >= (uint32_t)link->num_expected || link->came[number % kWindow]) {
+  } else if (0u - ahead >= (uint32_t)link->num_expected || link->came[number % kRing]) {
     return false;
   }
   mark(link, number, true);
@@ -388,7 +431,7 @@ static struct {  // The one program that is connected; nothing of it counts for 
   struct {
     uint32_t number;
     int64_t at_ns;
-  } sent[kWindow];  // the last states
+  } sent[kRing];  // the last states
   bool has_command, is_recent, armed;
   uint32_t command_number, arm_number, answers, armed_number, order_number;
   double force_n[3 * kPoints];
@@ -466,7 +509,8 @@ static bool is_client(const struct sockaddr_in *from) {
          from->sin_addr.s_addr == client.address.sin_addr.s_addr;
 }
 
-static void begin_stream(uint64_t token, const struct sockaddr_in *from, int64_t now_ns) {
+static void begin_stream(uint64_t token, double rate_hz, const struct sockaddr_in *from,
+                         int64_t now_ns) {
   if (client.is_there && kRobot.simulated) {
     const Order home = {0};  // It said hello anew: the hand goes on from where it is.
     order_hand(&home);
@@ -477,7 +521,7 @@ static void begin_stream(uint64_t token, const struct sockaddr_in *from, int64_t
   client.token = token;
   client.stream = drawn();
   client.last_heard_ns = now_ns;
-  judge_anew(&client.link);
+  begin_link(&client.link, rate_hz);
   device.challenge = drawn();
   ++device.num_clients;
   const char *const direction[] = {"to device", "to program"};
@@ -503,7 +547,7 @@ static void answer_hello(const uint8_t *bytes, const struct sockaddr_in *from, i
   if (!only_asks && is_client(from) && token == client.token) {
     stream = client.stream;  // The welcome was lost.
   } else if (!only_asks && challenge == device.challenge) {
-    begin_stream(token, from, now_ns);
+    begin_stream(token, get_f64(bytes + 57), from, now_ns);
     stream = client.stream;
     device.num_answers = 0;
   }
@@ -514,11 +558,26 @@ static void answer_hello(const uint8_t *bytes, const struct sockaddr_in *from, i
   put_f64(welcome + 56, kRobot.most_force_n);
   put_f64(welcome + 64, kRobot.most_total_force_n);
   put_f64(welcome + 72, 1e-9 * (double)device.patience_ns);
-  put(welcome + 80, (uint64_t)hand.num_points, 4);
+  put(welcome + 80, (1u << hand.num_points) - 1, 4);
   welcome[88] = kRobot.simulated;
   welcome[89] = kRobot.moves_by_itself;
-  memcpy(welcome + 90, kRobot.name, strlen(kRobot.name) < 32 ? strlen(kRobot.name) : 32);
+  put_text(welcome + 90, kRobot.name);
   put(welcome + 122, device.challenge, 8);
+  double shares[kPoints], sum = 0.0;
+  for (int i = 0; i < hand.num_points; ++i) {
+    shares[i] = kRobot.share_ratio[0] > 0.0 ? kRobot.share_ratio[i] : kAreaShareRatio[i];
+    sum += shares[i];
+  }
+  for (int i = 0; i < hand.num_points; ++i) put_f64(welcome + 130 + 8 * i, shares[i] / sum);
+  put_f64(welcome + 170, kSlewNPerS);
+  put_f64(welcome + 178, kMostSpeedMPerS);
+  put_f64s(welcome + 186, kRobot.half_width_m, 3);
+  put_f64(welcome + 210, kRobot.own_mass_kg);
+  put_f64(welcome + 218, kRobot.own_damping_n_s_per_m);
+  put_f64(welcome + 226, kRobot.loop_delay_s);
+  welcome[234] = hand.channels;
+  put_text(welcome + 236, kRobot.serial);
+  put_text(welcome + 268, kRobot.firmware);
   finish_and_send(welcome, kWelcome, stream, 0, (int64_t)get(bytes + 24, 8),
                   device.has_key ? device.key : NULL, from);
 }
@@ -553,7 +612,7 @@ static bool within(const uint8_t *bytes, int num, double least, double most) {
 }
 
 static bool is_in_range(int kind, const uint8_t *bytes) {
-  if (kind == kHello) return bytes[48] <= 1;
+  if (kind == kHello) return bytes[48] <= 1 && within(bytes + 57, 1, 1e-9, INFINITY);
   if (kind == kCommand) return within(bytes + 48, 15, -INFINITY, INFINITY);
   if (kind != kOrder) return kind == kHalt || kind == kGoodbye;
   return bytes[52] <= 1 && within(bytes + 53, 1, 0.001, 2) && within(bytes + 61, 1, 0.001, 5) &&
@@ -622,7 +681,7 @@ static void receive(int64_t now_ns) {
 
 // How long ago the state was sent that the command answers to; very long if we do not know it.
 static int64_t answer_age_ns(int64_t now_ns) {
-  const int place = (int)(client.answers % kWindow);
+  const int place = (int)(client.answers % kRing);
   if (client.answers != client.sent[place].number || client.sent[place].at_ns == 0) {
     return INT64_MAX;
   }
@@ -633,9 +692,9 @@ static void arm_or_disarm(int64_t now_ns) {
   if (client.is_recent && client.arm_number != client.armed_number) {
     client.armed = false;
     if (client.link.lost_in_a_row) judge_anew(&client.link);
-    if (client.arm_number != 0 && is_without_force() && client.link.num_good >= 100 &&
-        client.link.has_round_trip && answer_age_ns(now_ns) < device.answer_age_ns &&
-        device.is_measured) {
+    if (client.arm_number != 0 && is_without_force() &&
+        client.link.num_good >= client.link.long_good && client.link.has_round_trip &&
+        answer_age_ns(now_ns) < device.answer_age_ns && device.is_measured) {
       client.armed = true;
       client.armed_number = client.arm_number;
       client.fault = 0;
@@ -729,9 +788,14 @@ static void send_state(const double acted_n[3 * kPoints]) {
   state[717] = (uint8_t)level_of(&client.link);
   put_f64s(state + 718, acted_n, 15);
   state[838] = at->enabled;
+  put_f64s(state + 839, at->force_n, 15);
+  put_f64s(state + 959, at->orientation_wxyz, 4);
+  put_f64s(state + 991, at->torque_n_m, 3);
+  put_f64(state + 1015, at->gripper_m);
+  put(state + 1023, at->buttons, 4);
   ++client.number;
-  client.sent[client.number % kWindow].number = client.number;
-  client.sent[client.number % kWindow].at_ns = now();
+  client.sent[client.number % kRing].number = client.number;
+  client.sent[client.number % kRing].at_ns = now();
   finish_and_send(state, kState, client.stream, client.number, client.link.peer_clock_ns,
                   device.has_key ? device.to_program : NULL, &client.address);
 }
@@ -798,23 +862,24 @@ static void read_key(const char *path) {
 
 int main(int num_words, char **words) {
   const char *host = "127.0.0.1";
-  double port = 4700, seconds = 1e9, num_points = kPoints;
+  double port = 4700, seconds = 1e9, num_points = kPoints, channels = 0;
   device.rate_hz = 1000.0;
   for (int i = 1; i < num_words; i += 2) {
     const char *word = words[i], *value = i + 1 < num_words ? words[i + 1] : NULL;
     char *end = NULL;
-    double *number = strcmp(word, "--port") == 0      ? &port
-                     : strcmp(word, "--seconds") == 0 ? &seconds
-                     : strcmp(word, "--points") == 0  ? &num_points
-                     : strcmp(word, "--rate-hz") == 0 ? &device.rate_hz
-                                                      : NULL;
+    double *number = strcmp(word, "--port") == 0       ? &port
+                     : strcmp(word, "--seconds") == 0  ? &seconds
+                     : strcmp(word, "--points") == 0   ? &num_points
+                     : strcmp(word, "--channels") == 0 ? &channels
+                     : strcmp(word, "--rate-hz") == 0  ? &device.rate_hz
+                                                       : NULL;
     if (value != NULL && strcmp(word, "--listen") == 0) {
       host = value;
     } else if (value != NULL && strcmp(word, "--key") == 0) {
       read_key(value);
     } else if (value == NULL || number == NULL || (*number = strtod(value, &end), *end != '\0')) {
       fail(word, "expected --listen ADDRESS, --port N (0: any that is free), --key FILE, "
-                 "--rate-hz N, --points 1 to 5 or --seconds N");
+                 "--rate-hz N, --points 1 to 5, --channels 0 to 31 or --seconds N");
     }
   }
   if (!(device.rate_hz > 250.0 && device.rate_hz <= 10000.0)) {
@@ -822,7 +887,9 @@ int main(int num_words, char **words) {
   }
   if (!(num_points >= 1 && num_points <= kPoints)) fail("--points", "expected 1 to 5");
   if (!(port >= 0 && port <= 65535)) fail("--port", "expected 0 to 65535");
+  if (!(channels >= 0 && channels <= 31)) fail("--channels", "expected 0 to 31");
   hand.num_points = (int)num_points;
+  hand.channels = (uint8_t)channels;
   hand.dt_s = 1.0 / device.rate_hz;
   reset_hand();
   device.patience_ns = kRobot.simulated ? 100000000 : 20000000;  // of a simulation more

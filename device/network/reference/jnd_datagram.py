@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The jnd authors. It may be used, copied, changed and sold by anybody for
 # anything, without any warranty, as long as this notice stays in it.
-"""The datagrams of jnd, version 2: bytes to values and back, seals, and how good a connection is.
+"""The datagrams of jnd, version 3: bytes to values and back, seals, and how good a connection is.
 
 Python 3.8 or later, standard library alone. The tables of device/network/README.md, SI units.
 """
@@ -15,7 +15,7 @@ import socket
 import struct
 import zlib
 
-VERSION = 2
+VERSION = 3
 HELLO, WELCOME, REFUSAL, STATE, COMMAND, ORDER, HALT, GOODBYE = range(1, 9)
 BUSY, UNKNOWN_STREAM, OTHER_VERSION, OTHER_KEY = range(1, 5)
 REFUSALS = {BUSY: "another program is connected", UNKNOWN_STREAM: "the stream is unknown",
@@ -28,19 +28,27 @@ FAULTS = {0: "none", 1: "emergency_stop", 2: "non_finite_state", 3: "non_finite_
           19: "velocity_contradicts", 20: "acting_force_unknown", 21: "not_enabled",
           22: "position_frozen"}
 NUM_POINTS = 5
+# Bits of what a device measures besides.
+MEASURED_FORCE, ORIENTATION, TORQUE, GRIPPER, BUTTONS = 1, 2, 4, 8, 16
+# By the areas of a hand; of a device with fewer points, over the sum of those it has.
+AREA_SHARE_RATIO = (0.35, 0.35, 0.10, 0.10, 0.10)
 SEAL_BYTES = 16
 
 _HEADER = struct.Struct("<4sHHQIIqq")
 # Each name with how many values it holds; the letters are those of Python's `struct`.
 _FIELDS = {
-    HELLO: "token:Q only_asks:B challenge:Q",
-    WELCOME: "token:Q rate_hz:d most_force_n:d most_total_force_n:d stand_in_s:d num_points:I "
-             "num_joints:I simulated:B moves_by_itself:B name:32s challenge:Q",
+    HELLO: "token:Q only_asks:B challenge:Q rate_hz:d",
+    WELCOME: "token:Q rate_hz:d most_force_n:d most_total_force_n:d stand_in_s:d points:I "
+             "num_joints:I simulated:B moves_by_itself:B name:32s challenge:Q share_ratio:5d "
+             "most_slew_n_per_s:d most_speed_m_per_s:d half_width_m:3d own_mass_kg:d "
+             "own_damping_n_s_per_m:d loop_delay_s:d channels:B has_switch:B serial:32s "
+             "firmware:32s",
     REFUSAL: "token:Q reason:B",
     STATE: "time_ns:q position_m:15d velocity_m_per_s:15d end_effector_m:3d joint_rad:22d "
            "joint_torque_n_m:22d num_summed:q opposing_n:d rendered_opposing_n:d "
            "speed_m_per_s:d num_strokes:q armed_number:I order_number:I held:B armed:B "
-           "measured:B home:B fault:B level:B acted_n:15d enabled:B",
+           "measured:B home:B fault:B level:B acted_n:15d enabled:B "
+           "measured_force_n:15d orientation_wxyz:4d torque_n_m:3d gripper_m:d buttons:I",
     COMMAND: "arm_number:I state_number:I force_n:15d",
     ORDER: "order_number:I movement:I num_put_back:I strokes:B half_width_m:d speed_m_per_s:d "
            "height_m:d lift_m:d width_spread:d speed_spread:d height_spread_m:d "
@@ -49,10 +57,13 @@ _FIELDS = {
 }
 # Least and most of what is not free.
 _RANGES = {
-    HELLO: {"only_asks": (0, 1)},
+    HELLO: {"only_asks": (0, 1), "rate_hz": (1e-9, math.inf)},
     WELCOME: {"rate_hz": (1e-9, math.inf), "most_force_n": (1e-9, math.inf),
               "most_total_force_n": (1e-9, math.inf), "stand_in_s": (0, 0.1),
-              "num_points": (1, 5), "simulated": (0, 1), "moves_by_itself": (0, 1)},
+              "points": (1, 31), "simulated": (0, 1), "moves_by_itself": (0, 1),
+              "most_slew_n_per_s": (0, math.inf), "most_speed_m_per_s": (0, math.inf),
+              "own_mass_kg": (0, math.inf), "own_damping_n_s_per_m": (0, math.inf),
+              "loop_delay_s": (0, math.inf), "channels": (0, 31), "has_switch": (0, 1)},
     REFUSAL: {"reason": (1, 4)},
     STATE: {"num_summed": (0, math.inf), "num_strokes": (0, math.inf), "held": (0, 31),
             "armed": (0, 1), "measured": (0, 1), "home": (0, 1),
@@ -128,11 +139,22 @@ def unpack(data, has_seal):
     for name, (least, most) in _RANGES[kind].items():
         if not least <= getattr(found, name) <= most:
             return None
-    if kind == WELCOME:
-        letters = found.name.rstrip(b"\0")
-        if found.num_joints not in (0, 22) or any(not 32 <= byte < 127 for byte in letters):
-            return None
-    return found
+    return None if kind == WELCOME and not _is_sound_welcome(found) else found
+
+
+def _is_sound_welcome(found):
+    texts = (found.name, found.serial, found.firmware)
+    are_texts = all(32 <= byte < 127 for text in texts for byte in text.rstrip(b"\0"))
+    fit = all((share > 0) == bool(found.points >> i & 1) for i, share in
+              enumerate(found.share_ratio))
+    return (found.num_joints in (0, 22) and are_texts and fit and min(found.share_ratio) >= 0
+            and abs(sum(found.share_ratio) - 1) <= 1e-3 and min(found.half_width_m) >= 0)
+
+
+def area_shares(points):
+    """Of a device with these points, a bit each."""
+    there = [share if points >> i & 1 else 0.0 for i, share in enumerate(AREA_SHARE_RATIO)]
+    return [share / sum(there) for share in there]
 
 
 def seal(data, key):
@@ -181,11 +203,13 @@ def opened_socket(host, port, key):
 
 
 class Link:
-    """How good a connection is, by what came on a stream in one direction."""
+    """How good a connection is, by what came on a stream in one direction, of which so many
+    datagrams are sent a second."""
 
-    WINDOW = 512
-
-    def __init__(self):
+    def __init__(self, rate_hz):
+        rate_hz = min(max(rate_hz, 100.0), 16000.0)
+        self._window, self._fewest = round(0.512 * rate_hz), round(0.05 * rate_hz)
+        self._most_in_a_row, self._long_good = round(0.02 * rate_hz), round(0.1 * rate_hz)
         self._newest = None     # highest number that came
         self.peer_clock_ns = 0  # of the newest datagram, to be echoed
         self._newest_echo_ns = 0
@@ -196,7 +220,7 @@ class Link:
         self._came = 1              # bit i: the number i below the newest came
         self._num_expected = 1      # so many numbers are judged, up to the window
         self.num_good = 0           # datagrams in a row that found the level good
-        self.lost_in_a_row = False  # 20 at once
+        self.lost_in_a_row = False  # those of 20 ms at once
         self.round_trip_ns = None
 
     def take(self, number, clock_ns, echo_ns, now_ns):
@@ -206,10 +230,10 @@ class Link:
             self._came = self._num_expected = 0
         ahead = (number - self._newest) & 0xFFFFFFFF
         if 0 < ahead < 1 << 31:
-            shift = min(ahead, self.WINDOW)
-            self._came = (self._came << shift | 1) & (1 << self.WINDOW) - 1
-            self._num_expected = min(self._num_expected + shift, self.WINDOW)
-            self.lost_in_a_row |= ahead > 20
+            shift = min(ahead, self._window)
+            self._came = (self._came << shift | 1) & (1 << self._window) - 1
+            self._num_expected = min(self._num_expected + shift, self._window)
+            self.lost_in_a_row |= ahead > self._most_in_a_row
             self._newest, self.peer_clock_ns = number, clock_ns
             self._take_echo(echo_ns, now_ns)
         else:
@@ -228,15 +252,20 @@ class Link:
         last_ns = trip_ns if self.round_trip_ns is None else self.round_trip_ns
         self.round_trip_ns = last_ns + (trip_ns - last_ns) / 16
 
+    def is_settled(self):
+        """Good for 100 ms, by a round trip that was measured."""
+        return self.num_good >= self._long_good and self.round_trip_ns is not None
+
     def num_missing(self):
         return self._num_expected - bin(self._came).count("1")
 
     def level(self):
         """3 excellent, 2 good, 1 poor, 0 unacceptable."""
-        if bin(self._came).count("1") < 50:
+        if bin(self._came).count("1") < self._fewest:
             return 0
         missing, trip_ns = self.num_missing(), self.round_trip_ns
         for level, most, most_ns in ((3, 1, 4e6), (2, 10, 8e6), (1, 51, 16e6)):
+            most = max(1, most * self._window // 512)
             if missing <= most and (level == 1 if trip_ns is None else trip_ns <= most_ns):
                 return level
         return 0

@@ -33,7 +33,7 @@ class Client:
         self._stream, self._number, self._next_hello_ns = 0, 0, 0
         self._to_device, self._to_program = None, None
         self.welcome, self.state, self.state_number, self.state_came_ns = None, None, 0, 0
-        self.refusal, self.has_ended, self.link = "", False, jd.Link()
+        self.refusal, self.has_ended, self.link = "", False, jd.Link(1000.0)
         self.num_states = 0
 
     def _send(self, kind, **content):
@@ -57,7 +57,8 @@ class Client:
             return
         self._next_hello_ns = now_ns + 50_000_000
         self._send_bytes(jd.pack(jd.HELLO, 0, 0, now_ns, 0, self._key, token=self._token,
-                                 only_asks=only_asks, challenge=self._challenge))
+                                 only_asks=only_asks, challenge=self._challenge,
+                                 rate_hz=self.welcome.rate_hz if self.welcome else 1000.0))
 
     def command(self, arm_number, force_n):
         """The force answers to the newest state. Arming 0 asks for none."""
@@ -119,10 +120,16 @@ class Client:
         if found.challenge != self._challenge:
             self._challenge, self._next_hello_ns = found.challenge, 0
         if found.stream and not self._stream:
-            self._stream = found.stream
+            self._stream, self.link = found.stream, jd.Link(found.rate_hz)
             if self._key:
                 self._to_device, self._to_program = jd.stream_keys(self._key, self._token,
                                                                    found.stream)
+
+
+def measured_besides(welcome):
+    names = ("force", "orientation", "torque", "gripper", "buttons")
+    found = [name for i, name in enumerate(names) if welcome.channels >> i & 1]
+    return ", ".join(found) or "nothing"
 
 
 def capabilities(welcome):
@@ -130,8 +137,8 @@ def capabilities(welcome):
     kind = "a simulation" if welcome.simulated else "REAL: it can hurt somebody"
     moves = ", moves by itself" if welcome.moves_by_itself else ""
     return (f"{name}: {kind}{moves}\n"
-            f"{welcome.rate_hz:g} Hz, {welcome.num_points} contact points, "
-            f"{welcome.num_joints} joints\n"
+            f"{welcome.rate_hz:g} Hz, {bin(welcome.points).count('1')} contact points, "
+            f"{welcome.num_joints} joints, measures besides: {measured_besides(welcome)}\n"
             f"at most {welcome.most_force_n:g} N at a point and {welcome.most_total_force_n:g} N "
             f"in all; a measurement may stand in for {1000 * welcome.stand_in_s:g} ms")
 
@@ -146,7 +153,7 @@ def shown(state, client, welcome):
              f"level to it {state.level} and back {client.link.level()}, "
              f"{client.link.num_missing()} missing, round trip "
              f"{(client.link.round_trip_ns or 0) / 1e6:.1f} ms"]
-    for point in range(welcome.num_points):
+    for point in (i for i in range(jd.NUM_POINTS) if welcome.points >> i & 1):
         here = slice(3 * point, 3 * point + 3)
         held = "held " if state.held >> point & 1 else "loose"
         lines.append(f"  point {point} {held}  at {three(state.position_m[here])} m   "

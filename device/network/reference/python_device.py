@@ -61,8 +61,15 @@ class Robot:
     _MASS_KG, _STIFFNESS_N_PER_M, _DAMPING_N_S_PER_M = 1.0, 400.0, 35.0
     _DEVICE_DAMPING_N_S_PER_M = 4.83  # The hand feels it besides the force of the program.
 
-    def __init__(self, rate_hz, num_points):
-        self.num_points = num_points
+    # What it says of itself; 0 and "" where it does not say. One that counts its points
+    # otherwise tells shares of its own: each part of the hand's force, together 1.
+    serial, firmware = "simulated", "1.0"
+    own_mass_kg, own_damping_n_s_per_m, loop_delay_s = 1.0, 4.83, 0.001
+    half_width_m = (1.0, 1.0, 1.0)
+
+    def __init__(self, rate_hz, points, channels=0):
+        self.points, self.share_ratio = points, jd.area_shares(points)
+        self.channels = channels  # jd.MEASURED_FORCE and so on, for read_more
         self._dt_s = 1.0 / rate_hz
         self.reset()
 
@@ -74,7 +81,18 @@ class Robot:
         self._move()
         position_m = [self._at_m[i] + offset_m[i] for offset_m in self._OFFSET_M for i in range(3)]
         return (self._time_ns, position_m, list(self._velocity_m_per_s) * jd.NUM_POINTS,
-                (1 << self.num_points) - 1, True)
+                self.points, True)
+
+    def read_more(self):
+        """What else it measured at that time, of which `channels` tells: 15 forces on the hand by
+        sensors, N; the end effector's orientation as a unit quaternion w, x, y, z; 3 torques on
+        the hand there, N m; the gripper's opening, m; bits of the buttons that are pressed."""
+        if not self.channels:
+            return [0.0] * 15, (1.0, 0.0, 0.0, 0.0), [0.0] * 3, 0.0, 0
+        turn_rad = self._at_m[0]  # Made up, of where the hand is.
+        return (self._force_n, (math.cos(turn_rad / 2), 0.0, 0.0, math.sin(turn_rad / 2)),
+                [0.0, 0.0, 0.01 * self._at_m[0]], 0.05 + 0.01 * self._at_m[1],
+                self._at_m[0] > 0.0)
 
     def write_robot(self, force_n):
         """Gives 15 forces on the hand, N, in the order of the positions, until the next call.
@@ -158,13 +176,13 @@ class Server:
     def _drawn():
         return secrets.randbits(63) + 1
 
-    def _forget(self, address=None, token=0, stream=0):
+    def _forget(self, address=None, token=0, stream=0, client_rate_hz=1000.0):
         """No client, or a new one: nothing of the last one counts."""
         self._address, self._token, self._stream = address, token, stream
         self._to_device, self._to_program = None, None
         if self._key and stream:
             self._to_device, self._to_program = jd.stream_keys(self._key, token, stream)
-        self._link = jd.Link()
+        self._link = jd.Link(client_rate_hz)
         self._number = 2**32 - 1000 if self._wrong == "sequence_wrap" else 0
         self._sent_at_ns = {}  # when the last states were sent, by their number
         self._command, self._command_number, self._came_at_ns, self._recent = None, None, 0, False
@@ -260,16 +278,23 @@ class Server:
                 self._challenge = self._drawn()
                 if is_of_client and self._robot.simulated:
                     self._robot.obey(None)  # It said hello anew: the hand goes on from here.
-                self._forget(address, hello.token, stream)
+                self._forget(address, hello.token, stream, hello.rate_hz)
                 self.num_clients += 1
                 self._num_answers = 0
         self._reply(jd.pack(
             jd.WELCOME, stream, 0, now_ns, hello.clock_ns, self._key, token=hello.token,
             rate_hz=self._rate_hz, most_force_n=MOST_FORCE_N,
             most_total_force_n=MOST_TOTAL_FORCE_N, stand_in_s=self._patience_ns / 1e9,
-            num_points=self._robot.num_points, num_joints=0, simulated=self._robot.simulated,
+            points=self._robot.points, num_joints=0, simulated=self._robot.simulated,
             moves_by_itself=self._robot.moves_by_itself,
-            name=self._robot.name.encode("ascii"), challenge=self._challenge), address)
+            name=self._robot.name.encode("ascii"), challenge=self._challenge,
+            share_ratio=self._robot.share_ratio, most_slew_n_per_s=MOST_SLEW_N_PER_S,
+            most_speed_m_per_s=MOST_SPEED_M_PER_S, half_width_m=self._robot.half_width_m,
+            own_mass_kg=self._robot.own_mass_kg,
+            own_damping_n_s_per_m=self._robot.own_damping_n_s_per_m,
+            loop_delay_s=self._robot.loop_delay_s, channels=self._robot.channels,
+            has_switch=0, serial=self._robot.serial.encode("ascii"),
+            firmware=self._robot.firmware.encode("ascii")), address)
 
     def _refuse(self, reason, address, now_ns, token=0, stream=0, key=None):
         self._reply(jd.pack(jd.REFUSAL, stream, 0, now_ns, 0, key, token=token, reason=reason),
@@ -298,8 +323,9 @@ class Server:
             self._armed = False
             if link.lost_in_a_row:
                 link.judge_anew()
-            last_states = range(self._number - 39, self._number + 1)
-            if (command.arm_number > 0 and link.num_good >= 100
+            last_states = range(
+                self._number + 1 - round(0.04 * self._rate_hz), self._number + 1)
+            if (command.arm_number > 0 and link.is_settled()
                     and (not any(command.force_n) or self._wrong == "arms_with_force")
                     and command.state_number in (n & 0xFFFFFFFF for n in last_states)
                     and self._measured is not None):
@@ -417,9 +443,11 @@ class Server:
             velocity_m_per_s = [1000.0 * value for value in velocity_m_per_s]
         now_ns = time.monotonic_ns()
         self._sent_at_ns[self._number] = now_ns
-        if len(self._sent_at_ns) > 512:
+        if len(self._sent_at_ns) > 0.2 * self._rate_hz:
             del self._sent_at_ns[next(iter(self._sent_at_ns))]
         summed = self._robot.sums
+        measured_force_n, orientation_wxyz, torque_n_m, gripper_m, buttons = (
+            self._robot.read_more())
         echo_ns = self._link.peer_clock_ns + (10**9 if self._wrong == "echo" else 0)
         self._send(jd.pack(
             jd.STATE, self._stream, self._number, now_ns, echo_ns, self._to_program,
@@ -430,7 +458,9 @@ class Server:
             num_strokes=self._robot.num_strokes, armed_number=self._armed_number,
             order_number=self._order_number, held=held, armed=self._armed,
             measured=self._measured is not None, home=self._robot.home, fault=self._fault,
-            level=self._link.level(), acted_n=acted_n, enabled=enabled), self._address)
+            level=self._link.level(), acted_n=acted_n, enabled=enabled,
+            measured_force_n=measured_force_n, orientation_wxyz=orientation_wxyz,
+            torque_n_m=torque_n_m, gripper_m=gripper_m, buttons=buttons), self._address)
 
     def run(self, until_ns):
         """Ticks at the rate until then; what cannot be made up for counts as missed."""
@@ -464,14 +494,18 @@ def main():
     words.add_argument("--port", type=int, default=4700, help="0: any that is free")
     words.add_argument("--key", help="file that `jnd device-key NAME` wrote")
     words.add_argument("--rate-hz", type=float, default=1000.0, help="ticks a second, the study's")
-    words.add_argument("--points", type=int, default=5, choices=range(1, 6))
+    words.add_argument("--points", type=int, default=5, choices=range(1, 6),
+                       help="how many points of a hand it holds, the first ones")
+    words.add_argument("--measures", action="store_true",
+                       help="tell force, orientation, torque, gripper and buttons as well")
     words.add_argument("--seconds", type=float, default=math.inf, help="how long; until stopped")
     words.add_argument("--wrong", default="", choices=["", *WRONG], metavar="NAME",
                        help="behave wrongly, to try a check of devices")
     given = words.parse_args()
     key = jd.read_key(given.key)
     socket = jd.opened_socket(given.listen, given.port, key)
-    server = Server(socket, Robot(given.rate_hz, given.points), given.rate_hz, key, given.wrong)
+    robot = Robot(given.rate_hz, (1 << given.points) - 1, 31 if given.measures else 0)
+    server = Server(socket, robot, given.rate_hz, key, given.wrong)
     print("listening on {}:{}".format(*socket.getsockname()), flush=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     jd.take_real_time_priority()

@@ -57,6 +57,32 @@ PresentationMeter::Result metered_evenly(std::int64_t first_tick, std::int64_t l
   return meter.finish();
 }
 
+TEST(PresentationMeter, WhatSensorsOfForceMeasureIsWhatWasDelivered) {
+  const auto delivered = [](const Change& change) {
+    return metered_evenly(0, 4000,
+                          [&](core::Sample& sample) {
+                            for (std::size_t point = 0; point < 5; ++point) {
+                              sample.tip_force_n[point] = {
+                                  -2.0 * sample.tip_velocity_m_per_s[point][0], 0, 0};
+                            }
+                            return change(sample);
+                          })
+        .movement.force;
+  };
+  const DeliveredForce sent = delivered(keep);
+  EXPECT_NEAR(sent.delivered_damping_n_s_per_m.value(), 10.0, 1e-9);
+  EXPECT_FALSE(sent.is_measured);
+  const DeliveredForce measured = delivered([](core::Sample& sample) {
+    sample.channels.bits = core::kMeasuredForce;
+    for (std::size_t point = 0; point < 5; ++point) {
+      sample.channels.force_n[point] = {0.8 * sample.tip_force_n[point][0], 0, 0};
+    }
+    return true;
+  });
+  EXPECT_NEAR(measured.delivered_damping_n_s_per_m.value(), 8.0, 1e-9);
+  EXPECT_TRUE(measured.is_measured);
+}
+
 /// data/reference/movement: measured by NumPy and SciPy, see the script beside it.
 TEST(PresentationMeter, AgreesWithScipyOnARecordingWithTremorRestAndGap) {
   const json& expected = test_support::reference_data("movement/movement_reference.json");

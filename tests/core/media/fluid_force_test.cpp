@@ -42,8 +42,8 @@ PointVectors force_of(const MediumAmounts& medium, const HapticState& state,
   PointVectors force;
   add_up_fluid_force(
       medium, map,
-      hand_motion(state.tip_position_m, state.tip_velocity_m_per_s, state.attached), state,
-      immersed, 0.0, 0.005, force);
+      hand_motion(state.tip_position_m, state.tip_velocity_m_per_s, state.attached),
+      kAreaShareRatio, state, immersed, 0.0, 0.005, force);
   return force;
 }
 
@@ -71,7 +71,8 @@ TEST(FluidForce, OfTheOldMediaIsTheirDistributedDrag) {
     const HapticState state = random_hand(random);
     const HandMotion motion = hand_motion(state.tip_position_m, state.tip_velocity_m_per_s);
     PointVectors expected;
-    distribute_drag(medium.drag_n(motion), state, kAllImmersed, 0.005, expected);
+    distribute_drag(medium.drag_n(motion), kAreaShareRatio, state, kAllImmersed, 0.005,
+                    expected);
     const PointVectors force = force_of(medium, state);
     for (int point = 0; point < kNumContactPoints; ++point) {
       ASSERT_EQ(force[point], expected[point]);

@@ -18,7 +18,7 @@ struct Hand {
   PointVectors at(const Eigen::Vector3d& position_m, const Immersion& immersion = kBucket) {
     state.tip_position_m.fill(position_m);
     PointVectors force;
-    surfaces.render(medium, immersion, state, kPeriodS, force);
+    surfaces.render(medium, immersion, kAreaShareRatio, state, kPeriodS, force);
     return force;
   }
   MediumAmounts medium = container({.stiffness_n_per_m = 1000.0});

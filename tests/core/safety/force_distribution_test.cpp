@@ -23,7 +23,7 @@ HapticState moving(const Eigen::Vector3d& velocity_m_per_s) {
 PointVectors distributed(double drag_n, const HapticState& state,
                          std::uint8_t immersed_bits = kAllImmersed) {
   PointVectors force;
-  distribute_drag(drag_n, state, immersed_bits, kFadeSpeed, force);
+  distribute_drag(drag_n, kAreaShareRatio, state, immersed_bits, kFadeSpeed, force);
   return force;
 }
 

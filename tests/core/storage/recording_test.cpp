@@ -94,6 +94,26 @@ TEST(Recording, OfSimulatedTimeIsAsItWas) {
   EXPECT_EQ(ticks_in(file, 0, 10000).size(), 2U);
 }
 
+TEST(Recording, KnowsWhatElseTheDeviceMeasured) {
+  const test_support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "0001.sqlite";
+  { RecordingWriter(file, 1000.0).append(at(0)); }
+  EXPECT_EQ(RecordingReader(file).channels(), 0);
+  Sample pressed = at(1);
+  pressed.channels.bits = kButtons;
+  pressed.channels.buttons = 4;
+  { RecordingWriter(file, 1000.0).append(pressed); }
+  Sample turned = at(2);
+  turned.channels.bits = kOrientation;
+  { RecordingWriter(file, 1000.0).append(turned); }
+  EXPECT_EQ(RecordingReader(file).channels(), kButtons | kOrientation) << "of all segments";
+  EXPECT_FALSE(RecordingReader(file).has_times()) << "they were in simulated time";
+  RecordingReader(file).read(1, 1, [](const Sample& sample) {
+    EXPECT_EQ(sample.channels.bits, kButtons);
+    EXPECT_EQ(sample.channels.buttons, 4U);
+  });
+}
+
 TEST(Recording, IsForItsOwnerOnly) {
   const test_support::TemporaryFolder folder;
   const fs::path file = folder.path() / "0001.sqlite";

@@ -200,5 +200,66 @@ TEST(SampleCodec, TimesThatAreDamagedAreRefused) {
   EXPECT_EQ(decode_samples(bytes.substr(0, without), 0, 64, "chunk")[5].monotonic_ns, 0);
 }
 
+/// The same hand on a device that measures more.
+std::vector<Sample> sweep_with_channels(int num_samples, ChannelBits bits) {
+  std::vector<Sample> samples = sweep(num_samples, 5);
+  for (Sample& sample : samples) {
+    const double t = 0.001 * static_cast<double>(sample.tick);
+    DeviceChannels& channels = sample.channels;
+    channels.bits = bits;
+    if (channels.has(kMeasuredForce)) channels.force_n[4] = {1.5 * std::sin(t), -2.0, 0.25};
+    if (channels.has(kOrientation)) {
+      channels.orientation_wxyz = {std::cos(t), 0.0, 0.0, std::sin(t)};
+    }
+    if (channels.has(kTorque)) channels.torque_n_m = {0.01 * t, 0.0, -0.5};
+    if (channels.has(kGripper)) channels.gripper_m = 0.02 + 1e-3 * t;
+    if (channels.has(kButtons)) channels.buttons = 0x80000001U + static_cast<unsigned>(t);
+  }
+  return samples;
+}
+
+TEST(SampleCodec, KeepsWhateverElseADeviceMeasuresAndNothingMore) {
+  for (int bits = 1; bits <= kAllChannels; ++bits) {
+    const auto channels = static_cast<ChannelBits>(bits);
+    const std::vector<Sample> samples = sweep_with_channels(300, channels);
+    const std::vector<Sample> back = decode_samples(encode_samples(samples), 5, 300, "here");
+    ASSERT_EQ(back.size(), samples.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      expect_near(back[i], samples[i]);
+      const DeviceChannels& found = back[i].channels;
+      const DeviceChannels& expected = samples[i].channels;
+      ASSERT_EQ(found.bits, bits);
+      EXPECT_EQ(found.buttons, expected.buttons);
+      EXPECT_NEAR(found.gripper_m, expected.gripper_m, 0.501 * kPositionUnitM);
+      for (std::size_t part = 0; part < 4; ++part) {
+        EXPECT_NEAR(found.orientation_wxyz[part], expected.orientation_wxyz[part],
+                    0.501 * kOrientationUnit);
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(found.force_n[4][axis], expected.force_n[4][axis], 0.501 * kForceUnitN);
+        EXPECT_NEAR(found.torque_n_m[axis], expected.torque_n_m[axis],
+                    0.501 * kJointTorqueUnitNM);
+      }
+      EXPECT_EQ(back[i].monotonic_ns, 0) << "it was in simulated time";
+    }
+  }
+}
+
+TEST(SampleCodec, AChannelThatNobodyKnowsIsDamage) {
+  std::vector<Sample> samples = sweep_with_channels(10, kButtons);
+  for (Sample& sample : samples) sample.channels.bits = 1 << 5;
+  EXPECT_THROW((void)decode_samples(encode_samples(samples), 5, 10, "here"), Error);
+  const std::string good = encode_samples(sweep_with_channels(10, kAllChannels));
+  for (std::size_t cut = 0; cut < good.size(); ++cut) {
+    // Without its last frames it is a chunk of a device without channels, or times.
+    try {
+      const std::vector<Sample> back = decode_samples(good.substr(0, cut), 5, 10, "here");
+      EXPECT_EQ(back.front().channels.bits, 0) << cut;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+}
+
 }  // namespace sample_codec_test
 }  // namespace jnd::core

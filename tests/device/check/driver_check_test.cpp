@@ -19,7 +19,7 @@ class WrongDevice final : public HapticDevice {
   [[nodiscard]] std::string_view name() const noexcept override { return "wrong"; }
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
     DeviceCapabilities can = hand_.capabilities();
-    can.num_contact_points = 2;
+    can.share_ratio = core::area_shares_of_first(2);
     can.tells_acting_force = true;
     can.simulated = wrong_ != "real" && wrong_ != "blind";
     return can;

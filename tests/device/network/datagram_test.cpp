@@ -26,15 +26,23 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
                             .sent_ns = static_cast<std::int64_t>(random.next_bits()),
                             .echo_ns = static_cast<std::int64_t>(random.next_bits())};
   wire::Welcome welcome{.token = random.next_bits(),
-                        .capabilities = {.num_contact_points = 5,
+                        .capabilities = {.share_ratio = core::area_shares(0b10101),
                                          .rate_hz = random.uniform(1.0, 5000.0),
                                          .max_force_per_point_n = random.uniform(0.1, 9.0),
                                          .max_total_force_n = random.uniform(0.1, 9.0),
                                          .max_stale_s = random.uniform(0.0, 0.1),
                                          .simulated = random.with_probability(0.5),
                                          .num_joints = 22,
-                                         .moves_by_itself = random.with_probability(0.5)}};
+                                         .moves_by_itself = random.with_probability(0.5),
+                                         .max_slew_n_per_s = random.uniform(100.0, 900.0),
+                                         .workspace = {1.0, 0.5, core::kInfinity},
+                                         .channels = core::kAllChannels,
+                                         .has_enable_switch = random.with_probability(0.5),
+                                         .own_mass_kg = random.uniform(),
+                                         .closed_loop_delay_s = random.uniform()}};
   std::copy_n("exoskeleton", 11, welcome.name.begin());
+  std::copy_n("17b", 3, welcome.serial.begin());
+  std::copy_n("2.1", 3, welcome.firmware.begin());
   welcome.challenge = random.next_bits();
   wire::State state;
   state.measured.device_time_ns = static_cast<std::int64_t>(random.next_bits());
@@ -50,6 +58,12 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
     }
     state.measured.attached[point] = random.with_probability(0.5);
   }
+  core::DeviceChannels& channels = state.measured.channels;
+  for (core::PlainVector& force_n : channels.force_n) force_n.fill(random.normal());
+  channels.orientation_wxyz = {random.normal(), 0.0, 0.5, random.normal()};
+  channels.torque_n_m = {random.normal(), 1.0, -0.0};
+  channels.gripper_m = random.normal();
+  channels.buttons = 0x80000001;
   for (double& angle : state.measured.joint_position_rad) angle = random.normal();
   for (double& torque : state.measured.joint_torque_n_m) torque = 1e300 * random.normal();
   state.contact_sums = {.num_ticks = 7, .opposing_n = -0.0, .speed_m_per_s = random.uniform()};
@@ -68,7 +82,8 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
                           .random = random};
   return {{header, wire::Hello{.token = random.next_bits(),
                                .only_asks = true,
-                               .challenge = random.next_bits()}},
+                               .challenge = random.next_bits(),
+                               .rate_hz = random.uniform(100.0, 9000.0)}},
           {header, welcome},
           {header, wire::Refusal{.token = 1, .reason = wire::RefusalReason::kOtherVersion}},
           {header, state},
@@ -142,15 +157,20 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
   state.level = LinkLevel::kGood;
   state.measured.acted_n[0].x() = 4.0;
   state.measured.acted_n[4].z() = 5.0;
+  state.measured.channels.force_n[4][2] = 6.0;
+  state.measured.channels.orientation_wxyz = {0.5, 0.5, 0.5, -0.5};
+  state.measured.channels.torque_n_m[2] = 7.0;
+  state.measured.channels.gripper_m = 8.0;
+  state.measured.channels.buttons = 0x0102;
   const Bytes bytes = encoded({{.stream_id = 0x1122, .sequence = 0x33445566}, state});
-  ASSERT_EQ(bytes.size(), 843u);
+  ASSERT_EQ(bytes.size(), 1031u);
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), 4), "JDLK");
-  EXPECT_EQ(bytes[4], std::byte{2});
+  EXPECT_EQ(bytes[4], std::byte{3});
   EXPECT_EQ(bytes[6], std::byte{4});
   EXPECT_EQ(bytes[8], std::byte{0x22});
   EXPECT_EQ(bytes[16], std::byte{0x66});
-  EXPECT_EQ(bytes[20], std::byte{843 & 0xff});
-  EXPECT_EQ(bytes[21], std::byte{843 >> 8});
+  EXPECT_EQ(bytes[20], std::byte{1031 & 0xff});
+  EXPECT_EQ(bytes[21], std::byte{1031 >> 8});
   EXPECT_EQ(bytes[40], std::byte{8});
   EXPECT_EQ(double_at(bytes, 48), 0.25);
   EXPECT_EQ(double_at(bytes, 280), -1.5);
@@ -164,6 +184,42 @@ TEST(Datagram, AStateLiesInItsBytesAsTheTableSays) {
   EXPECT_EQ(double_at(bytes, 718), 4.0);
   EXPECT_EQ(double_at(bytes, 830), 5.0);
   EXPECT_EQ(bytes[838], std::byte{1}) << "the enabling switch is closed";
+  EXPECT_EQ(double_at(bytes, 951), 6.0);
+  EXPECT_EQ(double_at(bytes, 983), -0.5);
+  EXPECT_EQ(double_at(bytes, 1007), 7.0);
+  EXPECT_EQ(double_at(bytes, 1015), 8.0);
+  EXPECT_EQ(bytes[1023], std::byte{2});
+  EXPECT_EQ(bytes[1024], std::byte{1});
+}
+
+TEST(Datagram, AWelcomeLiesInItsBytesAsTheTableSays) {
+  wire::Welcome welcome{.capabilities = {.share_ratio = {0.25, 0.0, 0.0, 0.75, 0.0},
+                                         .max_slew_n_per_s = 900.0,
+                                         .workspace = {1.0, 2.0, core::kInfinity},
+                                         .channels = core::kMeasuredForce | core::kButtons,
+                                         .has_enable_switch = true,
+                                         .own_mass_kg = 3.0,
+                                         .own_damping_n_s_per_m = 4.0,
+                                         .closed_loop_delay_s = 5.0}};
+  std::copy_n("s", 1, welcome.serial.begin());
+  std::copy_n("f", 1, welcome.firmware.begin());
+  const Bytes bytes = encoded({{}, welcome});
+  ASSERT_EQ(bytes.size(), 304u);
+  EXPECT_EQ(bytes[80], std::byte{0b01001});
+  EXPECT_EQ(double_at(bytes, 130), 0.25);
+  EXPECT_EQ(double_at(bytes, 154), 0.75);
+  EXPECT_EQ(double_at(bytes, 170), 900.0);
+  EXPECT_EQ(double_at(bytes, 178), 0.0) << "it does not say";
+  EXPECT_EQ(double_at(bytes, 194), 2.0);
+  EXPECT_EQ(double_at(bytes, 202), 0.0);
+  EXPECT_EQ(double_at(bytes, 210), 3.0);
+  EXPECT_EQ(double_at(bytes, 218), 4.0);
+  EXPECT_EQ(double_at(bytes, 226), 5.0);
+  EXPECT_EQ(bytes[234], std::byte{17});
+  EXPECT_EQ(bytes[235], std::byte{1});
+  EXPECT_EQ(bytes[236], std::byte{'s'});
+  EXPECT_EQ(bytes[268], std::byte{'f'});
+  EXPECT_EQ(double_at(encoded({{}, wire::Hello{.rate_hz = 4000.0}}), 57), 4000.0);
 }
 
 TEST(Datagram, WhatAnotherProgramWroteAfterTheTablesIsUnderstood) {
@@ -239,6 +295,13 @@ TEST(Datagram, WhatIsNoNumberIsRefusedWhereverItStands) {
       EXPECT_EQ(wire::decode(sealed(bytes), back), Problem::kNotFinite) << i;
       ++num_refused;
     }
+    for (int i = 0; i < 23; ++i) {
+      Bytes bytes = encoded({{}, state});
+      put_double(bytes, static_cast<std::size_t>(839 + 8 * i), poison);
+      Datagram back;
+      EXPECT_EQ(wire::decode(sealed(bytes), back), Problem::kNotFinite) << i;
+      ++num_refused;
+    }
     for (int i = 0; i < 15; ++i) {
       Bytes bytes = encoded({{}, wire::Command{}});
       put_double(bytes, static_cast<std::size_t>(48 + 8 * i), poison);
@@ -247,7 +310,7 @@ TEST(Datagram, WhatIsNoNumberIsRefusedWhereverItStands) {
       ++num_refused;
     }
   }
-  EXPECT_EQ(num_refused, 3 * 107);
+  EXPECT_EQ(num_refused, 3 * 130);
 }
 
 TEST(Datagram, EachProblemHasItsOwnName) {
@@ -260,8 +323,8 @@ TEST(Datagram, EachProblemHasItsOwnName) {
   };
   EXPECT_EQ(wire::decode({}, back), Problem::kTooShort);
   EXPECT_EQ(wire::decode(changed(0, 'X'), back), Problem::kWrongMagic);
-  EXPECT_EQ(wire::decode(changed(4, 3), back), Problem::kWrongVersion);
-  EXPECT_EQ(wire::version_of(changed(4, 3)), 3);
+  EXPECT_EQ(wire::decode(changed(4, 2), back), Problem::kWrongVersion);
+  EXPECT_EQ(wire::version_of(changed(4, 2)), 2);
   EXPECT_EQ(wire::version_of(changed(0, 'X')), 0);
   EXPECT_EQ(wire::decode(changed(20, 45), back), Problem::kWrongSize);
   EXPECT_EQ(wire::decode(changed(6, 0), back), Problem::kUnknownKind);
@@ -286,7 +349,12 @@ TEST(Datagram, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(refused(wire::State{}, 717, 4)) << "an unknown level";
   EXPECT_TRUE(refused(wire::Hello{}, 48, 2)) << "a flag of two";
   EXPECT_TRUE(refused(wire::Refusal{}, 48, 0)) << "a refusal for no reason";
-  EXPECT_TRUE(refused(wire::Welcome{}, 80, 6)) << "six contact points";
+  EXPECT_TRUE(refused(wire::Welcome{}, 80, 0x3f)) << "six contact points";
+  EXPECT_TRUE(refused(wire::Welcome{}, 80, 0x0f)) << "a share without a point";
+  EXPECT_TRUE(refused(wire::Welcome{}, 130 + 7, 0xbf)) << "a share below zero";
+  EXPECT_TRUE(refused(wire::Welcome{}, 130 + 6, 0xe0)) << "shares of more than all";
+  EXPECT_TRUE(refused(wire::Welcome{}, 234, 32)) << "a channel that nobody knows";
+  EXPECT_TRUE(refused(wire::Welcome{}, 236, 7)) << "a serial that rings a bell";
   EXPECT_TRUE(refused(wire::Welcome{}, 80, 0)) << "none at all";
   EXPECT_TRUE(refused(wire::Welcome{}, 90, 7)) << "a name that rings a bell";
   EXPECT_TRUE(refused(wire::Welcome{}, 91, 'x')) << "a letter behind the end of the name";

@@ -10,7 +10,7 @@ namespace link_quality_test {
 using Verdict = LinkQuality::Verdict;
 
 LinkQuality fed(std::uint32_t first, int num, int every_lost = 0) {
-  LinkQuality quality{{}};
+  LinkQuality quality;
   quality.echoed(1, 2'000'001);
   for (int i = 0; i < num; ++i) {
     if (every_lost > 0 && i % every_lost == every_lost - 1) continue;
@@ -20,7 +20,7 @@ LinkQuality fed(std::uint32_t first, int num, int every_lost = 0) {
 }
 
 TEST(LinkQuality, CountsWhatIsLostDoubledAndReordered) {
-  LinkQuality quality{{}};
+  LinkQuality quality;
   for (const std::uint32_t sequence : {10u, 11u, 14u}) {
     EXPECT_EQ(quality.received(sequence), Verdict::kNewest);
   }
@@ -42,7 +42,7 @@ TEST(LinkQuality, OneFromLongAgoCountsAsRepeated) {
 }
 
 TEST(LinkQuality, OnesFromBeforeTheFirstHideNoLoss) {
-  LinkQuality quality{{}};
+  LinkQuality quality;
   (void)quality.received(1000);
   for (std::uint32_t i = 1; i <= 40; ++i) {
     EXPECT_EQ(quality.received(1000 - i), Verdict::kRepeated) << i;
@@ -121,7 +121,7 @@ TEST(LinkQuality, AnEchoThatCannotBeMeasuresNothing) {
   constexpr std::int64_t kNow_ns = 5'000'000'000;
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
-  LinkQuality quality{{}};
+  LinkQuality quality;
   for (const std::int64_t echo_ns :
        {std::int64_t{0}, std::int64_t{-1}, kNow_ns + 1, kHighest, kLowest}) {
     quality.echoed(echo_ns, kNow_ns);
@@ -145,7 +145,7 @@ TEST(LinkQuality, HasToBeGoodForAWhile) {
 }
 
 TEST(LinkQuality, ATickThatFindsNothingNewIsLate) {
-  LinkQuality quality{{}};
+  LinkQuality quality;
   (void)quality.received(1);
   quality.end_tick();
   quality.end_tick();
@@ -156,7 +156,7 @@ TEST(LinkQuality, ATickThatFindsNothingNewIsLate) {
 }
 
 TEST(LinkQuality, JudgedAnewItStillKnowsWhatItHasSeen) {
-  LinkQuality quality({});
+  LinkQuality quality;
   for (std::uint32_t i = 1; i <= 100; ++i) (void)quality.received(i);
   quality.judge_anew();
   EXPECT_EQ(quality.level(), LinkLevel::kUnacceptable) << "all is to be shown anew";
@@ -165,6 +165,35 @@ TEST(LinkQuality, JudgedAnewItStillKnowsWhatItHasSeen) {
   EXPECT_EQ(quality.received(101), LinkQuality::Verdict::kNewest);
   quality.restart();
   EXPECT_EQ(quality.received(3), LinkQuality::Verdict::kNewest) << "of another stream";
+}
+
+/// So many of a rate, of which every tenth is lost from the middle on.
+LinkQuality fed_at(double rate_hz, double seconds, double lost_after_s) {
+  LinkQuality quality;
+  quality.restart(rate_hz);
+  quality.echoed(1, 2'000'001);
+  for (int i = 0; i < static_cast<int>(seconds * rate_hz); ++i) {
+    if (i > static_cast<int>(lost_after_s * rate_hz) && i % 9 == 8) continue;
+    (void)quality.received(0xffff'0000U + static_cast<std::uint32_t>(i));
+  }
+  return quality;
+}
+
+TEST(LinkQuality, MeansTheSameTimesAtAnyRate) {
+  for (const double rate_hz : {500.0, 1000.0, 4000.0, 10000.0}) {
+    EXPECT_FALSE(fed_at(rate_hz, 0.13, 9.0).is_settled()) << rate_hz;
+    EXPECT_TRUE(fed_at(rate_hz, 0.17, 9.0).is_settled()) << rate_hz;
+    EXPECT_EQ(fed_at(rate_hz, 3.0, 2.94).level(), LinkLevel::kGood) << rate_hz;
+    EXPECT_EQ(fed_at(rate_hz, 3.0, 2.8).level(), LinkLevel::kPoor) << rate_hz;
+    EXPECT_EQ(fed_at(rate_hz, 3.0, 2.3).level(), LinkLevel::kUnacceptable) << rate_hz;
+    LinkQuality quality = fed_at(rate_hz, 1.0, 9.0);
+    const auto last = 0xffff'0000U + static_cast<std::uint32_t>(rate_hz) - 1U;
+    const auto of_18_ms = static_cast<std::uint32_t>(0.018 * rate_hz);
+    (void)quality.received(last + of_18_ms);
+    EXPECT_FALSE(quality.is_broken()) << rate_hz;
+    (void)quality.received(last + of_18_ms + static_cast<std::uint32_t>(0.022 * rate_hz));
+    EXPECT_TRUE(quality.is_broken()) << rate_hz;
+  }
 }
 
 }  // namespace link_quality_test

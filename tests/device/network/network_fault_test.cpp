@@ -115,7 +115,7 @@ TEST_P(NetworkFaultTest, CutCorruptAndForeignDatagramsAreAsGoodAsLost) {
       if (++num_spoilt % 20 == 0) {
         if (fault_kind == 0) spoilt.bytes.resize(spoilt.bytes.size() / 2);
         if (fault_kind == 1) spoilt.bytes[60 % spoilt.bytes.size()] ^= std::byte{16};
-        if (fault_kind == 2) spoilt.bytes[4] = std::byte{3};
+        if (fault_kind == 2) spoilt.bytes[4] = std::byte{wire::kVersion + 1};
       }
       network.post(spoilt);
     };
@@ -135,7 +135,7 @@ TEST_P(NetworkFaultTest, NothingButSpoiltDatagramsEndsTheForce) {
       Sent spoilt = sent;
       if (fault_kind == 0) spoilt.bytes.resize(spoilt.bytes.size() / 2);
       if (fault_kind == 1) spoilt.bytes[60 % spoilt.bytes.size()] ^= std::byte{16};
-      if (fault_kind == 2) spoilt.bytes[4] = std::byte{3};
+      if (fault_kind == 2) spoilt.bytes[4] = std::byte{wire::kVersion + 1};
       network.post(spoilt);
     };
     run(21);

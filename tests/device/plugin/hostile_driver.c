@@ -67,7 +67,7 @@ int jnd_device_describe(jnd_device* device, const char* options,
   description->flags = JND_DEVICE_IS_SIMULATED | JND_DEVICE_HAS_DEVICE_TIME |
                        JND_DEVICE_TELLS_ACTED_FORCE |
                        (uint32_t)strtoul(word(options, "flags="), NULL, 0);
-  description->num_contact_points = is(trouble, "nine_points") ? 9 : 1;
+  description->contact_point_bits = is(trouble, "nine_points") ? 0x1ff : 1;
   if (is(trouble, "other_shares")) description->area_share_ratio[0] = 0.5;
   description->rate_hz = 1000.0;
   description->max_force_per_point_n = is(trouble, "no_limit") ? (double)NAN : 10.0;

@@ -87,9 +87,9 @@ TEST_F(HostilePluginTest, OneThatNeverDescribesItselfIsGivenUp) {
 }
 
 TEST_F(HostilePluginTest, NumbersThatNoDeviceHasAreNamed) {
-  expect_refused(troubled("nine_points"), "num_contact_points: expected a number from 1 to 5");
+  expect_refused(troubled("nine_points"), "contact_point_bits: expected 1 to 31");
   expect_refused(troubled("no_limit"), "max_force_per_point_n: expected");
-  expect_refused(troubled("other_shares"), "area_share_ratio[0]: expected");
+  expect_refused(troubled("other_shares"), "area_share_ratio: expected numbers that sum to 1");
 }
 
 TEST_F(HostilePluginTest, OneThatDiesOrHangsInASimulationIsAFault) {
@@ -193,7 +193,7 @@ TEST_F(HostilePluginTest, OneThatDoesNotCloseIsEnded) {
 /// Whatever a broken driver has written into the page that is its own.
 TEST_F(HostilePluginTest, NonsenseInItsPageIsAFaultAndNothingElse) {
   jnd_device_description description{};
-  description.num_contact_points = 1;
+  description.contact_point_bits = 1;
   core::HapticState state;
   for (int byte = 0; byte < 256; ++byte) {
     jnd_device_state measured;

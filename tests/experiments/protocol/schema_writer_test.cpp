@@ -81,8 +81,8 @@ TEST(SchemaWriter, PutsKeysThatBelongTogetherIntoConditions) {
     EXPECT_EQ(rule.at("then").at("properties").size(), 1u)
         << "an editor offers only what belongs there";
     EXPECT_EQ(rule.at("if").at("properties").at("medium").at("enum"),
-              json::array({"viscous", "viscous_stokes", "viscous_schiller_naumann",
-                           "viscous_ellipsoid"}));
+              json::array({"viscous", "viscous_stokes", "viscous_sphere",
+                           "viscous_schiller_naumann", "viscous_ellipsoid"}));
   }
   EXPECT_EQ(num_found, 1);
 }

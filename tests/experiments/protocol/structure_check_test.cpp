@@ -68,7 +68,8 @@ TEST(StructureCheck, WantsTheQuantityOfTheMedium) {
             "x.json:13:5: /stages/1/scale: expected a list of one or more numbers, found "
             "nothing\n"
             "x.json:14:25: /stages/1/viscosity_pa_s: expected this key only where `medium` is "
-            "`viscous`, `viscous_stokes`, `viscous_schiller_naumann` or `viscous_ellipsoid`, "
+            "`viscous`, `viscous_stokes`, `viscous_sphere`, `viscous_schiller_naumann` or "
+            "`viscous_ellipsoid`, "
             "found it where `medium` is `water`");
 }
 
@@ -94,7 +95,8 @@ TEST(StructureCheck, WantsWhatTheProcedureNeedsAndNothingOfAnother) {
 TEST(StructureCheck, NamesTheNearestMediumProcedureAndStage) {
   EXPECT_EQ(problems_of(broken("\"medium\": \"viscous\"", "\"medium\": \"viscuos\"")),
             "x.json:26:20: /stages/2/arms/1/stages/0/medium: expected `water`, `viscous`, "
-            "`viscous_stokes`, `water_map`, `viscous_schiller_naumann`, `viscous_ellipsoid` or "
+            "`viscous_stokes`, `viscous_sphere`, `water_map`, `viscous_schiller_naumann`, "
+            "`viscous_ellipsoid` or "
             "`solid`, found `viscuos`; did you mean `viscous`?");
   EXPECT_EQ(problems_of(broken("\"constant_stimuli\"", "\"constant_stimulus\"")),
             "x.json:25:62: /stages/2/arms/1/stages/0/procedure: expected "

@@ -258,10 +258,11 @@ TEST(Plan, PutsTheOtherMediaAgainstTheLimitsToo) {
 TEST(Plan, FewerPointsHaveLargerShares) {
   const auto largest_n = [](int num_points) {
     const auto range =
-        planned_range(read_study_text(kStudy, "x"), {.max_force_per_point_n = 10.0,
-                                                     .max_total_force_n = 40.0,
-                                                     .num_contact_points = num_points,
-                                                     .expected_speed_m_per_s = 1.0});
+        planned_range(read_study_text(kStudy, "x"),
+                      {.max_force_per_point_n = 10.0,
+                       .max_total_force_n = 40.0,
+                       .largest_share_ratio = core::area_shares_of_first(num_points)[0],
+                       .expected_speed_m_per_s = 1.0});
     const auto found = std::find_if(range.begin(), range.end(), [](const RangeEntry& e) {
       return e.stage == "comparison" && e.setting.intensity == 16.0;
     });
