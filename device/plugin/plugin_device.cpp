@@ -15,6 +15,8 @@ constexpr double kWaitRatio = 0.4;
 /// Where nothing but a simulation is waited for, and its time stands still meanwhile; within
 /// the watchdog's 0.25 s.
 constexpr std::int64_t kWaitForSimulation_ns = 200'000'000;
+/// Nobody can be hurt, and a busy machine may hold its process up: as across the network.
+constexpr double kMaxStaleOfSimulation_s = 0.1;
 /// Of the last 256 answers, so many may have nothing new: a tenth.
 constexpr int kMostMissing = 25;
 
@@ -32,8 +34,10 @@ PluginDevice::PluginDevice(const Parameters& parameters)
 }
 
 DeviceCapabilities PluginDevice::capabilities() const noexcept {
-  return capabilities_of(description_, parameters_.process.rate_hz,
-                         parameters_.believes_simulated);
+  DeviceCapabilities can = capabilities_of(description_, parameters_.process.rate_hz,
+                                           parameters_.believes_simulated);
+  can.max_stale_s = can.simulated ? kMaxStaleOfSimulation_s : parameters_.max_stale_s;
+  return can;
 }
 
 void PluginDevice::open() {
@@ -157,7 +161,7 @@ void PluginDevice::count_newness(bool is_new) noexcept {
 
 bool PluginDevice::stand_in(core::HapticState& state, std::int64_t now_ns) noexcept {
   // The loop's own watch over the device's time comes first, by these two ticks.
-  const double longest_s = parameters_.max_stale_s + 2.0 / parameters_.process.rate_hz;
+  const double longest_s = capabilities().max_stale_s + 2.0 / parameters_.process.rate_hz;
   if (newest_ns_ == 0 || !has_own_clock_ || now_ns - newest_ns_ > in_ns(longest_s)) {
     return fail(Fault::kDeviceReadFailed);
   }
