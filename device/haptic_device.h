@@ -132,6 +132,10 @@ class HapticDevice {
   /// did. Real time.
   [[nodiscard]] virtual core::Fault fault() const noexcept { return core::Fault::kNone; }
 
+  /// What the device's own program said of it, a part of a sentence; "": nothing. Of what was
+  /// last wrong since it was opened. Any thread. Not real time.
+  [[nodiscard]] virtual std::string words_of_fault() const { return ""; }
+
   /// Whether a person may bring the force back now, after a fault. False: not before whatever
   /// is wrong has mended; `fault` says what, or the connection. Real time.
   [[nodiscard]] virtual bool may_arm() const noexcept { return true; }

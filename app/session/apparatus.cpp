@@ -315,8 +315,7 @@ void Apparatus::run_for(double duration_s) {
     my.run_simulated(num_ticks);
   }
   const core::Fault fault = telemetry().fault;
-  if (fault != core::Fault::kNone)
-    throw core::Error("haptic loop: " + std::string(words(fault)));
+  if (fault != core::Fault::kNone) throw core::Error("haptic loop: " + fault_words(fault));
 }
 
 void Apparatus::rearm() { implementation_->loop.rearm(); }
@@ -357,6 +356,15 @@ const core::Telemetry& Apparatus::telemetry() const noexcept {
 
 bool Apparatus::is_laboratory_hand() const noexcept {
   return implementation_->parameters.device == kLumped;
+}
+
+std::string Apparatus::fault_words(core::Fault fault) const {
+  std::string told(words(fault));
+  const std::string said = implementation_->device->words_of_fault();
+  const bool is_of_device =
+      fault == core::Fault::kDeviceReadFailed || fault == core::Fault::kDeviceWriteFailed;
+  if (is_of_device && !said.empty()) told += " The driver says: " + said + ".";
+  return told;
 }
 
 bool Apparatus::measures_force() const noexcept {

@@ -103,6 +103,8 @@ class Apparatus {
   /// That the device declares.
   [[nodiscard]] int num_contact_points() const noexcept;
   [[nodiscard]] core::ShareRatios share_ratio() const noexcept;
+  /// A fault of the loop, with what the device's own program said of it, if it did.
+  [[nodiscard]] std::string fault_words(core::Fault fault) const;
   /// By sensors of its own.
   [[nodiscard]] bool measures_force() const noexcept;
   /// What the device says of itself, for keeping. Not real time.

@@ -144,7 +144,7 @@ void RunningSession::keep_arming(const std::string& by) {
 void RunningSession::keep_fault() {
   const core::Fault fault = apparatus_.telemetry().fault;
   if (!core::is_failure(fault)) return;
-  session_.fault(std::string(words(fault)));
+  session_.fault(apparatus_.fault_words(fault));
   const std::vector<core::Sample> last_second = apparatus_.flight_record();
   if (last_second.empty()) return;
   try {

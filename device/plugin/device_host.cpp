@@ -16,6 +16,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "device/adaptive_spin.h"
 #include "device/plugin/driver_pages.h"
 #include "device/plugin/driver_session.h"
 #include "device/plugin/futex.h"
@@ -32,6 +33,8 @@ constexpr std::int64_t kLastPatience_ns = 1'000'000'000;
 /// Below the loop's and its watchdog's: a driver that never sleeps must not starve them.
 constexpr int kDriverPriority = 79;
 constexpr int kHostWatchPriority = 81;
+/// Looking out for the next question, as the loop does for its next tick.
+constexpr std::int64_t kLongestSpin_ns = 200'000;
 
 constexpr int kProgramIsGone = 1;
 constexpr int kStartedByOthers = 2;
@@ -47,7 +50,11 @@ bool are_pages() noexcept {
 class DeviceHost {
  public:
   DeviceHost(const ProgramPage& program, HostPage& host)
-      : program_(program), host_(host), order_(program.order) {}
+      : program_(program),
+        host_(host),
+        order_(program.order),
+        period_ns_(std::llround(1e9 / program.order.rate_hz)),
+        spin_(kLongestSpin_ns, period_ns_) {}
 
   int run() noexcept {
     try {
@@ -120,8 +127,28 @@ class DeviceHost {
         take_force(session, request);
         take_question(session, request);
       }
-      futex_wait_until(program_.request.version(), seen, monotonic_ns() + kLookEvery_ns * 10);
+      wait_for_request(seen);
     }
+  }
+
+  /// Of a device with a clock of its own questions come once a period, and the force soon after
+  /// its answer. To be woken up takes longer than to answer, so this thread sleeps until
+  /// shortly before the next question is due and looks out for it from then on.
+  void wait_for_request(std::uint32_t seen) noexcept {
+    const std::atomic<std::uint32_t>& version = program_.request.version();
+    if (has_own_clock_ && last_question_ns_ != 0) {
+      constexpr std::int64_t kForceComesWithin_ns = 100'000;
+      look_until(version, seen, last_question_ns_ + kForceComesWithin_ns);
+      const std::int64_t due_ns = last_question_ns_ + period_ns_;
+      const std::int64_t wake_up_ns = due_ns - spin_.length_ns();
+      if (version.load(std::memory_order_acquire) == seen && monotonic_ns() < wake_up_ns) {
+        futex_wait_until(version, seen, wake_up_ns);
+        const std::int64_t late_ns = monotonic_ns() - wake_up_ns;
+        if (late_ns > 0) spin_.woke_up_late_by(late_ns);
+      }
+      look_until(version, seen, due_ns + kForceComesWithin_ns);
+    }
+    futex_wait_until(version, seen, monotonic_ns() + kLookEvery_ns * 10);
   }
 
   /// The driver waits for its device. Each measurement is told at once; then there is half a
@@ -159,6 +186,7 @@ class DeviceHost {
     // Held up with the whole machine, what waits here may be as old as the pause.
     if (is_too_old(request)) session.halt();
     write_fault_ = session.write(force_n);
+    if (write_fault_ == Fault::kDeviceWriteFailed) session.words_of_failure(answer_.words);
     if (is_too_old(request)) session.halt();
     ++answer_.num_writes;
   }
@@ -174,7 +202,9 @@ class DeviceHost {
   }
 
   void answer(DriverSession& session, std::uint64_t read_number) noexcept {
+    last_question_ns_ = monotonic_ns();
     const Fault found = session.read(answer_.measured);
+    if (found == Fault::kDeviceReadFailed) session.words_of_failure(answer_.words);
     answer_.is_measured = found == Fault::kNone ? 1 : 0;
     answer_.fault = static_cast<std::uint32_t>(found != Fault::kNone ? found : write_fault_);
     answer_.read_number = read_number;
@@ -213,6 +243,9 @@ class DeviceHost {
   const ProgramPage& program_;
   HostPage& host_;
   const DriverOrder order_;
+  const std::int64_t period_ns_;
+  AdaptiveSpin spin_;
+  std::int64_t last_question_ns_ = 0;  ///< When the last one was answered.
   DriverReport report_;
   DriverAnswer answer_;
   bool has_own_clock_ = true;

@@ -18,7 +18,7 @@
 namespace jnd::device {
 
 /// Changes with anything below: both sides are of one build.
-inline constexpr std::uint32_t kDriverPagesVersion = 1;
+inline constexpr std::uint32_t kDriverPagesVersion = 2;
 /// Where a host finds the pages.
 inline constexpr int kProgramPageFile = 3;
 inline constexpr int kHostPageFile = 4;
@@ -51,6 +51,7 @@ struct DriverAnswer {
   std::uint32_t fault = 0;        ///< `core::Fault`: why there is no measurement, or no force.
   std::uint32_t is_measured = 0;
   jnd_device_state measured{};
+  std::array<char, 128> words{};  ///< Of the driver, when it failed last; a zero behind it.
 };
 
 /// How far a host has come.

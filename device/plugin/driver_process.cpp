@@ -240,6 +240,9 @@ void DriverProcess::request(const DriverRequest& request, bool wakes) noexcept {
 
 void DriverProcess::wait_for_answer(std::uint32_t seen,
                                     std::int64_t deadline_ns) const noexcept {
+  constexpr std::int64_t kLook_ns = 80'000;  // Most answers come within it.
+  look_until(host_page().answer.version(), seen,
+             std::min(deadline_ns, monotonic_ns() + kLook_ns));
   futex_wait_until(host_page().answer.version(), seen, deadline_ns);
 }
 

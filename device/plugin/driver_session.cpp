@@ -153,6 +153,15 @@ Fault DriverSession::pass_on(const core::PointVectors& force_on_hand_n) noexcept
   return Fault::kDeviceWriteFailed;
 }
 
+void DriverSession::words_of_failure(std::array<char, 128>& words) noexcept {
+  jnd_device* device = device_.load(std::memory_order_relaxed);
+  const char* said = device == nullptr ? nullptr : library_.error(device);
+  words.fill('\0');
+  for (std::size_t i = 0; said != nullptr && i + 1 < words.size() && said[i] != '\0'; ++i) {
+    words[i] = said[i];
+  }
+}
+
 void DriverSession::halt() noexcept {
   halt_.halt();
   ++num_halting_;

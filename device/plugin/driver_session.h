@@ -47,6 +47,10 @@ class DriverSession {
   /// them is halted. Real time, as the driver.
   [[nodiscard]] core::Fault write(const core::PointVectors& force_on_hand_n) noexcept;
 
+  /// What the driver says of its last call, which failed. By the thread that called it. Real
+  /// time, as the driver.
+  void words_of_failure(std::array<char, 128>& words) noexcept;
+
   /// Zero force at once, and until a `write` of nothing but zeros. Any thread; also while the
   /// driver is stuck in another call. Real time, as the driver.
   void halt() noexcept;

@@ -30,6 +30,12 @@ void futex_wait_until(const std::atomic<std::uint32_t>& word, std::uint32_t seen
             FUTEX_BITSET_MATCH_ANY);
 }
 
+void look_until(const std::atomic<std::uint32_t>& word, std::uint32_t seen,
+                std::int64_t deadline_ns) noexcept {
+  while (word.load(std::memory_order_acquire) == seen && monotonic_ns() < deadline_ns) {
+  }
+}
+
 void futex_wake(const std::atomic<std::uint32_t>& word) noexcept {
   ::syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }

@@ -14,6 +14,11 @@ namespace jnd::device {
 void futex_wait_until(const std::atomic<std::uint32_t>& word, std::uint32_t seen,
                       std::int64_t deadline_ns) noexcept;
 
+/// The same, but looks at the word again and again without sleeping: to be woken up takes
+/// longer than most answers do. Real time, for as long as it looks.
+void look_until(const std::atomic<std::uint32_t>& word, std::uint32_t seen,
+                std::int64_t deadline_ns) noexcept;
+
 /// Everybody who waits for it. Real time; a system call.
 void futex_wake(const std::atomic<std::uint32_t>& word) noexcept;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/plugin/driver_library.h"
 #include "device/plugin/futex.h"
 
 namespace jnd::device {
@@ -167,6 +168,13 @@ bool PluginDevice::stand_in(core::HapticState& state, std::int64_t now_ns) noexc
   }
   state = newest_;
   return true;
+}
+
+std::string PluginDevice::words_of_fault() const {
+  DriverAnswer answer;
+  if (!process_.answer(answer)) return "";
+  answer.words.back() = '\0';
+  return text_in_sentence(answer.words.data());
 }
 
 bool PluginDevice::fail(Fault fault) noexcept {

@@ -64,6 +64,7 @@ class PluginDevice final : public HapticDevice {
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override;
   [[nodiscard]] core::Fault fault() const noexcept override { return fault_; }
+  [[nodiscard]] std::string words_of_fault() const override;
   /// The driver answers, and its last measurement was a new one.
   [[nodiscard]] bool may_arm() const noexcept override { return is_well_; }
   void halt() noexcept override { process_.halt(); }

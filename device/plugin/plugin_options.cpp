@@ -89,9 +89,11 @@ fs::path plugin_file(const std::string& name) {
   const bool is_path = name.find('/') != std::string::npos;
   if (is_path || is_file(name)) {
     if (!is_file(name)) {
-      throw DeviceUnreachable("device plugin " + name +
-                              ": expected the shared object of a driver, found no such file; "
-                              "build it, or correct the path");
+      throw DeviceUnreachable(
+          "device plugin " + name +
+          ": expected the shared object of a driver, found no such file; "
+          "build it, or correct the path, which begins in the folder that jnd "
+          "runs in");
     }
     return fs::absolute(name, ignored);
   }

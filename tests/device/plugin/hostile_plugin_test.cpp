@@ -92,6 +92,19 @@ TEST_F(HostilePluginTest, NumbersThatNoDeviceHasAreNamed) {
   expect_refused(troubled("other_shares"), "area_share_ratio: expected numbers that sum to 1");
 }
 
+TEST_F(HostilePluginTest, WhatADriverSaysOfItsFailureIsKept) {
+  for (const char* trouble : {"fail_in_read", "fail_in_write"}) {
+    const auto device = opened(troubled(trouble, ",after=20"));
+    EXPECT_EQ(device->words_of_fault(), "") << trouble;
+    (void)fault_of(*device);
+    EXPECT_TRUE(comes_to([&] {
+      core::HapticState state;
+      (void)device->read(state);
+      return device->words_of_fault() == "the emergency stop of the \"robot\" is pressed";
+    })) << trouble;
+  }
+}
+
 TEST_F(HostilePluginTest, OneThatDiesOrHangsInASimulationIsAFault) {
   for (const char* trouble :
        {"crash_in_read", "exit_in_read", "hang_in_read", "fail_in_read"}) {
