@@ -408,7 +408,7 @@ static bool take_number(Link *link, uint32_t number, int64_t clock_ns, int64_t e
 // ----- The device as the program sees it -----
 
 static struct {
-  int socket;
+  int socket, log;  // log: -1, or where each tick tells what the robot is given
   double rate_hz;
   bool has_key;
   uint8_t key[kKeyBytes], to_device[kKeyBytes], to_program[kKeyBytes];
@@ -802,9 +802,16 @@ static void send_state(const double acted_n[3 * kPoints]) {
 
 static void give(const double force_n[3 * kPoints]) {
   memcpy(device.acted_n, force_n, sizeof device.acted_n);
-  if (write_robot(force_n)) return;
-  disarm(kFaultWrite);
-  memset(device.acted_n, 0, sizeof device.acted_n);
+  if (!write_robot(force_n)) {
+    disarm(kFaultWrite);
+    memset(device.acted_n, 0, sizeof device.acted_n);
+  }
+  if (device.log < 0) return;
+  uint8_t record[8 + 8 * 3 * kPoints];
+  put(record, (uint64_t)now(), 8);
+  put_f64s(record + 8, device.acted_n, 3 * kPoints);
+  // At once: whoever is killed has told everything.
+  if (write(device.log, record, sizeof record) < 0) device.log = -1;
 }
 
 static void tick(void) {
@@ -864,6 +871,7 @@ int main(int num_words, char **words) {
   const char *host = "127.0.0.1";
   double port = 4700, seconds = 1e9, num_points = kPoints, channels = 0;
   device.rate_hz = 1000.0;
+  device.log = -1;
   for (int i = 1; i < num_words; i += 2) {
     const char *word = words[i], *value = i + 1 < num_words ? words[i + 1] : NULL;
     char *end = NULL;
@@ -877,9 +885,12 @@ int main(int num_words, char **words) {
       host = value;
     } else if (value != NULL && strcmp(word, "--key") == 0) {
       read_key(value);
+    } else if (value != NULL && strcmp(word, "--log") == 0) {
+      device.log = open(value, O_WRONLY | O_CREAT | O_APPEND, 0600);
+      if (device.log < 0) fail(value, strerror(errno));
     } else if (value == NULL || number == NULL || (*number = strtod(value, &end), *end != '\0')) {
       fail(word, "expected --listen ADDRESS, --port N (0: any that is free), --key FILE, "
-                 "--rate-hz N, --points 1 to 5, --channels 0 to 31 or --seconds N");
+                 "--rate-hz N, --points 1 to 5, --channels 0 to 31, --log FILE or --seconds N");
     }
   }
   if (!(device.rate_hz > 250.0 && device.rate_hz <= 10000.0)) {

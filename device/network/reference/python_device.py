@@ -14,6 +14,7 @@ program, and limits of force of its own.
 
 import argparse
 import math
+import os
 import secrets
 import signal
 import struct
@@ -157,9 +158,9 @@ class Robot:
 class Server:
     """The protocol, one `tick` after the other."""
 
-    def __init__(self, socket, robot, rate_hz, key, wrong=""):
+    def __init__(self, socket, robot, rate_hz, key, wrong="", log=None):
         self._socket, self._robot, self._rate_hz, self._key = socket, robot, rate_hz, key
-        self._wrong = wrong
+        self._wrong, self._log = wrong, log
         # Of what can hurt nobody a busy machine may be slower.
         self._patience_ns = 100_000_000 if robot.simulated else 20_000_000
         self._answer_age_ns = 120_000_000 if robot.simulated else 40_000_000
@@ -404,7 +405,9 @@ class Server:
             self._acted_n = force_n
         except OSError:
             self._disarm(5)
-            self._acted_n = [0.0] * 15
+            self._acted_n = given_n = [0.0] * 15
+        if self._log is not None:  # At once: whoever is killed has told everything.
+            os.write(self._log, struct.pack("<q15d", time.monotonic_ns(), *given_n))
 
     def tick(self):
         now_ns = time.monotonic_ns()
@@ -499,13 +502,18 @@ def main():
     words.add_argument("--measures", action="store_true",
                        help="tell force, orientation, torque, gripper and buttons as well")
     words.add_argument("--seconds", type=float, default=math.inf, help="how long; until stopped")
+    words.add_argument("--log", help="file to which each tick adds a record of 128 bytes: time "
+                       "(monotonic, ns, int64) and the 15 forces that the robot is given")
     words.add_argument("--wrong", default="", choices=["", *WRONG], metavar="NAME",
                        help="behave wrongly, to try a check of devices")
     given = words.parse_args()
     key = jd.read_key(given.key)
     socket = jd.opened_socket(given.listen, given.port, key)
     robot = Robot(given.rate_hz, (1 << given.points) - 1, 31 if given.measures else 0)
-    server = Server(socket, robot, given.rate_hz, key, given.wrong)
+    log = None
+    if given.log:
+        log = os.open(given.log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o600)
+    server = Server(socket, robot, given.rate_hz, key, given.wrong, log)
     print("listening on {}:{}".format(*socket.getsockname()), flush=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     jd.take_real_time_priority()
