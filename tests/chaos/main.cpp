@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "chaos/worlds.h"
@@ -19,7 +20,10 @@ struct Arguments {
   std::uint64_t num_schedules = 1000;
   std::uint64_t first_seed = 1;
   bool in_virtual_time = false;  ///< Without the real program.
-  bool ends_at_first = false;    ///< At the first violation.
+  bool through_doors = false;    ///< Nothing but the real program on devices of others.
+  bool tells_all = false;      ///< A schedule through a door before it is played, and its time.
+  bool wrong_devices = false;  ///< Such devices that are wrong on purpose, to be found.
+  bool ends_at_first = false;  ///< At the first violation.
   bool measures_energy = false;  ///< A line a schedule, for whoever derives the bound.
 };
 
@@ -35,10 +39,14 @@ std::optional<Arguments> read_arguments(int num, char** words) {
   int num_numbers = 0;
   for (int i = 1; i < num; ++i) {
     const std::string_view word = words[i];
-    if (word == "--virtual-time" || word == "--first" || word == "--energy") {
+    if (word == "--virtual-time" || word == "--first" || word == "--energy" ||
+        word == "--doors" || word == "--wrong-devices" || word == "--tell") {
       arguments.in_virtual_time |= word == "--virtual-time";
       arguments.ends_at_first |= word == "--first";
       arguments.measures_energy |= word == "--energy";
+      arguments.through_doors |= word == "--doors";
+      arguments.wrong_devices |= word == "--wrong-devices";
+      arguments.tells_all |= word == "--tell";
       continue;
     }
     const auto value = number(word);
@@ -65,15 +73,44 @@ struct Counts {
   std::uint64_t num_played = 0, num_failed = 0, num_left_out = 0, num_with_force = 0;
 };
 
-void tell(const Schedule& schedule, const Outcome& outcome, const Arguments& arguments) {
+/// Where nothing but virtual time is asked for, these seeds are played in it as well.
+bool is_for_a_door(std::uint64_t seed, const Arguments& arguments) {
+  if (arguments.in_virtual_time) return false;
+  return arguments.through_doors || is_played_through_a_door(seed);
+}
+
+void tell_violation(const std::string& schedule, std::uint64_t seed, const Outcome& outcome,
+                    const Arguments& arguments) {
+  if (outcome.violation.empty()) return;
+  std::printf("%s  VIOLATION at %s\n%s  again: ./dev chaos 1 %" PRIu64 "%s\n", schedule.c_str(),
+              outcome.violation.c_str(), outcome.story.c_str(), seed,
+              arguments.through_doors ? " --doors" : "");
+  std::fflush(stdout);
+}
+
+Outcome played_and_told(std::uint64_t seed, const Arguments& arguments) {
+  if (is_for_a_door(seed, arguments)) {
+    const DoorSchedule schedule = drawn_door_schedule(seed);
+    const auto start = std::chrono::steady_clock::now();
+    if (arguments.tells_all) std::fprintf(stderr, "%s", told(schedule).c_str());
+    const Outcome outcome = played_through_a_door(schedule);
+    if (arguments.tells_all) {
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      std::fprintf(stderr, "%s  %.1f s, force for %d ms%s\n", outcome.story.c_str(),
+                   took.count(), outcome.num_milliseconds_with_force,
+                   outcome.was_played ? "" : ", left out");
+    }
+    tell_violation(told(schedule), seed, outcome, arguments);
+    return outcome;
+  }
+  const Schedule schedule = drawn_schedule(seed);
+  const Outcome outcome = played(schedule, arguments);
   if (arguments.measures_energy) {
     std::printf("ENERGY %g kg %d ms %g J\n", schedule.hand_mass_kg, schedule.most_late_ms(),
                 outcome.most_given_j);
   }
-  if (outcome.violation.empty()) return;
-  std::printf("%s  VIOLATION at %s\n  again: ./dev chaos 1 %" PRIu64 "\n",
-              told(schedule).c_str(), outcome.violation.c_str(), schedule.seed);
-  std::fflush(stdout);
+  tell_violation(told(schedule), seed, outcome, arguments);
+  return outcome;
 }
 
 void count(const Outcome& outcome, Counts& counts) {
@@ -98,15 +135,31 @@ void sum_up(const Counts& counts, const Arguments& arguments, double took_s) {
               std::floor(passed_percent), counts.num_failed, counts.num_played);
 }
 
+/// Each device that is wrong on purpose has to be found by the judge who finds the others
+/// sound.
+int campaign_of_wrong_devices(const Arguments& arguments) {
+  int num_missed = 0;
+  for (std::uint64_t i = 0; i < arguments.num_schedules; ++i) {
+    const DoorSchedule schedule = wrong_door_schedule(arguments.first_seed + i);
+    const Outcome outcome = played_through_a_door(schedule);
+    const bool is_missed = outcome.was_played && outcome.violation.empty();
+    num_missed += is_missed ? 1 : 0;
+    std::printf("%s  %s%s\n", told(schedule).c_str(),
+                is_missed            ? "MISSED"
+                : outcome.was_played ? "found: "
+                                     : "left out",
+                outcome.violation.c_str());
+    std::fflush(stdout);
+  }
+  return num_missed == 0 ? 0 : 1;
+}
+
 int campaign(const Arguments& arguments) {
   constexpr std::uint64_t kTellEvery = 250;
   const auto start = std::chrono::steady_clock::now();
   Counts counts;
   for (std::uint64_t i = 0; i < arguments.num_schedules; ++i) {
-    const Schedule schedule = drawn_schedule(arguments.first_seed + i);
-    const Outcome outcome = played(schedule, arguments);
-    count(outcome, counts);
-    tell(schedule, outcome, arguments);
+    count(played_and_told(arguments.first_seed + i, arguments), counts);
     if (counts.num_failed > 0 && arguments.ends_at_first) break;
     if ((i + 1) % kTellEvery == 0) {
       std::fprintf(stderr,
@@ -125,10 +178,12 @@ int main(int num, char** words) {
   const auto arguments = read_arguments(num, words);
   if (!arguments) {
     std::fputs(
-        "jnd_chaos: expected [SCHEDULES] [SEED] [--virtual-time] [--first] [--energy], "
-        "found other words\n",
+        "jnd_chaos: expected [SCHEDULES] [SEED] [--virtual-time] [--first] [--energy] "
+        "[--doors] "
+        "[--wrong-devices] [--tell], found other words\n",
         stderr);
     return 2;
   }
-  return campaign(*arguments);
+  return arguments->wrong_devices ? campaign_of_wrong_devices(*arguments)
+                                  : campaign(*arguments);
 }

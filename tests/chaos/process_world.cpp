@@ -6,13 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 #include <thread>
 #include <vector>
 
+#include "chaos/told_events.h"
 #include "chaos/worlds.h"
 #include "core/random_stream.h"
-#include "core/storage/study_store.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/small_disk.h"
@@ -40,10 +39,6 @@ bool can_follow_system_calls() {
   static const bool can =
       std::system("strace -qq -o /dev/null true >/dev/null 2>&1") == 0;  // NOLINT
   return can;
-}
-
-bool says_complete(const std::string& json) {
-  return json.find("\"complete\": true") != std::string::npos;
 }
 
 /// One study that the real program writes, with the machine against it.
@@ -83,7 +78,7 @@ class ProcessWorld {
   }
   /// As a person would: a session that was begun is resumed.
   [[nodiscard]] std::vector<std::string> next_words() const {
-    return acknowledged_.empty() ? run_words() : resume_words();
+    return told_.empty() ? run_words() : resume_words();
   }
 
   void meet(Interruption interruption) {
@@ -109,7 +104,7 @@ class ProcessWorld {
     for (std::uint64_t i = 0; i < num_lines; ++i) {
       const auto line = program.read_line();
       if (!line) break;
-      acknowledged_.push_back(*line);
+      told_.add(*line);
     }
     program.send_signal(SIGKILL);
     take(program.wait());
@@ -125,7 +120,7 @@ class ProcessWorld {
 
   void stop_for(double duration_s) {
     met_ = "it was stopped and went on";
-    const bool must_finish = !acknowledged_.empty() || !fs::exists(study());
+    const bool must_finish = !told_.empty() || !fs::exists(study());
     RunningProgram program(next_words(), options({}));
     std::this_thread::sleep_for(std::chrono::duration<double>(random_.uniform(0.0, 0.4)));
     program.send_signal(SIGSTOP);
@@ -173,42 +168,19 @@ class ProcessWorld {
     return {.folder = temporary_.path(), .environment = {}, .wrapper = wrapper};
   }
 
-  /// Whole lines count: the last one of a killed program may have been cut off.
-  void take(const ProgramOutcome& outcome) {
-    std::istringstream lines(outcome.out.substr(0, outcome.out.rfind('\n') + 1));
-    for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("EVENT ")) acknowledged_.push_back(line);
-    }
-  }
+  void take(const ProgramOutcome& outcome) { told_.take(outcome); }
 
   void judge(bool is_finished) {
-    if (acknowledged_.empty()) return;
-    const ProgramOutcome verified =
-        test_support::run_program({"verify", study(), "--json"}, options({}));
-    if (verified.exit_code != 0 || !says_complete(verified.out)) {
-      return violated("`jnd verify` says: " + verified.out + verified.err);
-    }
-    const core::StudyStore store(study(), core::StudyStore::Mode::kReadOnly);
-    const std::vector<core::EventRow> events = store.events(1);
-    for (const std::string& line : acknowledged_) judge_line(line, events);
-    if (is_finished && !store.completed(1)) violated("the session has no end");
-  }
-
-  /// "EVENT 12 trial_answered" has to stand in the study as number 12.
-  void judge_line(const std::string& line, const std::vector<core::EventRow>& events) {
-    std::istringstream words(line);
-    std::string word, kind;
-    std::size_t sequence = 0;
-    words >> word >> sequence >> kind;
-    if (sequence >= 1 && sequence <= events.size() && events[sequence - 1].kind == kind) return;
-    violated("told and lost: " + line);
+    const std::string problem = told_.problem(options({}));
+    if (!problem.empty()) return violated(problem);
+    if (is_finished && !told_.session_is_complete()) violated("the session has no end");
   }
 
   void finish() {
     met_ = "nothing was wrong any more";
     ProgramOutcome outcome = test_support::run_program(resume_words(), options({}));
     const bool is_resumed = outcome.exit_code == 0 && outcome.out.starts_with("EVENT");
-    if (!is_resumed && acknowledged_.empty()) {
+    if (!is_resumed && told_.empty()) {
       // Killed before its folder or its session was made.
       outcome = test_support::run_program(run_words(), options({}));
     }
@@ -225,7 +197,7 @@ class ProcessWorld {
   std::uint64_t seed_;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   std::optional<test_support::SmallDisk> disk_;
-  std::vector<std::string> acknowledged_;
+  ToldEvents told_{study()};
   std::string met_;
   std::string violation_;
 };

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "chaos/door_schedule.h"
 #include "chaos/schedule.h"
 
 namespace jnd::chaos {
@@ -11,6 +12,7 @@ struct Outcome {
   std::string violation;  ///< Empty: none.
   int num_milliseconds_with_force = 0;
   double most_given_j = 0.0;
+  std::string story;       ///< What happened when, of what is no function of the seed.
   bool was_played = true;  ///< False: what it needs is not there.
 };
 
@@ -20,5 +22,8 @@ struct Outcome {
 
 /// The real program, in real time. Not played where none was built.
 [[nodiscard]] Outcome played_by_processes(const Schedule& schedule);
+
+/// The same on devices of other programs, which keep a record of what they were given.
+[[nodiscard]] Outcome played_through_a_door(const DoorSchedule& schedule);
 
 }  // namespace jnd::chaos

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jnd::chaos {
+
+/// How a device comes to the program.
+enum class Door : std::uint8_t {
+  kDriver,        ///< In a process of its own.
+  kPacingDriver,  ///< Likewise, and it sets the pace of the loop.
+  kCDevice,       ///< The reference device in C, across the network.
+  kPythonDevice,  ///< The one in Python.
+  kServedDriver,  ///< A driver behind `jnd device-server`.
+};
+inline constexpr int kNumDoors = 5;
+
+/// What goes wrong while the real program runs on it.
+enum class DoorTrouble : std::uint8_t {
+  kProgramKilled,
+  kProgramStopped,  ///< SIGSTOP, and on after a while.
+  kServerKilled,    ///< And started again at the same port.
+  kServerStopped,
+  kHostKilled,  ///< The process in which a driver runs.
+  kHostStopped,
+  kUnplugged,   ///< Every call of the driver fails.
+  kAllStopped,  ///< Program, server and driver, as when a machine sleeps.
+};
+
+struct DoorEvent {
+  DoorTrouble what = DoorTrouble::kProgramKilled;
+  /// At once after the trouble before; else `after_ms` after the next force was seen.
+  bool is_at_once = false;
+  int after_ms = 0;
+  int lasts_ms = 0;
+  /// Whether somebody resumes before it is clear that the old force has gone.
+  bool is_resumed_at_once = false;
+};
+
+/// All of one run. A pure function of its seed; what happens in it is not, for it is played in
+/// real time.
+struct DoorSchedule {
+  std::uint64_t seed = 0;
+  Door door = Door::kDriver;
+  bool has_key = false;  ///< Of a device across the network.
+  unsigned points = 31;  ///< That a driver has, a bit each.
+  std::vector<DoorEvent> events;
+  std::string wrong;  ///< What the device does wrong on purpose; "": nothing.
+};
+
+[[nodiscard]] bool is_networked(Door door) noexcept;
+[[nodiscard]] bool has_driver(Door door) noexcept;
+
+[[nodiscard]] DoorSchedule drawn_door_schedule(std::uint64_t seed);
+/// The program stops or dies while a device gives force that is wrong on purpose: a driver that
+/// does not halt, one that gives more than it was asked for, a device across the network that
+/// keeps its force. In turn.
+[[nodiscard]] DoorSchedule wrong_door_schedule(std::uint64_t seed);
+/// One in twenty seeds is played through a door, each door once in a hundred.
+[[nodiscard]] bool is_played_through_a_door(std::uint64_t seed) noexcept;
+
+/// A few lines for a person.
+[[nodiscard]] std::string told(const DoorSchedule& schedule);
+[[nodiscard]] std::string_view name(Door door) noexcept;
+[[nodiscard]] std::string_view name(DoorTrouble what) noexcept;
+
+}  // namespace jnd::chaos

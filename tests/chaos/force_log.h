@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/hand.h"
+
+namespace jnd::chaos {
+
+/// What one device was given from its opening to its end, by its own record. Times are those of
+/// CLOCK_MONOTONIC.
+struct ForceLog {
+  struct Record {
+    std::int64_t time_ns = 0;
+    core::PointVectors force_n;  ///< That stands from then on.
+  };
+  std::vector<Record> records;
+  /// When the process that has the device surely ran, rising. By these it is told apart whether
+  /// a force stood because nobody ended it or because the machine let nobody run.
+  std::vector<std::int64_t> beats_ns;
+  /// No other program can reach it: a driver that is the child of one.
+  bool is_of_one_program = false;
+};
+
+/// The file that a reference device or the observing driver wrote. Without a file of beats each
+/// record is one: the device writes one in each tick. What is not whole at its end is left out.
+[[nodiscard]] ForceLog read_force_log(const std::filesystem::path& file,
+                                      const std::filesystem::path& beats = {});
+
+/// Looks at a file that is still being written, from here on.
+class ForceWatch {
+ public:
+  explicit ForceWatch(std::uintmax_t offset_bytes = 0) : offset_bytes_(offset_bytes) {}
+
+  /// Whether there is force now, and was none at a time since the beginning: that of whoever
+  /// came before does not count.
+  [[nodiscard]] bool has_new_force(const std::filesystem::path& file);
+
+ private:
+  std::uintmax_t offset_bytes_;
+  bool was_without_ = false, has_force_ = false;
+};
+
+/// A reason for which there must be no force at a device until a program is started anew.
+struct Revocation {
+  /// What shows that whoever has to end the force was able to run.
+  enum class Clock { kBeats, kRecords };
+  static constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
+
+  std::string cause;
+  std::int64_t from_ns = 0;
+  /// Until the force has to be gone, in time of which `clock` shows that it was one to act in.
+  int within_ms = 0;
+  Clock clock = Clock::kBeats;
+  /// If the cause is over before that, nothing is due.
+  std::int64_t over_by_ns = kNever_ns;
+};
+
+/// What a device promises, and what the schedule did.
+struct Happenings {
+  double most_per_point_n = 0.0;
+  double most_in_all_n = 0.0;
+  double most_step_n = 0.0;  ///< At one point from one record to the next; none for an end.
+  /// For so long a force may stand that nobody renews. Of a device that writes its records in
+  /// each tick it says nothing.
+  int longest_standing_ms = 0;
+  std::vector<std::int64_t> program_starts_ns;  ///< Rising. Each arms what it finds.
+  std::vector<Revocation> revocations;
+};
+
+/// What is wrong about the forces of a device; "" if nothing. It knows what arrived and what
+/// the schedule did, and nothing that any program says of itself.
+[[nodiscard]] std::string judged(const ForceLog& log, const Happenings& happenings);
+
+/// For how long there was force, in ms.
+[[nodiscard]] int milliseconds_with_force(const ForceLog& log);
+
+}  // namespace jnd::chaos
