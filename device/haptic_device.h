@@ -63,6 +63,7 @@ struct DeviceCapabilities {
   /// In which it may give force, within that of the loop.
   core::Workspace workspace{core::kInfinity, core::kInfinity, core::kInfinity};
   core::ChannelBits channels = 0;  ///< What it measures besides, `HapticState::channels`.
+  bool takes_orders = true;        ///< Of one that moves by itself: it strokes as it is told.
   bool has_enable_switch = false;  ///< Of which `HapticState::enabled` tells.
   bool paces_loop = false;         ///< A tick is due when it has measured: `wait_for_sample`.
   double own_mass_kg = 0.0;        ///< That a hand feels in free space; 0: it does not say.

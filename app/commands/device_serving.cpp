@@ -32,6 +32,31 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
+/// A device that was used is opened anew for the next program. One that does not open, because
+/// it was unplugged, is tried again once a second: the program at the other end sees that it
+/// cannot be read.
+class Renewal {
+ public:
+  void look(device::DeviceServer& server, std::int64_t now_ns) {
+    if (now_ns < next_ns_) return;
+    try {
+      server.renew_device();
+      if (has_failed_) fmt::print(stderr, "device-server: the device is open again\n");
+      has_failed_ = false;
+    } catch (const core::Error& error) {
+      if (!has_failed_) {
+        fmt::print(stderr, "device-server: {}; it is tried again every second\n", error.what());
+      }
+      has_failed_ = true;
+      next_ns_ = now_ns + kNsPerS;
+    }
+  }
+
+ private:
+  std::int64_t next_ns_ = 0;
+  bool has_failed_ = false;
+};
+
 /// Steps a server by absolute time until it is told to stop. Returns how many steps were left
 /// out because the machine held this program up: a device's own time goes on by its steps.
 std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
@@ -43,6 +68,7 @@ std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
                                   : std::numeric_limits<std::int64_t>::max();
   std::int64_t num_missed = 0;
   std::int64_t due_ns = start_ns;
+  Renewal renewal;
   while (due_ns < end_ns && !stop_requested()) {
     const timespec due{.tv_sec = static_cast<time_t>(due_ns / kNsPerS),
                        .tv_nsec = static_cast<long>(due_ns % kNsPerS)};
@@ -51,7 +77,7 @@ std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
            !stop_requested()) {
     }
     server.step(port.now_ns());
-    server.renew_device();
+    renewal.look(server, port.now_ns());
     due_ns += period_ns;
     const std::int64_t late_ns = port.now_ns() - due_ns;
     if (late_ns >= period_ns) {

@@ -127,6 +127,18 @@ void channel_values(Bytes& bytes, Channels& channels) noexcept {
   bytes.number(channels.buttons);
 }
 
+/// 0 by a person, 1 as it is ordered, 2 as it likes.
+template <typename Bytes, typename Flag>
+void movement(Bytes& bytes, Flag& by_itself, Flag& takes_orders) noexcept {
+  std::uint8_t kind = by_itself ? (takes_orders ? 1 : 2) : 0;
+  bytes.number(kind);
+  if (kind > 2) bytes.refuse(Problem::kOutOfRange);
+  if constexpr (Bytes::kReads) {
+    by_itself = kind != 0;
+    takes_orders = kind != 2;
+  }
+}
+
 template <typename Bytes, typename Text>
 void device_text(Bytes& bytes, Text& text) noexcept {
   bool ended = false;
@@ -168,7 +180,7 @@ void fields(Bytes& bytes, T& welcome) noexcept {
   const std::uint32_t points = point_bits(bytes, can.share_ratio);
   count(bytes, can.num_joints, core::kNumJoints);
   flag(bytes, can.simulated);
-  flag(bytes, can.moves_by_itself);
+  movement(bytes, can.moves_by_itself, can.takes_orders);
   device_text(bytes, welcome.name);
   bytes.number(welcome.challenge);
   share_ratios(bytes, points, can.share_ratio);

@@ -45,11 +45,12 @@ void introduce(const HapticDevice& device, wire::Welcome& welcome) {
 }
 
 /// A state may be late for as long as a command.
-wire::Welcome welcome_of(const HapticDevice& device, double watchdog_s) {
+wire::Welcome welcome_of(HapticDevice& device, double watchdog_s) {
   wire::Welcome welcome{.capabilities = device.capabilities()};
   double& max_stale_s = welcome.capabilities.max_stale_s;
   max_stale_s = std::min(std::max(max_stale_s, watchdog_s), wire::kMostStale_s);
   introduce(device, welcome);
+  welcome.capabilities.takes_orders &= device.simulated_hand() != nullptr;
   return welcome;
 }
 

@@ -47,7 +47,8 @@ bool is_same(const wire::Welcome& a, const wire::Welcome& b) noexcept {
          one.rate_hz == other.rate_hz &&
          one.max_force_per_point_n == other.max_force_per_point_n &&
          one.max_total_force_n == other.max_total_force_n && one.simulated == other.simulated &&
-         one.num_joints == other.num_joints && one.moves_by_itself == other.moves_by_itself;
+         one.num_joints == other.num_joints && one.moves_by_itself == other.moves_by_itself &&
+         one.takes_orders == other.takes_orders;
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ std::optional<LinkReport> NetworkDevice::link() const noexcept {
 
 SimulatedHand* NetworkDevice::simulated_hand() noexcept {
   const DeviceCapabilities can = capabilities();
-  return can.simulated && can.moves_by_itself ? &hand_ : nullptr;
+  return can.simulated && can.moves_by_itself && can.takes_orders ? &hand_ : nullptr;
 }
 
 bool NetworkDevice::read(core::HapticState& state) noexcept {

@@ -177,6 +177,7 @@ DeviceCapabilities capabilities_of(const jnd_device_description& description, do
                         description.workspace_half_width_m[1],
                         description.workspace_half_width_m[2]},
           .channels = channels_of(description),
+          .takes_orders = false,
           .has_enable_switch = has(description, JND_DEVICE_HAS_ENABLE_SWITCH),
           .paces_loop = has(description, JND_DEVICE_PACES_LOOP),
           .own_mass_kg = description.own_mass_kg,

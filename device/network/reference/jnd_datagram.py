@@ -60,7 +60,7 @@ _RANGES = {
     HELLO: {"only_asks": (0, 1), "rate_hz": (1e-9, math.inf)},
     WELCOME: {"rate_hz": (1e-9, math.inf), "most_force_n": (1e-9, math.inf),
               "most_total_force_n": (1e-9, math.inf), "stand_in_s": (0, 0.1),
-              "points": (1, 31), "simulated": (0, 1), "moves_by_itself": (0, 1),
+              "points": (1, 31), "simulated": (0, 1), "moves_by_itself": (0, 2),
               "most_slew_n_per_s": (0, math.inf), "most_speed_m_per_s": (0, math.inf),
               "own_mass_kg": (0, math.inf), "own_damping_n_s_per_m": (0, math.inf),
               "loop_delay_s": (0, math.inf), "channels": (0, 31), "has_switch": (0, 1)},
