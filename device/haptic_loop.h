@@ -167,6 +167,7 @@ class HapticLoop {
   [[nodiscard]] core::Arming arming() const noexcept;
   void advance_authority() noexcept;
   void watch_attachment() noexcept;
+  [[nodiscard]] bool is_force_unseen() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
@@ -223,6 +224,7 @@ class HapticLoop {
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;
+  double unseen_s_ = 0.0;  ///< Force was sent for so long, and none was told to act.
   bool limited_ = false;
   core::ClockComparison device_clock_;
   core::Telemetry telemetry_;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
+
+#include "core/error.h"
+#include "core/storage/recording.h"
 
 namespace jnd::analysis {
 namespace {
@@ -179,6 +181,16 @@ DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store) {
   return study;
 }
 
+/// Of a session whose samples were not kept nobody can tell: it counts as sent.
+static bool is_measured_by_recording(const core::StudyStore& store, std::int64_t session) {
+  try {
+    const core::RecordingReader reader(store.recording_file(session));
+    return (reader.channels() & core::kMeasuredForce) != 0;
+  } catch (const core::Error&) {
+    return false;
+  }
+}
+
 ForceSource force_source_of(const StudyData& data, const core::StudyStore& store) {
   std::set<std::int64_t> sessions;
   for (const ParticipantData& participant : data.participants) {
@@ -186,16 +198,7 @@ ForceSource force_source_of(const StudyData& data, const core::StudyStore& store
   }
   std::size_t num_measured = 0;
   for (const std::int64_t session : sessions) {
-    const std::vector<core::EventRow> events = store.events(session);
-    const bool is_measured = std::ranges::any_of(events, [](const core::EventRow& event) {
-      if (event.kind != "loop_started") return false;
-      const nlohmann::json told = nlohmann::json::parse(event.data, nullptr, false);
-      const auto device = told.find("device");
-      if (device == told.end() || !device->contains("has")) return false;
-      const nlohmann::json& has = device->at("has");
-      return std::find(has.begin(), has.end(), "measured_force") != has.end();
-    });
-    num_measured += is_measured ? 1 : 0;
+    num_measured += is_measured_by_recording(store, session) ? 1 : 0;
   }
   if (num_measured == 0) return ForceSource::kSent;
   return num_measured == sessions.size() ? ForceSource::kMeasured : ForceSource::kBoth;

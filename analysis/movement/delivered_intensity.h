@@ -33,7 +33,7 @@ using DeliveredIntensities = std::map<std::pair<std::int64_t, std::int64_t>, Del
 /// its sensors of force measured; `kBoth`: sessions differ.
 enum class ForceSource { kSent, kMeasured, kBoth };
 
-/// By what the devices of these sessions said of themselves.
+/// By what the recordings of these sessions hold.
 [[nodiscard]] ForceSource force_source_of(const StudyData& data, const core::StudyStore& store);
 /// "sent", "measured", "both".
 [[nodiscard]] std::string_view name(ForceSource source) noexcept;

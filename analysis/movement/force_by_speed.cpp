@@ -47,11 +47,18 @@ double CommandedForce::opposing_n(const core::Sample& sample, double speed_m_per
   if (!amounts_) return 0.0;
   if (is_plain_damping_) return amounts_->damping_n_s_per_m * speed_m_per_s;
   core::PointVectors position_m, velocity_m_per_s;
+  // Points that the device has not lie at zero and do not count.
+  const std::uint8_t bits = core::measured_bits(sample);
+  std::array<bool, core::kNumContactPoints> is_there{};
   for (std::size_t i = 0; i < position_m.size(); ++i) {
+    is_there[i] = bits == 0 || (bits >> i & 1) != 0;
     position_m[i] = Eigen::Vector3d::Map(sample.tip_position_m[i].data());
     velocity_m_per_s[i] = Eigen::Vector3d::Map(sample.tip_velocity_m_per_s[i].data());
   }
-  return amounts_->drag_n(core::hand_motion(position_m, velocity_m_per_s));
+  core::HandMotion motion = core::hand_motion(position_m, velocity_m_per_s, is_there);
+  // As the loop has it: without a hand plane the hand meets the fluid head on.
+  if (!core::tip_of_hand_plane(is_there)) motion.sin_angle_of_attack = 1.0;
+  return amounts_->drag_n(motion);
 }
 
 void ForceSums::Sums::add(const Sums& other) noexcept {

@@ -250,6 +250,7 @@ int run_run(RunOptions options) {
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
+  require_device_holds(options.device, study.device.rate_hz, study.device.min_contact_points);
   require_arming(options, options.device, study.device.rate_hz);
   require_device_starts(options.device, study.device.rate_hz);
   options.realtime |= has_own_clock(options.device);

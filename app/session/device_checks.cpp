@@ -51,6 +51,18 @@ void require_device_starts(const std::string& name, double rate_hz) {
   }
 }
 
+void require_device_holds(const std::string& name, double rate_hz, int min_contact_points) {
+  const int num_points =
+      device::make_device(name, rate_hz)->capabilities().num_contact_points();
+  if (num_points >= min_contact_points) return;
+  throw UsageError(
+      "--device " + name + ": expected a device that holds " +
+      std::to_string(min_contact_points) +
+      " points of the hand, as the study's `min_contact_points` asks, found that it "
+      "holds " +
+      std::to_string(num_points) + "; ask for fewer or choose another device");
+}
+
 experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
                                          double expected_speed_m_per_s) {
   return {

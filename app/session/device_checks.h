@@ -17,6 +17,10 @@ void require_device(const std::string& name);
 /// the name is from, "--device mouse".
 void require_device_moves_by_itself(const std::string& name, const std::string& place);
 
+/// Throws `UsageError` for a device that holds fewer points of the hand than the study asks
+/// for.
+void require_device_holds(const std::string& name, double rate_hz, int min_contact_points);
+
 /// Whether a session on it runs in real time whatever was asked for.
 [[nodiscard]] bool has_own_clock(const std::string& device);
 

@@ -4,10 +4,16 @@
 
 namespace jnd::device {
 
-core::PointVectors push_of(const Eigen::Vector3d& force_n) {
+core::PointVectors push_of(int point, const Eigen::Vector3d& force_n) {
   core::PointVectors all = core::zero_vectors();
-  all[0] = force_n;
+  all[static_cast<std::size_t>(point)] = force_n;
   return all;
+}
+
+int pushed_point(const DeviceCapabilities& can) {
+  int point = 0;
+  while (point + 1 < core::kNumContactPoints && !can.has_point(point)) ++point;
+  return point;
 }
 
 std::string_view name(RuleOutcome::Verdict verdict) noexcept {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/hand.h"
+#include "device/haptic_device.h"
 
 namespace jnd::device {
 
@@ -19,8 +20,10 @@ inline constexpr DeviceRule kForceSign = {
     "force_sign", "A push moves the hand along with it, in each direction of the workspace.",
     "Forces are those on the hand, in the workspace frame: +x right, +y away, +z up."};
 
-/// A force on the first point alone.
-[[nodiscard]] core::PointVectors push_of(const Eigen::Vector3d& force_n);
+/// A force on one point alone.
+[[nodiscard]] core::PointVectors push_of(int point, const Eigen::Vector3d& force_n);
+/// The first that the device has: where it is pushed.
+[[nodiscard]] int pushed_point(const DeviceCapabilities& can);
 
 /// What became of a rule on one device.
 struct RuleOutcome {

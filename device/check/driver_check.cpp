@@ -36,8 +36,9 @@ constexpr DeviceRule kDriverAbsent = {
 constexpr DeviceRule kDriverHalt = {
     "halt", "After a halt no force acts until a write of nothing but zeros.",
     "Keep the motors free of force from a halt on."};
-constexpr DeviceRule kDriverLimits = {"limits", "The device limits its force by itself.",
-                                      "Limit each point to what the description says."};
+constexpr DeviceRule kDriverLimits = {
+    "limits", "No more force acts than the description says (jnd keeps to it as well).",
+    "Limit each point to what the description says."};
 constexpr DeviceRule kDriverReopens = {"reopens", "It can be closed and opened again.",
                                        "Free in close all that open takes."};
 
@@ -52,6 +53,7 @@ class DriverChecker {
   DriverChecker(HapticDevice& device, const DriverCheck& check, const TellOutcome& tell)
       : device_(device),
         can_(device.capabilities()),
+        point_(static_cast<std::size_t>(pushed_point(can_))),
         push_n_(can_.simulated ? 2.0 : 0.5),
         can_push_(check.pushes || can_.simulated),
         is_paced_(check.is_paced),
@@ -117,6 +119,19 @@ class DriverChecker {
     return all;
   }
 
+  /// Looks, and writes nothing.
+  std::vector<Measured> reads(double duration_s) {
+    std::vector<Measured> all;
+    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(duration_s));
+    while (Clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      core::HapticState state;
+      if (device_.read(state)) all.push_back({state, 0.0, 0});
+    }
+    return all;
+  }
+
   void judge_measurements() {
     (void)ticks(0.3, core::zero_vectors());
     num_not_taken_ = 0;
@@ -171,22 +186,38 @@ class DriverChecker {
                              num_risen, all.size() - 1, 1e6 * drift));
   }
 
+  /// How far it goes by itself along this axis in the time of a push, m: what it would hide.
+  static double own_way_m(const std::vector<Measured>& all, std::size_t point, int axis) {
+    double low = 1e9, high = -1e9;
+    for (std::size_t i = all.size() / 2; i < all.size(); ++i) {
+      const double at_m = all[i].state.tip_position_m[point][axis];
+      low = std::min(low, at_m);
+      high = std::max(high, at_m);
+    }
+    return all.empty() ? 0.0 : high - low;
+  }
+
   void judge_pushes() {
     std::string wrong, fast;
+    int num_tried = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<Measured> before = ticks(0.3, core::zero_vectors());
+      constexpr double kStill_m = 0.002;
+      const bool is_still = own_way_m(before, point_, axis) < kStill_m;
+      num_tried += is_still ? 1 : 0;
       Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
       force_n[axis] = push_n_;
-      const std::vector<Measured> pushed = ticks(0.15, push_of(force_n));
+      const std::vector<Measured> pushed =
+          ticks(0.15, push_of(static_cast<int>(point_), force_n));
       (void)ticks(0.3, core::zero_vectors());
       if (before.empty() || pushed.size() < 2) {
         wrong = fast = "no measurement came while it was pushed";
         break;
       }
-      const double moved_m =
-          (pushed.back().state.tip_position_m[0] - before.back().state.tip_position_m[0])[axis];
+      const double moved_m = (pushed.back().state.tip_position_m[point_] -
+                              before.back().state.tip_position_m[point_])[axis];
       const char letter = "xyz"[axis];
-      if (moved_m < kLeastMoved_m) {
+      if (is_still && moved_m < kLeastMoved_m) {
         wrong += fmt::format("{}it moved {:+.2f} mm along {}", wrong.empty() ? "" : ", ",
                              1e3 * moved_m, letter);
       }
@@ -195,26 +226,30 @@ class DriverChecker {
       for (std::size_t i = 1; i < pushed.size(); ++i) {
         const auto step_ns =
             pushed[i].state.device_time_ns - pushed[i - 1].state.device_time_ns;
-        way_m +=
-            1e-9 * static_cast<double>(step_ns) * pushed[i].state.tip_velocity_m_per_s[0][axis];
+        way_m += 1e-9 * static_cast<double>(step_ns) *
+                 pushed[i].state.tip_velocity_m_per_s[point_][axis];
       }
-      const double own_way_m = (pushed.back().state.tip_position_m[0] -
-                                pushed.front().state.tip_position_m[0])[axis];
+      const double own_way_m = (pushed.back().state.tip_position_m[point_] -
+                                pushed.front().state.tip_position_m[point_])[axis];
       constexpr double kShare = 0.25, kResolution_m = 0.0005;
       if (std::fabs(way_m - own_way_m) > kShare * std::fabs(own_way_m) + kResolution_m) {
         fast += fmt::format("{}{:.1f} mm by velocity and {:.1f} mm by position along {}",
                             fast.empty() ? "" : ", ", 1e3 * way_m, 1e3 * own_way_m, letter);
       }
     }
-    judge_.judge(kForceSign, wrong.empty(), wrong);
+    if (num_tried == 0) {
+      judge_.skip(kForceSign, "its hand moves by itself along every axis, which hides a push");
+    } else {
+      judge_.judge(kForceSign, wrong.empty(), wrong);
+    }
     judge_.judge(kDriverVelocity, fast.empty(), fast);
   }
 
   /// By what the device tells, or else by where the hand goes.
   [[nodiscard]] bool acts(const std::vector<Measured>& all, std::size_t first) const {
-    return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())),
-                       all.end(),
-                       [](const Measured& one) { return !one.state.acted_n[0].isZero(0.0); });
+    return std::any_of(
+        all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())), all.end(),
+        [this](const Measured& one) { return !one.state.acted_n[point_].isZero(0.0); });
   }
 
   void judge_halt() {
@@ -222,17 +257,26 @@ class DriverChecker {
       judge_.skip(kDriverHalt, "the device does not tell which force acted");
       return;
     }
-    (void)ticks(0.05, push_of({push_n_, 0.0, 0.0}));
+    (void)ticks(0.05, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
     device_.halt();
     constexpr std::size_t kUnderWay = 3;
-    const std::vector<Measured> halted = ticks(0.1, push_of({push_n_, 0.0, 0.0}));
+    // jnd withholds what is written after a halt. That the driver itself ends the force is seen
+    // where its time goes on without writes.
+    if (can_.has_own_clock && acts(reads(0.05), kOfDelay)) {
+      judge_.judge(kDriverHalt, false, "the force stood after the halt, without any write");
+      (void)ticks(0.3, core::zero_vectors());
+      return;
+    }
+    const std::vector<Measured> halted =
+        ticks(0.1, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
     if (std::ssize(halted) < num_ticks_) {
       judge_.skip(kDriverHalt, "a tick without a measurement wrote zeros, which ends a halt");
       return;
     }
     const bool still_acts = acts(halted, kUnderWay);
     (void)ticks(0.1, core::zero_vectors());
-    const bool comes_back = acts(ticks(0.1, push_of({push_n_, 0.0, 0.0})), 0);
+    const bool comes_back =
+        acts(ticks(0.1, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0})), 0);
     (void)ticks(0.3, core::zero_vectors());
     judge_.judge(kDriverHalt, !still_acts && comes_back,
                  still_acts   ? "a force acted after the halt"
@@ -250,19 +294,23 @@ class DriverChecker {
     const double asked_n = 3.0 * can_.max_force_per_point_n;
     for (int i = 0; i < 30; ++i) {
       core::HapticState state;
-      if (device_.read(state)) most_n = std::max(most_n, state.acted_n[0].norm());
-      (void)device_.write(push_of({asked_n, 0.0, 0.0}));
+      if (device_.read(state)) most_n = std::max(most_n, state.acted_n[point_].norm());
+      (void)device_.write(push_of(static_cast<int>(point_), {asked_n, 0.0, 0.0}));
     }
     (void)ticks(0.3, core::zero_vectors());
     constexpr double kRounding_n = 1e-6;
+    if (most_n == 0.0)
+      return judge_.skip(kDriverLimits, "no force acted that could be too much");
     judge_.judge(kDriverLimits, most_n <= can_.max_force_per_point_n + kRounding_n,
                  fmt::format("asked for {:g} N, {:.1f} N acted", asked_n, most_n));
   }
 
   static constexpr double kLeastMoved_m = 0.0002;
+  static constexpr std::size_t kOfDelay = 20;  ///< Measurements that may show what was before.
 
   HapticDevice& device_;
   DeviceCapabilities can_;
+  std::size_t point_;  ///< That is pushed.
   double push_n_;
   bool can_push_, is_paced_;
   core::ForceLimiter limiter_;  ///< A push that gets away ends.

@@ -61,6 +61,12 @@ constexpr DeviceRule kUnits = {
 constexpr DeviceRule kStale = {
     "stale", "Every state holds a new measurement, with a device time that rises.",
     "Measure in every tick, and leave is_measured 0 where that failed."};
+constexpr DeviceRule kTime = {
+    "time", "The device time is in ns and goes on as time does.",
+    "Tell the device's own clock in ns, of the moment when it measured."};
+constexpr DeviceRule kVelocity = {
+    "velocity", "Velocities are how fast the positions change.",
+    "Tell the velocity of the same point and axis, in m/s, with its sign."};
 constexpr DeviceRule kEcho = {
     "echo", "It echoes a clock that the program has sent.",
     "Copy the sender's clock of the newest datagram that came, without adding to it."};
@@ -153,6 +159,7 @@ class NetworkChecker {
     }
     const DeviceCapabilities& can = program.welcome().capabilities;
     rate_hz_ = can.rate_hz;
+    point_ = static_cast<std::size_t>(pushed_point(can));
     most_force_n_ = can.max_force_per_point_n;
     stand_in_s_ = can.max_stale_s;
     is_simulated_ = can.simulated && check_.believes_simulated;
@@ -296,41 +303,63 @@ class NetworkChecker {
     judge_.judge(
         kStale, static_cast<double>(num_risen) > 0.5 * num_states,
         fmt::format("the device time rose {} times in {} states", num_risen, states.size()));
+    const double ours_ns = static_cast<double>(states.back().came_ns - states.front().came_ns);
+    const double device_ratio =
+        static_cast<double>(states.back().state.measured.device_time_ns -
+                            states.front().state.measured.device_time_ns) /
+        ours_ns;
+    // A simulation whose ticks are late is slower than time.
+    constexpr double kSlowest = 0.3, kFastest = 1.5;
+    judge_.judge(kTime, device_ratio > kSlowest && device_ratio < kFastest,
+                 fmt::format("in a second it went on by {:.3g} s", device_ratio));
     const bool are_echoes = std::ranges::all_of(
         states, [&](const Seen& seen) { return program.has_sent_at(seen.header.echo_ns); });
     judge_.judge(kEcho, are_echoes, are_echoes ? "" : "a clock that was never sent");
   }
 
   void skip_pushes(LinkProbe&) {
-    for (const DeviceRule& rule : {kArmsWithForce, kArming, kForceSign, kToldAsSent, kNoLimits,
-                                   kReplay, kSilence, kRearms, kHalt}) {
+    for (const DeviceRule& rule : {kArmsWithForce, kArming, kForceSign, kVelocity, kToldAsSent,
+                                   kNoLimits, kReplay, kSilence, kRearms, kHalt}) {
       judge_.skip(rule, kNoPush);
     }
   }
 
   void judge_arming(LinkProbe& program) {
-    const States& states = program.talk(0.3, 1, push_of({0.5 * push_n_, 0.0, 0.0}));
+    const States& states =
+        program.talk(0.3, 1, push_of(static_cast<int>(point_), {0.5 * push_n_, 0.0, 0.0}));
     judge_.judge(
         kArmsWithForce,
         !std::ranges::any_of(states, [](const Seen& seen) { return seen.state.armed; }), "");
     judge_.judge(kArming, program.arm(2), "");
   }
 
-  /// Where the first point is, m.
-  static Eigen::Vector3d place_of(const States& states) {
+  /// Where the point is that is pushed, m.
+  [[nodiscard]] Eigen::Vector3d place_of(const States& states) const {
     return states.empty() ? Eigen::Vector3d::Zero().eval()
-                          : states.back().state.measured.tip_position_m[0];
+                          : states.back().state.measured.tip_position_m[point_];
+  }
+
+  /// The velocities, summed over the device's time.
+  [[nodiscard]] double way_by_velocity_m(const States& states, int axis) const {
+    double way_m = 0.0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      const core::HapticState& now = states[i].state.measured;
+      const auto step_ns = now.device_time_ns - states[i - 1].state.measured.device_time_ns;
+      way_m += 1e-9 * static_cast<double>(step_ns) * now.tip_velocity_m_per_s[point_][axis];
+    }
+    return way_m;
   }
 
   void judge_pushes(LinkProbe& program) {
-    std::string wrong;
+    std::string wrong, fast;
     bool any_acted = false, is_told_in_time = true;
     for (int axis = 0; axis < 3; ++axis) {
       (void)program.arm(arm_number_++);
       const States before = program.talk(0.3, arm_number_ - 1, core::zero_vectors());
       Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
       force_n[axis] = push_n_;
-      const States states = program.talk(0.15, arm_number_ - 1, push_of(force_n));
+      const States states =
+          program.talk(0.15, arm_number_ - 1, push_of(static_cast<int>(point_), force_n));
       const auto acting = std::ranges::find_if(states, acts);
       if (acting == states.end() || before.empty()) {
         wrong += fmt::format("{}not at all along {}", wrong.empty() ? "" : ", ", "xyz"[axis]);
@@ -341,19 +370,33 @@ class NetworkChecker {
       if (moved_m < kLeastMoved_m)
         wrong += fmt::format("{}{:+.1f} mm along {}", wrong.empty() ? "" : ", ", 1e3 * moved_m,
                              "xyz"[axis]);
+      const double way_m = way_by_velocity_m(states, axis);
+      const double own_way_m = (states.back().state.measured.tip_position_m[point_] -
+                                states.front().state.measured.tip_position_m[point_])[axis];
+      constexpr double kShare = 0.25, kResolution_m = 0.0005;
+      if (std::fabs(way_m - own_way_m) > kShare * std::fabs(own_way_m) + kResolution_m) {
+        fast +=
+            fmt::format("{}{:.1f} mm by velocity and {:.1f} mm by position along {}",
+                        fast.empty() ? "" : ", ", 1e3 * way_m, 1e3 * own_way_m, "xyz"[axis]);
+      }
       const double speed_m_per_s = kLeastSpeed_m_per_s * push_n_ / 2.0;
       const auto moving = std::ranges::find_if(states, [&](const Seen& seen) {
-        return std::fabs(seen.state.measured.tip_velocity_m_per_s[0][axis]) > speed_m_per_s;
+        return std::fabs(seen.state.measured.tip_velocity_m_per_s[point_][axis]) >
+               speed_m_per_s;
       });
       const bool is_late =
           moving == states.end() || static_cast<double>(moving - acting) > 0.02 * rate_hz_;
       is_told_in_time &= !is_late;
     }
     if (!any_acted) {
-      judge_.judge(kForceSign, false, "no state tells that a force acted");
+      judge_.judge(
+          kForceSign, false,
+          "no state tells that a force acted: tell it in acted_n, and arm when asked to");
       judge_.skip(kToldAsSent, "no force acted");
+      judge_.skip(kVelocity, "no force acted");
       return;
     }
+    judge_.judge(kVelocity, fast.empty(), fast);
     judge_.judge(kForceSign, wrong.empty(),
                  wrong.empty() ? "" : "pushed along the axis it moved " + wrong);
     judge_.judge(kToldAsSent, is_told_in_time,
@@ -366,28 +409,34 @@ class NetworkChecker {
       return;
     }
     (void)program.arm(arm_number_++);
-    const States states = program.talk(0.03, arm_number_ - 1, push_of({kTooMuch_n, 0.0, 0.0}));
+    const States states = program.talk(
+        0.03, arm_number_ - 1, push_of(static_cast<int>(point_), {kTooMuch_n, 0.0, 0.0}));
     constexpr double kSlew_n_per_s = 2000.0, kRounding_n = 1e-6;
     double most_n = 0.0, most_step_n = 0.0, last_n = 0.0;
     for (const Seen& seen : states) {
-      const double told_n = seen.state.measured.acted_n[0].norm();
+      const double told_n = seen.state.measured.acted_n[point_].norm();
       most_n = std::max(most_n, told_n);
       most_step_n = std::max(most_step_n, told_n - last_n);
       last_n = told_n;
     }
     // Of states that were lost the steps add up.
     const bool is_slow = most_step_n <= 3.0 * kSlew_n_per_s / rate_hz_ + kRounding_n;
-    judge_.judge(
-        kNoLimits, most_n <= most_force_n_ + kRounding_n && is_slow,
-        fmt::format("asked for {:g} N, {:.1f} N acted, at most {:.1f} N more in a tick",
-                    kTooMuch_n, most_n, most_step_n));
+    if (most_n == 0.0) {
+      judge_.skip(kNoLimits, kNothingActed);
+    } else {
+      judge_.judge(
+          kNoLimits, most_n <= most_force_n_ + kRounding_n && is_slow,
+          fmt::format("asked for {:g} N, {:.1f} N acted, at most {:.1f} N more in a tick",
+                      kTooMuch_n, most_n, most_step_n));
+    }
     (void)program.talk(0.5, arm_number_ - 1, core::zero_vectors());
   }
 
   /// Arms it and pushes. Whether a force acted: else nothing is known of how it ends.
   bool acts_when_pushed(LinkProbe& program) {
     (void)program.arm(arm_number_++);
-    const States& states = program.talk(0.04, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    const States& states = program.talk(0.04, arm_number_ - 1,
+                                        push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
     return std::ranges::any_of(states, acts);
   }
 
@@ -418,11 +467,13 @@ class NetworkChecker {
                  told.empty() ? "it fell silent, too"
                               : fmt::format("force for {:.0f} ms, {:.0f} ms are allowed",
                                             1e3 * took_s, 1e3 * allowed_s));
-    const States again = program.talk(0.3, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    const States again = program.talk(0.3, arm_number_ - 1,
+                                      push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
     judge_.judge(kRearms, !any_after(again, kUnderWay), "");
     if (!acts_when_pushed(program)) return judge_.skip(kHalt, kNothingActed);
     program.halt();
-    const States halted = program.talk(0.1, arm_number_ - 1, push_of({push_n_, 0.0, 0.0}));
+    const States halted = program.talk(0.1, arm_number_ - 1,
+                                       push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
     judge_.judge(kHalt, !any_after(halted, kUnderWay), "");
   }
 
@@ -464,6 +515,7 @@ class NetworkChecker {
   std::uint32_t arm_number_ = 3;
   double rate_hz_ = 1000.0, most_force_n_ = 0.0, stand_in_s_ = 0.0, push_n_ = 0.0;
   bool is_simulated_ = false, can_push_ = false;
+  std::size_t point_ = 0;  ///< That is pushed.
 };
 
 }  // namespace

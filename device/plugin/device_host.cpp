@@ -1,5 +1,6 @@
 #include "device/plugin/device_host.h"
 
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -273,6 +274,11 @@ int run_device_host() noexcept {
     const auto& order = *static_cast<const ProgramPage*>(program.memory());
     if (order.order.version != kDriverPagesVersion) return kStartedByOthers;
     if (::getppid() != order.order.program) return kProgramIsGone;
+    // The program's other threads may be kept off the loop's CPU, and this one with them: what
+    // answers the loop must not wait behind them.
+    if (CPU_COUNT(&order.order.cpus) > 0) {
+      (void)::sched_setaffinity(0, sizeof order.order.cpus, &order.order.cpus);
+    }
     // Whatever destructors a vendor's library has registered: the device is closed.
     std::_Exit(DeviceHost(order, *static_cast<HostPage*>(host.memory())).run());
   } catch (const std::exception&) {

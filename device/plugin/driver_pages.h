@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sched.h>
 #include <sys/types.h>
 
 #include <array>
@@ -18,7 +19,7 @@
 namespace jnd::device {
 
 /// Changes with anything below: both sides are of one build.
-inline constexpr std::uint32_t kDriverPagesVersion = 2;
+inline constexpr std::uint32_t kDriverPagesVersion = 3;
 /// Where a host finds the pages.
 inline constexpr int kProgramPageFile = 3;
 inline constexpr int kHostPageFile = 4;
@@ -30,6 +31,7 @@ struct DriverOrder {
   pid_t program = 0;  ///< That it must not outlive.
   std::uint32_t believes_simulated = 0;
   double rate_hz = 1000.0;
+  cpu_set_t cpus{};  ///< That the program might run on before it kept one free for its loop.
   std::array<char, 4096> file{};     ///< Of the driver, a zero behind it.
   std::array<char, 1024> options{};  ///< For the driver, likewise.
 };

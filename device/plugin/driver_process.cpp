@@ -1,5 +1,6 @@
 #include "device/plugin/driver_process.h"
 
+#include <sched.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -120,6 +121,8 @@ DriverProcess::DriverProcess(Parameters parameters)
   core::require_positive(parameters_.load_patience_s, "load_patience_s");
   core::require_positive(parameters_.close_patience_s, "close_patience_s");
   new (program_.memory()) ProgramPage;
+  CPU_ZERO(&cpus_);
+  (void)::sched_getaffinity(0, sizeof cpus_, &cpus_);
 }
 
 jnd_device_description DriverProcess::describe() {
@@ -152,6 +155,7 @@ void DriverProcess::start(bool only_describes, bool believes_simulated) {
   order.believes_simulated = believes_simulated ? 1 : 0;
   order.program = ::getpid();
   order.rate_hz = parameters_.rate_hz;
+  order.cpus = cpus_;
   put(parameters_.driver.string(), order.file);
   put(parameters_.options, order.options);
   process_ = started(parameters_.host, parameters_.driver.string(), program_file_.number,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sched.h>
 #include <sys/types.h>
 
 #include <cstdint>
@@ -89,6 +90,7 @@ class DriverProcess {
   };
   File program_file_, host_file_;
   MappedPage program_, host_;
+  cpu_set_t cpus_{};  ///< When this was made: the loop keeps one of them free later.
   pid_t process_ = -1;
   bool is_stuck_ = false;  ///< Killed, and still there: its pages are not to be used again.
   int exit_status_ = 0;    ///< As `waitpid` has it, of the process that ended last.

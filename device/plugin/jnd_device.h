@@ -21,6 +21,10 @@
  * write and read, then close. `jnd_device_halt` alone may be called by a second thread, at any
  * time after open, also while another call is under way or stuck.
  *
+ * That thread has real-time priority (SCHED_FIFO 79). Threads of the driver's own have ordinary
+ * priority until it gives them a lower one of SCHED_FIFO; measurements of a thread without it
+ * come too late on a busy machine.
+ *
  * Zero force is none on the hand, not none in the motors: a device that has weight of its own
  * goes on holding it while it is halted. And whatever this program does, the device's own
  * controller sets its force to zero when no command has come for 20 ms.
@@ -155,7 +159,8 @@ JND_DEVICE_EXPORT int jnd_device_read(jnd_device* device, jnd_device_state* stat
 /* Likewise. Failed: the force was not taken; jnd then halts the device. */
 JND_DEVICE_EXPORT int jnd_device_write(jnd_device* device, const jnd_device_command* command);
 
-/* Zero force at once. By any thread, again and again. */
+/* Zero force at once. By any thread, again and again. jnd withholds forces afterwards until it
+ * has written zeros once. */
 JND_DEVICE_EXPORT void jnd_device_halt(jnd_device* device);
 
 /* Zero force, motors off, memory freed. Within 2 s, or the process is ended. */

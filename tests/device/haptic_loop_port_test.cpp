@@ -278,5 +278,39 @@ TEST(HapticLoopPort, AForceThatIsNoNumberBlindsNobody) {
   EXPECT_EQ(after_arming(device), Fault::kNonFiniteState);
 }
 
+TEST(HapticLoopPort, ADeviceThatNeverTellsOfTheForceItGivesIsAFault) {
+  ScriptedDevice device;
+  device.device_capabilities = {.simulated = true, .tells_acting_force = true};
+  device.move_all({0.3, 0.0, 0.0});
+  bool tells = true;
+  int num_reads = 0;
+  device.while_read = [&] {
+    // To and fro, so that the hand stays in the workspace.
+    if (++num_reads % 200 == 0) device.move_all({num_reads % 400 == 0 ? 0.3 : -0.3, 0.0, 0.0});
+    if (!tells) device.state.acted_n = core::zero_vectors();
+  };
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  commands.publish({.sequence = 1,
+                    .medium = core::viscous({.viscosity_pa_s = 5.0}),
+                    .immersion = {.radius_m = 10.0, .depth_m = 10.0},
+                    .ramp_s = 0.0});
+  HapticLoop loop({.starts_armed = true}, device, {commands, telemetry, stop});
+  const auto fault_after = [&](int num_ticks) {
+    for (int i = 0; i < num_ticks; ++i) loop.tick();
+    telemetry.fetch();
+    return telemetry.value().fault;
+  };
+  EXPECT_EQ(fault_after(1500), Fault::kNone);
+  tells = false;
+  EXPECT_EQ(fault_after(300), Fault::kNone) << "a force may be late";
+  EXPECT_EQ(fault_after(500), Fault::kActingForceUnknown);
+  EXPECT_TRUE(device.received.back() == core::zero_vectors());
+  tells = true;
+  loop.rearm();
+  EXPECT_EQ(fault_after(700), Fault::kNone) << "armed again it is judged anew";
+}
+
 }  // namespace haptic_loop_port_test
 }  // namespace jnd::device

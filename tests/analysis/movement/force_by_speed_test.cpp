@@ -8,7 +8,7 @@ namespace jnd::analysis {
 namespace force_by_speed_test {
 
 core::Sample moving(double speed_m_per_s, double across_ratio) {
-  core::Sample sample;
+  core::Sample sample{.attached_bits = 0b11111};
   // Two palm points and the index finger span a plane whose normal is x.
   sample.tip_position_m = {{{0, 0, 0}, {0, 0.1, 0}, {0, 0, 0}, {0, 0, 0.1}, {0, 0, 0}}};
   const double along = std::sqrt(1.0 - across_ratio * across_ratio);
@@ -24,6 +24,25 @@ TEST(CommandedForce, OfWaterGrowsWithTheSquareOfSpeedAndTheAngle) {
   // F = scale 7.4 C_D v^2, C_D 0.8899 head on and 0.2689 edge on (thesis, sec. 4.1).
   EXPECT_NEAR(water.opposing_n(moving(0.5, 1.0), 0.5), 2.0 * 7.4 * 0.8899 * 0.25, 1e-9);
   EXPECT_NEAR(water.opposing_n(moving(0.5, 0.0), 0.5), 2.0 * 7.4 * 0.2689 * 0.25, 1e-9);
+}
+
+TEST(CommandedForce, OfWaterOnFewerPointsIsAsTheLoopHasIt) {
+  const CommandedForce water("water", 2.0, std::nullopt);
+  const core::MediumAmounts amounts = core::water({.scale = 2.0});
+  for (const unsigned bits : {0b00001U, 0b00011U, 0b01100U}) {
+    core::Sample sample{.attached_bits = static_cast<std::uint8_t>(bits)};
+    for (std::size_t i = 0; i < 5; ++i) {
+      if ((bits >> i & 1U) == 0) continue;
+      sample.tip_position_m[i] = {0.1, 0.01 * static_cast<double>(i), -0.2};
+      sample.tip_velocity_m_per_s[i] = {0.4, 0.0, 0.0};
+    }
+    // Without a hand plane the hand meets the fluid head on.
+    const double expected_n = amounts.drag_n({.velocity_m_per_s = {0.4, 0.0, 0.0},
+                                              .speed_m_per_s = 0.4,
+                                              .sin_angle_of_attack = 1.0});
+    EXPECT_GT(expected_n, 0.1);
+    EXPECT_NEAR(water.opposing_n(sample, 0.4), expected_n, 1e-12) << bits;
+  }
 }
 
 TEST(CommandedForce, OfAViscousFluidIsItsDampingTimesSpeed) {

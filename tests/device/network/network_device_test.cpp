@@ -49,7 +49,8 @@ TEST_F(NetworkDeviceTest, WhatTheDeviceCanDoIsKnownBeforeItIsOpened) {
   EXPECT_EQ(can.max_stale_s, 0.020);
   EXPECT_TRUE(can.simulated);
   EXPECT_TRUE(can.moves_by_itself);
-  EXPECT_NE(device->simulated_hand(), nullptr);
+  EXPECT_FALSE(can.takes_orders);
+  EXPECT_EQ(device->simulated_hand(), nullptr) << "it strokes as it likes";
   EXPECT_EQ(device->name(), "network");
   EXPECT_EQ(device->served_name(), "scripted");
   EXPECT_FALSE(server->has_client()) << "asking is not connecting";
