@@ -82,9 +82,9 @@ std::string_view words(Fault fault) noexcept {
       return "A contact point moved faster than allowed: calm the movement, check that nothing "
              "came loose, then arm the device again.";
     case Fault::kHeartbeatLost:
-      return "The program's window stopped answering, so the force was faded out: wait until "
-             "it "
-             "answers, then arm the device again.";
+      return "The program's window stopped answering (without a window: the machine held the "
+             "program up), so the force was faded out: wait until it answers, then arm the "
+             "device again.";
     case Fault::kOutsideWorkspace:
       return "A contact point left the space in which force may be given: bring the hand back "
              "to the middle, then arm the device again.";
@@ -122,7 +122,7 @@ std::string_view words(Fault fault) noexcept {
              "again.";
     case Fault::kVelocityContradicts:
       return "The velocity that the device reports is not that of its positions: check its "
-             "signs, units and filters, then arm it again.";
+             "signs, units and filters and that its time is in ns, then arm it again.";
     case Fault::kActingForceUnknown:
       return "The device does not tell which force acted while it measured, so nobody could "
              "see "
