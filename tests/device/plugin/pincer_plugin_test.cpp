@@ -132,10 +132,11 @@ TEST_F(PincerPluginTest, ADeviceThatSetsThePaceAndStopsIsAFaultAndTheLoopGoesOn)
 }
 
 TEST_F(PincerPluginTest, ItsClockIsComparedWithOurs) {
-  const auto device = make_plugin_device(pincer(",free=1,ppm=400,rate=4000"), 1000.0);
+  const auto device = make_plugin_device(pincer(",free=1,ppm=4000,rate=4000"), 1000.0);
   const PacedRun run = run_for(*device, 13.0);
   ASSERT_TRUE(run.telemetry.device_clock.has_value());
-  EXPECT_NEAR(run.telemetry.device_clock->drift_ppm, 400.0, 40.0);
+  // Far above what a busy machine's delays add up to.
+  EXPECT_NEAR(run.telemetry.device_clock->drift_ppm, 4000.0, 800.0);
   EXPECT_GE(run.telemetry.device_clock->observed_s, 10.0);
 }
 
