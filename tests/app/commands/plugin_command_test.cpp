@@ -10,6 +10,8 @@
 #include "app/json_document.h"
 #include "app/sentence.h"
 #include "device/plugin/plugin_fixture.h"
+#include "support/files.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace plugin_command_test {
@@ -59,9 +61,31 @@ TEST_F(PluginCommandTest, AWholeStudyRunsThroughTheExample) {
 }
 
 TEST_F(PluginCommandTest, TheDiscriminationOfTheThesisRunsThroughTheExample) {
-  const ProgramOutcome outcome =
-      jnd({"run", "viscosity_discrimination", "--study", "d.study", "--participant", "P01",
-           "--seed", "7", "--headless", "--device", "plugin:example:simulated"});
+  const std::vector<std::string> run = {"run",
+                                        "viscosity_discrimination",
+                                        "--study",
+                                        "d.study",
+                                        "--participant",
+                                        "P01",
+                                        "--seed",
+                                        "7",
+                                        "--headless",
+                                        "--device",
+                                        "plugin:example:simulated"};
+  const ProgramOutcome refused = jnd(run);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("expected a device that holds 5 points of the hand"),
+            std::string::npos)
+      << refused.err;
+  std::string study = test_support::read_file(test_support::source_folder() /
+                                              "protocols/viscosity_discrimination.json");
+  const std::string five = "\"min_contact_points\": 5";
+  ASSERT_NE(study.find(five), std::string::npos);
+  study.replace(study.find(five), five.size(), "\"min_contact_points\": 1");
+  test_support::write_file(path("of_one_point.json"), study);
+  std::vector<std::string> of_one_point = run;
+  of_one_point[1] = "of_one_point.json";
+  const ProgramOutcome outcome = jnd(of_one_point);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(opened("d.study").completed(1));
   EXPECT_EQ(opened("d.study").trials(1).size(), 80U);
