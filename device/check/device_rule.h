@@ -56,6 +56,8 @@ class RuleJudge {
 };
 
 /// Why a rule that takes a push is not tried.
-inline constexpr char kNoPush[] = "it takes a force: take every hand out and give --with-force";
+inline constexpr char kNoPush[] =
+    "it takes a force: take every hand out and give --with-force, or call a simulation "
+    "simulated";
 
 }  // namespace jnd::device

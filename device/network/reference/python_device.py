@@ -6,10 +6,10 @@
 
     python3 python_device.py --port 4700
 
-Behind it is a hand without a robot, a damped mass that strokes by itself. Put an own robot into
-`Robot.read_robot` and `Robot.write_robot`, and into nothing else. Not tried on hardware. Python
-has no real-time guarantee: a robot that can hurt somebody needs a watchdog of its own below this
-program, and limits of force of its own.
+Behind it is a hand without a robot, a damped mass that strokes when a session orders it. Put an own
+robot into `Robot.read_robot` and `Robot.write_robot`, and into nothing else. Not tried on hardware.
+Python has no real-time guarantee: a robot that can hurt somebody needs a watchdog of its own below
+this program, and limits of force of its own.
 """
 
 import argparse
