@@ -53,7 +53,7 @@ struct DeviceChannels {
 static_assert(std::is_trivially_copyable_v<DeviceChannels>);
 
 /// Whether every number is one, and so large at most that a recording holds it, and the
-/// orientation is one. Real time.
+/// orientation of a device that has one is one: others tell zeros. Real time.
 [[nodiscard]] inline bool is_sound(const DeviceChannels& channels) noexcept {
   constexpr double kMost = 1e6, kMostOffUnit = 0.01;
   double sum = std::abs(channels.gripper_m), squared = 0.0;
@@ -62,8 +62,9 @@ static_assert(std::is_trivially_copyable_v<DeviceChannels>);
   }
   for (const double one : channels.torque_n_m) sum += std::abs(one);
   for (const double one : channels.orientation_wxyz) squared += one * one;
-  return sum < kMost && std::abs(squared - 1.0) <= kMostOffUnit &&
-         (channels.bits & ~kAllChannels) == 0;
+  const bool is_turned =
+      channels.has(kOrientation) ? std::abs(squared - 1.0) <= kMostOffUnit : squared < kMost;
+  return sum < kMost && is_turned && (channels.bits & ~kAllChannels) == 0;
 }
 
 }  // namespace jnd::core

@@ -237,8 +237,8 @@ void HapticLoop::rearm_if_requested() noexcept {
   passivity_.reset();
   guards_.reset();
   solids_.release();
+  unseen_force_.reset();
   has_last_state_ = false;
-  unseen_s_ = 0.0;
   staleness_.reset();
   stalled_ = false;
   suspended_ = false;
@@ -284,7 +284,11 @@ Fault HapticLoop::read_device() noexcept {
     state_ = last_state_;
     return Fault::kNonFiniteState;
   }
-  if (is_force_unseen()) return Fault::kActingForceUnknown;
+  if (watches_port_ && !acts_at_once_ &&
+      unseen_force_.observe(force_on_hand_n_, state_.acted_n,
+                            period_s_ * static_cast<double>(1 + num_missed_))) {
+    return Fault::kActingForceUnknown;
+  }
   Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
   has_last_state_ = true;
   // A measurement that stands in for one that is missing says nothing of the hand.
@@ -304,25 +308,6 @@ Fault HapticLoop::read_device() noexcept {
   }
   const Fault place = guards_.observe_place(state_);
   return found != Fault::kNone ? found : place;
-}
-
-/// A device that says it tells of its force and never does: the watch over energy would be
-/// blind. So is one that withholds what it is sent.
-bool HapticLoop::is_force_unseen() noexcept {
-  constexpr double kClear_n = 0.5, kLongest_s = 0.5;
-  if (!watches_port_ || acts_at_once_) return false;
-  double sent_n = 0.0;
-  bool any_acted = false;
-  for (int i = 0; i < kNumContactPoints; ++i) {
-    sent_n += force_on_hand_n_[i].norm();
-    any_acted |= !state_.acted_n[i].isZero(0.0);
-  }
-  if (any_acted) {
-    unseen_s_ = 0.0;
-  } else if (sent_n >= kClear_n) {
-    unseen_s_ += period_s_ * static_cast<double>(1 + num_missed_);
-  }
-  return unseen_s_ > kLongest_s;
 }
 
 /// A magnet that chatters must not knock: a point that is held again gets its force slowly.

@@ -18,6 +18,7 @@
 #include "core/safety/heartbeat.h"
 #include "core/safety/passivity.h"
 #include "core/safety/staleness.h"
+#include "core/safety/unseen_force.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
 #include "device/haptic_device.h"
@@ -167,7 +168,6 @@ class HapticLoop {
   [[nodiscard]] core::Arming arming() const noexcept;
   void advance_authority() noexcept;
   void watch_attachment() noexcept;
-  [[nodiscard]] bool is_force_unseen() noexcept;
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
@@ -192,6 +192,7 @@ class HapticLoop {
   std::int64_t num_missed_ = 0;  ///< Since the last tick.
   core::Staleness staleness_;
   core::HeartbeatMonitor heartbeat_;
+  core::UnseenForce unseen_force_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
   core::ShareRatios shares_;  ///< Of the points that the device declares; 0: it has none there.
@@ -224,7 +225,6 @@ class HapticLoop {
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;
-  double unseen_s_ = 0.0;  ///< Force was sent for so long, and none was told to act.
   bool limited_ = false;
   core::ClockComparison device_clock_;
   core::Telemetry telemetry_;

@@ -53,12 +53,10 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
   };
   const device::DeviceCapabilities capabilities =
       device::make_device(device, study.device.rate_hz)->capabilities();
-  if (capabilities.num_contact_points() < study.device.min_contact_points) {
-    add("/device/min_contact_points",
-        fmt::format("expected a device that holds {} points of the hand, found that `{}` holds "
-                    "{}; ask for fewer or choose another device",
-                    study.device.min_contact_points, device,
-                    capabilities.num_contact_points()));
+  if (std::string missing =
+          missing_points_words(device, capabilities, study.device.min_contact_points);
+      !missing.empty()) {
+    add("/device/min_contact_points", std::move(missing));
   }
   const experiments::RangeLimits limits = range_limits_of(capabilities, expected_speed_m_per_s);
   const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);

@@ -348,13 +348,9 @@ std::vector<std::string> problems_of(const PlanOutcome& outcome, const PlanOptio
         "limit",
         options.file, *limit_s, too_long, outcome.plans.size()));
   }
-  const int needed = outcome.study.device.min_contact_points;
-  if (outcome.device.num_contact_points() < needed) {
-    problems.push_back(fmt::format(
-        "{}: expected a device that holds {} points of the hand, found that `{}` holds {}; "
-        "choose another --device",
-        options.file, needed, options.device, outcome.device.num_contact_points()));
-  }
+  const std::string missing = missing_points_words(options.device, outcome.device,
+                                                   outcome.study.device.min_contact_points);
+  if (!missing.empty()) problems.push_back(options.file + ": " + missing);
   return problems;
 }
 

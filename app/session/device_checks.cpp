@@ -51,16 +51,20 @@ void require_device_starts(const std::string& name, double rate_hz) {
   }
 }
 
+std::string missing_points_words(const std::string& device,
+                                 const device::DeviceCapabilities& can,
+                                 int min_contact_points) {
+  if (can.num_contact_points() >= min_contact_points) return "";
+  return "expected a device that holds " + std::to_string(min_contact_points) +
+         " points of the hand, as the study's `min_contact_points` asks, found that `" +
+         device + "` holds " + std::to_string(can.num_contact_points()) +
+         "; ask for fewer or choose another device";
+}
+
 void require_device_holds(const std::string& name, double rate_hz, int min_contact_points) {
-  const int num_points =
-      device::make_device(name, rate_hz)->capabilities().num_contact_points();
-  if (num_points >= min_contact_points) return;
-  throw UsageError(
-      "--device " + name + ": expected a device that holds " +
-      std::to_string(min_contact_points) +
-      " points of the hand, as the study's `min_contact_points` asks, found that it "
-      "holds " +
-      std::to_string(num_points) + "; ask for fewer or choose another device");
+  const std::string missing = missing_points_words(
+      name, device::make_device(name, rate_hz)->capabilities(), min_contact_points);
+  if (!missing.empty()) throw UsageError("--device " + name + ": " + missing);
 }
 
 experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,

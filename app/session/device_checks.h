@@ -17,8 +17,12 @@ void require_device(const std::string& name);
 /// the name is from, "--device mouse".
 void require_device_moves_by_itself(const std::string& name, const std::string& place);
 
-/// Throws `UsageError` for a device that holds fewer points of the hand than the study asks
-/// for.
+/// "expected a device that holds 5 points of the hand, ...": where it holds fewer than the
+/// study asks for; else "".
+[[nodiscard]] std::string missing_points_words(const std::string& device,
+                                               const device::DeviceCapabilities& can,
+                                               int min_contact_points);
+/// Throws `UsageError` with these words.
 void require_device_holds(const std::string& name, double rate_hz, int min_contact_points);
 
 /// Whether a session on it runs in real time whatever was asked for.

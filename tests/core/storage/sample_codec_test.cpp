@@ -245,6 +245,22 @@ TEST(SampleCodec, KeepsWhateverElseADeviceMeasuresAndNothingMore) {
   }
 }
 
+TEST(DeviceChannels, AreSoundWhereTheDeviceTellsZerosOfWhatItHasNot) {
+  DeviceChannels channels{.bits = kMeasuredForce | kButtons,
+                          .orientation_wxyz = {0.0, 0.0, 0.0, 0.0}};
+  EXPECT_TRUE(is_sound(channels)) << "it has no orientation";
+  channels.bits |= kOrientation;
+  EXPECT_FALSE(is_sound(channels)) << "none is an orientation of no length";
+  channels.orientation_wxyz = {0.6, 0.0, 0.8, 0.0};
+  EXPECT_TRUE(is_sound(channels));
+  channels.force_n[4][2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(is_sound(channels));
+  channels.force_n[4][2] = 0.0;
+  channels.bits = kMeasuredForce;
+  channels.orientation_wxyz[1] = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_sound(channels)) << "no number, whatever it is of";
+}
+
 TEST(SampleCodec, AChannelThatNobodyKnowsIsDamage) {
   std::vector<Sample> samples = sweep_with_channels(10, kButtons);
   for (Sample& sample : samples) sample.channels.bits = 1 << 5;
