@@ -62,8 +62,12 @@ class RealtimeThread {
   void prepare() noexcept;
   void run() noexcept;
   [[nodiscard]] std::int64_t wait_until_due(std::int64_t due_ns, AdaptiveSpin& spin) noexcept;
-  [[nodiscard]] std::int64_t wait_for_device(std::int64_t& due_ns,
-                                             std::int64_t period_ns) noexcept;
+  struct TickBegin {
+    std::int64_t due_ns = 0;  ///< When the device had measured, or our clock said so.
+    std::int64_t started_ns = 0;
+  };
+  [[nodiscard]] TickBegin wait_for_device(std::int64_t& due_ns,
+                                          std::int64_t period_ns) noexcept;
 
   Parameters parameters_;
   RealtimeReport report_;

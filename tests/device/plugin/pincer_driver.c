@@ -2,7 +2,8 @@
  * of its own, sensors of force that show 90 % of what it was asked for, orientation, torque,
  * gripper, buttons, and a clock that is off by ppm= parts in a million. It sets the pace, at
  * rate= Hz, unless free=1 says that it only has a clock of its own. The hand strokes along x by
- * itself. stall= seconds: it brings no measurement for so long, once, after a second. */
+ * itself. stall= seconds: it brings no measurement for so long, once, after a second. wild= how
+ * many times faster it is than it says. */
 #include "jnd_device.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@
 
 struct jnd_device {
   int is_paced;
-  double rate_hz, ppm, stall_s;
+  double rate_hz, ppm, stall_s, wild;
   int64_t begun_ns, next_ns;
   uint64_t number;
   double force_n[JND_DEVICE_MAX_POINTS][3];
@@ -71,6 +72,7 @@ int jnd_device_open(const char* options, double rate_hz, jnd_device** made) {
   device->rate_hz = option(options, "rate=", 1000.0);
   device->ppm = option(options, "ppm=", 0.0);
   device->stall_s = option(options, "stall=", 0.0);
+  device->wild = option(options, "wild=", 1.0);
   device->begun_ns = device->next_ns = now_ns();
   *made = device;
   return JND_DEVICE_OK;
@@ -78,7 +80,7 @@ int jnd_device_open(const char* options, double rate_hz, jnd_device** made) {
 
 int jnd_device_read(jnd_device* device, jnd_device_state* state) {
   const double turn_rad = 3.0;
-  double period_ns = 1e9 / device->rate_hz / (1.0 + 1e-6 * device->ppm);
+  double period_ns = 1e9 / device->rate_hz / (1.0 + 1e-6 * device->ppm) / device->wild;
   if (device->is_paced) {
     sleep_until(device->next_ns);
     ++device->number;
