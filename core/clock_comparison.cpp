@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "core/clock.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 /// Between two measurements: no clock drifts so far, and no way takes so long.
 constexpr std::int64_t kLeap_ns = kNsPerS / 2;
+/// 73 years. What is further off is no time, and might overflow in a sum.
+constexpr std::int64_t kFar_ns = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr double kFewestSeconds = 10.0;
 
 }  // namespace
@@ -34,9 +37,10 @@ void ClockComparison::observe(std::int64_t ours_ns, std::int64_t device_ns) noex
   const auto ahead =
       static_cast<std::int64_t>(static_cast<std::uint64_t>(since(device_ns, first_device_ns_)) -
                                 static_cast<std::uint64_t>(ours));
-  const bool leaps =
-      has_best_ && (ahead - best_.ahead_ns > kLeap_ns || best_.ahead_ns - ahead > kLeap_ns);
-  if (leaps || ours < 0) return begin(ours_ns, device_ns);
+  const bool is_a_time = ours >= 0 && ours < kFar_ns && ahead > -kFar_ns && ahead < kFar_ns;
+  if (!is_a_time || (has_best_ && std::abs(ahead - best_.ahead_ns) > kLeap_ns)) {
+    return begin(ours_ns, device_ns);
+  }
   if (ours >= second_ends_ns_) {
     end_second();
     second_ends_ns_ = (ours / kNsPerS + 1) * kNsPerS;
