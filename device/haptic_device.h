@@ -14,6 +14,7 @@
 
 namespace jnd::device {
 
+class Bench;
 class SimulatedHand;
 
 /// The device is not there, or not to be had now: nothing is wrong with what was asked for.
@@ -150,6 +151,9 @@ class HapticDevice {
 
   /// The simulated person on it; nullptr: the hand is moved by somebody else.
   [[nodiscard]] virtual SimulatedHand* simulated_hand() noexcept { return nullptr; }
+
+  /// Somebody simulated who does at it what measuring takes; nullptr: a person has to.
+  [[nodiscard]] virtual Bench* bench() noexcept { return nullptr; }
 
   /// How good the way to it is; none: it is here. Not while another thread reads or writes.
   [[nodiscard]] virtual std::optional<LinkReport> link() const noexcept { return std::nullopt; }

@@ -430,12 +430,32 @@ void HapticLoop::compute_force() noexcept {
     if (ratio < 1.0) force_on_hand_n_[i] *= ratio;
   }
   passivity_.control(state_.tip_position_m, state_.tip_velocity_m_per_s, force_on_hand_n_);
+  if (parameters_.guide != nullptr) add_guide_force();
   limited_ = limiter_.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n_) ||
              guards_.asks_to_move();
-  passivity_.sent(force_on_hand_n_);
+  passivity_.sent(force_of_medium());
   const Fault swings = guards_.observe_force(force_on_hand_n_);
   if (swings != Fault::kNone) latch_found(swings);
   if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
+}
+
+/// As authority and attachment allow, like every force.
+void HapticLoop::add_guide_force() noexcept {
+  guide_n_ = parameters_.guide->force_n(state_, period_s_);
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    guide_n_[i] *= shares_[i] > 0.0 ? authority_ratio_ * point_authority_ratio_[i] : 0.0;
+    force_on_hand_n_[i] += guide_n_[i];
+  }
+}
+
+/// What a guide gives is no debt of the medium's. Where the limiter cut both, this is too much
+/// or too little by what it cut.
+core::PointVectors HapticLoop::force_of_medium() const noexcept {
+  core::PointVectors medium_n = force_on_hand_n_;
+  for (int i = 0; parameters_.guide != nullptr && i < kNumContactPoints; ++i) {
+    medium_n[i] -= guide_n_[i];
+  }
+  return medium_n;
 }
 
 void HapticLoop::warm() const noexcept {

@@ -21,6 +21,7 @@
 #include "core/safety/unseen_force.h"
 #include "core/safety/watchdog_state.h"
 #include "core/safety/workspace.h"
+#include "device/guide.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {
@@ -60,6 +61,9 @@ class HapticLoop {
     core::Workspace workspace;
     /// For media that need one; borrowed, nullptr: the thesis's C_D and no lift.
     const core::ForceMap* force_map = nullptr;
+    /// Who moves the device about while it is measured without a hand in it; borrowed, nullptr:
+    /// nobody, as in every session.
+    Guide* guide = nullptr;
     /// Of a simulated device, whether energy, oscillation and velocity are watched where it
     /// tells of its force; a real one always is. Who measures the loop itself does without.
     bool watches_port = true;
@@ -174,6 +178,8 @@ class HapticLoop {
   [[nodiscard]] std::uint8_t surrounded_bits(const core::HapticCommand& command) const noexcept;
   void take_command() noexcept;
   void compute_force() noexcept;
+  void add_guide_force() noexcept;
+  [[nodiscard]] core::PointVectors force_of_medium() const noexcept;
   void write_device() noexcept;
   void add_exposure() noexcept;
 
@@ -224,6 +230,7 @@ class HapticLoop {
   core::Guards::Contact contact_;
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
+  core::PointVectors guide_n_ = core::zero_vectors();  ///< In that, as far as there is one.
   int num_failed_writes_ = 0;
   bool limited_ = false;
   core::ClockComparison device_clock_;

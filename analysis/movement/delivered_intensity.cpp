@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -10,6 +11,8 @@
 
 namespace jnd::analysis {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Mean {
   double sum = 0.0;
@@ -114,7 +117,12 @@ class BlockReplacement {
 
 }  // namespace
 
-DeliveredIntensities delivered_intensities(const StudyData& data) {
+static DevicePart device_of(const DeviceParts& devices, std::int64_t session) {
+  const auto found = devices.find(session);
+  return found == devices.end() ? DevicePart() : found->second;
+}
+
+DeliveredIntensities delivered_intensities(const StudyData& data, const DeviceParts& devices) {
   Deliveries deliveries;
   for (const ParticipantData& participant : data.participants) {
     for (const auto& [block, rows] : participant.presentations) {
@@ -122,22 +130,29 @@ DeliveredIntensities delivered_intensities(const StudyData& data) {
         const double commanded = row.measures.commanded_damping_n_s_per_m.value_or(0.0);
         const double delivered = row.measures.delivered_damping_n_s_per_m.value_or(0.0);
         if (!is_measured(commanded, delivered)) continue;
+        const DevicePart device = device_of(devices, row.session);
+        const double whole = device.gain * delivered + device.damping_n_s_per_m;
         deliveries[{row.session, row.trial}].push_back(
-            {row.interval, row.intensity, row.intensity * delivered / commanded});
+            {row.interval, row.intensity, row.intensity * whole / commanded});
       }
     }
   }
   return trials_of(deliveries);
 }
 
-DeliveredIntensities delivered_intensities(const MovementAnalysis& movement) {
+DeliveredIntensities delivered_intensities(const MovementAnalysis& movement,
+                                           const DeviceParts& devices) {
   Deliveries deliveries;
   for (const ParticipantMovement& participant : movement.participants) {
     for (const PresentationMovement& one : participant.presentations) {
       const double ratio = one.force.delivered_ratio.value_or(0.0);
       if (one.trial == 0 || !is_measured(1.0, ratio)) continue;
+      // The device's own damping over that of the stimulus at the same speed.
+      const DevicePart device = device_of(devices, one.session);
+      const double own = device.damping_n_s_per_m * ratio /
+                         one.force.delivered_damping_n_s_per_m.value_or(kInfinity);
       deliveries[{one.session, one.trial}].push_back(
-          {one.interval, one.intensity, one.intensity * ratio});
+          {one.interval, one.intensity, one.intensity * (device.gain * ratio + own)});
     }
   }
   return trials_of(deliveries);
@@ -162,25 +177,6 @@ DeliveredStudy with_delivered(StudyData data, const DeliveredIntensities& delive
   return study;
 }
 
-DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store) {
-  DeliveredIntensities delivered = delivered_intensities(data);
-  const bool enough = std::ranges::all_of(data.participants, [&](const ParticipantData& one) {
-    return std::ranges::all_of(one.trials, [&](const core::TrialRow& trial) {
-      return trial.intensity == 0.0 || delivered.contains({trial.session, trial.trial});
-    });
-  });
-  if (!enough) {
-    for (auto& [key, trial] :
-         delivered_intensities(analyse_movement(store, {.explored = false}))) {
-      delivered.try_emplace(key, trial);
-    }
-  }
-  const ForceSource source = force_source_of(data, store);
-  DeliveredStudy study = with_delivered(std::move(data), delivered);
-  study.force_source = source;
-  return study;
-}
-
 /// Of a session whose samples were not kept nobody can tell: it counts as sent.
 static bool is_measured_by_recording(const core::StudyStore& store, std::int64_t session) {
   try {
@@ -189,6 +185,30 @@ static bool is_measured_by_recording(const core::StudyStore& store, std::int64_t
   } catch (const core::Error&) {
     return false;
   }
+}
+
+DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store,
+                              const DeviceParts& all_devices) {
+  // What sensors measured is the whole of it.
+  DeviceParts devices = all_devices;
+  std::erase_if(
+      devices, [&](const auto& entry) { return is_measured_by_recording(store, entry.first); });
+  DeliveredIntensities delivered = delivered_intensities(data, devices);
+  const bool enough = std::ranges::all_of(data.participants, [&](const ParticipantData& one) {
+    return std::ranges::all_of(one.trials, [&](const core::TrialRow& trial) {
+      return trial.intensity == 0.0 || delivered.contains({trial.session, trial.trial});
+    });
+  });
+  if (!enough) {
+    for (auto& [key, trial] :
+         delivered_intensities(analyse_movement(store, {.explored = false}), devices)) {
+      delivered.try_emplace(key, trial);
+    }
+  }
+  const ForceSource source = force_source_of(data, store);
+  DeliveredStudy study = with_delivered(std::move(data), delivered);
+  study.force_source = source;
+  return study;
 }
 
 ForceSource force_source_of(const StudyData& data, const core::StudyStore& store) {

@@ -24,10 +24,21 @@ struct DeliveredTrial {
 /// By session and number of the trial.
 using DeliveredIntensities = std::map<std::pair<std::int64_t, std::int64_t>, DeliveredTrial>;
 
+/// What a device makes of the force that it is sent, as it was measured: the hand is opposed by
+/// gain * force + damping * speed. Where sensors measured the force there is nothing to add.
+struct DevicePart {
+  double gain = 1.0;
+  double damping_n_s_per_m = 0.0;
+};
+/// By session; sessions on devices of which nothing was measured are not in it.
+using DeviceParts = std::map<std::int64_t, DevicePart>;
+
 /// From the database alone: of fluids that are plain damping.
-[[nodiscard]] DeliveredIntensities delivered_intensities(const StudyData& data);
+[[nodiscard]] DeliveredIntensities delivered_intensities(const StudyData& data,
+                                                         const DeviceParts& devices = {});
 /// From the samples: of every fluid whose law is known, water among them.
-[[nodiscard]] DeliveredIntensities delivered_intensities(const MovementAnalysis& movement);
+[[nodiscard]] DeliveredIntensities delivered_intensities(const MovementAnalysis& movement,
+                                                         const DeviceParts& devices = {});
 
 /// What counts as delivered: the force as it was sent to the device, after every limit, or what
 /// its sensors of force measured; `kBoth`: sessions differ.
@@ -55,6 +66,7 @@ struct DeliveredStudy {
                                             const DeliveredIntensities& delivered);
 
 /// The same, with the recordings read only if the database does not say enough.
-[[nodiscard]] DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store);
+[[nodiscard]] DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store,
+                                            const DeviceParts& devices = {});
 
 }  // namespace jnd::analysis

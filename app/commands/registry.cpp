@@ -17,8 +17,8 @@
   /* Other people's data. */                                               \
   ADD(fit) ADD(compare)                                                    \
   /* The apparatus. */                                                     \
-  ADD(force) ADD(loop) ADD(devices) ADD(device_check) ADD(doctor)           \
-  ADD(stability) ADD(characterize) ADD(device_simulator)                    \
+  ADD(force) ADD(loop) ADD(devices) ADD(device_check) ADD(commission)       \
+  ADD(doctor) ADD(stability) ADD(characterize) ADD(device_simulator)        \
   ADD(device_server) ADD(device_key)
 // clang-format on
 

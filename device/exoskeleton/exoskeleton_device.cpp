@@ -5,6 +5,7 @@
 
 #include "core/require.h"
 #include "device/drawn_mass.h"
+#include "device/exoskeleton/guiding.h"
 
 namespace jnd::device {
 namespace {
@@ -62,6 +63,8 @@ DeviceCapabilities ExoskeletonDevice::capabilities() const noexcept {
 
 void ExoskeletonDevice::open() {
   arm_.reset();
+  bench_.reset();
+  last_hold_ = 0;
   world_.reset();
   control_.reset();
   filter_.start(world_.encoder_position_rad());
@@ -121,15 +124,38 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
   }
 
   arm_.advance();
-  const Eigen::Vector3d pull_n =
-      arm_.arm().force_n(world_.hand_position_m(), world_.hand_velocity_m_per_s());
-  const bool stepped = world_.step(torque_n_m, pull_n);
+  const bool stepped = world_.step(torque_n_m, pull_on_forearm_n());
   acted_n_ = control_.fault() == core::Fault::kNone ? given_n : core::zero_vectors();
   device_time_ns_ += period_ns_;
   if (!stepped) return false;
   if (control_.fault() == core::Fault::kNone) add_to_sums(given_n);
   measure();
   return control_.fault() == core::Fault::kNone;
+}
+
+/// Of whoever is at the hand: the person whose it is, or somebody who holds a dummy.
+Eigen::Vector3d ExoskeletonDevice::pull_on_forearm_n() noexcept {
+  const BenchState& done = bench_.newest();
+  const Eigen::Vector3d& hand_m = world_.hand_position_m();
+  const Eigen::Vector3d& velocity_m_per_s = world_.hand_velocity_m_per_s();
+  if (done.has_hand) return arm_.arm().force_n(hand_m, velocity_m_per_s);
+  constexpr double kGravity_m_per_s2 = 9.80665;
+  constexpr Guiding kHolding = {.stiffness = 3000.0, .damping = 150.0, .strength = 60.0};
+  Eigen::Vector3d pull_n(0.0, 0.0, -kGravity_m_per_s2 * done.load_kg);
+  if (!done.is_clamped && !done.is_touching) return pull_n;
+  if (done.num_holds != last_hold_) held_m_ = hand_m;
+  last_hold_ = done.num_holds;
+  if (done.is_touching) {
+    constexpr double kCarrying_m_per_s = 0.2;
+    const Eigen::Vector3d mark_m(done.mark_m[0], done.mark_m[1], done.mark_m[2]);
+    const Eigen::Vector3d way_m = mark_m - kinematics_.tip_position_m().front();
+    // Slower near the mark, for the arm comes after.
+    constexpr double kSlowing_per_s = 5.0;
+    const double way_now_m =
+        period_s_ * std::min(kSlowing_per_s * way_m.norm(), kCarrying_m_per_s);
+    if (way_now_m > 0.0) held_m_ += way_m.normalized() * way_now_m;
+  }
+  return pull_n + kHolding.effort(held_m_ - hand_m, velocity_m_per_s);
 }
 
 /// Whoever writes may have a limiter or none: what the device says of itself it keeps.

@@ -10,6 +10,7 @@
 #include "device/halt_latch.h"
 #include "device/haptic_device.h"
 #include "device/ordered_arm.h"
+#include "device/ordered_bench.h"
 
 namespace jnd::device {
 
@@ -56,6 +57,8 @@ class ExoskeletonDevice final : public HapticDevice {
   [[nodiscard]] core::Fault fault() const noexcept override;
   void halt() noexcept override { halt_.halt(); }
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override { return &arm_; }
+  /// Without a hand there is a dummy in it that a cord carries; a load hangs from that.
+  [[nodiscard]] Bench* bench() noexcept override { return &bench_; }
   /// What opposes is all that the magnets do to the hand.
   [[nodiscard]] core::ContactSums contact_sums() const noexcept override { return sums_; }
 
@@ -75,6 +78,7 @@ class ExoskeletonDevice final : public HapticDevice {
   [[nodiscard]] core::PointVectors within_capabilities(
       const core::PointVectors& force_n) const noexcept;
   [[nodiscard]] const core::PointVectors& delayed(const core::PointVectors& force_n) noexcept;
+  [[nodiscard]] Eigen::Vector3d pull_on_forearm_n() noexcept;
   void add_to_sums(const core::PointVectors& force_on_hand_n) noexcept;
 
   Parameters parameters_;
@@ -82,6 +86,9 @@ class ExoskeletonDevice final : public HapticDevice {
   std::int64_t period_ns_;
   int delay_ticks_;
   OrderedArm arm_;
+  OrderedBench bench_;
+  std::uint32_t last_hold_ = 0;
+  Eigen::Vector3d held_m_ = Eigen::Vector3d::Zero();  ///< Where the dummy is held, or carried.
   ExoskeletonKinematics kinematics_;
   MujocoWorld world_;
   TorqueControl control_;

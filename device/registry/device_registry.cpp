@@ -15,6 +15,7 @@
 #include "device/network/network_options.h"
 #include "device/network/udp_port.h"
 #include "device/plugin/plugin_device.h"
+#include "device/twin/twin_device.h"
 #include "device/unplugged_device.h"
 
 namespace jnd::device {
@@ -107,6 +108,18 @@ constexpr std::array kDevices = {
                                "simulated or real, and KEY=VALUE for the driver, with commas "
                                "between",
                 .make = make_plugin_device},
+    DeviceEntry{
+        .name = "twin",
+        .argument = "",
+        .description = "a simulated device with the faults of real ones (its own frame, "
+                       "weight, friction, gain, delay), for measuring it: "
+                       "`jnd commission`",
+        .make = [](std::string_view options, double rate_hz) -> std::unique_ptr<HapticDevice> {
+          TwinDevice::Parameters parameters = twin_parameters(options);
+          parameters.rate_hz = rate_hz;
+          return std::make_unique<TwinDevice>(parameters);
+        },
+        .optional_argument = kTwinOptions},
     DeviceEntry{.name = "unplugged",
                 .argument = "",
                 .description = "a device that never starts, to rehearse what happens then",

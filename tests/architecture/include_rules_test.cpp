@@ -28,9 +28,11 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
     {"device/plugin", {"core", "core/safety", "device"}},
+    {"device/twin", {"core", "device"}},
     {"device/check", {"core", "core/safety", "device", "device/network"}},
     {"device/registry",
-     {"core", "device", "device/exoskeleton", "device/network", "device/plugin"}},
+     {"core", "device", "device/exoskeleton", "device/network", "device/plugin",
+      "device/twin"}},
     {"experiments/study", {"core", "core/media"}},
     {"experiments/order", {"core", "experiments/study"}},
     {"experiments/adaptive", {"core"}},
@@ -58,6 +60,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"analysis/movement",
      {"core", "core/media", "core/storage", "experiments/study", "experiments/procedures",
       "analysis/data", "analysis/statistics", "analysis/results"}},
+    {"analysis/commissioning", {"core"}},
     {"analysis/planning",
      {"core", "analysis/data", "analysis/statistics", "analysis/fits", "analysis/hierarchical",
       "analysis/results"}},
@@ -76,6 +79,9 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "device/exoskeleton", "device/registry", "experiments/study", "experiments/order",
       "experiments/procedures", "experiments/protocol", "experiments/session",
       "experiments/participants", "analysis/movement", "app/command_line"}},
+    {"app/commissioning",
+     {"core", "core/safety", "core/media", "core/exchange", "device", "analysis/commissioning",
+      "app/command_line"}},
     {"app/results",
      {"core", "core/storage", "experiments/study", "experiments/participants", "analysis/data",
       "analysis/statistics", "analysis/fits", "analysis/results", "analysis/export",
@@ -141,6 +147,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "analysis/report",
       "app/command_line",
       "app/session",
+      "app/commissioning",
       "app/results",
       "app/planning",
       "app/operator"}},
@@ -321,6 +328,21 @@ TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
     }
   }
   EXPECT_EQ(found, allowed);
+}
+
+// Whoever moves a device by a force of its own does so while nobody's hand is in it.
+TEST(IncludeRules, ALoopGetsAGuideInOnePlace) {
+  const fs::path root = jnd::test_support::source_folder();
+  std::set<std::string> found;
+  for (const fs::path& file : sources(root)) {
+    std::ifstream source(file);
+    for (std::string line; std::getline(source, line);) {
+      if (line.find(".guide =") != std::string::npos) {
+        found.insert(fs::relative(file, root).generic_string());
+      }
+    }
+  }
+  EXPECT_EQ(found, (std::set<std::string>{"app/commissioning/guided_run.cpp"}));
 }
 
 }  // namespace include_rules_test

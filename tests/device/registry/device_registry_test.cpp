@@ -40,7 +40,7 @@ TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
   } catch (const core::Error& error) {
     EXPECT_STREQ(error.what(),
                  "device: expected one of lumped, exoskeleton, mouse, network:HOST:PORT, "
-                 "plugin:PATH, unplugged, found phantom");
+                 "plugin:PATH, twin, unplugged, found phantom");
   }
 }
 

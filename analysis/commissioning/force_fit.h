@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "analysis/commissioning/measured.h"
+
+namespace jnd::analysis {
+
+/// What one way along a straight line at nearly constant speed came to.
+struct GuidedWay {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< Of the motion, of length 1.
+  double speed_m_per_s = 0.0;                            ///< Along it, > 0.
+  double acceleration_m_per_s2 = 0.0;                    ///< Along it.
+  double commanded_n = 0.0;  ///< Mean of the force that was sent, along it.
+  double load_n = 0.0;       ///< That hung from the tool, downwards.
+  int pose = 0;              ///< Which of the places where loads were hung.
+};
+
+/// A way as it was recorded: position along it [m], commanded force along it [N], one each
+/// tick. Means over the way, for of these the balance is one of energy, which holds however the
+/// speed changed; and cogging gives back what it took, but not as much of the time as it took
+/// it. Fewer than sixty ticks, or a motion against the direction: throws `core::Error`.
+[[nodiscard]] GuidedWay guided_way(const Eigen::Vector3d& direction,
+                                   const std::vector<double>& position_m,
+                                   const std::vector<double>& commanded_n, double period_s,
+                                   double load_n, int pose);
+
+/// What a device adds to the force that it was told, by itself.
+struct ForceFit {
+  Measured gain;      ///< Newtons given for a newton commanded.
+  Measured weight_n;  ///< Downwards, of what its motors do not carry.
+  Eigen::Vector3d offset_n =
+      Eigen::Vector3d::Zero();  ///< The whole constant force, as `up` is.
+  Measured damping_n_s_per_m;
+  Measured friction_n;
+  /// Half of what must be commanded more to go one way than to come back, at no speed.
+  Measured hysteresis_n;
+  double residual_n = 0.0;         ///< Standard deviation of a way about the fit.
+  double pose_spread_ratio = 0.0;  ///< Standard deviation of the gain between poses, over it.
+  int num_ways = 0;
+};
+
+/// Least squares over all ways, for unit directions e and `up`,
+///
+///     gain u = load (up . e + a / g) + mass a + damping v + friction - offset . e,
+///
+/// so that known loads tell the gain, and the gain everything else in newtons. The mass is not
+/// estimated here, for the little acceleration that there is has as much noise:
+/// `mass_per_gain_kg` is from pushes. `load_uncertainty_ratio`: standard uncertainty of
+/// all loads together, over them (scales, local gravity), >= 0. Throws `core::Error` where the
+/// ways do not tell it all apart: two loads, two speeds, both ways along three axes are wanted.
+[[nodiscard]] ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
+                                 double mass_per_gain_kg, double load_uncertainty_ratio);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,57 @@
+#include "analysis/commissioning/noise_fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr std::size_t kFewestReadings = 100;
+/// A picometre: below it two readings differ by rounding alone.
+constexpr double kSame_m = 1e-12;
+
+Measured deviation_of(const std::vector<Eigen::Vector3d>& readings) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& reading : readings) mean += reading;
+  mean /= static_cast<double>(readings.size());
+  double squares = 0.0;
+  for (const Eigen::Vector3d& reading : readings) squares += (reading - mean).squaredNorm();
+  const double degrees_of_freedom = 3.0 * (static_cast<double>(readings.size()) - 1.0);
+  const boost::math::chi_squared chi_squared(degrees_of_freedom);
+  return {.value = std::sqrt(squares / degrees_of_freedom),
+          .ci95_low = std::sqrt(squares / boost::math::quantile(chi_squared, 0.975)),
+          .ci95_high = std::sqrt(squares / boost::math::quantile(chi_squared, 0.025))};
+}
+
+double least_step_m(const std::vector<Eigen::Vector3d>& position_m) {
+  double least_m = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> sorted_m;
+    for (const Eigen::Vector3d& reading : position_m) sorted_m.push_back(reading[axis]);
+    std::sort(sorted_m.begin(), sorted_m.end());
+    for (std::size_t i = 1; i < sorted_m.size(); ++i) {
+      const double step_m = sorted_m[i] - sorted_m[i - 1];
+      if (step_m > kSame_m && (least_m == 0.0 || step_m < least_m)) least_m = step_m;
+    }
+  }
+  return least_m;
+}
+
+}  // namespace
+
+NoiseFit fit_noise(const std::vector<Eigen::Vector3d>& position_m,
+                   const std::vector<Eigen::Vector3d>& velocity_m_per_s) {
+  if (position_m.size() < kFewestReadings || velocity_m_per_s.size() < kFewestReadings) {
+    throw core::Error("noise: expected at least 100 readings, found " +
+                      std::to_string(std::min(position_m.size(), velocity_m_per_s.size())));
+  }
+  return {.position_sd_m = deviation_of(position_m),
+          .position_resolution_m = least_step_m(position_m),
+          .velocity_sd_m_per_s = deviation_of(velocity_m_per_s)};
+}
+
+}  // namespace jnd::analysis

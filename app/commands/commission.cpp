@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command_line/command.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
+#include "app/command_line/stop_signals.h"
+#include "app/commissioning/asked_bench.h"
+#include "app/commissioning/commissioning.h"
+#include "app/commissioning/commissioning_json.h"
+#include "app/session/device_checks.h"
+#include "core/error.h"
+#include "device/registry/device_registry.h"
+
+namespace jnd::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CommissionOptions {
+  std::string device;
+  std::string record;
+  std::string marks;
+  std::vector<double> loads_kg = {0.1, 0.2, 0.4};
+  double load_uncertainty_ratio = 0.002;
+  std::vector<std::string> again;
+  std::vector<std::string> only;
+  double rate_hz = 1000.0;
+  std::uint64_t seed = 1;
+  bool allow_no_realtime = false;
+  bool json = false;
+};
+
+CommissioningStep step_of(const std::string& option, const std::string& name) {
+  if (const auto step = step_named(name)) return *step;
+  std::string known;
+  for (const CommissioningStep step : kCommissioningSteps) {
+    known += (known.empty() ? "" : ", ") + std::string(words_of(step).name);
+  }
+  throw UsageError(fmt::format("{}: expected one of {}, found {}", option, known, name));
+}
+
+/// A mark a line: x, y and z in metres, commas between.
+std::vector<Eigen::Vector3d> marks_in(const std::string& file) {
+  std::vector<Eigen::Vector3d> marks_m;
+  if (file.empty()) return marks_m;
+  std::ifstream in(file);
+  if (!in) throw UsageError(fmt::format("--marks {}: expected a file that can be read", file));
+  std::string line;
+  int number = 0;
+  while (std::getline(in, line)) {
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    Eigen::Vector3d mark_m;
+    char end = 0;
+    if (std::sscanf(line.c_str(), "%lf ,%lf ,%lf %c", &mark_m[0], &mark_m[1], &mark_m[2],
+                    &end) != 3 ||
+        !mark_m.allFinite() || mark_m.norm() > 10.0) {
+      throw core::Error(fmt::format("{}:{}: expected x,y,z of a mark in metres, found \"{}\"",
+                                    file, number, line));
+    }
+    marks_m.push_back(mark_m);
+  }
+  return marks_m;
+}
+
+/// "twin:seed=7" as a part of a file's name.
+std::string file_name_of(const std::string& device) {
+  std::string name;
+  for (const char letter : device) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    name += is_plain ? letter : '_';
+  }
+  return name + ".commissioning.jsonl";
+}
+
+/// Says what is to do and waits for Enter.
+void ask_in_terminal(const std::string& to_do) {
+  std::cerr << to_do << " Then press Enter. " << std::flush;
+  std::string line;
+  if (std::getline(std::cin, line)) return;
+  throw core::Error(
+      "stdin: expected an answer to each step, found its end; run it again with somebody at "
+      "the "
+      "keyboard, and it goes on with the steps that are left");
+}
+
+void print_step(CommissioningStep step, const CommissioningResults& results) {
+  fmt::print("{}\n", words_of(step).title);
+  for (const FoundLine& line : found_in(step, results)) {
+    fmt::print("  {:<52} {} {}\n", line.what, line.value, line.unit);
+  }
+  std::fflush(stdout);
+}
+
+int run_commission(const CommissionOptions& options) {
+  require_device(options.device);
+  const MeasuringPlan plan{.rate_hz = options.rate_hz,
+                           .marks_m = marks_in(options.marks),
+                           .loads_kg = options.loads_kg,
+                           .load_uncertainty_ratio = options.load_uncertainty_ratio,
+                           .seed = options.seed,
+                           .allow_no_realtime = options.allow_no_realtime};
+  std::vector<CommissioningStep> again, only;
+  for (const std::string& name : options.again) again.push_back(step_of("--again", name));
+  for (const std::string& name : options.only) only.push_back(step_of("--only", name));
+  stop_on_signals();
+
+  const std::unique_ptr<device::HapticDevice> device =
+      device::make_device(options.device, options.rate_hz);
+  if (!device->capabilities().simulated && options.json) {
+    throw UsageError(
+        "--json: expected a simulated device, for a real one asks what to do, found " +
+        options.device);
+  }
+  Commissioning commissioning(
+      options.record.empty() ? fs::path(file_name_of(options.device))
+                             : fs::path(options.record),
+      {.name = options.device, .identity = device->identity(), .can = device->capabilities()},
+      plan);
+  for (const CommissioningStep step : again) commissioning.undo(step);
+
+  AskedBench asked(ask_in_terminal);
+  device::Bench* bench = device->bench() != nullptr ? device->bench() : &asked;
+  if (!options.json) {
+    fmt::print("{}{}, record {}\n", options.device,
+               device->capabilities().simulated ? " (SIMULATED)" : "",
+               commissioning.record().string());
+  }
+  for (const CommissioningStep step : kCommissioningSteps) {
+    const bool is_wanted =
+        only.empty() || std::find(only.begin(), only.end(), step) != only.end();
+    if (is_wanted && !commissioning.results().has(step)) {
+      if (device->bench() == nullptr) {
+        fmt::print("\n{}\n{}\n", words_of(step).title, words_of(step).to_do);
+        std::fflush(stdout);
+      }
+      ProgressBar bar(std::string(words_of(step).name));
+      commissioning.measure(step, *device, *bench,
+                            [&](double done, const std::string&) { bar.show(done); });
+    }
+    if (!options.json && commissioning.results().has(step)) {
+      print_step(step, commissioning.results());
+    }
+  }
+  if (options.json) {
+    nlohmann::ordered_json out = {{"device", options.device},
+                                  {"model", commissioning.device().identity.model},
+                                  {"serial", commissioning.device().identity.serial},
+                                  {"simulated", commissioning.device().can.simulated},
+                                  {"record", commissioning.record().string()},
+                                  {"complete", !commissioning.next_step().has_value()},
+                                  {"steps", results_json(commissioning.results())}};
+    fmt::print("{}\n", json_text(out));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_commission(CLI::App& program, Invocation& invocation) {
+  const auto options = std::make_shared<CommissionOptions>();
+  CLI::App* command = program.add_subcommand(
+      "commission", "Measures a device before a hand is in it: noise, frame, force, delay");
+  command->add_option("device", options->device, "As after --device")->required();
+  command->add_option("--record", options->record,
+                      "File that keeps every measurement; one that is there is gone on with "
+                      "(default: DEVICE.commissioning.jsonl)");
+  command->add_option("--again", options->again, "Steps to measure anew, commas between")
+      ->delimiter(',');
+  command->add_option("--only", options->only, "Steps to measure now, commas between")
+      ->delimiter(',');
+  command->add_option("--marks", options->marks,
+                      "CSV file of the marks to touch, x,y,z in metres a line (default: the "
+                      "corners of a box of 20 cm)");
+  command->add_option("--loads-kg", options->loads_kg, "Known weights to hang from the tool")
+      ->delimiter(',')
+      ->check(number_between(0.001, 5.0))
+      ->capture_default_str();
+  command
+      ->add_option("--load-uncertainty", options->load_uncertainty_ratio,
+                   "Standard uncertainty of these weights, over them")
+      ->check(number_between(0.0, 0.5))
+      ->capture_default_str();
+  command->add_option("--rate-hz", options->rate_hz, "Ticks a second")
+      ->check(number_between(100.0, 10'000.0))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of where the ways begin")
+      ->check(seed_number())
+      ->capture_default_str();
+  command->add_flag("--allow-no-realtime", options->allow_no_realtime,
+                    "A real device also without real-time priority");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->callback([&invocation, options] {
+    invocation.run = [options] { return run_commission(*options); };
+  });
+}
+
+}  // namespace jnd::app

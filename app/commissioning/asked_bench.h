@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "device/bench.h"
+
+namespace jnd::app {
+
+/// A person at a real device, asked for each thing to do.
+class AskedBench final : public device::Bench {
+ public:
+  /// Says that, whole sentences, and returns when it is done; may throw `core::Error` where
+  /// nobody answers.
+  using Ask = std::function<void(const std::string& to_do)>;
+
+  explicit AskedBench(Ask ask) : ask_(std::move(ask)) {}
+
+  void take_hand_out() override;
+  void clamp() override;
+  void touch(const Eigen::Vector3d& mark_m) override;
+  void let_go() override;
+  void hang(double load_kg) override;
+
+ private:
+  Ask ask_;
+  bool is_held_ = false;
+};
+
+}  // namespace jnd::app

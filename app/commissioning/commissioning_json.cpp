@@ -1,0 +1,141 @@
+#include "app/commissioning/commissioning_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace jnd::app {
+namespace {
+
+using analysis::Measured;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+ordered_json measured_json(const Measured& measured) {
+  return {{"value", measured.value}, {"ci95", {measured.ci95_low, measured.ci95_high}}};
+}
+
+Measured measured_in(const json& found) {
+  return {.value = found.at("value").get<double>(),
+          .ci95_low = found.at("ci95").at(0).get<double>(),
+          .ci95_high = found.at("ci95").at(1).get<double>()};
+}
+
+ordered_json vector_json(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+Eigen::Vector3d vector_in(const json& found) {
+  return {found.at(0).get<double>(), found.at(1).get<double>(), found.at(2).get<double>()};
+}
+
+ordered_json json_of(const analysis::NoiseFit& fit) {
+  return {{"position_sd_m", measured_json(fit.position_sd_m)},
+          {"position_resolution_m", fit.position_resolution_m},
+          {"velocity_sd_m_per_s", measured_json(fit.velocity_sd_m_per_s)}};
+}
+
+ordered_json json_of(const analysis::FrameFit& fit) {
+  auto rotation = ordered_json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation.push_back(fit.rotation(row, column));
+  }
+  return {{"rotation", std::move(rotation)},
+          {"offset_m", vector_json(fit.offset_m)},
+          {"rotation_ci95_rad", vector_json(fit.rotation_ci95_rad)},
+          {"offset_ci95_m", vector_json(fit.offset_ci95_m)},
+          {"residual_m", fit.residual_m},
+          {"num_marks", fit.num_marks}};
+}
+
+ordered_json json_of(const analysis::DelayFit& fit) {
+  return {{"delay_s", measured_json(fit.delay_s)},
+          {"mass_per_gain_kg", measured_json(fit.mass_per_gain_kg)},
+          {"num_ways", fit.num_ways}};
+}
+
+ordered_json json_of(const analysis::ForceFit& fit) {
+  return {{"gain", measured_json(fit.gain)},
+          {"weight_n", measured_json(fit.weight_n)},
+          {"offset_n", vector_json(fit.offset_n)},
+          {"damping_n_s_per_m", measured_json(fit.damping_n_s_per_m)},
+          {"friction_n", measured_json(fit.friction_n)},
+          {"hysteresis_n", measured_json(fit.hysteresis_n)},
+          {"residual_n", fit.residual_n},
+          {"pose_spread_ratio", fit.pose_spread_ratio},
+          {"num_ways", fit.num_ways}};
+}
+
+analysis::FrameFit frame_in(const json& found) {
+  analysis::FrameFit fit;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      fit.rotation(row, column) =
+          found.at("rotation").at(static_cast<std::size_t>(3 * row + column)).get<double>();
+    }
+  }
+  fit.offset_m = vector_in(found.at("offset_m"));
+  fit.rotation_ci95_rad = vector_in(found.at("rotation_ci95_rad"));
+  fit.offset_ci95_m = vector_in(found.at("offset_ci95_m"));
+  fit.residual_m = found.at("residual_m").get<double>();
+  fit.num_marks = found.at("num_marks").get<int>();
+  return fit;
+}
+
+}  // namespace
+
+ordered_json step_json(CommissioningStep step, const CommissioningResults& results) {
+  switch (step) {
+    case CommissioningStep::kNoise:
+      return json_of(results.noise.value());
+    case CommissioningStep::kFrame:
+      return json_of(results.frame.value());
+    case CommissioningStep::kDelay:
+      return json_of(results.delay.value());
+    case CommissioningStep::kForce:
+      return json_of(results.force.value());
+  }
+  return {};
+}
+
+void read_step_json(CommissioningStep step, const json& found, CommissioningResults& results) {
+  const auto number = [&](const char* key) { return found.at(key).get<double>(); };
+  const auto value = [&](const char* key) { return measured_in(found.at(key)); };
+  switch (step) {
+    case CommissioningStep::kNoise:
+      results.noise = {.position_sd_m = value("position_sd_m"),
+                       .position_resolution_m = number("position_resolution_m"),
+                       .velocity_sd_m_per_s = value("velocity_sd_m_per_s")};
+      return;
+    case CommissioningStep::kFrame:
+      results.frame = frame_in(found);
+      return;
+    case CommissioningStep::kDelay:
+      results.delay = {.delay_s = value("delay_s"),
+                       .mass_per_gain_kg = value("mass_per_gain_kg"),
+                       .num_ways = found.at("num_ways").get<int>()};
+      return;
+    case CommissioningStep::kForce:
+      results.force = {.gain = value("gain"),
+                       .weight_n = value("weight_n"),
+                       .offset_n = vector_in(found.at("offset_n")),
+                       .damping_n_s_per_m = value("damping_n_s_per_m"),
+                       .friction_n = value("friction_n"),
+                       .hysteresis_n = value("hysteresis_n"),
+                       .residual_n = number("residual_n"),
+                       .pose_spread_ratio = number("pose_spread_ratio"),
+                       .num_ways = found.at("num_ways").get<int>()};
+      return;
+  }
+}
+
+ordered_json results_json(const CommissioningResults& results) {
+  auto all = ordered_json::object();
+  for (const CommissioningStep step : kCommissioningSteps) {
+    if (!results.has(step)) continue;
+    ordered_json one = {{"measured_at", results.measured_at[static_cast<std::size_t>(step)]}};
+    one.update(step_json(step, results));
+    all[std::string(words_of(step).name)] = std::move(one);
+  }
+  return all;
+}
+
+}  // namespace jnd::app

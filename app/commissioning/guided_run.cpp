@@ -1,0 +1,191 @@
+#include "app/commissioning/guided_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/command_line/stop_signals.h"
+#include "core/error.h"
+#include "core/exchange/latest_value.h"
+#include "core/exchange/spsc_queue.h"
+#include "core/exchange/telemetry.h"
+#include "core/safety/heartbeat.h"
+#include "core/safety/watchdog_state.h"
+#include "device/haptic_loop.h"
+#include "device/watched_loop.h"
+
+namespace jnd::app {
+namespace {
+
+constexpr std::size_t kSampleCapacity = 32768;
+/// Against 2 N of friction over half a metre, and no more: a device that runs away is stopped.
+constexpr double kMaxGiven_j = 1.0;
+/// What swings further is no push of the guide's.
+constexpr double kSwing_n = 10.0;
+
+device::HapticLoop::Parameters loop_parameters(const GuidedRun::Parameters& parameters,
+                                               const device::DeviceCapabilities& can,
+                                               device::Guide& guide) {
+  device::HapticLoop::Parameters loop;
+  loop.starts_armed = can.simulated;
+  loop.rate_hz = parameters.rate_hz;
+  loop.limits = parameters.limits;
+  loop.port_energy.max_given_j = kMaxGiven_j;
+  loop.heartbeat_timeout_s = can.heartbeat_timeout_s;
+  loop.guide = &guide;
+  loop.oscillation.swing_n = kSwing_n;
+  return loop;
+}
+
+}  // namespace
+
+struct GuidedRun::Implementation {
+  Implementation(device::HapticDevice& the_device, const Parameters& the_parameters)
+      : parameters(the_parameters),
+        device(the_device),
+        in_real_time(!device.capabilities().simulated || device.capabilities().has_own_clock),
+        stop(parameters.emergency_stop != nullptr ? *parameters.emergency_stop : own_stop),
+        guide(device.capabilities().share_ratio),
+        loop(loop_parameters(parameters, device.capabilities(), guide), device,
+             {commands, telemetry, stop, &samples, in_real_time ? &heartbeat : nullptr,
+              in_real_time ? &watched : nullptr}) {
+    if (in_real_time) {
+      running.emplace(
+          device, loop, watched,
+          device::WatchedLoop::Parameters{.allow_no_realtime = parameters.allow_no_realtime});
+    } else {
+      device.open();
+      is_open = true;
+    }
+  }
+  ~Implementation() { end(); }
+
+  void end() noexcept {
+    if (running) running->stop();
+    if (is_open) device.close();
+    is_open = false;
+  }
+
+  [[nodiscard]] core::Fault fault() {
+    telemetry.fetch();
+    if (watched.has_bitten()) return core::Fault::kWatchdog;
+    return telemetry.value().fault;
+  }
+
+  /// Only whoever waits here beats: a program that hangs lets the force fade.
+  core::Fault run(double duration_s, const std::function<void(const core::Sample&)>& take) {
+    const auto num_ticks = std::llround(duration_s * parameters.rate_hz);
+    std::int64_t num_taken = 0;
+    const auto visit = [&](const core::Sample& sample) {
+      if (num_taken++ < num_ticks && take) take(sample);
+    };
+    if (!in_real_time) {
+      constexpr std::int64_t kBatch = 256;
+      for (std::int64_t done = 0; done < num_ticks; ++done) {
+        loop.tick();
+        if (done % kBatch == kBatch - 1) samples.drain(visit);
+        if (done % kBatch == 0 && stop_requested()) stop.press();
+      }
+      samples.drain(visit);
+      return fault();
+    }
+    samples.drain([](const core::Sample&) {});  // From before.
+    while (num_taken < num_ticks) {
+      heartbeat.beat();
+      if (stop_requested() && !stop.is_pressed()) stop.press();
+      samples.drain(visit);
+      const core::Fault found = fault();
+      if (core::is_failure(found)) return found;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return fault();
+  }
+
+  Parameters parameters;
+  device::HapticDevice& device;
+  bool in_real_time;
+  bool is_open = false;
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop own_stop;
+  core::EmergencyStop& stop;
+  core::Heartbeat heartbeat;
+  core::WatchdogState watched;
+  core::SpscQueue<core::Sample> samples{kSampleCapacity};
+  core::HapticCommand command;
+  device::MotionGuide guide;
+  device::HapticLoop loop;
+  std::optional<device::WatchedLoop> running;
+};
+
+GuidedRun::GuidedRun(device::HapticDevice& device, const Parameters& parameters)
+    : implementation_(std::make_unique<Implementation>(device, parameters)) {}
+
+GuidedRun::~GuidedRun() = default;
+
+void GuidedRun::arm() {
+  Implementation& my = *implementation_;
+  if (my.fault() == core::Fault::kNone && my.telemetry.value().num_ticks > 0) return;
+  constexpr int kAttempts = 50;
+  core::Fault found = core::Fault::kNone;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    my.loop.rearm();
+    found = my.run(0.1, {});
+    if (found == core::Fault::kNone) {
+      (void)my.run(1.0, {});
+      return;
+    }
+    if (found != core::Fault::kNotArmed && found != core::Fault::kLinkLost) break;
+  }
+  throw core::Error("device: expected to be armed, found: " + std::string(core::words(found)));
+}
+
+void GuidedRun::without_force(const std::function<void()>& act) {
+  Implementation& my = *implementation_;
+  my.loop.disarm();
+  (void)my.run(0.02, {});
+  {
+    // Who waits for a person cannot beat, and there is no force.
+    const std::jthread beating([&my](const std::stop_token& ends) {
+      while (!ends.stop_requested()) {
+        my.heartbeat.beat();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    });
+    act();
+  }
+  arm();
+}
+
+void GuidedRun::order(const device::MotionGuide::Order& order) {
+  implementation_->guide.order(order);
+}
+
+void GuidedRun::render(const core::MediumAmounts& medium, const core::Immersion& immersion) {
+  Implementation& my = *implementation_;
+  ++my.command.sequence;
+  my.command.medium = medium;
+  my.command.immersion = immersion;
+  my.command.ramp_s = 0.0;
+  my.commands.publish(my.command);
+}
+
+core::Fault GuidedRun::try_for(double duration_s,
+                               const std::function<void(const core::Sample&)>& take) {
+  return implementation_->run(duration_s, take);
+}
+
+void GuidedRun::run_for(double duration_s,
+                        const std::function<void(const core::Sample&)>& take) {
+  const core::Fault found = try_for(duration_s, take);
+  if (stop_requested()) throw core::Error("commission: stopped; what was measured is kept");
+  if (core::is_failure(found)) {
+    throw core::Error("commission: " + std::string(core::words(found)));
+  }
+}
+
+void GuidedRun::stop() noexcept { implementation_->end(); }
+
+}  // namespace jnd::app

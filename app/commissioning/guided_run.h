@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/media/immersion.h"
+#include "core/media/medium.h"
+#include "core/safety/emergency_stop.h"
+#include "core/safety/force_limiter.h"
+#include "core/sample.h"
+#include "device/haptic_device.h"
+#include "device/motion_guide.h"
+
+namespace jnd::app {
+
+/// The force that a device may give while it is measured, whatever it can do: no hand is in it,
+/// but somebody stands beside it.
+inline constexpr core::ForceLimiter::Parameters kCommissioningLimits = {
+    .per_point_n = 10.0, .total_n = 15.0, .slew_n_per_s = 1000.0, .max_speed_m_per_s = 1.5};
+
+/// A device that is measured: its whole haptic loop, with a guide that moves it about, limiter
+/// and guards included. In real time and watched over where the device is real or has a clock
+/// of its own; else as fast as it goes. Energy is watched as well, with as much of it as moving
+/// the device takes. Not real time itself; used by one thread.
+class GuidedRun {
+ public:
+  struct Parameters {
+    double rate_hz = 1000.0;
+    core::ForceLimiter::Parameters limits = kCommissioningLimits;
+    bool allow_no_realtime = false;
+    core::EmergencyStop* emergency_stop = nullptr;  ///< nullptr: one of its own.
+  };
+
+  /// Throws `core::Error` if loop or device cannot be started. The device outlives this.
+  GuidedRun(device::HapticDevice& device, const Parameters& parameters);
+  ~GuidedRun();
+  GuidedRun(const GuidedRun&) = delete;
+  GuidedRun& operator=(const GuidedRun&) = delete;
+
+  /// Force from zero over half a second. Throws `core::Error` saying what it is that the device
+  /// is not armed for.
+  void arm();
+  /// No force while somebody does this at the device, however long it takes; then `arm`.
+  void without_force(const std::function<void()>& act);
+
+  void order(const device::MotionGuide::Order& order);
+  /// A medium around the device, at once.
+  void render(const core::MediumAmounts& medium, const core::Immersion& immersion = {});
+
+  /// Lets this time pass. Throws `core::Error` if the loop latches a fault, or if the program
+  /// is asked to stop.
+  void run_for(double duration_s, const std::function<void(const core::Sample&)>& take = {});
+  /// Likewise, but tells the fault instead of throwing it.
+  [[nodiscard]] core::Fault try_for(double duration_s,
+                                    const std::function<void(const core::Sample&)>& take = {});
+
+  /// No force, motors off, the device closed.
+  void stop() noexcept;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/commissioning/delay_fit.h"
+#include "analysis/commissioning/force_fit.h"
+#include "analysis/commissioning/frame_fit.h"
+#include "analysis/commissioning/noise_fit.h"
+#include "core/safety/emergency_stop.h"
+#include "device/bench.h"
+#include "device/haptic_device.h"
+
+namespace jnd::app {
+
+/// What a laboratory has and wants for a commissioning.
+struct MeasuringPlan {
+  double rate_hz = 1000.0;
+  /// In the workspace, touched by the first contact point: eight corners of a box unless the
+  /// laboratory has others.
+  std::vector<Eigen::Vector3d> marks_m;
+  std::vector<double> loads_kg = {0.1, 0.2, 0.4};
+  double load_uncertainty_ratio = 0.002;  ///< Standard uncertainty, over the loads.
+  std::uint64_t seed = 1;                 ///< Of where ways begin.
+  bool allow_no_realtime = false;
+  core::EmergencyStop* emergency_stop = nullptr;
+};
+
+/// The corners of a box of 20 cm about the home of a hand, 15 cm below the surface.
+[[nodiscard]] std::vector<Eigen::Vector3d> default_marks_m();
+
+/// Told how much of a step is done, 0 to 1, and what happens now.
+using StepProgress = std::function<void(double done, const std::string& now)>;
+
+/// One measurement each. `bench`: somebody simulated, or a person who is asked. Every one of
+/// them throws `core::Error` in a sentence: the device cannot be started, it stopped with a
+/// fault, or what came of it is no measurement. The device is closed afterwards, and what was
+/// found before is not touched. Not real time.
+[[nodiscard]] analysis::NoiseFit measure_noise(device::HapticDevice& device,
+                                               device::Bench& bench, const MeasuringPlan& plan,
+                                               const StepProgress& progress);
+[[nodiscard]] analysis::FrameFit measure_frame(device::HapticDevice& device,
+                                               device::Bench& bench, const MeasuringPlan& plan,
+                                               const StepProgress& progress);
+/// Gain, weight, damping and friction, by ways along three axes and known loads. `frame` says
+/// which way is up.
+[[nodiscard]] analysis::ForceFit measure_force(device::HapticDevice& device,
+                                               device::Bench& bench, const MeasuringPlan& plan,
+                                               const analysis::FrameFit& frame,
+                                               const StepProgress& progress);
+/// Delay and mass, by pushes to and fro as the device moves on; `force` says how it is damped.
+[[nodiscard]] analysis::DelayFit measure_delay(device::HapticDevice& device,
+                                               device::Bench& bench, const MeasuringPlan& plan,
+                                               const analysis::ForceFit& force,
+                                               const StepProgress& progress);
+}  // namespace jnd::app

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "core/exchange/latest_value.h"
+#include "device/guide.h"
+
+namespace jnd::device {
+
+/// Guides every contact point of a device along one straight way after the other by a spring
+/// and a damper, as told by another thread,
+///
+///     force = share (k (reference - position) + d (reference velocity - velocity) + pulse),
+///
+/// where the whole reference moves at a constant speed and then rests, and where a pulse is a
+/// square wave: one half of its period along a vector, the other half against it. Everything is
+/// in the frame of the device that its loop drives.
+class MotionGuide final : public Guide {
+ public:
+  /// What to do from the next tick on. Trivially copyable.
+  struct Order {
+    std::array<double, 3> to_m{};     ///< Of the mean of the points that the device has.
+    double speed_m_per_s = 0.1;       ///< > 0.
+    double stiffness_n_per_m = 0.0;   ///< Of all points together, >= 0; 0: no spring.
+    double damping_n_s_per_m = 0.0;   ///< Likewise.
+    std::array<double, 3> pulse_n{};  ///< Of all points together.
+    double pulse_period_s = 0.0;      ///< 0: no pulses.
+    bool is_on = false;               ///< No force of the guide at all.
+  };
+
+  /// `shares`: of the device's points, as it declares them.
+  explicit MotionGuide(const core::ShareRatios& shares) noexcept : shares_(shares) {}
+
+  /// Any one thread.
+  void order(const Order& order) noexcept { orders_.publish(order); }
+
+  [[nodiscard]] core::PointVectors force_n(const core::HapticState& state,
+                                           double period_s) noexcept override;
+
+ private:
+  void take_order(const core::HapticState& state) noexcept;
+  [[nodiscard]] Eigen::Vector3d mean_m(const core::HapticState& state) const noexcept;
+
+  core::ShareRatios shares_;
+  core::LatestValue<Order> orders_;
+  bool has_reference_ = false;
+  Eigen::Vector3d reference_m_ = Eigen::Vector3d::Zero();
+  core::PointVectors from_mean_m_ = core::zero_vectors();  ///< Of each point.
+  std::int64_t num_pulse_ticks_ = 0;
+};
+
+}  // namespace jnd::device

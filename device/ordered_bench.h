@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/exchange/latest_value.h"
+#include "core/require.h"
+#include "device/bench.h"
+
+namespace jnd::device {
+
+/// What was done at a device so far. Trivially copyable.
+struct BenchState {
+  bool has_hand = true;
+  double load_kg = 0.0;
+  std::uint32_t num_holds = 0;  ///< How often it was clamped or brought to a mark so far.
+  bool is_clamped = false;
+  bool is_touching = false;
+  std::array<double, 3> mark_m{};  ///< Where, workspace frame.
+};
+
+/// The bench of a simulated device: one thread does things, the loop's thread sees them.
+class OrderedBench final : public Bench {
+ public:
+  void take_hand_out() override {
+    done_.has_hand = false;
+    told_.publish(done_);
+  }
+  void clamp() override {
+    ++done_.num_holds;
+    done_.is_clamped = true;
+    done_.is_touching = false;
+    told_.publish(done_);
+  }
+  void touch(const Eigen::Vector3d& mark_m) override {
+    ++done_.num_holds;
+    done_.is_clamped = false;
+    done_.is_touching = true;
+    done_.mark_m = {mark_m.x(), mark_m.y(), mark_m.z()};
+    told_.publish(done_);
+  }
+  void let_go() override {
+    done_.is_clamped = false;
+    done_.is_touching = false;
+    told_.publish(done_);
+  }
+  void hang(double load_kg) override {
+    core::require_not_negative(load_kg, "load_kg");
+    done_.load_kg = load_kg;
+    told_.publish(done_);
+  }
+
+  /// Of a device that is opened anew: a hand in it, nothing done. Not while anything else is.
+  void reset() {
+    done_ = {};
+    told_.publish(done_);
+  }
+  /// The loop's thread. Real time.
+  [[nodiscard]] const BenchState& newest() noexcept {
+    (void)told_.fetch();
+    return told_.value();
+  }
+
+ private:
+  BenchState done_;  ///< Of the thread that does things.
+  core::LatestValue<BenchState> told_;
+};
+
+}  // namespace jnd::device
