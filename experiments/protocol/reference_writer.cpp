@@ -62,6 +62,10 @@ std::string type_words(const Parameter& parameter) {
       return "whole number";
     case ValueKind::kBoolean:
       return "`true` or `false`";
+    case ValueKind::kDate:
+      return "date";
+    case ValueKind::kMeasured:
+      return "measured number";
     case ValueKind::kNumbers:
       return counted(parameter, "numbers");
     case ValueKind::kStrings:
@@ -167,11 +171,22 @@ class ReferenceWriter {
     text_ += "## stages\n\nA study is a list of these; `kind` says which one it is.\n\n";
     for (const ParameterTable* stage : stage_tables()) section(*stage, 3);
     write_common_data();
+    return std::move(*this).trimmed();
+  }
+
+  [[nodiscard]] std::string text_of(const ParameterTable& root,
+                                    const std::string& introduction) && {
+    text_ = introduction + '\n';
+    section(root, 2);
+    return std::move(*this).trimmed();
+  }
+
+ private:
+  [[nodiscard]] std::string trimmed() && {
     while (text_.ends_with("\n\n")) text_.pop_back();
     return std::move(text_);
   }
 
- private:
   static std::string contents() {
     std::string text = "\nContents: " + link_to(study_table()) +
                        " (the whole file), [media](#media), [stages](#stages):";
@@ -263,5 +278,9 @@ class ReferenceWriter {
 }  // namespace
 
 std::string study_reference() { return ReferenceWriter().text(); }
+
+std::string file_reference(const ParameterTable& root, const std::string& introduction) {
+  return ReferenceWriter().text_of(root, introduction);
+}
 
 }  // namespace jnd::experiments

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "experiments/study/parameter_table.h"
+
 namespace jnd::experiments {
 
 /// Reference of the study format in Markdown, made from the parameter tables: an introduction,
@@ -9,5 +11,9 @@ namespace jnd::experiments {
 /// and procedure, and the data each of them writes. Written for somebody who designs studies
 /// and does not program. With a line end. Not real time.
 [[nodiscard]] std::string study_reference();
+
+/// The same of another kind of file, the introduction given.
+[[nodiscard]] std::string file_reference(const ParameterTable& root,
+                                         const std::string& introduction);
 
 }  // namespace jnd::experiments

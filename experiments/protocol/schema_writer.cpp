@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kNamePattern = "^[a-z0-9_]{1,64}$";
 constexpr const char* kLanguagePattern = "^[a-z]{2,3}$";
+constexpr const char* kDatePattern = "^[0-9]{4}-[0-9]{2}-[0-9]{2}$";
 
 /// Words of which at least one character is seen.
 Json words_schema() { return {{"type", "string"}, {"pattern", "\\S"}}; }
@@ -46,10 +47,13 @@ Json list_schema(const Parameter& parameter, Json items) {
           {"maxItems", parameter.max_items}};
 }
 
+Json table_schema(const ParameterTable& table);
+
 Json value_schema(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::kString:
       if (!parameter.allowed.empty()) return {{"enum", parameter.allowed}};
+      if (parameter.may_be_empty) return {{"type", "string"}};
       return words_schema();
     case ValueKind::kName:
       return {{"type", "string"},
@@ -62,6 +66,10 @@ Json value_schema(const Parameter& parameter) {
       return number_schema(parameter);
     case ValueKind::kBoolean:
       return {{"type", "boolean"}};
+    case ValueKind::kDate:
+      return {{"type", "string"}, {"pattern", kDatePattern}};
+    case ValueKind::kMeasured:
+      return table_schema(measured_table(parameter));
     case ValueKind::kNumbers:
       return list_schema(parameter, number_schema(parameter));
     case ValueKind::kStrings:
@@ -111,9 +119,13 @@ std::string description(const Parameter& parameter) {
 /// What VS Code shows in place of the description: the same with what the author can do.
 std::string markdown_description(const Parameter& parameter) {
   std::string text = description(parameter) + "\n\nExpected: " + expectation(parameter);
-  const bool has_range = parameter.kind == ValueKind::kNumbers &&
-                         parameter.range.high < std::numeric_limits<double>::infinity();
-  if (has_range) text += ", each " + number_expectation(parameter);
+  const bool has_range = parameter.range.high < std::numeric_limits<double>::infinity();
+  if (has_range && parameter.kind == ValueKind::kNumbers) {
+    text += ", each " + number_expectation(parameter);
+  }
+  if (has_range && parameter.kind == ValueKind::kMeasured) {
+    text += ", its value " + number_expectation(parameter);
+  }
   if (!parameter.default_json.empty()) text += ". Default: `" + parameter.default_json + '`';
   return text + '.';
 }
@@ -124,6 +136,7 @@ Json property_schema(const Parameter& parameter) {
   if (schema.contains("$ref")) schema = {{"allOf", Json::array({schema})}};
   Json described = {{"description", description(parameter)},
                     {"markdownDescription", markdown_description(parameter)}};
+  schema.erase("description");  // That of this key says more.
   described.update(schema);
   if (!parameter.default_json.empty()) {
     described["default"] = Json::parse(parameter.default_json);
@@ -247,10 +260,24 @@ Json stage_schema() {
 
 }  // namespace
 
+/// `definitions`: what the tables refer to besides one another.
+static std::string schema_text(const std::vector<const ParameterTable*>& tables,
+                               const std::string& title, Json definitions) {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+  schema.update(table_schema(*tables.front()));
+  for (const ParameterTable* table : tables) {
+    if (table != tables.front()) definitions[table->name] = table_schema(*table);
+  }
+  schema["definitions"] = std::move(definitions);
+  return schema.dump(2) + '\n';
+}
+
+std::string file_schema(const std::vector<const ParameterTable*>& tables,
+                        const std::string& title) {
+  return schema_text(tables, title, Json::object());
+}
+
 std::string study_schema() {
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
-                 {"title", "jnd study, format 1"}};
-  schema.update(table_schema(study_table()));
   Json definitions = {
       {"text",
        {{"description", "Words in every language of the study: language code to words."},
@@ -261,11 +288,7 @@ std::string study_schema() {
         {"additionalProperties", false},
         {"minProperties", 1}}},
       {"stage", stage_schema()}};
-  for (const ParameterTable* table : all_tables()) {
-    if (table != &study_table()) definitions[table->name] = table_schema(*table);
-  }
-  schema["definitions"] = std::move(definitions);
-  return schema.dump(2) + '\n';
+  return schema_text(all_tables(), "jnd study, format 1", std::move(definitions));
 }
 
 }  // namespace jnd::experiments

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "experiments/study/parameter_table.h"
 
 namespace jnd::experiments {
 
@@ -10,6 +13,11 @@ namespace jnd::experiments {
 /// differ. `markdownDescription`, `defaultSnippets` and the like are words of VS Code, which
 /// other validators skip. Indented, with a line end. Not real time.
 [[nodiscard]] std::string study_schema();
+
+/// The same of another kind of file that has neither texts by language nor stages. `tables`:
+/// that of the whole file first.
+[[nodiscard]] std::string file_schema(const std::vector<const ParameterTable*>& tables,
+                                      const std::string& title);
 
 /// What a study file calls the schema that lies beside it: offline, and wherever both go.
 inline constexpr const char* kSchemaFileName = "study.schema.json";

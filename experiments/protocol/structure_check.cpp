@@ -71,14 +71,6 @@ bool is_language(std::string_view code) {
          std::all_of(code.begin(), code.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// Somebody who names a file here expects it to be read; a study takes nothing from others.
-std::string file_hint(const json& value) {
-  if (!value.is_string()) return "";
-  const auto text = value.get<std::string>();
-  const bool names_file = text.ends_with(".json") || text.ends_with(".csv");
-  return names_file ? "; a study takes nothing from other files, write it here" : "";
-}
-
 /// A single one of what a list should hold: the author may not know how lists are written.
 std::string list_hint(const json& value, const Parameter& parameter) {
   const ValueKind kind = parameter.kind;
@@ -93,19 +85,6 @@ std::string list_hint(const json& value, const Parameter& parameter) {
 /// Whether this stands for a stage where an arm, which holds stages, is expected.
 bool is_stage(const json& value) {
   return value.is_object() && value.contains("kind") && !value.contains("stages");
-}
-
-/// Where a key belongs that this table does not have: in the one other table that has it.
-std::string home_hint(const std::string& key) {
-  const ParameterTable* home = nullptr;
-  for (const ParameterTable* table : all_tables()) {
-    if (table->find(key) == nullptr) continue;
-    if (home != nullptr) return "";
-    home = table;
-  }
-  if (home == nullptr) return "";
-  return "; `" + key + "` is a key of `" + home->name + '`' +
-         (home == &study_table() ? " (the whole file)" : "");
 }
 
 bool is_blank(const std::string& text) {
@@ -134,17 +113,44 @@ bool is_name(std::string_view text) noexcept {
          });
 }
 
+StructureCheck::StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems)
+    : StructureCheck(file, problems, all_tables()) {}
+
 void StructureCheck::run() {
   read_languages();
-  check_object(file_.root(), "", study_table());
+  check_object(file_.root(), "", whole_file());
+}
+
+/// Somebody who names a file here expects it to be read; a study takes nothing from others.
+std::string StructureCheck::file_hint(const json& value) const {
+  if (!value.is_string()) return "";
+  const auto text = value.get<std::string>();
+  if (!text.ends_with(".json") && !text.ends_with(".csv")) return "";
+  std::string kind = whole_file().name;
+  std::ranges::replace(kind, '_', ' ');
+  return "; a " + kind + " takes nothing from other files, write it here";
+}
+
+/// Where a key belongs that this table does not have: in the one other table that has it.
+std::string StructureCheck::home_hint(const std::string& key) const {
+  const ParameterTable* home = nullptr;
+  for (const ParameterTable* table : tables_) {
+    if (table->find(key) == nullptr) continue;
+    if (home != nullptr) return "";
+    home = table;
+  }
+  if (home == nullptr) return "";
+  return "; `" + key + "` is a key of `" + home->name + '`' +
+         (home == &whole_file() ? " (the whole file)" : "");
 }
 
 void StructureCheck::read_languages() {
   const json& root = file_.root();
-  if (!root.is_object()) return;
-  const auto found = root.find("languages");
+  const Parameter* key = whole_file().find("languages");
+  if (!root.is_object() || key == nullptr) return;
+  const auto found = root.find(key->key);
   if (found == root.end() || !found->is_array()) return;
-  if (found->size() > study_table().find("languages")->max_items) return;
+  if (found->size() > key->max_items) return;
   std::vector<std::string> languages;
   for (std::size_t i = 0; i < found->size(); ++i) {
     const json& code = (*found)[i];
@@ -233,6 +239,11 @@ void StructureCheck::check_value(const json& value, const std::string& pointer,
     case ValueKind::kBoolean:
       expect(value.is_boolean());
       return;
+    case ValueKind::kDate:
+      return check_date(value, pointer, parameter);
+    case ValueKind::kMeasured:
+      if (expect(value.is_object())) check_measured(value, pointer, parameter);
+      return;
     case ValueKind::kObject:
       return check_object(value, pointer, *parameter.nested);
     case ValueKind::kArms:
@@ -254,6 +265,7 @@ void StructureCheck::check_value(const json& value, const std::string& pointer,
 
 void StructureCheck::check_string(const json& value, const std::string& pointer,
                                   const Parameter& parameter) {
+  if (parameter.may_be_empty && value.is_string() && value.get<std::string>().empty()) return;
   const bool is_text = value.is_string() && !is_blank(value.get<std::string>());
   const std::string text = is_text ? value.get<std::string>() : "";
   const auto& allowed = parameter.allowed;
@@ -274,6 +286,27 @@ void StructureCheck::check_number(const json& value, const std::string& pointer,
   if (is_right_kind && parameter.range.contains(value.get<double>())) return;
   report(pointer,
          "expected " + number_expectation(parameter) + ", found " + found_words(value));
+}
+
+void StructureCheck::check_date(const json& value, const std::string& pointer,
+                                const Parameter& parameter) {
+  if (value.is_string() && is_date(value.get<std::string>())) return;
+  report(pointer, "expected " + expectation(parameter) + ", found " + found_words(value));
+}
+
+void StructureCheck::check_measured(const json& value, const std::string& pointer,
+                                    const Parameter& parameter) {
+  const std::size_t num_before = problems_.size();
+  check_object(value, pointer, measured_table(parameter));
+  if (problems_.size() > num_before) return;
+  const double measured = value.at("value").get<double>();
+  const double low = value.at("ci95").at(0).get<double>();
+  const double high = value.at("ci95").at(1).get<double>();
+  if (low <= measured && measured <= high) return;
+  report(pointer + "/ci95",
+         "expected the lower and the upper end of an interval around `value` (" +
+             plain_number(measured) + "), found " + plain_number(low) + " to " +
+             plain_number(high));
 }
 
 void StructureCheck::check_text(const json& value, const std::string& pointer) {

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/protocol/study_check.h"
@@ -9,12 +10,17 @@
 
 namespace jnd::experiments {
 
-/// Checks a study file against the parameter tables: unknown and missing keys, keys that do not
+/// Checks a file against its parameter tables: unknown and missing keys, keys that do not
 /// belong together, types, ranges, allowed words, and every text in every language. Nothing is
 /// coerced: 5.0 is not a whole number and "5" is not a number. Not real time.
 class StructureCheck : StudyCheck {
  public:
-  using StudyCheck::StudyCheck;
+  /// `tables`: those of this kind of file, that of the whole file first.
+  StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems,
+                 std::vector<const ParameterTable*> tables)
+      : StudyCheck(file, problems), tables_(std::move(tables)) {}
+  /// Of a study.
+  StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
   void run();
 
@@ -29,6 +35,10 @@ class StructureCheck : StudyCheck {
                     const Parameter& parameter);
   void check_number(const nlohmann::json& value, const std::string& pointer,
                     const Parameter& parameter);
+  void check_date(const nlohmann::json& value, const std::string& pointer,
+                  const Parameter& parameter);
+  void check_measured(const nlohmann::json& value, const std::string& pointer,
+                      const Parameter& parameter);
   void check_text(const nlohmann::json& value, const std::string& pointer);
   void check_list(const nlohmann::json& list, const std::string& pointer,
                   const Parameter& parameter);
@@ -36,8 +46,12 @@ class StructureCheck : StudyCheck {
   void check_arms(const nlohmann::json& arms, const std::string& pointer);
   void read_languages();
 
+  [[nodiscard]] const ParameterTable& whole_file() const { return *tables_.front(); }
+  [[nodiscard]] std::string file_hint(const nlohmann::json& value) const;
+  [[nodiscard]] std::string home_hint(const std::string& key) const;
   void report_key(const std::string& pointer, std::string message);
 
+  std::vector<const ParameterTable*> tables_;
   std::vector<std::string> languages_;  ///< Empty where the file does not say them rightly.
 };
 

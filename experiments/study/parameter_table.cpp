@@ -1,6 +1,8 @@
 #include "experiments/study/parameter_table.h"
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 
 namespace jnd::experiments {
@@ -10,6 +12,51 @@ const Parameter* ParameterTable::find(std::string_view key) const noexcept {
     if (parameter.key == key) return &parameter;
   }
   return nullptr;
+}
+
+std::vector<const ParameterTable*> tables_below(const ParameterTable& root) {
+  std::vector<const ParameterTable*> tables = {&root};
+  for (std::size_t next = 0; next < tables.size(); ++next) {
+    for (const Parameter& parameter : tables[next]->parameters) {
+      const bool is_new = parameter.nested != nullptr &&
+                          std::ranges::find(tables, parameter.nested) == tables.end();
+      if (is_new) tables.push_back(parameter.nested);
+    }
+  }
+  return tables;
+}
+
+ParameterTable measured_table(const Parameter& parameter) {
+  return {.name = "measured",
+          .meaning = "A measured value and how surely it is known.",
+          .parameters = {{.key = "value",
+                          .kind = ValueKind::kNumber,
+                          .meaning = "What was measured.",
+                          .unit = parameter.unit,
+                          .range = parameter.range},
+                         {.key = "ci95",
+                          .kind = ValueKind::kNumbers,
+                          .meaning = "Lower and upper end of the interval that holds the true "
+                                     "value with 95 %.",
+                          .unit = parameter.unit,
+                          .min_items = 2,
+                          .max_items = 2}}};
+}
+
+bool is_date(std::string_view text) noexcept {
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
+  const auto number = [text](std::size_t begin, std::size_t length) {
+    unsigned value = 0;
+    const char* end = text.data() + begin + length;
+    const auto [stop, error] = std::from_chars(text.data() + begin, end, value);
+    return error == std::errc() && stop == end ? static_cast<int>(value) : -1;
+  };
+  const int year = number(0, 4), month = number(5, 2), day = number(8, 2);
+  if (year < 1 || month < 1 || day < 1) return false;
+  return std::chrono::year_month_day(std::chrono::year(year),
+                                     std::chrono::month(static_cast<unsigned>(month)),
+                                     std::chrono::day(static_cast<unsigned>(day)))
+      .ok();
 }
 
 const Parameter& comment_parameter() {
@@ -67,6 +114,7 @@ std::string expectation(const Parameter& parameter) {
                                                                      : "a list of " + count;
   switch (parameter.kind) {
     case ValueKind::kString:
+      if (parameter.may_be_empty) return "a text in quotes, which may be empty";
       return parameter.allowed.empty() ? "a text in quotes" : one_of_words(parameter.allowed);
     case ValueKind::kName:
       return "a name of at most 64 lower-case letters, digits and _";
@@ -77,6 +125,10 @@ std::string expectation(const Parameter& parameter) {
       return number_expectation(parameter);
     case ValueKind::kBoolean:
       return "true or false";
+    case ValueKind::kDate:
+      return "a date such as 2026-11-25";
+    case ValueKind::kMeasured:
+      return R"(an object such as {"value": 1.02, "ci95": [1.01, 1.03]})";
     case ValueKind::kNumbers:
       return list + "numbers";
     case ValueKind::kStrings:

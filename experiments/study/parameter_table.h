@@ -7,21 +7,24 @@
 
 namespace jnd::experiments {
 
-/// What a value of the study file is.
+/// What a value of a study file, or of another file with such tables, is.
 enum class ValueKind {
-  kString,  ///< Words for people or one of `allowed`; never empty.
+  kString,  ///< Words for people or one of `allowed`; not empty, but where `may_be_empty`.
   kName,    ///< [a-z0-9_], 1 to 64 of them.
   kText,    ///< Words in every language of the study: {"en": "...", "de": "..."}.
   kNumber,
   kInteger,
   kBoolean,
-  kNumbers,  ///< List of numbers.
-  kStrings,  ///< List of strings.
-  kTexts,    ///< List of texts.
-  kObject,   ///< Object with the keys of `nested`.
-  kObjects,  ///< List of such objects.
-  kStages,   ///< List of stages; the table of each follows from its `kind`.
-  kArms,     ///< Object: name of a `one_of` counterbalance to name of its arm.
+  kDate,      ///< "2026-11-25"
+  kMeasured,  ///< What was measured, and how surely: an object with the keys of
+              ///< `measured_table`.
+  kNumbers,   ///< List of numbers.
+  kStrings,   ///< List of strings.
+  kTexts,     ///< List of texts.
+  kObject,    ///< Object with the keys of `nested`.
+  kObjects,   ///< List of such objects.
+  kStages,    ///< List of stages; the table of each follows from its `kind`.
+  kArms,      ///< Object: name of a `one_of` counterbalance to name of its arm.
 };
 
 struct Range {
@@ -52,8 +55,9 @@ struct Parameter {
   std::string
       default_json{};  ///< What an absent optional key stands for; "" is nothing at all.
   std::string unit{};  ///< In words: "Pa s"; "" for numbers that have none.
-  Range range{};       ///< Of a number, or of each number of a list.
+  Range range{};       ///< Of a number, measured or not, or of each number of a list.
   std::vector<std::string> allowed{};
+  bool may_be_empty = false;                     ///< Of a kString: "" means not known.
   std::size_t min_items = 1, max_items = 10000;  ///< Of a list.
   const ParameterTable* nested = nullptr;
   std::vector<Condition> only_where{};  ///< The key belongs here only where all of these hold.
@@ -68,6 +72,16 @@ struct ParameterTable {
 
   [[nodiscard]] const Parameter* find(std::string_view key) const noexcept;
 };
+
+/// The tables of a kind of file: that of the whole file, and each that is nested in it, once.
+[[nodiscard]] std::vector<const ParameterTable*> tables_below(const ParameterTable& root);
+
+/// The keys of a kMeasured: `value` in the parameter's range, and `ci95`, the lower and the
+/// upper end of the interval that holds the true value with 95 %, in the same unit.
+[[nodiscard]] ParameterTable measured_table(const Parameter& parameter);
+
+/// A day of the calendar, written as 2026-11-25; such texts are in the order of time.
+[[nodiscard]] bool is_date(std::string_view text) noexcept;
 
 /// `comment`, the key that every object may have.
 [[nodiscard]] const Parameter& comment_parameter();

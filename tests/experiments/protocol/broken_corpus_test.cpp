@@ -36,10 +36,13 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& extens
 }
 
 const fs::path kFolder = "tests/experiments/protocol/broken";
+const fs::path kProfiles = "tests/experiments/device_profile/broken";
 
 std::string all_expected_messages() {
   std::string all;
   for (const fs::path& file : files_in(source(kFolder), ".txt")) all += read_file(file);
+  // What studies have no values of, and profiles of devices have.
+  for (const fs::path& file : files_in(source(kProfiles), ".txt")) all += read_file(file);
   return all;
 }
 

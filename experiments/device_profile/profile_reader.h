@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/device_profile/device_profile.h"
+#include "experiments/study/study_problem.h"
+
+namespace jnd::experiments {
+
+/// Reads a device profile. Throws `ProtocolError` with every problem of the file, in the order
+/// in which they stand in it; that a measured number was changed is one of them. Whether it is
+/// valid today and for a device is another question. Not real time.
+[[nodiscard]] DeviceProfile read_device_profile(const std::filesystem::path& file);
+
+/// From its text. `file_name` is for messages.
+[[nodiscard]] DeviceProfile read_device_profile_text(const std::string& text,
+                                                     const std::string& file_name);
+
+/// Every problem, without throwing; empty for a sound profile.
+[[nodiscard]] std::vector<StudyProblem> device_profile_problems(
+    const std::filesystem::path& file);
+[[nodiscard]] std::vector<StudyProblem> device_profile_text_problems(
+    const std::string& text, const std::string& file_name);
+
+}  // namespace jnd::experiments
