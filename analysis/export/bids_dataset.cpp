@@ -98,6 +98,11 @@ std::string contents(const fs::path& folder, const BidsDataset& dataset) {
       "- `sourcedata/`: the study file and the study folder, which `jnd` opens, with the log "
       "of "
       "every event.\n";
+  if (fs::exists(folder / "sourcedata" / "device_profiles")) {
+    text +=
+        "- `sourcedata/device_profiles/`: what was measured of the device before a session, by "
+        "its `device_profile_sha256` in the study.\n";
+  }
   if (fs::exists(folder / "derivatives")) {
     text += "- `derivatives/jnd/`: what `jnd results --json` says.\n";
   }

@@ -13,6 +13,7 @@
 #include "analysis/export/bids_sourcedata.h"
 #include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
+#include "analysis/export/exported_profiles.h"
 #include "analysis/export/exported_recording.h"
 #include "analysis/export/unfinished_folder.h"
 #include "core/error.h"
@@ -186,6 +187,17 @@ class BidsExport {
         name = protocol.sha256.substr(0, 12) + "_" + name;
       }
       write_text(protocols / name, protocol.text);
+    }
+    write_device_profiles();
+  }
+
+  void write_device_profiles() {
+    const std::vector<core::DeviceProfileRow> profiles =
+        exported_profiles(store_, dataset_.sessions);
+    if (profiles.empty()) return;
+    const fs::path place = folder_.make(fs::path("sourcedata") / "device_profiles");
+    for (const core::DeviceProfileRow& profile : profiles) {
+      write_text(place / profile_file_name(profile), profile.text);
     }
   }
 

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
+#include "analysis/export/exported_profiles.h"
 #include "analysis/export/exported_recording.h"
 #include "analysis/export/recording_columns.h"
 #include "analysis/export/study_tables.h"
@@ -69,6 +71,7 @@ class CsvExport {
   ExportOutcome run() {
     write_tables();
     write_participants();
+    write_device_profiles();
     if (options_.recordings) write_recordings();
     write_codebook_table();
     return std::move(outcome_);
@@ -163,6 +166,15 @@ class CsvExport {
       rows.end_row();
     }
     rows.finish();
+  }
+
+  void write_device_profiles() {
+    const std::vector<core::DeviceProfileRow> profiles = exported_profiles(store_, sessions_);
+    if (profiles.empty()) return;
+    const fs::path place = folder_.make("device_profiles");
+    for (const core::DeviceProfileRow& profile : profiles) {
+      write_text(place / profile_file_name(profile), profile.text);
+    }
   }
 
   void write_recordings() {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/export/exported_profiles.h"
 #include "analysis/export/exported_recording.h"
 #include "analysis/export/hdf5_file.h"
 #include "analysis/export/hdf5_table_writer.h"
@@ -76,6 +77,7 @@ class Hdf5Export {
       if (options_.keep_going) options_.keep_going();
       write_one(root_.group(group_name(session.session)), session);
     }
+    write_device_profiles();
     write_codebook_table();
     root_.texts("problems", outcome_.problems, "What recordings have lost; empty: nothing");
     return std::move(outcome_);
@@ -91,6 +93,19 @@ class Hdf5Export {
     root_.attribute("simulated", std::int64_t{simulated});
     root_.attribute("frame", "workspace: x right, y away, z up; forces are those on the hand");
     root_.attribute("missing_values", "NaN");
+  }
+
+  void write_device_profiles() const {
+    const std::vector<core::DeviceProfileRow> profiles = exported_profiles(store_, sessions_);
+    if (profiles.empty()) return;
+    std::vector<std::string> hashes, texts;
+    for (const core::DeviceProfileRow& profile : profiles) {
+      hashes.push_back(profile.sha256);
+      texts.push_back(profile.text);
+    }
+    const Hdf5Group group = root_.group("device_profiles");
+    group.texts("sha256", hashes, "As in device_profile_sha256 of a session");
+    group.texts("text", texts, "What was measured of the device, as JSON");
   }
 
   static void write_table(const Hdf5Group& group, const std::string& name,
@@ -109,6 +124,7 @@ class Hdf5Export {
     group.attribute("simulated", std::int64_t{row.simulated});
     group.attribute("completed", std::int64_t{store_.completed(row.session)});
     group.attribute("device", row.device);
+    group.attribute("device_profile_sha256", row.device_profile_sha256);
     group.attribute("rate_hz", row.rate_hz);
     group.attribute("realtime", row.realtime);
     group.attribute("program_version", row.program_version);

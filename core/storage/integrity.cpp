@@ -37,6 +37,7 @@ class SessionCheck {
     const std::vector<EventRow> events = store_.events(session_.session);
     integrity_.num_events += static_cast<std::int64_t>(events.size());
     check_protocol();
+    check_device_profile();
     check_sequence(events);
     check_answers();
     if (session_.recorded) check_recording(events);
@@ -54,6 +55,17 @@ class SessionCheck {
     const ProtocolRow protocol = store_.protocol(session_.protocol_sha256);
     if (sha256(protocol.text) == protocol.sha256) return;
     problem("expected the study's text to fit its hash, found it damaged");
+  }
+
+  void check_device_profile() {
+    const std::string& hash = session_.device_profile_sha256;
+    if (hash.empty()) return;
+    try {
+      if (sha256(store_.device_profile(hash).text) == hash) return;
+      problem("expected the text of its device profile to fit its hash, found it damaged");
+    } catch (const Error&) {
+      problem("expected the device profile that it was begun with, found none of that hash");
+    }
   }
 
   void check_sequence(const std::vector<EventRow>& events) {

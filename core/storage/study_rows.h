@@ -250,7 +250,8 @@ struct SessionRow {
   bool pilot = false;
   bool simulated = false;
   std::string device;
-  std::string laboratory;  ///< Whole text of the laboratory file; "" with a person.
+  std::string device_profile_sha256;  ///< Of what was measured of it; "": nothing.
+  std::string laboratory;             ///< Whole text of the laboratory file; "" with a person.
   std::string program_version;
   std::string realtime;  ///< "simulated", or policy and memory lock.
   double rate_hz = 0.0;
@@ -269,6 +270,9 @@ inline constexpr auto kColumns<SessionRow> = std::tuple{
                  "Of everything drawn in the session; 64 bits, so read it as text"},
     StoredColumn{&SessionRow::pilot, "pilot", "", "1: a pilot, not for analysis"},
     StoredColumn{&SessionRow::device, "device", "", "Name of the device"},
+    StoredColumn{&SessionRow::device_profile_sha256, "device_profile_sha256", "",
+                 "Identifies what was measured of the device before, a file of "
+                 "device_profiles; empty: nothing"},
     StoredColumn{&SessionRow::rate_hz, "rate_hz", "Hz",
                  "Rate of the haptic loop and of the recording"},
     StoredColumn{&SessionRow::realtime, "realtime", "",

@@ -137,6 +137,37 @@ std::vector<ProtocolRow> StudyStore::protocols() const {
   return all;
 }
 
+std::string StudyStore::add_device_profile(const std::string& text) {
+  const std::lock_guard guard(implementation_->mutex);
+  std::string hash = sha256(text);
+  Statement(implementation_->database,
+            "INSERT OR IGNORE INTO device_profile (sha256, text) VALUES (?, ?)")
+      .bind(hash)
+      .bind(text)
+      .run();
+  return hash;
+}
+
+DeviceProfileRow StudyStore::device_profile(const std::string& hash) const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement statement(implementation_->database,
+                      "SELECT text FROM device_profile WHERE sha256 = ?");
+  if (!statement.bind(hash).step()) {
+    throw Error(implementation_->file.string() + ": expected the device profile " +
+                hash.substr(0, 12) + ", found none of that hash");
+  }
+  return {.sha256 = hash, .text = statement.text(0)};
+}
+
+std::vector<DeviceProfileRow> StudyStore::device_profiles() const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 "SELECT sha256, text FROM device_profile ORDER BY rowid");
+  std::vector<DeviceProfileRow> all;
+  while (rows.step()) all.push_back({.sha256 = rows.text(0), .text = rows.text(1)});
+  return all;
+}
+
 std::int64_t StudyStore::add_session(SessionRow row) {
   const std::lock_guard guard(implementation_->mutex);
   Database& database = implementation_->database;

@@ -20,6 +20,13 @@ struct ProtocolRow {
   std::string relative_path;  ///< Seen from the study folder; "" if nobody knows.
 };
 
+/// What was measured of a device, as it was when a session began on it: text that storage never
+/// looks into.
+struct DeviceProfileRow {
+  std::string sha256;
+  std::string text;
+};
+
 /// What is left of the session of a participant who withdrew.
 struct WithdrawalRow {
   std::int64_t session = 0;
@@ -94,6 +101,13 @@ class StudyStore {
   [[nodiscard]] ProtocolRow protocol(const std::string& hash) const;
   /// In the order in which they were added.
   [[nodiscard]] std::vector<ProtocolRow> protocols() const;
+
+  /// Keeps the text once, under its hash; returns the hash.
+  std::string add_device_profile(const std::string& text);
+  /// Throws `Error` if there is none of this hash.
+  [[nodiscard]] DeviceProfileRow device_profile(const std::string& hash) const;
+  /// In the order in which they were added.
+  [[nodiscard]] std::vector<DeviceProfileRow> device_profiles() const;
 
   /// Adds a session with the next free number unless `row.session` names one; returns its
   /// number.

@@ -36,6 +36,19 @@ class HandMadeStudy {
     return session_;
   }
 
+  /// A person's on a device of which this was measured; the hash of it.
+  std::string add_measured(const std::string& participant, const std::string& profile) {
+    trial_ = 0;
+    sequence_ = 0;
+    std::string profile_hash = store_.add_device_profile(profile);
+    session_ = store_.add_session({.participant = participant,
+                                   .protocol_sha256 = hash_,
+                                   .device_profile_sha256 = profile_hash,
+                                   .rate_hz = 1000.0,
+                                   .recorded = false});
+    return profile_hash;
+  }
+
   /// The session added last began, with this of its participant as JSON.
   void start(const std::string& data) {
     core::Commit started = event("session_started");

@@ -383,6 +383,17 @@ TEST_F(BidsExportTest, TheSourceIsAStudyThatOpensAndIsStillAppendOnly) {
             source.protocols().front().text);
 }
 
+TEST_F(BidsExportTest, WhatWasMeasuredOfADeviceIsAmongItsSources) {
+  (void)write({}, "without");
+  EXPECT_FALSE(fs::exists(temporary_.path() / "without" / "sourcedata" / "device_profiles"));
+  const std::string hash = study_.add_measured("P09", "{\"name\": \"left\"}\n");
+  (void)write({});
+  EXPECT_EQ(read_file(out("sourcedata/device_profiles/" + hash + ".device.json")),
+            "{\"name\": \"left\"}\n");
+  const core::StudyStore source(out("sourcedata/jnd.study"), core::StudyStore::Mode::kReadOnly);
+  EXPECT_EQ(source.device_profile(hash).text, "{\"name\": \"left\"}\n");
+}
+
 TEST_F(BidsExportTest, TheSameStudyGivesTheSameBytes) {
   record();
   (void)write({.recordings = true});

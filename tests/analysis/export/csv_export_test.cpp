@@ -163,6 +163,20 @@ TEST_F(CsvExportTest, ASessionHasWhatItsParticipantReadAndBrought) {
   EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "fields"), "hand=left;sex=female");
 }
 
+TEST_F(CsvExportTest, WhatWasMeasuredOfADeviceIsAFileThatItsSessionsName) {
+  export_csv(study_.store(), out("without"), {});
+  EXPECT_FALSE(fs::exists(out("without") / "device_profiles"));
+  const std::string hash = study_.add_measured("P08", "{\"name\": \"left\"}\n");
+  (void)study_.add_measured("P09", "{\"name\": \"left\"}\n");
+  export_csv(study_.store(), out(), {});
+  const CsvTable sessions = table("sessions.csv");
+  EXPECT_EQ(cell(sessions, 0, "device_profile_sha256"), "");
+  EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "device_profile_sha256"), hash);
+  EXPECT_EQ(read_file(out() / "device_profiles" / (hash + ".device.json")),
+            "{\"name\": \"left\"}\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(out() / "device_profiles"), {}), 1);
+}
+
 TEST_F(CsvExportTest, PilotsAreThereOnlyWhenAskedFor) {
   export_csv(study_.store(), out(), {});
   export_csv(study_.store(), out("with"), {.pilot = true});

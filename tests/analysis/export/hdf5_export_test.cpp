@@ -168,6 +168,15 @@ TEST_F(Hdf5ExportTest, HasTheTablesOfTheCsvWithWholeNumbersExact) {
   EXPECT_EQ(texts("/session_0001/questionnaires/item"), std::vector<std::string>{});
 }
 
+TEST_F(Hdf5ExportTest, WhatWasMeasuredOfADeviceIsInItOnce) {
+  const std::string hash = study_.add_measured("P08", "{\"name\": \"left\"}");
+  (void)study_.add_measured("P09", "{\"name\": \"left\"}");
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  EXPECT_EQ(texts("/device_profiles/sha256"), std::vector<std::string>{hash});
+  EXPECT_EQ(texts("/device_profiles/text"), std::vector<std::string>{"{\"name\": \"left\"}"});
+  EXPECT_EQ(texts("/sessions/device_profile_sha256").back(), hash);
+}
+
 TEST_F(Hdf5ExportTest, TimesInNanosecondsKeepEveryDigit) {
   core::StudyStore other(temporary_.path() / "t.study", core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);

@@ -102,6 +102,26 @@ TEST_F(IntegrityTest, CountsWhatAWholeStudyHolds) {
   EXPECT_EQ(integrity.num_samples, 10000);
 }
 
+TEST_F(IntegrityTest, ADeviceProfileThatIsDamagedOrMissingIsAProblem) {
+  std::string hash;
+  {
+    StudyStore store(folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
+    hash = store.add_device_profile("{\"name\": \"left\"}");
+  }
+  const fs::path study = folder() / "study.sqlite";
+  execute(study,
+          ("DROP TRIGGER session_is_final; UPDATE session SET device_profile_sha256 = '" +
+           hash + "'")
+              .c_str());
+  EXPECT_TRUE(verified().complete);
+  execute(study, "DROP TRIGGER device_profile_is_final; UPDATE device_profile SET text = '{}'");
+  EXPECT_NE(only_problem().find("expected the text of its device profile to fit its hash"),
+            std::string::npos);
+  execute(study, "DROP TRIGGER device_profile_stays; DELETE FROM device_profile");
+  EXPECT_NE(only_problem().find("expected the device profile that it was begun with"),
+            std::string::npos);
+}
+
 TEST_F(IntegrityTest, AChunkThatDoesNotHoldWhatItsRowSaysIsDamaged) {
   for (const char* damage : {"num_samples = num_samples + 3", "num_samples = -1",
                              "num_samples = 9000000000000000000", "first_tick = -5"}) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/storage/backup.h"
+#include "core/storage/export_note.h"
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
 #include "core/storage/old_study.h"
@@ -76,7 +77,16 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       ASSERT_EQ(store.presentations(5).size(), 1U);
       EXPECT_EQ(store.presentations(5)[0].measures.missed_ticks, 3);
     }
-    EXPECT_THAT(store.adverse_events(), IsEmpty());
+    ASSERT_EQ(store.adverse_events().size(), has(6) ? 1U : 0U);
+    if (has(6)) {
+      EXPECT_EQ(store.adverse_events()[0].text, "a pinched finger");
+      const std::vector<ExportNote> exports = noted_exports(store.folder());
+      ASSERT_EQ(exports.size(), 2U);
+      EXPECT_EQ(exports[0].place, "/exports/first_csv");
+      EXPECT_THAT(exports[0].sessions, ElementsAre(1, 3));
+    }
+    EXPECT_THAT(store.device_profiles(), IsEmpty());
+    for (const SessionRow& row : store.sessions()) EXPECT_EQ(row.device_profile_sha256, "");
   }
 
   static void expect_adaptive_trials(const StudyStore& store) {

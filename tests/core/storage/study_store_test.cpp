@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "core/storage/database.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::core {
@@ -188,6 +189,29 @@ TEST_F(StudyStoreTest, KeepsAProtocolOnceUnderItsHash) {
   EXPECT_EQ(hash, store->sessions()[0].protocol_sha256);
   EXPECT_EQ(store->protocol(hash).text, "{}");
   EXPECT_THROW((void)store->protocol("0000"), Error);
+}
+
+TEST_F(StudyStoreTest, KeepsEachDeviceProfileOnceUnderItsHash) {
+  StudyStore store(folder(), StudyStore::Mode::kCreate);
+  EXPECT_TRUE(store.device_profiles().empty());
+  const std::string hash = store.add_device_profile("{\"name\": \"left\"}");
+  EXPECT_EQ(store.add_device_profile("{\"name\": \"left\"}"), hash);
+  store.add_device_profile("{}");
+  EXPECT_EQ(store.device_profile(hash).text, "{\"name\": \"left\"}");
+  ASSERT_EQ(store.device_profiles().size(), 2U);
+  EXPECT_EQ(store.device_profiles()[1].text, "{}");
+  EXPECT_THROW((void)store.device_profile("0000"), Error);
+}
+
+TEST_F(StudyStoreTest, NoDeviceProfileIsChangedOrDeleted) {
+  {
+    StudyStore store(folder(), StudyStore::Mode::kCreate);
+    store.add_device_profile("{}");
+  }
+  Database database(folder() / "study.sqlite", Database::Mode::kReadWrite,
+                    Durability::kEveryCommit);
+  EXPECT_THROW(database.execute("UPDATE device_profile SET text = '[]'"), Error);
+  EXPECT_THROW(database.execute("DELETE FROM device_profile"), Error);
 }
 
 TEST_F(StudyStoreTest, ListsItsProtocolsInTheOrderInWhichTheyCame) {

@@ -53,6 +53,22 @@ TEST_F(WithdrawalTest, NothingOfThePersonIsLeftButTheTombstone) {
   EXPECT_TRUE(verified(kept_.folder()).complete);
 }
 
+// It is of a device, and of sessions of others.
+TEST_F(WithdrawalTest, DeviceProfilesStayHereAndInEveryBackup) {
+  {
+    StudyStore store(kept_.folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
+    store.add_device_profile("{}");
+  }
+  const fs::path copy = kept_.beside("copy.study");
+  (void)back_up(kept_.folder(), copy, 1);
+  (void)withdraw(kept_.folder(), "P01", 5);
+  for (const fs::path& folder : {kept_.folder(), copy}) {
+    const StudyStore store(folder, StudyStore::Mode::kReadOnly);
+    ASSERT_EQ(store.device_profiles().size(), 1U) << folder;
+    EXPECT_EQ(store.device_profiles()[0].text, "{}");
+  }
+}
+
 TEST_F(WithdrawalTest, AdverseEventsStayForGood) {
   {
     StudyStore store(kept_.folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
