@@ -16,6 +16,8 @@ struct WindowRequest {
   std::filesystem::path study_file;
   std::string participant;
   std::string device;  ///< "": chosen in the window.
+  std::filesystem::path
+      device_profile;  ///< Its profile; "": a real device's own is looked for.
   std::optional<std::uint64_t> seed;
   bool pilot = false;
   bool allow_no_realtime = false;

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "app/session/device_checks.h"
+#include "app/session/device_limits.h"
 #include "app/session/stability_limits.h"
-#include "device/registry/device_registry.h"
 #include "experiments/protocol/located_json.h"
 #include "experiments/protocol/stimulus_place.h"
 #include "experiments/protocol/study_reader.h"
@@ -33,9 +33,10 @@ std::string too_strong(const experiments::RangeEntry& entry, const std::string& 
 
 std::string unstable(const StabilityCheck& check, const std::string& device) {
   return fmt::format(
-      "expected a stimulus that `{}` renders stably at {:g} Hz (on the hand up to {} and {}), "
-      "found one beyond; weaken it, or raise the study's rate",
-      device, check.rate_hz, words_of(check.attached.viscosity_pa_s, "Pa s"),
+      "expected a stimulus that {} ({} {} and {}), found one beyond; weaken it, or raise the "
+      "study's rate",
+      stably_words(check, device), check.measured.empty() ? "on the hand up to" : "up to",
+      words_of(check.attached.viscosity_pa_s, "Pa s"),
       words_of(check.attached.stiffness_n_per_m, "N/m"));
 }
 
@@ -43,6 +44,7 @@ std::string unstable(const StabilityCheck& check, const std::string& device) {
 
 std::vector<StudyProblem> device_problems(const std::filesystem::path& study_file,
                                           const std::string& device,
+                                          const std::optional<KnownProfile>& profile,
                                           double expected_speed_m_per_s) {
   const experiments::Study study = experiments::read_study(study_file);
   std::vector<StudyProblem> problems;
@@ -51,8 +53,8 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
     const experiments::TextPosition at = located.value_position(pointer);
     problems.push_back({located.file(), at.line, at.column, pointer, std::move(message)});
   };
-  const device::DeviceCapabilities capabilities =
-      device::make_device(device, study.device.rate_hz)->capabilities();
+  const DeviceLimits of_device = limits_of_device(device, study.device.rate_hz, profile);
+  const device::DeviceCapabilities& capabilities = of_device.can;
   if (std::string missing =
           missing_points_words(device, capabilities, study.device.min_contact_points);
       !missing.empty()) {
@@ -61,8 +63,8 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
   const experiments::RangeLimits limits = range_limits_of(capabilities, expected_speed_m_per_s);
   const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);
   std::optional<StabilityCheck> stability;
-  if (const auto map = shipped_stability_map(device)) {
-    stability = check_stability(*map, study, range, expected_speed_m_per_s);
+  if (of_device.stability) {
+    stability = check_stability(*of_device.stability, study, range, expected_speed_m_per_s);
   }
   for (std::size_t i = 0; i < range.size(); ++i) {
     const std::string pointer =

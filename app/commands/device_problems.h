@@ -1,19 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/profile/known_profile.h"
 #include "experiments/study/study_problem.h"
 
 namespace jnd::app {
 
 /// What speaks against running a sound study on a device, each at its place in the file: every
 /// stimulus that the device cannot render to a hand of this speed, or not stably, and contact
-/// points that it has not. Throws `core::Error` for a device that does not exist. Not real
-/// time.
+/// points that it has not; by its profile, where there is one. Throws `core::Error` for a
+/// device that does not exist. Not real time.
 [[nodiscard]] std::vector<experiments::StudyProblem> device_problems(
     const std::filesystem::path& study_file, const std::string& device,
-    double expected_speed_m_per_s);
+    const std::optional<KnownProfile>& profile, double expected_speed_m_per_s);
 
 }  // namespace jnd::app

@@ -10,6 +10,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/usage_message.h"
+#include "app/profile/profile_choice.h"
 #include "core/error.h"
 #include "device/plugin/driver_description.h"
 #include "device/plugin/plugin_device.h"
@@ -25,6 +26,25 @@ struct DevicesOptions {
   std::string device;  ///< "plugin:PATH"; "": all.
   bool json = false;
 };
+
+/// What was measured of the device; null: nothing is found.
+nlohmann::ordered_json profile_json(const FoundProfile& found) {
+  if (!found.known) return nullptr;
+  const experiments::DeviceProfile& profile = found.known->profile;
+  return {{"file", found.known->place},
+          {"measured_on", profile.measured_on},
+          {"age_days", days_between(profile.measured_on, today())},
+          {"valid_until", profile.valid_until},
+          {"simulated", profile.simulated},
+          {"problem", found.problem}};
+}
+
+std::string profile_words(const FoundProfile& found) {
+  if (!found.known) return found.problem.empty() ? "none found" : found.problem;
+  const std::string words =
+      age_words(found.known->profile, today()) + ": " + found.known->place;
+  return found.problem.empty() ? words : found.problem;
+}
 
 /// What a driver of somebody else's says of its device.
 int describe_plugin(const DevicesOptions& options) {
@@ -64,10 +84,17 @@ int describe_plugin(const DevicesOptions& options) {
   out["own_mass_kg"] = told.own_mass_kg;
   out["own_damping_n_s_per_m"] = told.own_damping_n_s_per_m;
   out["closed_loop_delay_s"] = told.closed_loop_delay_s;
+  const FoundProfile profile = find_profile(
+      {.name = options.device,
+       .identity = {.model = told.name, .serial = told.serial, .firmware = told.firmware},
+       .is_simulated = (told.flags & JND_DEVICE_IS_SIMULATED) != 0},
+      profile_folders(), today());
   if (options.json) {
+    out["profile"] = profile_json(profile);
     fmt::print("{}\n", json_text(out));
     return kDone;
   }
+  out["profile"] = profile_words(profile);
   for (const auto& [key, value] : out.items()) {
     fmt::print("{:<24} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
   }

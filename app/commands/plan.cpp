@@ -17,10 +17,13 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/field_options.h"
+#include "app/commands/profile_option.h"
 #include "app/operator/study_words.h"
 #include "app/planning/plan_lapses.h"
 #include "app/planning/plan_statistics.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
+#include "app/session/device_limits.h"
 #include "app/session/pseudonym.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
@@ -41,6 +44,7 @@ struct PlanOptions {
   int participants = 13;
   std::uint64_t seed = 1;
   std::string device;
+  std::string profile;              ///< A file; "": a real device's own is looked for.
   std::string laboratory;           ///< "": the default of the device.
   std::vector<std::string> fields;  ///< "sex=female"
   double speed_m_per_s = 0.5;
@@ -52,7 +56,8 @@ struct PlanOutcome {
   experiments::Study study;
   std::vector<experiments::ParticipantPlan> plans;
   std::vector<experiments::RangeEntry> range;
-  std::vector<std::string> completed;  ///< Cells.
+  std::vector<std::string> completed;   ///< Cells.
+  std::optional<KnownProfile> profile;  ///< None: as the device says of itself.
   device::DeviceCapabilities device;
   experiments::RangeLimits limits{};
   std::optional<StabilityCheck> stability;  ///< None: the device has no map.
@@ -62,6 +67,15 @@ struct PlanOutcome {
   double longest_duration_s = 0.0;  ///< Of the same with all trials that blocks can have.
   std::string folder_problem;  ///< Why its sessions cannot go to the folder; "" if they can.
 };
+
+/// A plan needs no profile: it tells of what there is, and what is said against it.
+std::optional<KnownProfile> profile_to_plan_with(const PlanOptions& options, double rate_hz) {
+  ProfileChoice choice = choose_profile(device_of_profile(options.device, rate_hz),
+                                        options.profile, profile_folders(), today());
+  if (!choice.lack.empty()) choice.remarks.push_back(choice.lack);
+  for (const std::string& remark : choice.remarks) fmt::print(stderr, "jnd: {}\n", remark);
+  return std::move(choice.known);
+}
 
 PlanOutcome outcome_of(const PlanOptions& options) {
   PlanOutcome outcome;
@@ -95,13 +109,15 @@ PlanOutcome outcome_of(const PlanOptions& options) {
     outcome.duration_s = std::max(outcome.duration_s, plan.duration_s);
     outcome.longest_duration_s = std::max(outcome.longest_duration_s, plan.longest_duration_s);
   }
-  outcome.device =
-      device::make_device(options.device, outcome.study.device.rate_hz)->capabilities();
+  outcome.profile = profile_to_plan_with(options, outcome.study.device.rate_hz);
+  const DeviceLimits device =
+      limits_of_device(options.device, outcome.study.device.rate_hz, outcome.profile);
+  outcome.device = device.can;
   outcome.limits = range_limits_of(outcome.device, options.speed_m_per_s);
   outcome.range = experiments::planned_range(outcome.study, outcome.limits);
-  if (const auto map = shipped_stability_map(options.device)) {
+  if (device.stability) {
     outcome.stability =
-        check_stability(*map, outcome.study, outcome.range, options.speed_m_per_s);
+        check_stability(*device.stability, outcome.study, outcome.range, options.speed_m_per_s);
   }
   return outcome;
 }
@@ -193,6 +209,15 @@ ordered_json stability_json(const PlanOutcome& outcome) {
           {"remark", detached_remark(*outcome.stability)}};
 }
 
+/// null for a device that nobody measured.
+ordered_json profile_json(const PlanOutcome& outcome) {
+  if (!outcome.profile) return nullptr;
+  const experiments::DeviceProfile& profile = outcome.profile->profile;
+  return {{"file", outcome.profile->place},     {"model", profile.device.model},
+          {"serial", profile.device.serial},    {"measured_on", profile.measured_on},
+          {"valid_until", profile.valid_until}, {"simulated", profile.simulated}};
+}
+
 ordered_json to_json(const PlanOutcome& outcome, const PlanOptions& options) {
   auto participants = ordered_json::array();
   for (const auto& plan : outcome.plans)
@@ -218,6 +243,7 @@ ordered_json to_json(const PlanOutcome& outcome, const PlanOptions& options) {
   json.update(ordered_json{{"duration_s", to_decimals(outcome.duration_s, 6)},
                            {"longest_duration_s", to_decimals(outcome.longest_duration_s, 6)},
                            {"device", options.device},
+                           {"device_profile", profile_json(outcome)},
                            {"limits",
                             {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
                              {"max_total_force_n", outcome.limits.max_total_force_n},
@@ -270,6 +296,10 @@ void print_range(const PlanOutcome& outcome, const PlanOptions& options) {
       "{:g} m deep in what is solid\n",
       options.device, outcome.limits.max_force_per_point_n, outcome.limits.max_total_force_n,
       outcome.limits.expected_speed_m_per_s, outcome.limits.expected_depth_m);
+  if (outcome.profile) {
+    fmt::print("`{}` {}: {}\n", options.device, age_words(outcome.profile->profile, today()),
+               outcome.profile->place);
+  }
   std::size_t longest = 24;
   for (const experiments::RangeEntry& entry : outcome.range) {
     longest = std::max(longest, entry.stage.size());
@@ -394,6 +424,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
                    "What all of them bring; default: drawn for each");
   command->add_option("--device", options->device, "Whose limits; see `jnd devices`")
       ->capture_default_str();
+  add_profile_option(*command, options->profile);
   command
       ->add_option("--speed-m-per-s", options->speed_m_per_s,
                    "Speed of the hand that forces are expected at")

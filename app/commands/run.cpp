@@ -17,6 +17,8 @@
 #include "app/command_line/stop_signals.h"
 #include "app/command_line/usage_message.h"
 #include "app/commands/field_options.h"
+#include "app/commands/profile_option.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "app/session/laboratory_run.h"
 #include "app/session/pseudonym.h"
@@ -38,6 +40,7 @@ struct RunOptions {
   std::string folder;
   std::string participant;
   std::string device = "lumped";
+  std::string profile;  ///< A file; "": a real device's own is looked for.
   std::optional<std::uint64_t> seed;
   bool pilot = false;
   bool allow_no_realtime = false;
@@ -229,6 +232,21 @@ void require_arming(const RunOptions& options, const std::string& device, double
       "disarmed");
 }
 
+void tell(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) std::fprintf(stderr, "jnd: %s\n", remark.c_str());
+}
+
+/// What was measured of the device, if anything; throws where it has to be known.
+std::optional<KnownProfile> profile_for(const RunOptions& options,
+                                        const experiments::Study& study) {
+  const DeviceOfProfile device = device_of_profile(options.device, study.device.rate_hz);
+  ProfileChoice choice = choose_profile(device, options.profile, profile_folders(), today());
+  tell(choice.remarks);
+  const std::string refused = refused_words(device, choice, study);
+  if (!refused.empty()) throw EnvironmentError(refused);
+  return std::move(choice.known);
+}
+
 int run_run(RunOptions options) {
   require_device(options.device);
   require_pseudonym(options.participant);
@@ -240,6 +258,7 @@ int run_run(RunOptions options) {
                         .study_file = file,
                         .participant = options.participant,
                         .device = options.device,
+                        .device_profile = options.profile,
                         .seed = options.seed,
                         .pilot = options.pilot,
                         .allow_no_realtime = options.allow_no_realtime,
@@ -253,6 +272,7 @@ int run_run(RunOptions options) {
   require_device_holds(options.device, study.device.rate_hz, study.device.min_contact_points);
   require_arming(options, options.device, study.device.rate_hz);
   require_device_starts(options.device, study.device.rate_hz);
+  const std::optional<KnownProfile> profile = profile_for(options, study);
   options.realtime |= has_own_clock(options.device);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
@@ -265,6 +285,7 @@ int run_run(RunOptions options) {
                     .laboratory = &laboratory,
                     .study_file = file,
                     .device = options.device,
+                    .profile = profile ? &*profile : nullptr,
                     .seed = options.seed.value_or(std::random_device{}()),
                     .pilot = options.pilot,
                     .realtime = options.realtime,
@@ -327,9 +348,20 @@ void wait_for_device(const RunOptions& options, const core::SessionRow& row) {
   }
 }
 
+/// A session that is only to be ended needs nothing of its device any more.
+void require_same_profile(const RunOptions& options, const core::StudyStore& store,
+                          const core::SessionRow& row, const experiments::Study& study) {
+  if (options.choose == "end") return;
+  const DeviceOfProfile device = device_of_profile(row.device, row.rate_hz);
+  const std::string refused = refused_resume_words(store, row, study, device, options.profile,
+                                                   profile_folders(), today());
+  if (!refused.empty()) throw core::Error(refused);
+}
+
 int resume_headless(RunOptions options, core::StudyStore& store, const core::SessionRow& row) {
   const experiments::Study study = stored_study(store, row.session);
   wait_for_device(options, row);
+  require_same_profile(options, store, row, study);
   require_arming(options, row.device, row.rate_hz);
   require_device_starts(row.device, row.rate_hz);
   require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
@@ -354,6 +386,7 @@ int resume(const RunOptions& options) {
   if (options.headless) return resume_headless(options, *store, *row);
   store.reset();  // The window opens it itself.
   return open_window({.study_folder = options.folder,
+                      .device_profile = options.profile,
                       .participant_stop = options.participant_stop,
                       .participant_holds = options.participant_holds,
                       .resume_session = row->session});
@@ -396,6 +429,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--participant", options->participant, "Pseudonym, for example P01")
       ->required();
   command->add_option("--device", options->device, "See `jnd devices`")->capture_default_str();
+  add_profile_option(*command, options->profile);
   command->add_option("--seed", options->seed, "Of the study; drawn if not given")
       ->check(seed_number());
   add_field_option(*command, options->fields,
@@ -434,6 +468,7 @@ void add_resume(CLI::App& program, Invocation& invocation) {
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
+  add_profile_option(*command, options->profile);
   command->add_option("--session", options->session, "Default: the open one")
       ->check(whole_number(1, std::numeric_limits<std::int64_t>::max()));
   command

@@ -11,8 +11,10 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/device_problems.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "app/session/shipped_files.h"
+#include "experiments/device_profile/profile_reader.h"
 #include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
@@ -20,20 +22,48 @@ namespace {
 
 struct ValidateOptions {
   std::vector<std::string> files;
-  std::string device;  ///< "": a study by itself.
+  std::string device;   ///< "": a study by itself.
+  std::string profile;  ///< Of the device, a file; "": a real device's own is looked for.
   double speed_m_per_s = 0.5;
   bool json = false;
 };
 
+bool is_profile(const std::filesystem::path& file) {
+  return file.filename().string().ends_with(experiments::kDeviceProfileEnding);
+}
+
 std::vector<experiments::StudyProblem> problems_of(const std::filesystem::path& file,
-                                                   const ValidateOptions& options) {
+                                                   const ValidateOptions& options,
+                                                   const std::optional<KnownProfile>& profile) {
+  if (is_profile(file)) return experiments::device_profile_problems(file);
   std::vector<experiments::StudyProblem> found = experiments::study_problems(file);
   if (!found.empty() || options.device.empty()) return found;
-  return device_problems(file, options.device, options.speed_m_per_s);
+  return device_problems(file, options.device, profile, options.speed_m_per_s);
+}
+
+/// What is said of a file without a problem.
+std::string praise(const std::filesystem::path& file, const ValidateOptions& options) {
+  if (is_profile(file)) {
+    const experiments::DeviceProfile profile = experiments::read_device_profile(file);
+    return fmt::format(
+        "no problem; `{}`{}{}, measured on {}, valid until {}", profile.device.model,
+        profile.device.serial.empty() ? "" : " " + profile.device.serial,
+        profile.simulated ? ", SIMULATED" : "", profile.measured_on, profile.valid_until);
+  }
+  return options.device.empty()
+             ? "no problem; --device NAME tells whether that device can render it"
+             : "no problem on " + options.device;
 }
 
 int run_validate(const ValidateOptions& options) {
-  if (!options.device.empty()) require_device(options.device);
+  std::optional<KnownProfile> profile;
+  if (!options.device.empty()) {
+    require_device(options.device);
+    constexpr double kAnyRateHz = 1000.0;
+    profile = choose_profile(device_of_profile(options.device, kAnyRateHz), options.profile,
+                             profile_folders(), today())
+                  .known;
+  }
   std::vector<experiments::StudyProblem> problems, doubts;
   const auto add = [](auto& all, std::vector<experiments::StudyProblem> found) {
     all.insert(all.end(), std::make_move_iterator(found.begin()),
@@ -41,15 +71,12 @@ int run_validate(const ValidateOptions& options) {
   };
   for (const std::string& name : options.files) {
     const std::filesystem::path file = user_or_shipped(name, "protocols");
-    std::vector<experiments::StudyProblem> found = problems_of(file, options);
+    std::vector<experiments::StudyProblem> found = problems_of(file, options, profile);
     if (!options.json && found.empty()) {
-      fmt::print("{}: no problem{}\n", name,
-                 options.device.empty()
-                     ? "; --device NAME tells whether that device can render it"
-                     : " on " + options.device);
+      fmt::print("{}: {}\n", name, praise(file, options));
     }
     add(problems, std::move(found));
-    add(doubts, experiments::study_doubts(file));
+    if (!is_profile(file)) add(doubts, experiments::study_doubts(file));
   }
   if (options.json) {
     nlohmann::ordered_json document = problems_json(problems);
@@ -92,13 +119,22 @@ std::string error_json(const core::Error& error) {
 }
 
 void add_validate(CLI::App& program, Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("validate", "Tell every problem of study files");
+  CLI::App* command = program.add_subcommand(
+      "validate", "Tell every problem of study files and device profiles");
   const auto options = std::make_shared<ValidateOptions>();
-  command->add_option("FILE", options->files, "Study files, or names of shipped studies")
+  command
+      ->add_option("FILE", options->files,
+                   "Study files, or names of shipped studies; device profiles "
+                   "(NAME.device.json)")
       ->required();
   command->add_option(
       "--device", options->device,
       "Also whether it can render every stimulus, and stably; see `jnd devices`");
+  command
+      ->add_option("--profile", options->profile,
+                   "What was measured of the device, NAME.device.json, with --device; default: "
+                   "a real device's own, where it is found")
+      ->needs("--device");
   command
       ->add_option("--speed-m-per-s", options->speed_m_per_s,
                    "Speed of the hand that forces are expected at, with --device")

@@ -6,7 +6,9 @@
 #include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
+#include "app/session/device_limits.h"
 #include "app/session/machine_checks.h"
 #include "core/error.h"
 #include "core/storage/study_store.h"
@@ -59,8 +61,7 @@ class Look {
     put(kPriority, line_of(check_realtime_priority(), tr("Real-time priority"), must));
     put(kMemory, line_of(check_memory_lock(), tr("Memory lock"), must));
     put(kSleep, sleep_line());
-    put(kDevice,
-        device_line(request_.device, rate_hz_, study_ ? study_->device.min_contact_points : 1));
+    put(kDevice, device());
     put(kStimuli, stimuli());
     put(kLoop, loop());
     return lines_;
@@ -113,6 +114,20 @@ class Look {
     return disk_line(*free, rate_hz_, study_ ? longest_session_s(*study_) : kHour_s);
   }
 
+  PreflightLine device() {
+    PreflightLine line =
+        device_line(request_.device, rate_hz_, study_ ? study_->device.min_contact_points : 1);
+    if (line.status == Status::kFailed) return line;
+    return line_from(line.name, line.found, [&] {
+      const DeviceOfProfile device = device_of_profile(request_.device, rate_hz_);
+      const ProfileChoice choice =
+          choose_profile(device, request_.profile, profile_folders(), today());
+      profile_ = choice.known;
+      return with_profile(line, choice.known,
+                          study_ ? refused_words(device, choice, *study_) : choice.lack);
+    });
+  }
+
   [[nodiscard]] PreflightLine stimuli() const {
     if (!study_) {
       return {.name = tr("Stimuli"),
@@ -121,15 +136,15 @@ class Look {
               .remedy = tr("mend the study first")};
     }
     return line_from(tr("Stimuli"), tr("not known"), [&] {
-      const device::DeviceCapabilities can =
-          device::make_device(request_.device, rate_hz_)->capabilities();
+      const DeviceLimits device = limits_of_device(request_.device, rate_hz_, profile_);
       const experiments::RangeLimits limits =
-          range_limits_of(can, experiments::RangeLimits{}.expected_speed_m_per_s);
+          range_limits_of(device.can, experiments::RangeLimits{}.expected_speed_m_per_s);
       const std::vector<experiments::RangeEntry> range =
           experiments::planned_range(*study_, limits);
       std::optional<StabilityCheck> stability;
-      if (const auto map = shipped_stability_map(request_.device)) {
-        stability = check_stability(*map, *study_, range, limits.expected_speed_m_per_s);
+      if (device.stability) {
+        stability =
+            check_stability(*device.stability, *study_, range, limits.expected_speed_m_per_s);
       }
       return stimuli_line(range, limits, hides_levels_, stability);
     });
@@ -137,7 +152,7 @@ class Look {
 
   PreflightLine loop() {
     return line_from(tr("Loop"), tr("does not run"), [&] {
-      return loop_line(test_loop(request_, rate_hz_, [this](double done) {
+      return loop_line(test_loop(request_, rate_hz_, profile_, [this](double done) {
         control_.progress(kQuickRatio + (1.0 - kQuickRatio) * done);
         control_.stop_if_cancelled();
       }));
@@ -151,6 +166,7 @@ class Look {
   const std::function<void(const std::vector<PreflightLine>&)>& on_lines_;
   std::vector<PreflightLine> lines_;
   std::optional<experiments::Study> study_;
+  std::optional<KnownProfile> profile_;  ///< Of the device.
   double rate_hz_ = 1000.0;
   bool hides_levels_ = true;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/operator/background_task.h"
+#include "app/profile/known_profile.h"
 #include "app/session/stability_limits.h"
 #include "core/safety/emergency_stop.h"
 #include "device/haptic_device.h"
@@ -33,6 +34,7 @@ struct PreflightLine {
 struct PreflightRequest {
   std::filesystem::path folder;  ///< The study's; nothing may have it open for writing.
   std::string device = "lumped";
+  std::string profile;  ///< Of the device, a file; "": a real one's own is looked for.
   bool allow_no_realtime = false;  ///< A real device also without real-time rights.
   double loop_test_s = 2.0;
   /// That reaches the device in the loop's test; nullptr: none but the program's end.
@@ -84,6 +86,11 @@ class Preflight {
 [[nodiscard]] PreflightLine disk_line(double free_bytes, double rate_hz, double session_s);
 [[nodiscard]] PreflightLine device_line(const std::string& device, double rate_hz,
                                         int min_contact_points);
+/// The same with what was measured of the device, `known`; `refused`: why no session of this
+/// study is begun on it, "" if one may.
+[[nodiscard]] PreflightLine with_profile(PreflightLine line,
+                                         const std::optional<KnownProfile>& known,
+                                         const std::string& refused);
 /// Where `hides_levels`, the number of stimuli that fit alone. `stability`: of a device that
 /// has a map of it; an unstable stimulus fails.
 [[nodiscard]] PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
@@ -105,6 +112,7 @@ struct LoopTest {
 /// 0 to 1 from the calling thread and may throw to stop. Throws `core::Error` if it does not
 /// start.
 [[nodiscard]] LoopTest test_loop(const PreflightRequest& request, double rate_hz,
+                                 const std::optional<KnownProfile>& known,
                                  const std::function<void(double)>& on_progress = {});
 
 }  // namespace jnd::app

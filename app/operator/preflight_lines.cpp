@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "app/language/words.h"
 #include "app/operator/preflight.h"
@@ -17,6 +18,7 @@
 #include "core/storage/backup_mark.h"
 #include "core/storage/study_store.h"
 #include "core/storage/writer_lock.h"
+#include "device/profiled_device.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app {
@@ -139,6 +141,21 @@ PreflightLine device_line(const std::string& device, double rate_hz, int min_con
   });
 }
 
+PreflightLine with_profile(PreflightLine line, const std::optional<KnownProfile>& known,
+                           const std::string& refused) {
+  if (!refused.empty()) {
+    line.status = Status::kFailed;
+    line.remedy = refused;
+  } else if (known) {
+    const experiments::DeviceProfile& profile = known->profile;
+    line.found += profile.simulated ? tr(", measured SIMULATED on {}, valid until {}",
+                                         profile.measured_on, profile.valid_until)
+                                    : tr(", measured on {}, valid until {}",
+                                         profile.measured_on, profile.valid_until);
+  }
+  return line;
+}
+
 PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
                            const experiments::RangeLimits& limits, bool hides_levels,
                            const std::optional<StabilityCheck>& stability) {
@@ -204,11 +221,15 @@ PreflightLine loop_line(const LoopTest& test) {
 }
 
 LoopTest test_loop(const PreflightRequest& request, double rate_hz,
+                   const std::optional<KnownProfile>& known,
                    const std::function<void(double)>& on_progress) {
   using Clock = std::chrono::steady_clock;
   LoopTest test{.rate_hz = rate_hz, .duration_s = request.loop_test_s};
-  const std::unique_ptr<device::HapticDevice> device =
-      device::make_device(request.device, rate_hz);
+  std::unique_ptr<device::HapticDevice> device = device::make_device(request.device, rate_hz);
+  if (known) {
+    device = std::make_unique<device::ProfiledDevice>(std::move(device),
+                                                      device_parameters(known->profile));
+  }
   test.for_a_person = !device->capabilities().simulated;
   DeviceRun run(*device, {.rate_hz = rate_hz,
                           .allow_no_realtime = request.allow_no_realtime,

@@ -23,6 +23,7 @@
 #include "device/haptic_loop.h"
 #include "device/lumped_hand_device.h"
 #include "device/mouse_device.h"
+#include "device/profiled_device.h"
 #include "device/registry/device_registry.h"
 #include "device/simulated_hand.h"
 #include "device/watched_loop.h"
@@ -103,12 +104,25 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
   return loop;
 }
 
-/// Takes the device over, or borrows it.
+/// As it was measured; nullptr where that is not known. Throws `core::Error` where it has to
+/// be.
+std::unique_ptr<device::HapticDevice> as_measured(device::HapticDevice& bare,
+                                                  const Apparatus::Parameters& parameters) {
+  if (parameters.profile != nullptr) {
+    return std::make_unique<device::ProfiledDevice>(
+        bare, device_parameters(parameters.profile->profile));
+  }
+  if (!parameters.wants_profile || bare.capabilities().simulated) return nullptr;
+  throw core::Error(parameters.device +
+                    ": expected a profile of the device, as of every real one that is to give "
+                    "force, found none; measure it with `jnd commission`");
+}
+
+/// nullptr where nothing is to go wrong.
 std::unique_ptr<device::HapticDevice> with_faults(
-    std::unique_ptr<device::HapticDevice>& bare,
-    const std::vector<device::ScheduledFault>& faults) {
-  if (faults.empty()) return std::move(bare);
-  return std::make_unique<device::FaultInjectingDevice>(*bare, faults);
+    device::HapticDevice& sound, const std::vector<device::ScheduledFault>& faults) {
+  if (faults.empty()) return nullptr;
+  return std::make_unique<device::FaultInjectingDevice>(sound, faults);
 }
 
 }  // namespace
@@ -118,7 +132,12 @@ struct Apparatus::Implementation {
       : parameters(std::move(the_parameters)),
         exchange(parameters.exchange != nullptr ? *parameters.exchange : own_exchange),
         bare_device(make_device(parameters, laboratory)),
-        device(with_faults(bare_device, parameters.injected_faults)),
+        measured_device(as_measured(*bare_device, parameters)),
+        faulty_device(with_faults(measured_device ? *measured_device : *bare_device,
+                                  parameters.injected_faults)),
+        device(faulty_device     ? faulty_device.get()
+               : measured_device ? measured_device.get()
+                                 : bare_device.get()),
         simulated_hand(device->simulated_hand()),
         samples(parameters.realtime ? kRealtimeQueueCapacity : kSimulatedQueueCapacity),
         max_total_force_n(std::min(
@@ -154,6 +173,7 @@ struct Apparatus::Implementation {
     } else {
       device->open();
     }
+    require_own_profile();
   }
 
   ~Implementation() {
@@ -164,6 +184,22 @@ struct Apparatus::Implementation {
       device->close();
     }
     storage.reset();
+  }
+
+  /// Only now that it is open does every device say which one it is. It is disarmed as yet, or
+  /// simulated.
+  void require_own_profile() {
+    if (parameters.profile == nullptr) return;
+    const std::string problem =
+        foreign_words(*parameters.profile, bare_device->identity(),
+                      bare_device->capabilities().simulated, /*is_open=*/true);
+    if (problem.empty()) return;
+    if (running) {
+      running->stop();
+    } else {
+      device->close();
+    }
+    throw core::Error(problem);
   }
 
   /// The sign of life of the thread that a person talks to: the window's own, where there is
@@ -240,8 +276,10 @@ struct Apparatus::Implementation {
   std::optional<SleepInhibitor> awake;  ///< In real time.
   OperatorExchange own_exchange;        ///< Used where there is no window.
   OperatorExchange& exchange;
-  std::unique_ptr<device::HapticDevice> bare_device;  ///< Where faults are injected into it.
-  std::unique_ptr<device::HapticDevice> device;
+  std::unique_ptr<device::HapticDevice> bare_device;
+  std::unique_ptr<device::HapticDevice> measured_device;  ///< Where there is a profile of it.
+  std::unique_ptr<device::HapticDevice> faulty_device;  ///< Where faults are injected into it.
+  device::HapticDevice* device;                         ///< The outermost of them.
   device::SimulatedHand* simulated_hand;  ///< Where a simulated arm moves the hand.
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
@@ -376,8 +414,8 @@ core::ShareRatios Apparatus::share_ratio() const noexcept {
 }
 
 experiments::DeviceTold Apparatus::device_told() const {
-  const device::DeviceIdentity identity = implementation_->device->identity();
-  const device::DeviceCapabilities can = implementation_->device->capabilities();
+  const device::DeviceIdentity identity = implementation_->bare_device->identity();
+  const device::DeviceCapabilities can = implementation_->bare_device->capabilities();
   return {.model = identity.model,
           .serial = identity.serial,
           .firmware = identity.firmware,

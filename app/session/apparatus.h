@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/profile/known_profile.h"
 #include "app/session/operator_exchange.h"
 #include "core/clock.h"
 #include "core/exchange/haptic_command.h"
@@ -31,6 +32,10 @@ class Apparatus {
  public:
   struct Parameters {
     std::string device = "lumped";  ///< A name in the registry of devices.
+    /// What was measured of it; nullptr: it is used as it says that it is.
+    std::shared_ptr<const KnownProfile> profile;
+    /// A real device is not even opened without one.
+    bool wants_profile = false;
     double rate_hz = 1000.0;
     double ramp_s = 0.050;
     core::Immersion immersion;
@@ -61,7 +66,8 @@ class Apparatus {
   };
 
   /// A device with its default settings: "mouse", or a real one. Throws `Error` if device, loop
-  /// or recording cannot be set up.
+  /// or recording cannot be set up, or the device is not the one of the profile: then not one
+  /// force was sent.
   explicit Apparatus(const Parameters& parameters);
   /// The lumped hand and the limits of this laboratory; other devices take the limits alone.
   Apparatus(const Parameters& parameters, const experiments::Laboratory& laboratory);
@@ -107,7 +113,7 @@ class Apparatus {
   [[nodiscard]] std::string fault_words(core::Fault fault) const;
   /// By sensors of its own.
   [[nodiscard]] bool measures_force() const noexcept;
-  /// What the device says of itself, for keeping. Not real time.
+  /// What the device says of itself, whatever its profile does, for keeping. Not real time.
   [[nodiscard]] experiments::DeviceTold device_told() const;
   /// The most that the points together ever get: the least of the limiter's and the device's.
   [[nodiscard]] double max_total_force_n() const noexcept;

@@ -37,7 +37,8 @@ class SimulatedSession {
                                 .durability = run.durability,
                                 .injected_faults = run.injected_faults},
                   .laboratory = &run.laboratory,
-                  .on_event = run.on_event}),
+                  .on_event = run.on_event,
+                  .only_ends = run.choice == "end"}),
         session_(running_.session()),
         player_(run, running_.apparatus(), session_, participant_) {}
 

@@ -1,7 +1,9 @@
 #include "app/session/running_session.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "app/profile/profile_choice.h"
 #include "app/session/session_setup.h"
 #include "app/session/stored_session.h"
 #include "core/error.h"
@@ -85,6 +87,16 @@ Apparatus::Parameters RunningSession::apparatus_parameters() const {
   Apparatus::Parameters apparatus = parameters_.apparatus;
   apparatus.allow_no_realtime |=
       may_lack_rights(parameters_.store.session(parameters_.session));
+  const std::string profile =
+      parameters_.store.session(parameters_.session).device_profile_sha256;
+  if (!profile.empty()) {
+    apparatus.profile =
+        std::make_shared<const KnownProfile>(stored_profile(parameters_.store, profile));
+  }
+  // One that was never started is not ended, it begins.
+  const bool only_ends = parameters_.only_ends && !history_.empty();
+  apparatus.wants_profile = !only_ends && asks_for_force(parameters_.study);
+  apparatus.arm &= !only_ends;
   apparatus.rate_hz = parameters_.study.device.rate_hz;
   apparatus.ramp_s = parameters_.study.device.ramp_s;
   apparatus.immersion = parameters_.study.device.immersion;

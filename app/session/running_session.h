@@ -30,9 +30,11 @@ class RunningSession {
     const experiments::Laboratory* laboratory =
         nullptr;  ///< That of a simulated hand; or none.
     std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
+    bool only_ends = false;  ///< It is resumed to be ended: nothing is felt any more.
   };
 
-  /// Replays the log and starts the apparatus. Throws `Error`.
+  /// Replays the log and starts the apparatus, by the profile of the device that the session
+  /// keeps. Throws `Error`, also for a real device without one that is to give force.
   explicit RunningSession(const Parameters& parameters);
   RunningSession(const RunningSession&) = delete;
   RunningSession& operator=(const RunningSession&) = delete;

@@ -60,6 +60,8 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
   const std::string hash = store.add_protocol(
       setup.study_file.filename().string(), setup.study.text,
       std::filesystem::relative(setup.study_file, store.folder(), error).generic_string());
+  const std::string profile_hash =
+      setup.profile == nullptr ? "" : store.add_device_profile(setup.profile->text);
   const std::vector<experiments::Cell> cells =
       experiments::planned_cells(setup.study, experiments::completed_cells(store), setup.seed,
                                  static_cast<std::int64_t>(rows.size()),
@@ -74,6 +76,7 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
     row.pilot = setup.pilot;
     row.simulated = setup.laboratory != nullptr;
     row.device = setup.device;
+    row.device_profile_sha256 = profile_hash;
     row.laboratory = laboratory_text(setup);
     row.program_version = JND_VERSION;
     row.realtime = !setup.realtime           ? "simulated"

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/profile/known_profile.h"
 #include "core/storage/study_store.h"
 #include "experiments/order/cell.h"
 #include "experiments/participants/laboratory.h"
@@ -20,6 +21,7 @@ struct SessionSetup {
   const experiments::Laboratory* laboratory = nullptr;
   std::filesystem::path study_file;
   std::string device = "lumped";
+  const KnownProfile* profile = nullptr;  ///< What was measured of it; nullptr: nothing.
   std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
   bool pilot = false;
   bool realtime = false;

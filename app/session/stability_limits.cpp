@@ -175,7 +175,8 @@ std::optional<StabilityCheck> check_stability(const StabilityMap& map,
   if (attached == nullptr || detached == nullptr) return std::nullopt;
   StabilityCheck check{.rate_hz = attached->measured_case.rate_hz,
                        .attached = attached->limits,
-                       .detached = detached->limits};
+                       .detached = detached->limits,
+                       .measured = map.measured};
   const auto force_map = experiments::force_map_of(study.device);
   const core::MediumAmounts surroundings = experiments::surroundings_of(study.device);
   for (const experiments::RangeEntry& entry : range) {
@@ -196,14 +197,18 @@ std::string words_of(const StabilityLimit& limit, const char* unit) {
          unit + (limit.is_beyond_ladder ? " or more" : "");
 }
 
+std::string stably_words(const StabilityCheck& check, const std::string& device) {
+  return fmt::format("`{}` renders stably at {:g} Hz{}", device, check.rate_hz,
+                     check.measured.empty() ? "" : ", as measured " + check.measured);
+}
+
 std::string unstable_words(const StabilityCheck& check, const std::string& device) {
-  return fmt::format(
-      "expected stimuli that `{}` renders stably at {:g} Hz (on the hand up to {} and {}), "
-      "found "
-      "{} of {} beyond",
-      device, check.rate_hz, words_of(check.attached.viscosity_pa_s, "Pa s"),
-      words_of(check.attached.stiffness_n_per_m, "N/m"), check.num_unstable(),
-      check.is_stable.size());
+  return fmt::format("expected stimuli that {} ({} {} and {}), found {} of {} beyond",
+                     stably_words(check, device),
+                     check.measured.empty() ? "on the hand up to" : "up to",
+                     words_of(check.attached.viscosity_pa_s, "Pa s"),
+                     words_of(check.attached.stiffness_n_per_m, "N/m"), check.num_unstable(),
+                     check.is_stable.size());
 }
 
 std::string detached_remark(const StabilityCheck& check) {

@@ -21,6 +21,8 @@ struct StabilityRow {
 struct StabilityMap {
   std::string device;  ///< Its name in the registry.
   std::vector<StabilityRow> rows;
+  /// "on 2026-11-25 with a phantom of 0.2 kg", of a device profile; "": simulated, as shipped.
+  std::string measured{};
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const StabilityMap& map);
@@ -36,6 +38,7 @@ struct StabilityCheck {
   /// lowest there is.
   double rate_hz = 0.0;
   device::ExoskeletonStability attached, detached;
+  std::string measured{};            ///< As in the map.
   std::vector<bool> is_stable;       ///< Of each stimulus, with the hand attached.
   std::vector<bool> needs_the_hand;  ///< Stable with it, not with a finger that came off.
 
@@ -51,6 +54,10 @@ struct StabilityCheck {
 
 /// "512 Pa s or more": a limit for people.
 [[nodiscard]] std::string words_of(const device::StabilityLimit& limit, const char* unit);
+
+/// "`exoskeleton` renders stably at 1000 Hz", ", as measured on 2026-11-25 with ..." where it
+/// was.
+[[nodiscard]] std::string stably_words(const StabilityCheck& check, const std::string& device);
 
 /// "expected stimuli that `exoskeleton` renders stably at 1000 Hz (on the hand up to ...),
 /// found 2 of 8 beyond": where some are unstable.

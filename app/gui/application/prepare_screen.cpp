@@ -70,9 +70,11 @@ void PrepareScreen::assign(const core::StudyStore& store) {
 
 void PrepareScreen::look_before() {
   preflight_ = std::make_unique<Preflight>(
-      PreflightRequest{.folder = study_.folder().folder,
-                       .device = state_.device,
-                       .allow_no_realtime = request_.allow_no_realtime},
+      PreflightRequest{
+          .folder = study_.folder().folder,
+          .device = state_.device,
+          .profile = state_.device == request_.device ? request_.device_profile.string() : "",
+          .allow_no_realtime = request_.allow_no_realtime},
       host_.wake());
 }
 
@@ -106,6 +108,9 @@ void PrepareScreen::draw(Ui& ui) {
     host_.attempt(tr("The session cannot be started"), [this] {
       host_.start_session({.participant = state_.participant,
                            .device = state_.device,
+                           .device_profile = state_.device == request_.device
+                                                 ? request_.device_profile.string()
+                                                 : "",
                            .seed = seed_,
                            .pilot = state_.pilot,
                            .language = state_.language,

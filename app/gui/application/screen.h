@@ -37,7 +37,8 @@ class Screen {
 /// A session to be begun in the study that is open.
 struct NewSession {
   std::string participant, device;
-  std::uint64_t seed = 0;  ///< Of the study.
+  std::string device_profile;  ///< A file; "": a real device's own is looked for.
+  std::uint64_t seed = 0;      ///< Of the study.
   bool pilot = false;
   std::string language;
   std::map<std::string, std::string> fields;  ///< What the participant brings.

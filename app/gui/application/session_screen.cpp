@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include "app/language/words.h"
 #include "app/operator/remembered_stop.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
 #include "app/session/stored_session.h"
@@ -28,8 +30,21 @@ std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& devic
 
 }  // namespace
 
+/// What was measured of the device, if anything. Throws `core::Error` where it has to be known
+/// and is not.
+static std::optional<KnownProfile> profile_for(const NewSession& session,
+                                               const experiments::Study& study) {
+  const DeviceOfProfile device = device_of_profile(session.device, study.device.rate_hz);
+  ProfileChoice choice =
+      choose_profile(device, session.device_profile, profile_folders(), today());
+  const std::string refused = refused_words(device, choice, study);
+  if (!refused.empty()) throw core::Error(refused);
+  return std::move(choice.known);
+}
+
 void SessionScreen::start(const NewSession& session) {
   const experiments::Study& study = study_.study();
+  const std::optional<KnownProfile> profile = profile_for(session, study);
   auto store = std::make_unique<core::StudyStore>(study_.folder().folder,
                                                   core::StudyStore::Mode::kReadWrite);
   const std::unique_ptr<experiments::Laboratory> laboratory =
@@ -39,6 +54,7 @@ void SessionScreen::start(const NewSession& session) {
                                             .laboratory = laboratory.get(),
                                             .study_file = study_.folder().study_file,
                                             .device = session.device,
+                                            .profile = profile ? &*profile : nullptr,
                                             .seed = session.seed,
                                             .pilot = session.pilot,
                                             .realtime = true,
@@ -51,9 +67,18 @@ void SessionScreen::start(const NewSession& session) {
 }
 
 void SessionScreen::resume(std::int64_t session) {
-  run(std::make_unique<core::StudyStore>(study_.folder().folder,
-                                         core::StudyStore::Mode::kReadWrite),
-      session, /*language=*/"");
+  auto store = std::make_unique<core::StudyStore>(study_.folder().folder,
+                                                  core::StudyStore::Mode::kReadWrite);
+  const core::SessionRow row = store->session(session);
+  try {
+    const std::string refused = refused_resume_words(
+        *store, row, stored_study(*store, session), device_of_profile(row.device, row.rate_hz),
+        device_profile_, profile_folders(), today());
+    if (!refused.empty()) throw core::Error(refused);
+  } catch (const device::DeviceUnreachable&) {
+    // Told by the session, which asks it again.
+  }
+  run(std::move(store), session, /*language=*/"");
 }
 
 void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t session,

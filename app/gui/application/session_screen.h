@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "app/gui/application/open_study.h"
 #include "app/gui/application/screen.h"
@@ -20,8 +21,13 @@ namespace jnd::app::gui {
 /// A session in the window, from its start or resumption to the check and copy after it.
 class SessionScreen final : public Screen {
  public:
-  SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime)
-      : host_(host), study_(study), allow_no_realtime_(allow_no_realtime) {}
+  /// `device_profile`: that of sessions that are resumed, a file; "": looked for.
+  SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime,
+                std::string device_profile)
+      : host_(host),
+        study_(study),
+        allow_no_realtime_(allow_no_realtime),
+        device_profile_(std::move(device_profile)) {}
 
   /// Adds a session to the study that is open, and begins it. Throws `Error`.
   void start(const NewSession& session);
@@ -74,6 +80,7 @@ class SessionScreen final : public Screen {
   ScreenHost& host_;
   OpenStudy& study_;
   bool allow_no_realtime_;
+  std::string device_profile_;
   OperatorExchange exchange_;
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;

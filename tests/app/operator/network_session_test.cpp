@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "app/operator/realtime_session_fixture.h"
+#include "core/error.h"
 #include "core/storage/integrity.h"
 #include "device/network/device_server.h"
 #include "device/network/udp_port.h"
 #include "device/registry/device_registry.h"
+#include "support/wide_profile.h"
 
 namespace jnd::app {
 namespace network_session_test {
@@ -200,6 +202,34 @@ TEST_F(NetworkSessionTest, ResumesInANewProgramAfterTheDeviceDiedInAPause) {
   EXPECT_EQ(again.trial->trial, second.trial->trial);
   answer(again.trial->trial);
   expect_both_trials_stored_once();
+}
+
+/// SAFETY.md: a real device that nobody measured is not even opened for a study with force.
+TEST_F(NetworkSessionTest, ARealDeviceWithoutAProfileIsNotOpenedForAStudyWithForce) {
+  hand_.emplace(1, 0, std::make_unique<HurtfulHand>());
+  device_ = "network:" + hand_->place();
+  open_window();
+  try {
+    open(kTwoTrials);
+    FAIL() << "opened";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("expected a profile of the device"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(store_->events(session_number_).empty());
+}
+
+TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
+  hand_.emplace(1, 0, std::make_unique<HurtfulHand>());
+  device_ = "network:" + hand_->place();
+  profile_ = {.profile = test_support::wide_profile("hurtful"),
+              .text = experiments::device_profile_text(test_support::wide_profile("hurtful"))};
+  open_window();
+  open(kTwoTrials);
+  EXPECT_FALSE(store_->session(session_number_).device_profile_sha256.empty());
+  session_->request(operate::Begin{});
+  until([](const SessionView& now) { return now.step == Step::kReady; });
 }
 
 /// A connection may be armed only once it has been good for a while, and `arm` waits for that.

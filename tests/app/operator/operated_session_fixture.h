@@ -38,6 +38,7 @@ class OperatedSessionTest : public ::testing::Test {
                                     .laboratory = &laboratory_,
                                     .study_file = "study.json",
                                     .device = device_,
+                                    .profile = profile_.text.empty() ? nullptr : &profile_,
                                     .seed = 7},
                                    {"P01"})
                           .front();
@@ -175,6 +176,7 @@ class OperatedSessionTest : public ::testing::Test {
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;
   std::string device_ = "lumped";  ///< Of sessions opened from now on, as what follows.
+  KnownProfile profile_;           ///< Without a text: none.
   bool realtime_ = false;
   bool may_miss_ticks_ = true;   ///< A test in real time must not hang on the machine.
   std::filesystem::path stops_;  ///< Where stops are remembered; "": nowhere.

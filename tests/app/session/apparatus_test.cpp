@@ -6,13 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/media/medium.h"
 #include "core/random_stream.h"
 #include "experiments/participants/thesis_laboratory.h"
+#include "support/wide_profile.h"
 
 namespace jnd::app {
 namespace apparatus_test {
@@ -103,6 +106,41 @@ TEST_F(ApparatusTest, TheTotalForceIsTheLeastOfLaboratoryAndDevice) {
   EXPECT_EQ(Apparatus(with_doors("mouse", false), laboratory_).max_total_force_n(), 30.0);
   EXPECT_EQ(Apparatus(with_doors("lumped", false), laboratory_).max_total_force_n(), 30.0)
       << "a laboratory may ask for less alone";
+}
+
+std::shared_ptr<const KnownProfile> profile_of(const std::string& model,
+                                               const std::string& serial = "") {
+  return std::make_shared<const KnownProfile>(
+      KnownProfile{.profile = test_support::wide_profile(model, serial), .place = "a profile"});
+}
+
+TEST_F(ApparatusTest, AProfileMovesTheHandIntoTheWorkspaceAndNarrowsTheForce) {
+  Apparatus::Parameters parameters = with_doors("mouse", /*realtime=*/false);
+  KnownProfile known = *profile_of("mouse");
+  known.profile.frame.rotation = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  known.profile.frame.offset_m = {0.0, 0.0, 0.05};
+  known.profile.limits.max_total_force_n = 4.0;
+  known.profile.mechanics.mass_kg = experiments::MeasuredValue{0.7, {0.6, 0.8}};
+  parameters.profile = std::make_shared<const KnownProfile>(known);
+  Apparatus apparatus(parameters);
+  point_at(0.2);
+  apparatus.run_for(1.0);
+  EXPECT_NEAR(apparatus.telemetry().hand_position_m[0], 0.0, 1e-6);
+  EXPECT_NEAR(apparatus.telemetry().hand_position_m[1], 0.2, 1e-6);
+  EXPECT_NEAR(apparatus.telemetry().hand_position_m[2], -0.10, 1e-12);
+  EXPECT_EQ(apparatus.max_total_force_n(), 4.0);
+  EXPECT_EQ(apparatus.device_told().own_mass_kg, 0.0) << "what it says itself is kept";
+}
+
+TEST_F(ApparatusTest, ADeviceThatIsNotTheOneOfTheProfileIsRefusedOnceItIsOpen) {
+  for (const auto& [model, serial] : {std::pair("lumped", "9"), std::pair("omega", "")}) {
+    Apparatus::Parameters parameters = with_doors("lumped", /*realtime=*/false);
+    parameters.profile = profile_of(model, serial);
+    EXPECT_THROW(Apparatus(parameters, laboratory_), core::Error) << model;
+  }
+  Apparatus::Parameters parameters = with_doors("lumped", /*realtime=*/false);
+  parameters.profile = profile_of("lumped");
+  EXPECT_NO_THROW(Apparatus(parameters, laboratory_));
 }
 
 TEST_F(ApparatusTest, TheWindowsStopLatchesAndRearmingBringsTheForceBack) {
