@@ -35,9 +35,8 @@ KnownProfile read_known_profile(const std::filesystem::path& file) {
 KnownProfile stored_profile(const core::StudyStore& store, const std::string& sha256) {
   std::string text = store.device_profile(sha256).text;
   const std::string place = store.folder().string() + ": stored device profile";
-  return {.profile = experiments::read_device_profile_text(text, place),
-          .text = std::move(text),
-          .place = place};
+  experiments::DeviceProfile profile = experiments::read_device_profile_text(text, place);
+  return {.profile = std::move(profile), .text = std::move(text), .place = place};
 }
 
 std::string today() {

@@ -181,8 +181,7 @@ std::string refused_resume_words(const core::StudyStore& store, const core::Sess
            "; leave it away";
   }
   const KnownProfile stored = stored_profile(store, session.device_profile_sha256);
-  const std::string foreign =
-      foreign_words(stored, device.identity, device.is_simulated, false);
+  std::string foreign = foreign_words(stored, device.identity, device.is_simulated, false);
   if (!foreign.empty()) return foreign;
   FoundProfile found;
   if (!file.empty()) {

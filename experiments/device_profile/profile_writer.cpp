@@ -155,7 +155,7 @@ std::filesystem::path write_device_profile(const DeviceProfile& profile,
     const std::string name = number == 0   ? profile.name
                              : number == 1 ? dated
                                            : dated + '-' + std::to_string(number);
-    const std::filesystem::path file = folder / (name + std::string(kDeviceProfileEnding));
+    std::filesystem::path file = folder / (name + std::string(kDeviceProfileEnding));
     if (write_new(file, text)) return file;
   }
   throw core::Error(folder.string() +

@@ -229,7 +229,13 @@ TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
   open(kTwoTrials);
   EXPECT_FALSE(store_->session(session_number_).device_profile_sha256.empty());
   session_->request(operate::Begin{});
-  until([](const SessionView& now) { return now.step == Step::kReady; });
+  until([](const SessionView& now) { return now.step != Step::kBegin; });
+  // What the device says of itself is kept besides.
+  const std::vector<core::EventRow> events = store_->events(session_number_);
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const core::EventRow& event) {
+    return event.kind == "loop_started" &&
+           event.data.find(R"("model":"hurtful")") != std::string::npos;
+  }));
 }
 
 /// A connection may be armed only once it has been good for a while, and `arm` waits for that.

@@ -8,6 +8,7 @@
 #include "app/operator/study_folder.h"
 #include "app/session/machine_checks.h"
 #include "core/error.h"
+#include "support/wide_profile.h"
 
 namespace jnd::app {
 namespace preflight_test {
@@ -146,6 +147,37 @@ TEST(Preflight, LooksAtEverythingAndTellsOfEachLineAsItComes) {
   }
   EXPECT_EQ(lines.back().name, "Loop at 1 kHz for 0.05 s");
   EXPECT_EQ(control.ratio(), 1.0);
+}
+
+TEST(Preflight, TellsWhatWasMeasuredOfTheDeviceAndWhyNothingIsBegunOnIt) {
+  const PreflightLine sound{.name = "Device", .status = Status::kOk, .found = "wam"};
+  EXPECT_EQ(with_profile(sound, std::nullopt, "").found, "wam");
+  KnownProfile known{.profile = test_support::wide_profile("wam")};
+  EXPECT_EQ(with_profile(sound, known, "").found,
+            "wam, measured on 2026-11-20, valid until 2999-12-31");
+  EXPECT_EQ(with_profile(sound, known, "").status, Status::kOk);
+  known.profile.simulated = true;
+  EXPECT_NE(with_profile(sound, known, "").found.find("SIMULATED"), std::string::npos);
+  const PreflightLine refused = with_profile(sound, std::nullopt, "expected a profile");
+  EXPECT_EQ(refused.status, Status::kFailed);
+  EXPECT_EQ(refused.remedy, "expected a profile");
+}
+
+TEST(Preflight, ComparesTheStimuliWithTheProfileThatIsGiven) {
+  const SimulatedStudy made;
+  create_study_folder(made.file(), made.folder());
+  const test_support::TemporaryFolder folder;
+  experiments::DeviceProfile weak = test_support::wide_profile("lumped");
+  weak.limits.max_total_force_n = 0.1;
+  const std::filesystem::path file = experiments::write_device_profile(weak, folder.path());
+  const auto stimuli = [&](const std::string& profile) {
+    WorkControl control;
+    return look_before_session(
+               {.folder = made.folder(), .profile = profile, .loop_test_s = 0.02}, control, {})
+        .at(7);
+  };
+  EXPECT_EQ(stimuli("").status, Status::kOk);
+  EXPECT_EQ(stimuli(file.string()).status, Status::kFailed);
 }
 
 TEST(Preflight, TellsNoForceOfADoubleBlindStudyUntilItIsUnblinded) {
