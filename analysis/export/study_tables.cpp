@@ -45,22 +45,31 @@ std::string on_one_line(const std::string& json_text) {
 
 /// What the participant got and brought.
 struct SessionStart {
-  std::string language, fields;
+  std::string language, fields, fitting;
 };
+
+/// "hand=left;sex=female": what stands under this key of an event.
+std::string pairs_in(const nlohmann::json& data, const char* key) {
+  std::string text;
+  for (const auto& [name, value] : data.value(key, std::map<std::string, std::string>{})) {
+    text += (text.empty() ? "" : ";") + name + "=" + value;
+  }
+  return text;
+}
 
 /// Empty where the session has not begun, or does not say.
 SessionStart start_of(const std::vector<core::EventRow>& events) {
   SessionStart start;
   for (const core::EventRow& event : events) {
-    if (event.kind != "session_started") continue;
+    if (event.kind != "session_started" && event.kind != "fitting_kept") continue;
     const auto data = nlohmann::json::parse(event.data, nullptr, false);
-    if (!data.is_object()) return start;
-    start.language = data.value("language", "");
-    const auto fields = data.value("fields", std::map<std::string, std::string>{});
-    for (const auto& [name, value] : fields) {
-      start.fields += (start.fields.empty() ? "" : ";") + name + "=" + value;
+    if (!data.is_object()) continue;
+    if (event.kind == "fitting_kept") {
+      start.fitting = pairs_in(data, "fitting");
+    } else {
+      start.language = data.value("language", "");
+      start.fields = pairs_in(data, "fields");
     }
-    return start;
   }
   return start;
 }
@@ -116,6 +125,12 @@ const Columns<SessionCells>& session_table() {
           "What was known of the participant before, as in sex=female;hand=left; empty "
           "where nothing was asked"},
          [](auto& to, const auto& it) { to.cell(it.start.fields); }});
+    insert_after(
+        all, "fields",
+        {{"fitting", "",
+          "How the device was fitted to the participant, as in glove=M;thumb=thin pad; "
+          "empty where nobody said. The event fitting_kept has where the points were"},
+         [](auto& to, const auto& it) { to.cell(it.start.fitting); }});
     place_of(all, "laboratory")->put = [](auto& to, const auto& it) {
       to.cell(on_one_line(it.session.laboratory));
     };

@@ -21,8 +21,9 @@ struct WindowRequest {
   std::optional<std::uint64_t> seed;
   bool pilot = false;
   bool allow_no_realtime = false;
-  std::string language;                       ///< Of the study; "": its first.
-  std::map<std::string, std::string> fields;  ///< What the participant brings; may lack.
+  std::string language;                        ///< Of the study; "": its first.
+  std::map<std::string, std::string> fields;   ///< What the participant brings; may lack.
+  std::map<std::string, std::string> fitting;  ///< How the device was fitted; may be empty.
   /// "F10", "F11" or "F12": a key, pedal or button of the participant's; "": none. See
   /// `gui::ParticipantStop`.
   std::string participant_stop;

@@ -17,6 +17,7 @@
 #include "app/command_line/stop_signals.h"
 #include "app/command_line/usage_message.h"
 #include "app/commands/field_options.h"
+#include "app/commands/fitting_option.h"
 #include "app/commands/profile_option.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
@@ -52,10 +53,11 @@ struct RunOptions {
   bool acknowledge = false;
   std::string choose = "repeat";
   std::optional<std::int64_t> session;
-  std::string language;             ///< "": the study's first.
-  std::vector<std::string> fields;  ///< "sex=female"
-  double wait_s = 0.0;              ///< For a device that is elsewhere.
-  std::string participant_stop;     ///< A key; "": none.
+  std::string language;              ///< "": the study's first.
+  std::vector<std::string> fields;   ///< "sex=female"
+  std::vector<std::string> fitting;  ///< "glove=M"
+  double wait_s = 0.0;               ///< For a device that is elsewhere.
+  std::string participant_stop;      ///< A key; "": none.
   bool participant_holds = false;
 };
 
@@ -150,6 +152,7 @@ int run_session(const RunOptions& options, core::StudyStore& store,
          .shadow_guards = options.shadow_guards,
          .choice = options.choose,
          .language = options.language,
+         .fitting = fitting_given(options.fitting),
          .on_event =
              [&](const core::EventRow& event) {
                has_begun = true;
@@ -248,6 +251,7 @@ std::optional<KnownProfile> profile_for(const RunOptions& options,
 }
 
 int run_run(RunOptions options) {
+  (void)fitting_given(options.fitting);
   require_device(options.device);
   require_pseudonym(options.participant);
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
@@ -264,6 +268,7 @@ int run_run(RunOptions options) {
                         .allow_no_realtime = options.allow_no_realtime,
                         .language = options.language,
                         .fields = fields_or_none(study, options.fields),
+                        .fitting = fitting_given(options.fitting),
                         .participant_stop = options.participant_stop,
                         .participant_holds = options.participant_holds});
   }
@@ -434,6 +439,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->check(seed_number());
   add_field_option(*command, options->fields,
                    "What the participant brings, as the study's participant_fields ask");
+  add_fitting_option(*command, options->fitting);
   command->add_option("--language", options->language,
                       "Of the texts, for example de; default: the study's first");
   command->add_flag("--pilot", options->pilot, "Marked as pilot and left out of results");

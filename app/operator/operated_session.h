@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,7 +40,9 @@ class OperatedSession {
     LiveTrace* trace = nullptr;    ///< Gets every sample, unless levels are hidden.
     ScopeTrace* scopes = nullptr;  ///< Gets every sample, unless levels are hidden.
     std::string language;          ///< Of the study's texts; "": its first.
-    bool realtime = true;          ///< Else time passes only in `advance`: for tests.
+    /// How the device was fitted, where the session begins; empty: nobody said.
+    std::map<std::string, std::string> fitting{};
+    bool realtime = true;  ///< Else time passes only in `advance`: for tests.
     bool allow_no_realtime = false;
     /// Where stops are remembered that nobody released; "": nowhere. See `remember_stop`.
     std::filesystem::path stops;

@@ -47,9 +47,13 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Begin& begin) const {
     if (my.begun_) refuse(tr("the session has begun already"));
+    const bool is_new = !my.state().started;
     my.running_.begin(begin.choice, my.language_);
     my.begun_ = true;
     my.begun_s_ = my.now_s();
+    if (is_new && !my.parameters_.fitting.empty()) {
+      my.running_.keep_fitting(my.parameters_.fitting);
+    }
   }
 
   void operator()(const operate::AnswerItem& given) const {

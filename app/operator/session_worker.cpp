@@ -96,6 +96,7 @@ void SessionWorker::work() {
                            .trace = &trace_,
                            .scopes = &scopes_,
                            .language = parameters_.language,
+                           .fitting = parameters_.fitting,
                            .allow_no_realtime = parameters_.allow_no_realtime,
                            .stops = parameters_.stops});
   auto next_picture = std::chrono::steady_clock::now();

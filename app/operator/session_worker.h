@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -34,6 +35,7 @@ class SessionWorker {
     experiments::Study study;
     std::unique_ptr<experiments::Laboratory> laboratory;  ///< Of a simulated hand; else empty.
     std::string language;
+    std::map<std::string, std::string> fitting{};  ///< As `OperatedSession::Parameters`.
     bool allow_no_realtime = false;
     std::filesystem::path stops;  ///< As `OperatedSession::Parameters`.
     /// Called from the thread whenever there is a newer picture; may be empty.

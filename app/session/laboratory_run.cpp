@@ -46,7 +46,9 @@ class SimulatedSession {
     LaboratoryRunResult result;
     result.realtime = running_.apparatus().realtime();
     try {
+      const bool is_new = !session_.state().started;
       running_.begin(run_.choice, run_.language);
+      if (is_new && !run_.fitting.empty()) running_.keep_fitting(run_.fitting);
       if (run_.shadow_guards && !session_.state().ended) {
         session_.note("the guards of the loop only count what they would have done");
       }

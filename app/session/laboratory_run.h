@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct LaboratoryRun {
   /// How an interrupted session goes on: "repeat", "restart" or "end".
   std::string choice = "repeat";
   std::string language{};  ///< That the texts are taken to be read in; "": nobody reads them.
+  /// How the device was fitted, where the session begins; see `RunningSession::keep_fitting`.
+  std::map<std::string, std::string> fitting{};
   std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
   std::function<void(double)> on_progress;              ///< 0 to 1; may be empty.
   std::function<bool()> is_cancelled;                   ///< Ends resumably; may be empty.

@@ -127,6 +127,20 @@ void RunningSession::begin(const std::string& choice, const std::string& languag
                          .device = apparatus_.device_told()});
 }
 
+void RunningSession::keep_fitting(const std::map<std::string, std::string>& fitting) {
+  constexpr double kUntilItIsMeasuredS = 0.05;
+  if (apparatus_.telemetry().num_ticks == 0) apparatus_.run_for(kUntilItIsMeasuredS);
+  const core::Sample& now = apparatus_.telemetry().sample;
+  FittingKept kept{.fitting = fitting};
+  for (std::size_t point = 0; point < core::kContactPointNames.size(); ++point) {
+    if ((now.attached_bits >> point & 1U) == 0) continue;
+    const std::string name(core::kContactPointNames[point]);
+    kept.held.push_back(name);
+    kept.neutral_pose_m[name] = now.tip_position_m[point];
+  }
+  session_.fitting_kept(kept);
+}
+
 void RunningSession::keep_timing() {
   const device::RealtimeThread* thread = apparatus_.realtime_thread();
   if (thread == nullptr) return;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ class RunningSession {
 
   /// Starts the session in this language, or goes on with it: "repeat", "restart" or "end".
   void begin(const std::string& choice, const std::string& language = "");
+  /// Stores how the device was fitted to the person, in people's words by what was fitted, with
+  /// the points that are held and where they are now: before the first stage, at rest.
+  void keep_fitting(const std::map<std::string, std::string>& fitting);
   /// Stores how punctual the loop has been since it was started; after every stage, so that a
   /// crash costs one.
   void keep_timing();

@@ -23,7 +23,7 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "continued",          "fault_raised",         "session_resumed",
     "loop_started",       "loop_measured",        "unblinded",
     "arming_changed",     "exposure_told",        "guard_noticed",
-    "session_completed",  "session_ended_early"};
+    "fitting_kept",       "session_completed",    "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -205,6 +205,9 @@ struct Writer {
     data = {{"state", e.state}, {"cause", e.cause}};
   }
   void operator()(const ExposureTold& e) const { data = exposure_json(e.exposure); }
+  void operator()(const FittingKept& e) const {
+    data = {{"fitting", e.fitting}, {"held", e.held}, {"neutral_pose_m", e.neutral_pose_m}};
+  }
   void operator()(const GuardNoticed& e) const {
     data = {
         {"guard", e.guard}, {"num_warnings", e.num_warnings}, {"num_shadowed", e.num_shadowed}};
@@ -314,6 +317,11 @@ struct Reader {
     e.lost_first_tick = column(row.first_tick, "first_tick");
     e.lost_last_tick = column(row.last_tick, "last_tick");
     data.at("choice").get_to(e.choice);
+  }
+  void operator()(FittingKept& e) const {
+    data.at("fitting").get_to(e.fitting);
+    data.at("held").get_to(e.held);
+    data.at("neutral_pose_m").get_to(e.neutral_pose_m);
   }
   void operator()(LoopStarted& e) const {
     e.first_tick = column(row.first_tick, "first_tick");

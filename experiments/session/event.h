@@ -160,6 +160,14 @@ struct SessionResumed {
   std::int64_t lost_first_tick = 0, lost_last_tick = -1;  ///< Recorded, but of no answer.
 };
 
+/// How the device was fitted to this person, and where the hand is in it at rest.
+struct FittingKept {
+  std::map<std::string, std::string> fitting;  ///< In people's words: "glove" is "M".
+  std::vector<std::string> held;               ///< Points, by their names.
+  /// Of each that is held, workspace frame.
+  std::map<std::string, std::array<double, 3>> neutral_pose_m;
+};
+
 /// What the device said of itself.
 struct DeviceTold {
   std::string model, serial, firmware;  ///< "": it does not say.
@@ -210,12 +218,14 @@ struct SessionEndedEarly {
   std::string reason;
 };
 
-using EventData = std::variant<
-    SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished, TrialsDrawn,
-    TrialStarted, PresentationStarted, PresentationEnded, IntensityAdjusted, TrialAnswered,
-    AnswerUndone, AnswerCorrected, AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded,
-    Paused, Continued, FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
-    ArmingChanged, ExposureTold, GuardNoticed, SessionCompleted, SessionEndedEarly>;
+using EventData =
+    std::variant<SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished,
+                 TrialsDrawn, TrialStarted, PresentationStarted, PresentationEnded,
+                 IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
+                 AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
+                 FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
+                 ArmingChanged, ExposureTold, GuardNoticed, FittingKept, SessionCompleted,
+                 SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

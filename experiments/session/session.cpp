@@ -432,6 +432,8 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
 
 void Session::loop_started(const LoopStarted& given) { commit(given); }
 
+void Session::fitting_kept(const FittingKept& kept) { commit(kept); }
+
 void Session::exposed(const core::Exposure& exposure) { commit(ExposureTold{exposure}); }
 
 void Session::guard_noticed(const GuardNoticed& noticed) { commit(noticed); }

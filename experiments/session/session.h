@@ -114,6 +114,7 @@ class Session {
   void resume(const std::string& choice, std::int64_t lost_first_tick,
               std::int64_t lost_last_tick);
   void loop_started(const LoopStarted& given);
+  void fitting_kept(const FittingKept& kept);
   void arming_changed(const std::string& arming, const std::string& cause);
   void exposed(const core::Exposure& exposure);
   void guard_noticed(const GuardNoticed& noticed);

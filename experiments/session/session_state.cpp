@@ -119,6 +119,7 @@ struct Fold {
   void operator()(const Unblinded&) const {}
   void operator()(const ArmingChanged&) const {}
   void operator()(const GuardNoticed&) const {}
+  void operator()(const FittingKept&) const {}
   void operator()(const ExposureTold& e) const { state.exposure += e.exposure; }
   void operator()(const SessionCompleted&) const {
     state.ended = true;

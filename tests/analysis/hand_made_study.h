@@ -56,6 +56,13 @@ class HandMadeStudy {
     store_.append(started);
   }
 
+  /// An event of the session added last that nothing but its data tells of.
+  void keep(const char* kind, const std::string& data) {
+    core::Commit kept = event(kind);
+    kept.event.data = data;
+    store_.append(kept);
+  }
+
   /// The session added last is "session_completed" or "session_ended_early".
   void end(const char* kind) { store_.append(event(kind)); }
 

@@ -114,7 +114,8 @@ void PrepareScreen::draw(Ui& ui) {
                            .seed = seed_,
                            .pilot = state_.pilot,
                            .language = state_.language,
-                           .fields = state_.fields});
+                           .fields = state_.fields,
+                           .fitting = std::exchange(request_.fitting, {})});
     });
   } else {
     host_.go_to(result.tab);

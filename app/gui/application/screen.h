@@ -41,7 +41,8 @@ struct NewSession {
   std::uint64_t seed = 0;      ///< Of the study.
   bool pilot = false;
   std::string language;
-  std::map<std::string, std::string> fields;  ///< What the participant brings.
+  std::map<std::string, std::string> fields;   ///< What the participant brings.
+  std::map<std::string, std::string> fitting;  ///< How the device was fitted to them.
 };
 
 /// What a screen asks of the window around it.

@@ -63,7 +63,7 @@ void SessionScreen::start(const NewSession& session) {
                                            {session.participant})
                                   .front();
   run(std::move(store), number,
-      session.language.empty() ? study.languages.front() : session.language);
+      session.language.empty() ? study.languages.front() : session.language, session.fitting);
 }
 
 void SessionScreen::resume(std::int64_t session) {
@@ -82,7 +82,8 @@ void SessionScreen::resume(std::int64_t session) {
 }
 
 void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t session,
-                        const std::string& language) {
+                        const std::string& language,
+                        const std::map<std::string, std::string>& fitting) {
   const core::SessionRow row = store->session(session);
   experiments::Study study = stored_study(*store, session);
   std::unique_ptr<experiments::Laboratory> laboratory;
@@ -106,6 +107,7 @@ void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t se
                                 .study = std::move(study),
                                 .laboratory = std::move(laboratory),
                                 .language = language,
+                                .fitting = fitting,
                                 .allow_no_realtime = allow_no_realtime_,
                                 .stops = stops_folder(),
                                 .wake = host_.wake()},

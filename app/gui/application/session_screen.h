@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -69,7 +70,7 @@ class SessionScreen final : public Screen {
 
  private:
   void run(std::unique_ptr<core::StudyStore> store, std::int64_t session,
-           const std::string& language);
+           const std::string& language, const std::map<std::string, std::string>& fitting = {});
   void hold_input(Ui& ui, bool is_behind, bool requests_wait) const;
   [[nodiscard]] RunViewResult draw_session_view(Ui& ui);
   [[nodiscard]] ApparatusSources apparatus_sources();

@@ -105,7 +105,7 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
   }
   const std::set<std::string> kWorkedOut = {"simulated",   "excluded",        "completed",
                                             "is_practice", "standard_medium", "language",
-                                            "fields"};
+                                            "fields",      "fitting"};
   for (const char* name : kTables) {
     const CsvTable columns = table(name);
     for (const std::string& column : columns.columns()) {
@@ -161,6 +161,19 @@ TEST_F(CsvExportTest, ASessionHasWhatItsParticipantReadAndBrought) {
   EXPECT_EQ(cell(sessions, 0, "language"), "");
   EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "language"), "de");
   EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "fields"), "hand=left;sex=female");
+}
+
+TEST_F(CsvExportTest, ASessionHasHowTheDeviceWasFitted) {
+  (void)study_.add("P09");
+  study_.start(R"({"language": "de"})");
+  study_.keep("fitting_kept",
+              R"({"fitting": {"thumb": "thin pad", "glove": "M"}, "held": ["thumb"],
+                  "neutral_pose_m": {"thumb": [0, 0.1, 0.2]}})");
+  export_csv(study_.store(), out(), {});
+  const CsvTable sessions = table("sessions.csv");
+  EXPECT_EQ(cell(sessions, 0, "fitting"), "");
+  EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "fitting"), "glove=M;thumb=thin pad");
+  EXPECT_EQ(cell(sessions, sessions.num_rows() - 1, "language"), "de");
 }
 
 TEST_F(CsvExportTest, WhatWasMeasuredOfADeviceIsAFileThatItsSessionsName) {

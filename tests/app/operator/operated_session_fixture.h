@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,6 +57,7 @@ class OperatedSessionTest : public ::testing::Test {
                                     .exchange = exchange_,
                                     .trace = &trace_,
                                     .scopes = &scopes_,
+                                    .fitting = fitting_,
                                     .realtime = realtime_,
                                     .allow_no_realtime = true,
                                     .stops = stops_,
@@ -177,6 +179,7 @@ class OperatedSessionTest : public ::testing::Test {
   std::int64_t session_number_ = 0;
   std::string device_ = "lumped";  ///< Of sessions opened from now on, as what follows.
   KnownProfile profile_;           ///< Without a text: none.
+  std::map<std::string, std::string> fitting_;
   bool realtime_ = false;
   bool may_miss_ticks_ = true;   ///< A test in real time must not hang on the machine.
   std::filesystem::path stops_;  ///< Where stops are remembered; "": nowhere.

@@ -393,5 +393,22 @@ TEST_F(OperatedSessionTest, ARefusalSaysWhyAndChangesNothing) {
   EXPECT_EQ(kinds().size(), num_events);
 }
 
+TEST_F(OperatedSessionTest, HowTheDeviceWasFittedIsKeptWhereTheSessionBegins) {
+  fitting_ = {{"glove", "M"}};
+  open();
+  act(operate::Begin{});
+  const auto num_kept = [this] {
+    const std::vector<core::EventRow> events = store_->events(session_number_);
+    return std::count_if(events.begin(), events.end(), [](const core::EventRow& event) {
+      return event.kind == "fitting_kept" &&
+             event.data.find(R"("glove":"M")") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(num_kept(), 1);
+  reopen();
+  act(operate::Begin{"repeat"});
+  EXPECT_EQ(num_kept(), 1) << "not again where it is gone on with";
+}
+
 }  // namespace operated_session_test
 }  // namespace jnd::app

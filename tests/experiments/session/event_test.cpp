@@ -66,6 +66,10 @@ std::vector<EventData> one_of_each() {
           ArmingChanged{"armed", "by the experimenter"},
           ExposureTold{{.force_time_n_s = 12.5, .under_force_s = 3.25}},
           GuardNoticed{"force_oscillates", 3, 1},
+          FittingKept{.fitting = {{"glove", "M"}, {"thumb", "a thin pad"}},
+                      .held = {"thumb", "index"},
+                      .neutral_pose_m = {{"thumb", {0.0, -0.061, -0.1}},
+                                         {"index", {1.0 / 3.0, 0.059, -0.1}}}},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }
