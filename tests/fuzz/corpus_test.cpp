@@ -19,6 +19,7 @@ int recording_fuzz_input(const std::uint8_t* data, std::size_t size);
 int laboratory_fuzz_input(const std::uint8_t* data, std::size_t size);
 int datagram_fuzz_input(const std::uint8_t* data, std::size_t size);
 int force_map_fuzz_input(const std::uint8_t* data, std::size_t size);
+int device_profile_fuzz_input(const std::uint8_t* data, std::size_t size);
 }
 
 namespace corpus_test {
@@ -72,6 +73,11 @@ TEST(FuzzCorpus, DatagramsAreReadOrRefused) {
 TEST(FuzzCorpus, LaboratoriesAreReadOrRefusedWithASentence) {
   expect_sound(laboratory_fuzz_input, "tests/fuzz/corpus/laboratory");
   expect_sound(laboratory_fuzz_input, "data/laboratories");
+}
+
+TEST(FuzzCorpus, DeviceProfilesAreReadOrRefusedWithASentence) {
+  expect_sound(device_profile_fuzz_input, "tests/fuzz/corpus/device_profile");
+  expect_sound(device_profile_fuzz_input, "tests/experiments/device_profile/broken");
 }
 
 }  // namespace corpus_test
