@@ -28,6 +28,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
     {"device/plugin", {"core", "core/safety", "device"}},
+    // A driver over jnd_device.h alone, in C.
+    {"device/plugin/force_dimension", {}},
     {"device/twin", {"core", "device"}},
     {"device/check", {"core", "core/safety", "device", "device/network"}},
     {"device/registry",
