@@ -18,6 +18,9 @@ struct Estimate {
   std::string name;  ///< "group_d.weber_fraction"
   std::optional<double> value;
   Interval ci95;
+  /// Of intensities as delivered: what the measurement of the device leaves open, people aside;
+  /// none where nothing was measured of it.
+  Interval device_ci95{};
   std::string unit;     ///< "1", "m", "m/s", "Pa s".
   std::string meaning;  ///< What is estimated and how, in one phrase.
   std::optional<double> published;

@@ -14,11 +14,14 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/commissioning/asked_bench.h"
+#include "app/commissioning/commissioned_profile.h"
 #include "app/commissioning/commissioning.h"
 #include "app/commissioning/commissioning_json.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "core/error.h"
 #include "device/registry/device_registry.h"
+#include "experiments/device_profile/profile_writer.h"
 
 namespace jnd::app {
 namespace {
@@ -28,6 +31,7 @@ namespace fs = std::filesystem;
 struct CommissionOptions {
   std::string device;
   std::string record;
+  std::string out;
   std::string marks;
   std::vector<double> loads_kg = {0.1, 0.2, 0.4};
   double load_uncertainty_ratio = 0.002;
@@ -101,6 +105,14 @@ void print_step(CommissioningStep step, const CommissioningResults& results) {
   std::fflush(stdout);
 }
 
+/// Where sessions look for it; of a simulated device, which needs none, beside the record.
+fs::path folder_for_profile(const CommissionOptions& options, bool is_simulated) {
+  if (!options.out.empty()) return options.out;
+  const std::vector<fs::path> folders = profile_folders();
+  if (is_simulated || folders.empty()) return fs::path(options.record).parent_path() / ".";
+  return folders.back();
+}
+
 int run_commission(const CommissionOptions& options) {
   require_device(options.device);
   const MeasuringPlan plan{.rate_hz = options.rate_hz,
@@ -135,6 +147,7 @@ int run_commission(const CommissionOptions& options) {
                device->capabilities().simulated ? " (SIMULATED)" : "",
                commissioning.record().string());
   }
+  bool has_measured = false;
   for (const CommissioningStep step : kCommissioningSteps) {
     const bool is_wanted =
         only.empty() || std::find(only.begin(), only.end(), step) != only.end();
@@ -146,11 +159,20 @@ int run_commission(const CommissionOptions& options) {
       ProgressBar bar(std::string(words_of(step).name));
       commissioning.measure(step, *device, *bench,
                             [&](double done, const std::string&) { bar.show(done); });
+      has_measured = true;
     }
     if (!options.json && commissioning.results().has(step)) {
       print_step(step, commissioning.results());
     }
   }
+  std::string profile;
+  if (!commissioning.next_step() && (has_measured || !options.out.empty())) {
+    profile = experiments::write_device_profile(
+                  profile_of(commissioning, device->identity(), JND_VERSION),
+                  folder_for_profile(options, device->capabilities().simulated))
+                  .string();
+  }
+  if (!options.json && !profile.empty()) fmt::print("profile: {}\n", profile);
   if (options.json) {
     nlohmann::ordered_json out = {{"device", options.device},
                                   {"model", commissioning.device().identity.model},
@@ -158,6 +180,7 @@ int run_commission(const CommissionOptions& options) {
                                   {"simulated", commissioning.device().can.simulated},
                                   {"record", commissioning.record().string()},
                                   {"complete", !commissioning.next_step().has_value()},
+                                  {"profile", profile},
                                   {"steps", results_json(commissioning.results())}};
     fmt::print("{}\n", json_text(out));
   }
@@ -174,6 +197,10 @@ void add_commission(CLI::App& program, Invocation& invocation) {
   command->add_option("--record", options->record,
                       "File that keeps every measurement; one that is there is gone on with "
                       "(default: DEVICE.commissioning.jsonl)");
+  command->add_option(
+      "--out", options->out,
+      "Folder for the profile, NAME.device.json (default: where sessions look for it; of a "
+      "simulated device, beside the record)");
   command->add_option("--again", options->again, "Steps to measure anew, commas between")
       ->delimiter(',');
   command->add_option("--only", options->only, "Steps to measure now, commas between")

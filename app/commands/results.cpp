@@ -16,6 +16,7 @@
 #include "app/commands/compare_option.h"
 #include "app/commands/inverted_option.h"
 #include "app/commands/predictive_option.h"
+#include "app/results/measured_devices.h"
 #include "app/results/results_output.h"
 #include "app/session/stored_session.h"
 
@@ -51,20 +52,40 @@ int run_results(ResultsOptions options) {
   options.results.compared = compared_names(options.compare);
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  analysis::DeliveredStudy study{.data = analysis::load_study(store)};
-  if (options.delivered) study = analysis::with_delivered(std::move(study.data), store);
-  if (options.inverted == "out") analysis::leave_out_inverted(study.data);
+  const analysis::StudyData as_commanded = analysis::load_study(store);
+  const MeasuredDevices devices =
+      options.delivered ? measured_devices(store, as_commanded) : MeasuredDevices();
+  const auto intensities = [&](const analysis::DeviceParts& parts) {
+    analysis::DeliveredStudy study{.data = as_commanded};
+    if (options.delivered) {
+      study = analysis::with_delivered(std::move(study.data), store, parts);
+    }
+    if (options.inverted == "out") analysis::leave_out_inverted(study.data);
+    return study;
+  };
+  const analysis::DeliveredStudy study = intensities(devices.parts);
   const std::optional<analysis::PredictivePeople> people =
       people_asked_for(options.predictive, store, study.data);
   analysis::StudyResults results =
       results_of_data(study.data, options.results, people ? &*people : nullptr);
+  if (!devices.parts.empty()) {
+    // Values alone are wanted of these.
+    analysis::ResultsOptions quick = options.results;
+    constexpr int kFewestResamples = 100;
+    quick.num_resamples = kFewestResamples;
+    tell_device_part(results, results_of_data(intensities(devices.least).data, quick, nullptr),
+                     results_of_data(intensities(devices.most).data, quick, nullptr));
+  }
   if (options.movement) {
     results.sections.push_back(
         analysis::recorded_results(analysis::analyse_movement(store, {.explored = false})));
   }
   if (options.json) {
     nlohmann::json document = results_json(results);
-    if (options.delivered) document["intensities"] = basis_of(study);
+    if (options.delivered) {
+      document["intensities"] = basis_of(study);
+      document["intensities"]["num_sessions_with_profile"] = devices.parts.size();
+    }
     std::puts(json_text(document).c_str());
     return kDone;
   }
@@ -72,8 +93,13 @@ int run_results(ResultsOptions options) {
     std::printf("intensities: as delivered (%s), in %lld trials; %lld left out\n",
                 force_words(study.force_source), static_cast<long long>(study.num_replaced),
                 static_cast<long long>(study.num_left_out));
+    if (!devices.parts.empty()) {
+      std::printf("devices: gain and own damping as their profiles say, in %zu sessions\n",
+                  devices.parts.size());
+    }
   }
   std::fputs(to_table(results).c_str(), stdout);
+  std::fputs(device_part_table(results).c_str(), stdout);
   return kDone;
 }
 

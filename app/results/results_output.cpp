@@ -179,6 +179,9 @@ json results_json(const analysis::StudyResults& results) {
            {"n", estimate.n},
            {"reason", estimate.reason},
            {"cautions", estimate.cautions}});
+      if (estimate.device_ci95.low) {
+        estimates.back()["ci95_device"] = interval(estimate.device_ci95);
+      }
     }
     json comparisons = json::array();
     for (const analysis::NamedComparison& named : section.comparisons) {

@@ -230,7 +230,7 @@ TEST(Preflight, TheMachineIsLookedAtQuickly) {
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[2].name, "Disk");
   // The lumped hand, the exoskeleton and the mouse start everywhere, "unplugged" nowhere.
-  EXPECT_EQ(lines[3].found, "none connected, 3 simulated");
+  EXPECT_EQ(lines[3].found, "none connected, 4 simulated");
 }
 
 TEST(MachineChecks, FreeSpaceIsThatOfTheFolderThatWillHoldThePath) {
