@@ -84,7 +84,9 @@ int run_results(ResultsOptions options) {
     nlohmann::json document = results_json(results);
     if (options.delivered) {
       document["intensities"] = basis_of(study);
-      document["intensities"]["num_sessions_with_profile"] = devices.parts.size();
+      if (!devices.parts.empty()) {
+        document["intensities"]["num_sessions_with_profile"] = devices.parts.size();
+      }
     }
     std::puts(json_text(document).c_str());
     return kDone;
