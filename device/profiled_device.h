@@ -57,6 +57,8 @@ class ProfiledDevice final : public HapticDevice {
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override {
     return inner_.simulated_hand();
   }
+  /// Marks are in the workspace on either side.
+  [[nodiscard]] Bench* bench() noexcept override { return inner_.bench(); }
   [[nodiscard]] std::optional<LinkReport> link() const noexcept override {
     return inner_.link();
   }
