@@ -117,8 +117,8 @@ TEST(DeliveredIntensity, WhereTheDatabaseIsSilentTheRecordingSays) {
 }
 
 TEST(DeliveredIntensity, WhatTheDeviceMakesOfItIsInIt) {
-  const StudyData data = one_person({comparison(1, 4.0, true)},
-                                    {felt(1, "reference", 2.0, 1.0), felt(1, "test", 4.0, 1.0)});
+  const StudyData data = one_person(
+      {comparison(1, 4.0, true)}, {felt(1, "reference", 2.0, 1.0), felt(1, "test", 4.0, 1.0)});
   // Sent 6 and 3 N s/m; a gain of 0.8 and 2.4 N s/m of its own make 7.2 and 4.8 of them.
   const DeviceParts devices = {{1, {.gain = 0.8, .damping_n_s_per_m = 2.4}}};
   const DeliveredIntensities delivered = delivered_intensities(data, devices);
