@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3d> marks_in(const std::string& file) {
     if (line.empty() || line.front() == '#') continue;
     Eigen::Vector3d mark_m;
     char end = 0;
-    if (std::sscanf(line.c_str(), "%lf ,%lf ,%lf %c", &mark_m[0], &mark_m[1], &mark_m[2],
+    if (std::sscanf(line.c_str(), "%lf ,%lf ,%lf %c", &mark_m.x(), &mark_m.y(), &mark_m.z(),
                     &end) != 3 ||
         !mark_m.allFinite() || mark_m.norm() > 10.0) {
       throw core::Error(fmt::format("{}:{}: expected x,y,z of a mark in metres, found \"{}\"",

@@ -112,12 +112,13 @@ DeviceProfile profile_of(const Commissioning& commissioning,
   profile.program_version = program_version;
   profile.simulated = commissioning.device().can.simulated;
   const analysis::FrameFit& frame = *found.frame;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      profile.frame.rotation[static_cast<std::size_t>(3 * row + column)] =
-          frame.rotation(row, column);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto place = static_cast<Eigen::Index>(row);
+    for (std::size_t column = 0; column < 3; ++column) {
+      profile.frame.rotation[3 * row + column] =
+          frame.rotation(place, static_cast<Eigen::Index>(column));
     }
-    profile.frame.offset_m[static_cast<std::size_t>(row)] = frame.offset_m[row];
+    profile.frame.offset_m[row] = frame.offset_m[place];
   }
   profile.frame.rotation_ci95_rad = frame.rotation_ci95_rad.maxCoeff();
   profile.frame.offset_ci95_m = frame.offset_ci95_m.maxCoeff();
