@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 
 #include "app/commissioning/commissioning_json.h"
 #include "core/error.h"
+#include "core/storage/files.h"
 
 namespace jnd::app {
 namespace {
@@ -159,8 +159,11 @@ void Commissioning::read_record() {
 }
 
 void Commissioning::append(const std::string& line) {
-  const int file =
-      ::open(record_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (!fs::exists(record_)) {
+    core::make_private_file(record_);
+    core::sync_folder(record_.has_parent_path() ? record_.parent_path() : fs::path("."));
+  }
+  const int file = ::open(record_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   const std::string whole = (ends_a_line(record_) ? "" : "\n") + line + "\n";
   // One write, so that a line is there or not.
   const bool is_kept =

@@ -114,7 +114,6 @@ struct GuidedRun::Implementation {
   core::Heartbeat heartbeat;
   core::WatchdogState watched;
   core::SpscQueue<core::Sample> samples{kSampleCapacity};
-  core::HapticCommand command;
   device::MotionGuide guide;
   device::HapticLoop loop;
   std::optional<device::WatchedLoop> running;
@@ -142,20 +141,23 @@ void GuidedRun::arm() {
   throw core::Error("device: expected to be armed, found: " + std::string(core::words(found)));
 }
 
-void GuidedRun::without_force(const std::function<void()>& act) {
+void GuidedRun::while_asking(const std::function<void()>& act) {
   Implementation& my = *implementation_;
-  my.loop.disarm();
-  (void)my.run(0.02, {});
-  {
-    // Who waits for a person cannot beat, and there is no force.
-    const std::jthread beating([&my](const std::stop_token& ends) {
-      while (!ends.stop_requested()) {
-        my.heartbeat.beat();
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      }
-    });
-    act();
-  }
+  // Who waits for a person cannot beat, nor see that the program is to stop.
+  const std::jthread beating([&my](const std::stop_token& ends) {
+    while (!ends.stop_requested()) {
+      my.heartbeat.beat();
+      if (stop_requested() && !my.stop.is_pressed()) my.stop.press();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  act();
+}
+
+void GuidedRun::without_force(const std::function<void()>& act) {
+  implementation_->loop.disarm();
+  (void)implementation_->run(0.02, {});
+  while_asking(act);
   arm();
 }
 
@@ -163,23 +165,9 @@ void GuidedRun::order(const device::MotionGuide::Order& order) {
   implementation_->guide.order(order);
 }
 
-void GuidedRun::render(const core::MediumAmounts& medium, const core::Immersion& immersion) {
-  Implementation& my = *implementation_;
-  ++my.command.sequence;
-  my.command.medium = medium;
-  my.command.immersion = immersion;
-  my.command.ramp_s = 0.0;
-  my.commands.publish(my.command);
-}
-
-core::Fault GuidedRun::try_for(double duration_s,
-                               const std::function<void(const core::Sample&)>& take) {
-  return implementation_->run(duration_s, take);
-}
-
 void GuidedRun::run_for(double duration_s,
                         const std::function<void(const core::Sample&)>& take) {
-  const core::Fault found = try_for(duration_s, take);
+  const core::Fault found = implementation_->run(duration_s, take);
   if (stop_requested()) throw core::Error("commission: stopped; what was measured is kept");
   if (core::is_failure(found)) {
     throw core::Error("commission: " + std::string(core::words(found)));

@@ -3,8 +3,6 @@
 #include <functional>
 #include <memory>
 
-#include "core/media/immersion.h"
-#include "core/media/medium.h"
 #include "core/safety/emergency_stop.h"
 #include "core/safety/force_limiter.h"
 #include "core/sample.h"
@@ -40,20 +38,17 @@ class GuidedRun {
   /// Force from zero over half a second. Throws `core::Error` saying what it is that the device
   /// is not armed for.
   void arm();
-  /// No force while somebody does this at the device, however long it takes; then `arm`.
+  /// While somebody does this at the device, however long it takes: a thread gives the sign of
+  /// life, and presses the emergency stop when the program is asked to stop. The force stays as
+  /// it is.
+  void while_asking(const std::function<void()>& act);
+  /// The same without force; then `arm`.
   void without_force(const std::function<void()>& act);
 
   void order(const device::MotionGuide::Order& order);
-  /// A medium around the device, at once.
-  void render(const core::MediumAmounts& medium, const core::Immersion& immersion = {});
-
   /// Lets this time pass. Throws `core::Error` if the loop latches a fault, or if the program
   /// is asked to stop.
   void run_for(double duration_s, const std::function<void(const core::Sample&)>& take = {});
-  /// Likewise, but tells the fault instead of throwing it.
-  [[nodiscard]] core::Fault try_for(double duration_s,
-                                    const std::function<void(const core::Sample&)>& take = {});
-
   /// No force, motors off, the device closed.
   void stop() noexcept;
 

@@ -56,8 +56,10 @@ class Started {
         run_(device, {.rate_hz = plan.rate_hz,
                       .allow_no_realtime = plan.allow_no_realtime,
                       .emergency_stop = plan.emergency_stop}) {
-    bench.take_hand_out();
-    bench.clamp();
+    run_.while_asking([&bench] {
+      bench.take_hand_out();
+      bench.clamp();
+    });
   }
 
   [[nodiscard]] GuidedRun& run() noexcept { return run_; }
@@ -75,15 +77,15 @@ class Started {
     order.to_m = plain_of(place_m());
     run_.order(order);
     run_.run_for(0.2);
-    bench_.let_go();
+    run_.while_asking([this] { bench_.let_go(); });
     run_.run_for(1.0);
   }
 
   /// Somebody does this at it: it is held meanwhile and has no force.
   void act(const std::function<void()>& act) {
-    bench_.clamp();
+    run_.while_asking([this] { bench_.clamp(); });
     run_.without_force(act);
-    bench_.let_go();
+    run_.while_asking([this] { bench_.let_go(); });
     run_.run_for(1.0);
   }
 
@@ -227,7 +229,7 @@ analysis::FrameFit measure_frame(device::HapticDevice& device, device::Bench& be
     progress(static_cast<double>(touched.size()) / static_cast<double>(marks_m.size()),
              "Mark " + std::to_string(touched.size() + 1) + " of " +
                  std::to_string(marks_m.size()) + " is touched.");
-    bench.touch(mark_m);
+    started.run().while_asking([&] { bench.touch(mark_m); });
     started.run().run_for(2.0);
     Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
     int num_readings = 0;
@@ -389,7 +391,7 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
       }
     }
   }
-  started.run().stop();
+  started.run().stop();  // No force while the last load is taken off.
   bench.hang(0.0);
   progress(1.0, "");
   return analysis::fit_force(ways.ways(), up, roughly.mass_per_gain_kg.value,

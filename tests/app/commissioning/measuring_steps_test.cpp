@@ -62,20 +62,6 @@ TEST(MeasuringSteps, RecoverWhatTwinsWereMadeWith) {
     tally.count("weight", force.weight_n.holds(truth.weight_n));
     tally.count("damping", force.damping_n_s_per_m.holds(truth.damping_n_s_per_m));
     tally.count("friction", force.friction_n.holds(truth.friction_n));
-    if (::testing::Test::HasFailure() || std::getenv("JND_SHOW") != nullptr) {
-      std::printf("%d delay %.6f [%.6f %.6f] truth %.6f mass %.4f [%.4f %.4f] truth %.4f\n",
-                  seed, delay.delay_s.value, delay.delay_s.ci95_low, delay.delay_s.ci95_high,
-                  truth.delay_s, delay.mass_per_gain_kg.value, delay.mass_per_gain_kg.ci95_low,
-                  delay.mass_per_gain_kg.ci95_high, truth.mass_kg / truth.gain);
-      std::printf(
-          "   gain %.4f [%.4f %.4f] %.4f weight %.4f [%.4f %.4f] %.4f damping %.4f [%.4f %.4f] "
-          "%.4f friction %.4f [%.4f %.4f] %.4f\n",
-          force.gain.value, force.gain.ci95_low, force.gain.ci95_high, truth.gain,
-          force.weight_n.value, force.weight_n.ci95_low, force.weight_n.ci95_high,
-          truth.weight_n, force.damping_n_s_per_m.value, force.damping_n_s_per_m.ci95_low,
-          force.damping_n_s_per_m.ci95_high, truth.damping_n_s_per_m, force.friction_n.value,
-          force.friction_n.ci95_low, force.friction_n.ci95_high, truth.friction_n);
-    }
   }
   for (const auto& [name, held] : tally.counts()) EXPECT_GE(held, kFewestHeld) << name;
 }
