@@ -30,7 +30,9 @@ struct DelayFit {
 /// push to and fro; `damping_per_gain_n_s_per_m`: as `fit_force` found it, over the gain; 0
 /// where it is not known yet. Estimates over all windows, intervals by leaving out one after
 /// the other (jackknife). Throws `core::Error` for fewer than five windows, for windows that
-/// are no whole number of pushes, and where nothing moves as it is pushed.
+/// are no whole number of pushes, where nothing moves as it is
+/// pushed, and where it seems to move before: of a device that is no single mass this is no
+/// measure.
 [[nodiscard]] DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s,
                                  int push_ticks, double damping_per_gain_n_s_per_m);
 

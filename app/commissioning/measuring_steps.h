@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,24 +9,11 @@
 #include "analysis/commissioning/force_fit.h"
 #include "analysis/commissioning/frame_fit.h"
 #include "analysis/commissioning/noise_fit.h"
-#include "core/safety/emergency_stop.h"
+#include "app/commissioning/measuring_plan.h"
 #include "device/bench.h"
 #include "device/haptic_device.h"
 
 namespace jnd::app {
-
-/// What a laboratory has and wants for a commissioning.
-struct MeasuringPlan {
-  double rate_hz = 1000.0;
-  /// In the workspace, touched by the first contact point: eight corners of a box unless the
-  /// laboratory has others.
-  std::vector<Eigen::Vector3d> marks_m;
-  std::vector<double> loads_kg = {0.1, 0.2, 0.4};
-  double load_uncertainty_ratio = 0.002;  ///< Standard uncertainty, over the loads.
-  std::uint64_t seed = 1;                 ///< Of where ways begin.
-  bool allow_no_realtime = false;
-  core::EmergencyStop* emergency_stop = nullptr;
-};
 
 /// The corners of a box of 20 cm about the home of a hand, 15 cm below the surface.
 [[nodiscard]] std::vector<Eigen::Vector3d> default_marks_m();

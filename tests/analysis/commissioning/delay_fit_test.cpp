@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/commissioning/noise_fit.h"
@@ -109,6 +110,17 @@ TEST(DelayFit, SomethingThatDoesNotMoveHasNone) {
   EXPECT_THROW((void)fit_delay(pushed({}, 4, random), kPeriod_s, kPushTicks, 0.0), core::Error);
   windows = pushed({}, 6, random);
   windows.front().position_m.pop_back();
+  EXPECT_THROW((void)fit_delay(windows, kPeriod_s, kPushTicks, 0.0), core::Error);
+}
+
+TEST(DelayFit, WhatSeemsToMoveBeforeItIsPushedIsNoSingleMass) {
+  core::RandomStream random(6, "delay");
+  auto windows = pushed({.delay_s = 0.0}, 6, random);
+  // Positions two ticks early, forces two ticks late.
+  for (PushedWindow& window : windows) {
+    std::rotate(window.commanded_n.begin(), window.commanded_n.end() - 2,
+                window.commanded_n.end());
+  }
   EXPECT_THROW((void)fit_delay(windows, kPeriod_s, kPushTicks, 0.0), core::Error);
 }
 

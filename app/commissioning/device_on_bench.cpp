@@ -1,0 +1,73 @@
+#include "app/commissioning/device_on_bench.h"
+
+namespace jnd::app {
+
+Eigen::Vector3d vector_of(const core::PlainVector& plain) noexcept {
+  return {plain[0], plain[1], plain[2]};
+}
+
+std::array<double, 3> plain_of(const Eigen::Vector3d& vector) noexcept {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+Eigen::Vector3d hand_m(const core::Sample& sample,
+                       const device::DeviceCapabilities& can) noexcept {
+  Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+  for (int i = 0; i < core::kNumContactPoints; ++i) {
+    if (can.has_point(i))
+      sum_m += vector_of(sample.tip_position_m[static_cast<std::size_t>(i)]);
+  }
+  return sum_m / can.num_contact_points();
+}
+
+Eigen::Vector3d commanded_n(const core::Sample& sample) noexcept {
+  Eigen::Vector3d sum_n = Eigen::Vector3d::Zero();
+  for (const core::PlainVector& force_n : sample.tip_force_n) sum_n += vector_of(force_n);
+  return sum_n;
+}
+
+DeviceOnBench::DeviceOnBench(device::HapticDevice& device, device::Bench& bench,
+                             const MeasuringPlan& plan)
+    : bench_(bench),
+      can_(device.capabilities()),
+      run_(device, {.rate_hz = plan.rate_hz,
+                    .allow_no_realtime = plan.allow_no_realtime,
+                    .emergency_stop = plan.emergency_stop}) {
+  run_.while_asking([&bench] {
+    bench.take_hand_out();
+    bench.clamp();
+  });
+}
+
+Eigen::Vector3d DeviceOnBench::place_m() {
+  Eigen::Vector3d last_m = Eigen::Vector3d::Zero();
+  run_.run_for(0.02, [&](const core::Sample& sample) { last_m = hand_m(sample, can_); });
+  return last_m;
+}
+
+void DeviceOnBench::hold(GuideOrder order) {
+  run_.arm();
+  order.to_m = plain_of(place_m());
+  run_.order(order);
+  run_.run_for(0.2);
+  run_.while_asking([this] { bench_.let_go(); });
+  run_.run_for(1.0);
+}
+
+void DeviceOnBench::act(const std::function<void()>& act) {
+  run_.while_asking([this] { bench_.clamp(); });
+  run_.without_force(act);
+  run_.while_asking([this] { bench_.let_go(); });
+  run_.run_for(1.0);
+}
+
+void DeviceOnBench::go_to(const Eigen::Vector3d& place_m, GuideOrder order) {
+  constexpr double kPace_m_per_s = 0.2;
+  const double way_m = (this->place_m() - place_m).norm();
+  order.to_m = plain_of(place_m);
+  order.speed_m_per_s = kPace_m_per_s;
+  run_.order(order);
+  run_.run_for(way_m / kPace_m_per_s + 0.5);
+}
+
+}  // namespace jnd::app

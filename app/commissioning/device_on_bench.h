@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "app/commissioning/guided_run.h"
+#include "app/commissioning/measuring_plan.h"
+#include "core/sample.h"
+#include "device/bench.h"
+#include "device/haptic_device.h"
+
+namespace jnd::app {
+
+using GuideOrder = device::MotionGuide::Order;
+
+[[nodiscard]] Eigen::Vector3d vector_of(const core::PlainVector& plain) noexcept;
+[[nodiscard]] std::array<double, 3> plain_of(const Eigen::Vector3d& vector) noexcept;
+/// Mean of the points that the device has.
+[[nodiscard]] Eigen::Vector3d hand_m(const core::Sample& sample,
+                                     const device::DeviceCapabilities& can) noexcept;
+/// All that was sent.
+[[nodiscard]] Eigen::Vector3d commanded_n(const core::Sample& sample) noexcept;
+
+/// Before anything is known of it: soft enough for whatever it is.
+inline constexpr GuideOrder kSoftHold = {
+    .stiffness_n_per_m = 40.0, .damping_n_s_per_m = 3.0, .is_on = true};
+
+/// A device without a hand and its loop. Nothing moves it before `hold`.
+class DeviceOnBench {
+ public:
+  DeviceOnBench(device::HapticDevice& device, device::Bench& bench, const MeasuringPlan& plan);
+
+  [[nodiscard]] GuidedRun& run() noexcept { return run_; }
+  [[nodiscard]] const device::DeviceCapabilities& can() const noexcept { return can_; }
+
+  [[nodiscard]] Eigen::Vector3d place_m();
+
+  /// Holds it where it is by its own force, and is then let go.
+  void hold(GuideOrder order);
+
+  /// Somebody does this at it: it is held meanwhile and has no force.
+  void act(const std::function<void()>& act);
+
+  /// Goes there and waits until it is there.
+  void go_to(const Eigen::Vector3d& place_m, GuideOrder order);
+
+ private:
+  device::Bench& bench_;
+  device::DeviceCapabilities can_;
+  GuidedRun run_;
+};
+
+}  // namespace jnd::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/safety/emergency_stop.h"
+
+namespace jnd::app {
+
+/// What a laboratory has and wants for a commissioning.
+struct MeasuringPlan {
+  double rate_hz = 1000.0;
+  /// In the workspace, touched by the first contact point: eight corners of a box unless the
+  /// laboratory has others.
+  std::vector<Eigen::Vector3d> marks_m;
+  std::vector<double> loads_kg = {0.1, 0.2, 0.4};
+  double load_uncertainty_ratio = 0.002;  ///< Standard uncertainty, over the loads.
+  std::uint64_t seed = 1;                 ///< Of where ways begin.
+  bool allow_no_realtime = false;
+  core::EmergencyStop* emergency_stop = nullptr;
+};
+
+}  // namespace jnd::app
