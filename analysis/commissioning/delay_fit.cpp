@@ -136,6 +136,10 @@ DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s, in
         "from "
         "its noise; check that it is armed and free to move");
   }
+  return fit;
+}
+
+void require_single_mass(const DelayFit& fit) {
   if (fit.delay_s.ci95_high < 0.0) {
     throw core::Error(
         "delay: expected a device that moves after it was pushed, found one that seems to "
@@ -145,7 +149,6 @@ DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s, in
         "delay "
         "nor its mass can be told like this");
   }
-  return fit;
 }
 
 }  // namespace jnd::analysis

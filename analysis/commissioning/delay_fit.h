@@ -36,4 +36,8 @@ struct DelayFit {
 [[nodiscard]] DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s,
                                  int push_ticks, double damping_per_gain_n_s_per_m);
 
+/// Throws `core::Error` where the device seems to move before it is pushed: it is no single
+/// mass, and neither number is one of it.
+void require_single_mass(const DelayFit& fit);
+
 }  // namespace jnd::analysis

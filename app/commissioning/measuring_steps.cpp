@@ -85,7 +85,9 @@ analysis::DelayFit measure_delay(device::HapticDevice& device, device::Bench& be
   });
   started.run().stop();
   progress(1.0, "");
-  return pushes.fit(force.damping_n_s_per_m.value / force.gain.value);
+  const analysis::DelayFit fit = pushes.fit(force.damping_n_s_per_m.value / force.gain.value);
+  analysis::require_single_mass(fit);
+  return fit;
 }
 
 analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& bench,

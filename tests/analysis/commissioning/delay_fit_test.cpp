@@ -121,7 +121,10 @@ TEST(DelayFit, WhatSeemsToMoveBeforeItIsPushedIsNoSingleMass) {
     std::rotate(window.commanded_n.begin(), window.commanded_n.end() - 2,
                 window.commanded_n.end());
   }
-  EXPECT_THROW((void)fit_delay(windows, kPeriod_s, kPushTicks, 0.0), core::Error);
+  EXPECT_THROW(require_single_mass(fit_delay(windows, kPeriod_s, kPushTicks, 0.0)),
+               core::Error);
+  EXPECT_NO_THROW(
+      require_single_mass(fit_delay(pushed({}, 6, random), kPeriod_s, kPushTicks, 0.0)));
 }
 
 TEST(NoiseFit, TellsDeviationAndSteps) {
