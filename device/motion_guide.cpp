@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace jnd::device {
 namespace {
@@ -11,6 +12,11 @@ Eigen::Vector3d vector_of(const std::array<double, 3>& numbers) noexcept {
 }
 
 }  // namespace
+
+double sweep_at(std::int64_t tick, int num_ticks) noexcept {
+  const auto k = static_cast<double>(tick % num_ticks);
+  return std::cos(0.5 * std::numbers::pi * k * k / static_cast<double>(num_ticks));
+}
 
 Eigen::Vector3d MotionGuide::mean_m(const core::HapticState& state) const noexcept {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
@@ -24,10 +30,10 @@ Eigen::Vector3d MotionGuide::mean_m(const core::HapticState& state) const noexce
 }
 
 void MotionGuide::take_order(const core::HapticState& state) noexcept {
-  const bool was_on = orders_.value().is_on;
+  const bool was_held = orders_.value().is_on && orders_.value().stiffness_n_per_m > 0.0;
   if (!orders_.fetch()) return;
-  num_pulse_ticks_ = 0;
-  if (was_on && has_reference_) return;
+  num_ticks_ = 0;
+  if (was_held && has_reference_) return;
   // From where it is, so that nothing jumps.
   reference_m_ = mean_m(state);
   for (std::size_t i = 0; i < shares_.size(); ++i) {
@@ -43,7 +49,9 @@ core::PointVectors MotionGuide::force_n(const core::HapticState& state,
   const Order& order = orders_.value();
   if (!order.is_on || !has_reference_) return force_n;
 
-  const Eigen::Vector3d way_m = vector_of(order.to_m) - reference_m_;
+  const Eigen::Vector3d way_m = order.stiffness_n_per_m > 0.0
+                                    ? Eigen::Vector3d(vector_of(order.to_m) - reference_m_)
+                                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
   const double way_left_m = way_m.norm();
   const double step_m = std::min(way_left_m, order.speed_m_per_s * period_s);
   Eigen::Vector3d speed_m_per_s = Eigen::Vector3d::Zero();
@@ -53,8 +61,7 @@ core::PointVectors MotionGuide::force_n(const core::HapticState& state,
   }
   Eigen::Vector3d pulse_n = Eigen::Vector3d::Zero();
   if (order.pulse_period_s > 0.0) {
-    const double phase =
-        static_cast<double>(num_pulse_ticks_++) * period_s / order.pulse_period_s;
+    const double phase = static_cast<double>(num_ticks_) * period_s / order.pulse_period_s;
     pulse_n = (phase - std::floor(phase) < 0.5 ? 1.0 : -1.0) * vector_of(order.pulse_n);
   }
   for (std::size_t i = 0; i < shares_.size(); ++i) {
@@ -65,6 +72,12 @@ core::PointVectors MotionGuide::force_n(const core::HapticState& state,
         (order.stiffness_n_per_m * off_m +
          order.damping_n_s_per_m * (speed_m_per_s - state.tip_velocity_m_per_s[i]) + pulse_n);
   }
+  const auto swept = static_cast<std::size_t>(order.sweep_point);
+  if (order.sweep_n != 0.0 && swept < shares_.size() && shares_[swept] > 0.0) {
+    force_n[swept][std::clamp(order.sweep_axis, 0, 2)] +=
+        order.sweep_n * sweep_at(num_ticks_, order.sweep_ticks);
+  }
+  ++num_ticks_;
   return force_n;
 }
 

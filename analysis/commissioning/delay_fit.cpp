@@ -139,16 +139,4 @@ DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s, in
   return fit;
 }
 
-void require_single_mass(const DelayFit& fit) {
-  if (fit.delay_s.ci95_high < 0.0) {
-    throw core::Error(
-        "delay: expected a device that moves after it was pushed, found one that seems to "
-        "move " +
-        std::to_string(-1e3 * fit.delay_s.value) +
-        " ms before; it is no single mass (its tool or its fingers give way), so neither its "
-        "delay "
-        "nor its mass can be told like this");
-  }
-}
-
 }  // namespace jnd::analysis

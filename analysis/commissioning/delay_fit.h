@@ -31,13 +31,8 @@ struct DelayFit {
 /// where it is not known yet. Estimates over all windows, intervals by leaving out one after
 /// the other (jackknife). Throws `core::Error` for fewer than five windows, for windows that
 /// are no whole number of pushes, where nothing moves as it is
-/// pushed, and where it seems to move before: of a device that is no single mass this is no
-/// measure.
+/// pushed.
 [[nodiscard]] DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s,
                                  int push_ticks, double damping_per_gain_n_s_per_m);
-
-/// Throws `core::Error` where the device seems to move before it is pushed: it is no single
-/// mass, and neither number is one of it.
-void require_single_mass(const DelayFit& fit);
 
 }  // namespace jnd::analysis

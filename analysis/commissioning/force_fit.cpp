@@ -2,59 +2,201 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 
 namespace jnd::analysis {
 namespace {
 
-/// The coefficients of the regression: all over the gain.
-enum Coefficient { kOffsetX, kOffsetY, kOffsetZ, kLoad, kDamping, kFriction, kNumCoefficients };
 constexpr double kGravity_m_per_s2 = 9.80665;
+/// Directions that are one line, to or fro.
+constexpr double kAlongRatio = 0.99;
 
-using Row = Eigen::Matrix<double, 1, kNumCoefficients>;
-using Column = Eigen::Matrix<double, kNumCoefficients, 1>;
-using Square = Eigen::Matrix<double, kNumCoefficients, kNumCoefficients>;
+/// Ordinary least squares.
+struct Regression {
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;
+  double squares = 0.0;  ///< Left over.
+  double degrees_of_freedom = 0.0;
 
-Row row_of(const GuidedWay& way, const Eigen::Vector3d& up) {
-  Row row;
-  // A load has to be carried and to be accelerated.
-  const double load_n =
-      way.load_n * (up.dot(way.direction) + way.acceleration_m_per_s2 / kGravity_m_per_s2);
-  row << -way.direction.x(), -way.direction.y(), -way.direction.z(), load_n, way.speed_m_per_s,
-      1.0;
-  return row;
+  [[nodiscard]] double residual() const { return std::sqrt(squares / degrees_of_freedom); }
+  [[nodiscard]] double error(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
+};
+
+/// None where the rows do not tell the coefficients apart.
+std::optional<Regression> regression(const Eigen::MatrixXd& rows,
+                                     const Eigen::VectorXd& values) {
+  if (rows.rows() <= rows.cols()) return std::nullopt;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(rows);
+  if (solver.rank() < rows.cols()) return std::nullopt;
+  Regression fit;
+  fit.coefficients = solver.solve(values);
+  fit.squares = (values - rows * fit.coefficients).squaredNorm();
+  fit.degrees_of_freedom = static_cast<double>(rows.rows() - rows.cols());
+  fit.covariance = fit.squares / fit.degrees_of_freedom * (rows.transpose() * rows).inverse();
+  return fit;
 }
 
-/// Of the load alone: what is left of the ways of one pose once the whole fit's other parts are
-/// taken away.
-double gain_spread_ratio(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
-                         double mass_per_gain_kg, const Column& fitted) {
+/// Each of these ways as a row and what had to be commanded, but for the mass.
+template <typename RowOf>
+std::optional<Regression> regression_over(const std::vector<GuidedWay>& ways,
+                                          Eigen::Index num_coefficients,
+                                          double mass_per_gain_kg, const RowOf& row_of) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(ways.size()), num_coefficients);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(ways.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const GuidedWay& way = ways[static_cast<std::size_t>(i)];
+    rows.row(i) = row_of(way);
+    values[i] = way.commanded_n - mass_per_gain_kg * way.acceleration_m_per_s2;
+  }
+  return regression(rows, values);
+}
+
+[[noreturn]] void refuse_ways() {
+  throw core::Error(
+      "force: expected ways both to and fro along three axes, at two speeds and with two "
+      "loads, "
+      "found too few to tell gain, weight, friction and damping apart");
+}
+
+/// A load has to be carried and to be accelerated.
+double load_along_n(const GuidedWay& way, const Eigen::Vector3d& up) {
+  return way.load_n * (up.dot(way.direction) + way.acceleration_m_per_s2 / kGravity_m_per_s2);
+}
+
+/// Up and down with loads, and without at the same speeds.
+std::vector<GuidedWay> ways_of_loads(const std::vector<GuidedWay>& ways,
+                                     const Eigen::Vector3d& up) {
+  constexpr double kAboutRatio = 1.2;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  for (const GuidedWay& way : ways) {
+    if (way.load_n == 0.0) continue;
+    slowest = std::min(slowest, way.speed_m_per_s);
+    fastest = std::max(fastest, way.speed_m_per_s);
+  }
+  std::vector<GuidedWay> chosen;
+  std::copy_if(ways.begin(), ways.end(), std::back_inserter(chosen), [&](const GuidedWay& way) {
+    return std::abs(way.direction.dot(up)) > kAlongRatio &&
+           way.speed_m_per_s > slowest / kAboutRatio &&
+           way.speed_m_per_s < fastest * kAboutRatio;
+  });
+  return chosen;
+}
+
+enum LoadCoefficient : Eigen::Index { kUpwards, kLoad, kOpposing, kNumLoadCoefficients };
+
+Eigen::Matrix<double, 1, kNumLoadCoefficients> load_row(const GuidedWay& way,
+                                                        const Eigen::Vector3d& up) {
+  return {-way.direction.dot(up), load_along_n(way, up), 1.0};
+}
+
+/// Standard deviation of the gain of single poses, over the gain of all.
+double gain_spread_ratio(const std::vector<GuidedWay>& of_loads, const Eigen::Vector3d& up,
+                         double mass_per_gain_kg, const Regression& whole) {
   struct Sums {
     double xx = 0.0, xy = 0.0;
   };
   std::map<int, Sums> poses;
-  for (const GuidedWay& way : ways) {
+  for (const GuidedWay& way : of_loads) {
     if (way.load_n == 0.0) continue;
-    Column others = fitted;
+    Eigen::VectorXd others = whole.coefficients;
     others[kLoad] = 0.0;
-    const double x = row_of(way, up)[kLoad];
+    const double x = load_along_n(way, up);
     const double y = way.commanded_n - mass_per_gain_kg * way.acceleration_m_per_s2 -
-                     row_of(way, up) * others;
+                     load_row(way, up).dot(others);
     poses[way.pose].xx += x * x;
     poses[way.pose].xy += x * y;
   }
   std::vector<double> ratios;
   for (const auto& [pose, sums] : poses) {
-    if (sums.xx > 0.0) ratios.push_back(sums.xy / sums.xx / fitted[kLoad]);
+    if (sums.xx > 0.0) ratios.push_back(sums.xy / sums.xx / whole.coefficients[kLoad]);
   }
   if (ratios.size() < 2) return 0.0;
   double mean = 0.0, squares = 0.0;
   for (const double ratio : ratios) mean += ratio / static_cast<double>(ratios.size());
   for (const double ratio : ratios) squares += (ratio - mean) * (ratio - mean);
   return std::sqrt(squares / static_cast<double>(ratios.size() - 1));
+}
+
+/// Ways without loads, line by line in the order in which each line came first.
+std::vector<std::vector<GuidedWay>> lines_of(const std::vector<GuidedWay>& ways) {
+  std::vector<std::vector<GuidedWay>> lines;
+  for (const GuidedWay& way : ways) {
+    if (way.load_n != 0.0) continue;
+    const auto line =
+        std::find_if(lines.begin(), lines.end(), [&](const std::vector<GuidedWay>& known) {
+          return std::abs(known.front().direction.dot(way.direction)) > kAlongRatio;
+        });
+    if (line == lines.end()) {
+      lines.push_back({way});
+    } else {
+      line->push_back(way);
+    }
+  }
+  return lines;
+}
+
+/// Damping and friction, in newtons commanded.
+struct Opposing {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< Along all lines.
+  Measured damping, friction;
+  double residual = 0.0;
+  std::vector<Measured> damping_by_line;
+  bool is_alike = true;
+};
+
+Opposing opposing_of(const std::vector<GuidedWay>& ways, double mass_per_gain_kg) {
+  const std::vector<std::vector<GuidedWay>> lines = lines_of(ways);
+  std::vector<GuidedWay> unloaded;
+  for (const auto& line : lines) unloaded.insert(unloaded.end(), line.begin(), line.end());
+  enum : Eigen::Index { kX, kY, kZ, kSpeed, kOne, kNumCommon };
+  const auto common =
+      regression_over(unloaded, kNumCommon, mass_per_gain_kg,
+                      [](const GuidedWay& way) -> Eigen::Matrix<double, 1, kNumCommon> {
+                        return {-way.direction.x(), -way.direction.y(), -way.direction.z(),
+                                way.speed_m_per_s, 1.0};
+                      });
+  if (!common) refuse_ways();
+  const auto measured_at = [](const Regression& fit, Eigen::Index i) {
+    return measured(fit.coefficients[i], fit.error(i), fit.degrees_of_freedom);
+  };
+  Opposing opposing{.offset = common->coefficients.head<3>(),
+                    .damping = measured_at(*common, kSpeed),
+                    .friction = measured_at(*common, kOne),
+                    .residual = common->residual()};
+  // Each line by itself: constant force along it, speed, one.
+  double squares = 0.0, degrees_of_freedom = 0.0;
+  std::vector<Regression> single;
+  for (const auto& line : lines) {
+    const Eigen::Vector3d along = line.front().direction;
+    const auto fit = regression_over(
+        line, 3, mass_per_gain_kg, [&](const GuidedWay& way) -> Eigen::Matrix<double, 1, 3> {
+          return {-way.direction.dot(along), way.speed_m_per_s, 1.0};
+        });
+    if (!fit) refuse_ways();
+    squares += fit->squares;
+    degrees_of_freedom += fit->degrees_of_freedom;
+    opposing.damping_by_line.push_back(measured_at(*fit, 1));
+    single.push_back(*fit);
+  }
+  const double more = common->degrees_of_freedom - degrees_of_freedom;
+  if (more <= 0.0 || !(squares > 0.0)) return opposing;
+  const double ratio = (common->squares - squares) / more / (squares / degrees_of_freedom);
+  constexpr double kSure = 0.999;
+  opposing.is_alike =
+      ratio < boost::math::quantile(boost::math::fisher_f(more, degrees_of_freedom), kSure);
+  if (!opposing.is_alike) {
+    opposing.damping = measured_at(single.front(), 1);
+    opposing.friction = measured_at(single.front(), 2);
+    opposing.residual = single.front().residual();
+  }
+  return opposing;
 }
 
 }  // namespace
@@ -96,65 +238,57 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
 
 ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
                    double mass_per_gain_kg, double load_uncertainty_ratio) {
-  const auto num_ways = static_cast<Eigen::Index>(ways.size());
-  if (num_ways <= kNumCoefficients) {
-    throw core::Error("force: expected more than 6 ways, found " + std::to_string(num_ways));
-  }
-  Eigen::MatrixXd rows(num_ways, static_cast<Eigen::Index>(kNumCoefficients));
-  Eigen::VectorXd commanded_n(num_ways);
-  for (Eigen::Index i = 0; i < num_ways; ++i) {
-    rows.row(i) = row_of(ways[static_cast<std::size_t>(i)], up);
-    const GuidedWay& way = ways[static_cast<std::size_t>(i)];
-    commanded_n[i] = way.commanded_n - mass_per_gain_kg * way.acceleration_m_per_s2;
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(rows);
-  if (solver.rank() < kNumCoefficients) {
-    throw core::Error(
-        "force: expected ways both to and fro along three axes, at two speeds and with two "
-        "loads, "
-        "found too few to tell gain, weight, friction and damping apart");
-  }
-  const Column fitted = solver.solve(commanded_n);
-  const double degrees_of_freedom = static_cast<double>(num_ways - kNumCoefficients);
-  const double residual_n =
-      std::sqrt((commanded_n - rows * fitted).squaredNorm() / degrees_of_freedom);
-  const Square covariance = residual_n * residual_n * (rows.transpose() * rows).inverse();
-  if (!(fitted[kLoad] > 0.0)) {
+  const std::vector<GuidedWay> of_loads = ways_of_loads(ways, up);
+  const auto loaded = regression_over(of_loads, kNumLoadCoefficients, mass_per_gain_kg,
+                                      [&](const GuidedWay& way) { return load_row(way, up); });
+  if (!loaded) refuse_ways();
+  if (!(loaded->coefficients[kLoad] > 0.0)) {
     throw core::Error(
         "force: expected a device that pulls more where more hangs from it, found the "
         "opposite; "
         "check which way is up and which weight hung when");
   }
+  const Opposing opposing = opposing_of(ways, mass_per_gain_kg);
 
   ForceFit fit;
-  fit.num_ways = static_cast<int>(num_ways);
-  fit.residual_n = residual_n;
-  const double gain = 1.0 / fitted[kLoad];
-  // By the delta method; what the loads leave open is common to all that is in newtons.
-  const auto in_newtons = [&](const Column& combination, double value) {
-    Column gradient = gain * combination;
-    gradient[kLoad] -= gain * value;
-    const double open = load_uncertainty_ratio * value;
-    return measured(value, std::sqrt(gradient.dot(covariance * gradient) + open * open),
-                    degrees_of_freedom);
+  fit.num_ways = static_cast<int>(ways.size());
+  fit.residual_n = opposing.residual;
+  const double gain = 1.0 / loaded->coefficients[kLoad];
+  const double gain_error = gain * gain * loaded->error(kLoad);
+  const double gain_error_ratio = gain_error / gain;
+  fit.gain = measured(gain, std::hypot(gain_error, load_uncertainty_ratio * gain),
+                      loaded->degrees_of_freedom);
+  // What is open of the gain, and of the loads, is in all that is in newtons.
+  const auto in_newtons = [&](const Measured& commanded) {
+    const double value = gain * commanded.value;
+    const double open = student_t975(loaded->degrees_of_freedom) * value *
+                        std::hypot(gain_error_ratio, load_uncertainty_ratio);
+    return Measured{
+        .value = value,
+        .ci95_low = value - std::hypot(gain * (commanded.value - commanded.ci95_low), open),
+        .ci95_high = value + std::hypot(gain * (commanded.ci95_high - commanded.value), open)};
   };
-  const auto alone = [](Coefficient coefficient) {
-    Column one = Column::Zero();
-    one[coefficient] = 1.0;
-    return one;
-  };
-  const double open_gain = load_uncertainty_ratio * gain;
-  const double gain_error = gain * gain * std::sqrt(covariance(kLoad, kLoad));
-  fit.gain = measured(gain, std::hypot(gain_error, open_gain), degrees_of_freedom);
-  fit.offset_n = gain * fitted.head<3>();
-  Column down = Column::Zero();
-  down.head<3>() = -up;
-  fit.weight_n = in_newtons(down, gain * down.dot(fitted));
-  fit.damping_n_s_per_m = in_newtons(alone(kDamping), gain * fitted[kDamping]);
-  fit.friction_n = in_newtons(alone(kFriction), gain * fitted[kFriction]);
-  fit.hysteresis_n = measured(fitted[kFriction], std::sqrt(covariance(kFriction, kFriction)),
-                              degrees_of_freedom);
-  fit.pose_spread_ratio = gain_spread_ratio(ways, up, mass_per_gain_kg, fitted);
+  fit.damping_n_s_per_m = in_newtons(opposing.damping);
+  fit.friction_n = in_newtons(opposing.friction);
+  fit.hysteresis_n = opposing.friction;
+  for (const Measured& damping : opposing.damping_by_line) {
+    fit.damping_by_axis_n_s_per_m.push_back(in_newtons(damping));
+  }
+  fit.damps_alike = opposing.is_alike;
+
+  // The loads tell best what acts up or down; by the delta method with the gain.
+  const double upwards = loaded->coefficients[kUpwards];
+  const Eigen::Vector3d offset = opposing.offset + (upwards - opposing.offset.dot(up)) * up;
+  fit.offset_n = gain * offset;
+  const Eigen::Vector2d gradient(-gain, gain * gain * upwards);
+  const Eigen::Matrix2d covariance =
+      loaded->covariance.topLeftCorner<2, 2>();  // Upwards, load.
+  const double weight_n = -gain * upwards;
+  fit.weight_n = measured(weight_n,
+                          std::sqrt(gradient.dot(covariance * gradient) +
+                                    std::pow(load_uncertainty_ratio * weight_n, 2)),
+                          loaded->degrees_of_freedom);
+  fit.pose_spread_ratio = gain_spread_ratio(of_loads, up, mass_per_gain_kg, *loaded);
   return fit;
 }
 

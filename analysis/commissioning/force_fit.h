@@ -34,6 +34,11 @@ struct ForceFit {
       Eigen::Vector3d::Zero();  ///< The whole constant force, as `up` is.
   Measured damping_n_s_per_m;
   Measured friction_n;
+  /// Of each line that was gone along without loads, in the order of their first ways. Where
+  /// they differ by more than noise does (F test, 0.1 %), damping and friction are of the first
+  /// line alone, along which the studies stroke.
+  std::vector<Measured> damping_by_axis_n_s_per_m;
+  bool damps_alike = true;
   /// Half of what must be commanded more to go one way than to come back, at no speed.
   Measured hysteresis_n;
   double residual_n = 0.0;         ///< Standard deviation of a way about the fit.
@@ -41,15 +46,17 @@ struct ForceFit {
   int num_ways = 0;
 };
 
-/// Least squares over all ways, for unit directions e and `up`,
+/// For unit directions e and `up` every way comes to
 ///
-///     gain u = load (up . e + a / g) + mass a + damping v + friction - offset . e,
+///     gain u = load (up . e + a / g) + mass a + damping v + friction - offset . e.
 ///
-/// so that known loads tell the gain, and the gain everything else in newtons. The mass is not
-/// estimated here, for the little acceleration that there is has as much noise:
-/// `mass_per_gain_kg` is from pushes. `load_uncertainty_ratio`: standard uncertainty of
-/// all loads together, over them (scales, local gravity), >= 0. Throws `core::Error` where the
-/// ways do not tell it all apart: two loads, two speeds, both ways along three axes are wanted.
+/// Known loads, lifted and lowered at one slow speed, tell the gain and what acts up or down;
+/// ways without loads at several speeds tell damping and friction, and the gain turns these
+/// into newtons. The mass is not estimated here, for the little acceleration that there is has
+/// as much noise: `mass_per_gain_kg` is from pushes. `load_uncertainty_ratio`: standard
+/// uncertainty of all loads together, over them (scales, local gravity), >= 0. Throws
+/// `core::Error` where the ways do not tell it all apart: two loads, two speeds, both ways
+/// along three axes are wanted.
 [[nodiscard]] ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
                                  double mass_per_gain_kg, double load_uncertainty_ratio);
 

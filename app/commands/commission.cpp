@@ -192,7 +192,8 @@ int run_commission(const CommissionOptions& options) {
 void add_commission(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<CommissionOptions>();
   CLI::App* command = program.add_subcommand(
-      "commission", "Measures a device before a hand is in it: noise, frame, force, delay");
+      "commission",
+      "Measures a device before a hand is in it: noise, frame, force, delay, stability");
   command->add_option("device", options->device, "As after --device")->required();
   command->add_option("--record", options->record,
                       "File that keeps every measurement; one that is there is gone on with "

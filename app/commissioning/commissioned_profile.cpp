@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/commissioning/single_mass.h"
+#include "app/commissioning/guided_run.h"
 #include "core/error.h"
 #include "core/safety/force_limiter.h"
 #include "core/safety/workspace.h"
@@ -131,13 +133,23 @@ DeviceProfile profile_of(const Commissioning& commissioning,
                    .load_uncertainty_ratio = commissioning.plan().load_uncertainty_ratio,
                    .pose_spread_ratio = force.pose_spread_ratio};
   profile.tool.weight_n = value_of(force.weight_n);
-  profile.mechanics = {.mass_kg = mass_of(*found.delay, force.gain),
-                       .damping_n_s_per_m = not_negative(force.damping_n_s_per_m),
+  profile.mechanics = {.damping_n_s_per_m = not_negative(force.damping_n_s_per_m),
                        .friction_n = not_negative(force.friction_n)};
+  if (analysis::is_single_mass(*found.delay, force)) {
+    profile.mechanics.mass_kg = mass_of(*found.delay, force.gain);
+    profile.delay_s = not_negative(found.delay->delay_s);
+  }
   profile.noise = {.position_sd_m = found.noise->position_sd_m.value,
                    .position_resolution_m = found.noise->position_resolution_m,
                    .velocity_sd_m_per_s = found.noise->velocity_sd_m_per_s.value};
-  profile.delay_s = not_negative(found.delay->delay_s);
+  const analysis::StabilityFit& stability = *found.stability;
+  profile.stability = experiments::ProfileStability{
+      .rate_hz = stability.rate_hz,
+      .viscosity_pa_s = {.value = stability.viscosity_pa_s,
+                         .is_beyond_ladder = stability.damping.is_beyond},
+      .stiffness_n_per_m = {.value = stability.stiffness_n_per_m},
+      .quiet_viscosity_pa_s = stability.quiet_viscosity_pa_s,
+      .force_limit_n = kCommissioningLimits.total_n};
   return profile;
 }
 

@@ -166,6 +166,10 @@ void Commissioning::measure(CommissioningStep step, device::HapticDevice& device
       case CommissioningStep::kForce:
         measured.force = measure_force(device, bench, plan_, *results_.frame, progress);
         break;
+      case CommissioningStep::kStability:
+        measured.stability = measure_stability(device, bench, plan_, *results_.noise,
+                                               *results_.force, *results_.delay, progress);
+        break;
     }
   } catch (const core::Error& error) {
     append(ordered_json(

@@ -13,11 +13,11 @@
 namespace jnd::app {
 
 /// What is measured of a device before a hand is in it, in this order.
-enum class CommissioningStep { kNoise, kFrame, kForce, kDelay };
+enum class CommissioningStep { kNoise, kFrame, kForce, kDelay, kStability };
 
 inline constexpr std::array kCommissioningSteps = {
     CommissioningStep::kNoise, CommissioningStep::kFrame, CommissioningStep::kForce,
-    CommissioningStep::kDelay};
+    CommissioningStep::kDelay, CommissioningStep::kStability};
 
 /// How a step is called and what somebody has to do for it.
 struct StepWords {
@@ -44,6 +44,7 @@ struct CommissioningResults {
   std::optional<analysis::FrameFit> frame;
   std::optional<analysis::DelayFit> delay;
   std::optional<analysis::ForceFit> force;
+  std::optional<analysis::StabilityFit> stability;
   /// When each was measured, "2026-11-25T10:12:00Z"; "" where it was not.
   std::array<std::string, kCommissioningSteps.size()> measured_at;
 

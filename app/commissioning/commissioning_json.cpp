@@ -53,15 +53,45 @@ ordered_json json_of(const analysis::DelayFit& fit) {
 }
 
 ordered_json json_of(const analysis::ForceFit& fit) {
+  auto by_axis = ordered_json::array();
+  for (const Measured& damping : fit.damping_by_axis_n_s_per_m) {
+    by_axis.push_back(measured_json(damping));
+  }
   return {{"gain", measured_json(fit.gain)},
           {"weight_n", measured_json(fit.weight_n)},
           {"offset_n", vector_json(fit.offset_n)},
           {"damping_n_s_per_m", measured_json(fit.damping_n_s_per_m)},
+          {"damping_by_axis_n_s_per_m", std::move(by_axis)},
+          {"damps_alike", fit.damps_alike},
           {"friction_n", measured_json(fit.friction_n)},
           {"hysteresis_n", measured_json(fit.hysteresis_n)},
           {"residual_n", fit.residual_n},
           {"pose_spread_ratio", fit.pose_spread_ratio},
           {"num_ways", fit.num_ways}};
+}
+
+ordered_json json_of(const analysis::StabilityFit& fit) {
+  return {{"rate_hz", fit.rate_hz},
+          {"damping_limit_n_s_per_m", measured_json(fit.damping.damping_n_s_per_m)},
+          {"damping_limit_frequency_hz", fit.damping.frequency_hz},
+          {"viscosity_pa_s", fit.viscosity_pa_s},
+          {"viscosity_is_at_least", fit.damping.is_beyond},
+          {"quiet_viscosity_pa_s", fit.quiet_viscosity_pa_s},
+          {"stiffness_n_per_m", fit.stiffness_n_per_m},
+          {"is_single_mass", fit.is_single_mass},
+          {"num_ways", fit.damping.num_ways}};
+}
+
+analysis::StabilityFit stability_in(const json& found) {
+  return {.rate_hz = found.at("rate_hz").get<double>(),
+          .damping = {.damping_n_s_per_m = measured_in(found.at("damping_limit_n_s_per_m")),
+                      .frequency_hz = found.at("damping_limit_frequency_hz").get<double>(),
+                      .is_beyond = found.at("viscosity_is_at_least").get<bool>(),
+                      .num_ways = found.at("num_ways").get<int>()},
+          .viscosity_pa_s = found.at("viscosity_pa_s").get<double>(),
+          .stiffness_n_per_m = found.at("stiffness_n_per_m").get<double>(),
+          .is_single_mass = found.at("is_single_mass").get<bool>(),
+          .quiet_viscosity_pa_s = found.at("quiet_viscosity_pa_s").get<double>()};
 }
 
 analysis::FrameFit frame_in(const json& found) {
@@ -80,6 +110,25 @@ analysis::FrameFit frame_in(const json& found) {
   return fit;
 }
 
+analysis::ForceFit force_in(const json& found) {
+  const auto value = [&](const char* key) { return measured_in(found.at(key)); };
+  analysis::ForceFit fit;
+  fit.gain = value("gain");
+  fit.weight_n = value("weight_n");
+  fit.offset_n = vector_in(found.at("offset_n"));
+  fit.damping_n_s_per_m = value("damping_n_s_per_m");
+  for (const json& damping : found.at("damping_by_axis_n_s_per_m")) {
+    fit.damping_by_axis_n_s_per_m.push_back(measured_in(damping));
+  }
+  fit.damps_alike = found.at("damps_alike").get<bool>();
+  fit.friction_n = value("friction_n");
+  fit.hysteresis_n = value("hysteresis_n");
+  fit.residual_n = found.at("residual_n").get<double>();
+  fit.pose_spread_ratio = found.at("pose_spread_ratio").get<double>();
+  fit.num_ways = found.at("num_ways").get<int>();
+  return fit;
+}
+
 }  // namespace
 
 ordered_json step_json(CommissioningStep step, const CommissioningResults& results) {
@@ -92,6 +141,8 @@ ordered_json step_json(CommissioningStep step, const CommissioningResults& resul
       return json_of(results.delay.value());
     case CommissioningStep::kForce:
       return json_of(results.force.value());
+    case CommissioningStep::kStability:
+      return json_of(results.stability.value());
   }
   return {};
 }
@@ -114,15 +165,10 @@ void read_step_json(CommissioningStep step, const json& found, CommissioningResu
                        .num_ways = found.at("num_ways").get<int>()};
       return;
     case CommissioningStep::kForce:
-      results.force = {.gain = value("gain"),
-                       .weight_n = value("weight_n"),
-                       .offset_n = vector_in(found.at("offset_n")),
-                       .damping_n_s_per_m = value("damping_n_s_per_m"),
-                       .friction_n = value("friction_n"),
-                       .hysteresis_n = value("hysteresis_n"),
-                       .residual_n = number("residual_n"),
-                       .pose_spread_ratio = number("pose_spread_ratio"),
-                       .num_ways = found.at("num_ways").get<int>()};
+      results.force = force_in(found);
+      return;
+    case CommissioningStep::kStability:
+      results.stability = stability_in(found);
       return;
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/commissioning/single_mass.h"
 #include "app/commissioning/commissioning.h"
 
 namespace jnd::app {
@@ -22,6 +23,10 @@ constexpr std::array<StepWords, kCommissioningSteps.size()> kWords = {{
      "asked to hang known weights from it."},
     {"delay", "Delay and mass",
      "Leave the tool free to move by 10 cm all around. It is pushed to and fro by 4 N."},
+    {"stability", "Stability, by sweeps and stimuli",
+     "Leave the tool free to move by 25 cm all around, and keep away. It hums as it goes to "
+     "and "
+     "fro, is drawn through thick fluids, and falls onto something solid that is not there."},
 }};
 
 /// Three digits of what the interval leaves open.
@@ -52,6 +57,10 @@ std::vector<CommissioningStep> steps_before(CommissioningStep step) {
   if (step == CommissioningStep::kForce) return {CommissioningStep::kFrame};
   if (step == CommissioningStep::kDelay) {
     return {CommissioningStep::kFrame, CommissioningStep::kForce};
+  }
+  if (step == CommissioningStep::kStability) {
+    return {CommissioningStep::kNoise, CommissioningStep::kFrame, CommissioningStep::kForce,
+            CommissioningStep::kDelay};
   }
   return {};
 }
@@ -84,19 +93,47 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
                fmt::format("{:.2f}", 1e3 * fit.residual_m), "mm"}};
     }
     case CommissioningStep::kDelay:
+      if (!analysis::is_single_mass(*results.delay, *results.force)) {
+        return {{"From a command until its force acts",
+                 "not told: it gives way where it is pushed, and is no single mass", ""}};
+      }
       return {
           {"From a command until its force acts", with_interval(results.delay->delay_s, 1e3),
            "ms"},
           {"Mass, in newtons commanded", with_interval(results.delay->mass_per_gain_kg), "kg"}};
-    case CommissioningStep::kForce:
+    case CommissioningStep::kForce: {
+      const analysis::ForceFit& fit = *results.force;
+      std::vector<FoundLine> lines = {
+          {"Force given for a newton commanded", with_interval(fit.gain), "N/N"},
+          {"Weight that is not carried", with_interval(fit.weight_n), "N"},
+          {fit.damps_alike ? "Own damping" : "Own damping along x",
+           with_interval(fit.damping_n_s_per_m), "N s/m"}};
+      constexpr std::array kAxes = {"x", "y", "z"};
+      for (std::size_t axis = 1; !fit.damps_alike && axis < kAxes.size() &&
+                                 axis < fit.damping_by_axis_n_s_per_m.size();
+           ++axis) {
+        lines.push_back({fmt::format("Own damping along {}", kAxes[axis]),
+                         with_interval(fit.damping_by_axis_n_s_per_m[axis]), "N s/m"});
+      }
+      lines.push_back({"Dry friction", with_interval(fit.friction_n), "N"});
+      lines.push_back(
+          {"Hysteresis, in newtons commanded", with_interval(fit.hysteresis_n), "N"});
+      lines.push_back({"Spread of the gain between poses",
+                       fmt::format("{:.2f}", 100.0 * fit.pose_spread_ratio), "%"});
+      return lines;
+    }
+    case CommissioningStep::kStability: {
+      const analysis::StabilityFit& fit = *results.stability;
       return {
-          {"Force given for a newton commanded", with_interval(results.force->gain), "N/N"},
-          {"Weight that is not carried", with_interval(results.force->weight_n), "N"},
-          {"Own damping", with_interval(results.force->damping_n_s_per_m), "N s/m"},
-          {"Dry friction", with_interval(results.force->friction_n), "N"},
-          {"Hysteresis, in newtons commanded", with_interval(results.force->hysteresis_n), "N"},
-          {"Spread of the gain between poses",
-           fmt::format("{:.2f}", 100.0 * results.force->pose_spread_ratio), "%"}};
+          {"Stable in fluids up to",
+           fmt::format("{:.3g}{}", fit.viscosity_pa_s, fit.damping.is_beyond ? " or more" : ""),
+           "Pa s"},
+          {"Where it would begin to swing", fmt::format("{:.0f}", fit.damping.frequency_hz),
+           "Hz"},
+          {"Drawn without a fault through fluids up to",
+           fmt::format("{:.3g}", fit.quiet_viscosity_pa_s), "Pa s"},
+          {"Stable on solids up to", fmt::format("{:.3g}", fit.stiffness_n_per_m), "N/m"}};
+    }
   }
   return {};
 }

@@ -27,10 +27,12 @@ Eigen::Vector3d commanded_n(const core::Sample& sample) noexcept {
 }
 
 DeviceOnBench::DeviceOnBench(device::HapticDevice& device, device::Bench& bench,
-                             const MeasuringPlan& plan)
+                             const MeasuringPlan& plan, const GuidedRun::Parameters& how)
     : bench_(bench),
       can_(device.capabilities()),
       run_(device, {.rate_hz = plan.rate_hz,
+                    .limits = how.limits,
+                    .swing_n = how.swing_n,
                     .allow_no_realtime = plan.allow_no_realtime,
                     .emergency_stop = plan.emergency_stop}) {
   run_.while_asking([&bench] {

@@ -28,7 +28,9 @@ inline constexpr GuideOrder kSoftHold = {
 /// A device without a hand and its loop. Nothing moves it before `hold`.
 class DeviceOnBench {
  public:
-  DeviceOnBench(device::HapticDevice& device, device::Bench& bench, const MeasuringPlan& plan);
+  /// `how`: limits and guard; the rest is by `plan`.
+  DeviceOnBench(device::HapticDevice& device, device::Bench& bench, const MeasuringPlan& plan,
+                const GuidedRun::Parameters& how = {});
 
   [[nodiscard]] GuidedRun& run() noexcept { return run_; }
   [[nodiscard]] const device::DeviceCapabilities& can() const noexcept { return can_; }

@@ -22,8 +22,6 @@ namespace {
 constexpr std::size_t kSampleCapacity = 32768;
 /// Against 2 N of friction over half a metre, and no more: a device that runs away is stopped.
 constexpr double kMaxGiven_j = 1.0;
-/// What swings further is no push of the guide's.
-constexpr double kSwing_n = 10.0;
 
 device::HapticLoop::Parameters loop_parameters(const GuidedRun::Parameters& parameters,
                                                const device::DeviceCapabilities& can,
@@ -35,7 +33,7 @@ device::HapticLoop::Parameters loop_parameters(const GuidedRun::Parameters& para
   loop.port_energy.max_given_j = kMaxGiven_j;
   loop.heartbeat_timeout_s = can.heartbeat_timeout_s;
   loop.guide = &guide;
-  loop.oscillation.swing_n = kSwing_n;
+  loop.oscillation.swing_n = parameters.swing_n;
   return loop;
 }
 
@@ -108,6 +106,7 @@ struct GuidedRun::Implementation {
   bool in_real_time;
   bool is_open = false;
   core::LatestValue<core::HapticCommand> commands;
+  std::uint64_t num_commands = 0;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop own_stop;
   core::EmergencyStop& stop;
@@ -165,10 +164,22 @@ void GuidedRun::order(const device::MotionGuide::Order& order) {
   implementation_->guide.order(order);
 }
 
-void GuidedRun::run_for(double duration_s,
-                        const std::function<void(const core::Sample&)>& take) {
+void GuidedRun::render(const core::MediumAmounts& medium, double surface_z_m) {
+  core::HapticCommand command{.sequence = ++implementation_->num_commands, .medium = medium};
+  command.immersion.origin_z_m = surface_z_m;
+  implementation_->commands.publish(command);
+}
+
+core::Fault GuidedRun::try_for(double duration_s,
+                               const std::function<void(const core::Sample&)>& take) {
   const core::Fault found = implementation_->run(duration_s, take);
   if (stop_requested()) throw core::Error("commission: stopped; what was measured is kept");
+  return found;
+}
+
+void GuidedRun::run_for(double duration_s,
+                        const std::function<void(const core::Sample&)>& take) {
+  const core::Fault found = try_for(duration_s, take);
   if (core::is_failure(found)) {
     throw core::Error("commission: " + std::string(core::words(found)));
   }

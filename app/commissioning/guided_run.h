@@ -3,7 +3,9 @@
 #include <functional>
 #include <memory>
 
+#include "core/media/medium.h"
 #include "core/safety/emergency_stop.h"
+#include "core/safety/fault.h"
 #include "core/safety/force_limiter.h"
 #include "core/sample.h"
 #include "device/haptic_device.h"
@@ -25,6 +27,8 @@ class GuidedRun {
   struct Parameters {
     double rate_hz = 1000.0;
     core::ForceLimiter::Parameters limits = kCommissioningLimits;
+    /// Swings of the force up to this are the guide's own pushes, and no fault.
+    double swing_n = 10.0;
     bool allow_no_realtime = false;
     core::EmergencyStop* emergency_stop = nullptr;  ///< nullptr: one of its own.
   };
@@ -46,9 +50,16 @@ class GuidedRun {
   void without_force(const std::function<void()>& act);
 
   void order(const device::MotionGuide::Order& order);
+  /// The loop renders this medium besides, at once; its surface lies at this height of the
+  /// device's own frame. A medium without amounts: none.
+  void render(const core::MediumAmounts& medium, double surface_z_m);
   /// Lets this time pass. Throws `core::Error` if the loop latches a fault, or if the program
   /// is asked to stop.
   void run_for(double duration_s, const std::function<void(const core::Sample&)>& take = {});
+  /// The same, but a fault that the loop latches is told and not thrown. There is no force then
+  /// until `arm`.
+  [[nodiscard]] core::Fault try_for(double duration_s,
+                                    const std::function<void(const core::Sample&)>& take = {});
   /// No force, motors off, the device closed.
   void stop() noexcept;
 

@@ -1,12 +1,20 @@
 #include "app/commissioning/measuring_steps.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
+#include "analysis/commissioning/single_mass.h"
 #include "app/commissioning/device_on_bench.h"
 #include "app/commissioning/guided_pushes.h"
+#include "app/commissioning/guided_stimuli.h"
+#include "app/commissioning/guided_sweeps.h"
 #include "app/commissioning/guided_ways.h"
 #include "core/error.h"
+#include "core/media/viscous_drag.h"
+#include "core/safety/force_oscillation.h"
+#include "device/stability.h"
 
 namespace jnd::app {
 namespace {
@@ -85,16 +93,14 @@ analysis::DelayFit measure_delay(device::HapticDevice& device, device::Bench& be
   });
   started.run().stop();
   progress(1.0, "");
-  const analysis::DelayFit fit = pushes.fit(force.damping_n_s_per_m.value / force.gain.value);
-  analysis::require_single_mass(fit);
-  return fit;
+  return pushes.fit(force.damping_n_s_per_m.value / force.gain.value);
 }
 
 analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& bench,
                                  const MeasuringPlan& plan, const analysis::FrameFit& frame,
                                  const StepProgress& progress) {
   constexpr std::array kSpeeds_m_per_s = {0.05, 0.1, 0.2, 0.3};
-  constexpr std::array kLoadedSpeeds_m_per_s = {0.05, 0.15};
+  constexpr double kLoadedSpeed_m_per_s = 0.05;
   constexpr std::array kHeights_m = {-0.04, 0.0, 0.04};
   constexpr double kHalfWay_m = 0.08, kLoadedHalfWay_m = 0.05;
   constexpr int kRounds = 2;
@@ -127,8 +133,8 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
     started.act([&] { bench.hang(load_kg); });
     for (int pose = 0; pose < static_cast<int>(kHeights_m.size()); ++pose) {
       const Eigen::Vector3d middle_m = home_m + kHeights_m[static_cast<std::size_t>(pose)] * up;
-      for (const double speed_m_per_s : kLoadedSpeeds_m_per_s) {
-        ways.go(middle_m, up, kLoadedHalfWay_m, speed_m_per_s,
+      for (int round = 0; round < kRounds; ++round) {
+        ways.go(middle_m, up, kLoadedHalfWay_m, kLoadedSpeed_m_per_s,
                 {.load_kg = load_kg, .pose = pose});
       }
     }
@@ -138,6 +144,119 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   progress(1.0, "");
   return analysis::fit_force(ways.ways(), up, roughly.mass_per_gain_kg.value,
                              plan.load_uncertainty_ratio);
+}
+
+namespace {
+
+/// No study asks for more.
+constexpr double kThickest_pa_s = 512.0;
+constexpr device::StabilityLadder kStiffnesses_n_per_m = {
+    .first = 50.0, .last = 51200.0, .resolution_ratio = 1.1};
+/// Of a limit that was measured, for what was not: other poses, a warmer motor.
+constexpr double kSafeRatio = 0.97;
+/// Each time that less is tried, and how often.
+constexpr double kLessRatio = 0.9;
+constexpr int kMostTries = 40;
+
+/// Of all poses together, unless one is worse than that by more than its noise.
+analysis::DampingLimit worst_of(const std::vector<GuidedSweeps>& poses, double period_s,
+                                double delay_s, double largest_n_s_per_m) {
+  const Eigen::VectorXd shares = poses.front().share_ratio();
+  const auto limit = [&](const std::vector<analysis::SweptWay>& ways) {
+    return analysis::damping_limit(ways, shares, period_s, delay_s, largest_n_s_per_m);
+  };
+  std::vector<analysis::SweptWay> all;
+  for (const GuidedSweeps& pose : poses) {
+    all.insert(all.end(), pose.ways().begin(), pose.ways().end());
+  }
+  analysis::DampingLimit worst = limit(all);
+  for (const GuidedSweeps& pose : poses) {
+    const analysis::DampingLimit its = limit(pose.ways());
+    if (its.damping_n_s_per_m.ci95_high < worst.damping_n_s_per_m.ci95_low) worst = its;
+  }
+  return worst;
+}
+
+/// By the response to sweeps about three places, 9 cm apart.
+analysis::DampingLimit measure_damping_limit(device::HapticDevice& device, device::Bench& bench,
+                                             const MeasuringPlan& plan, double delay_s,
+                                             double largest_n_s_per_m,
+                                             const StepProgress& progress) {
+  constexpr std::array kOffsets_m = {0.0, 0.05, -0.05};
+  constexpr int kRounds = 2;
+  // A sweep reaches half the rate of the loop: to one side in one tick, to the other in the
+  // next.
+  GuidedRun::Parameters how;
+  how.limits.slew_n_per_s = 2.0 * GuidedSweeps::kSweep_n * plan.rate_hz;
+  DeviceOnBench started(device, bench, plan, how);
+  started.hold(kSoftHold);
+  const Eigen::Vector3d home_m = started.place_m();
+  std::vector<GuidedSweeps> poses;
+  for (const double offset_m : kOffsets_m) {
+    const auto pose = static_cast<double>(poses.size());
+    GuidedSweeps& sweeps = poses.emplace_back(started, plan);
+    sweeps.go(home_m + Eigen::Vector3d::Constant(offset_m), kRounds, [&](int input) {
+      progress(0.3 * (pose + static_cast<double>(input) / sweeps.num_inputs()),
+               "The device is swept through all frequencies as it moves.");
+    });
+  }
+  started.run().stop();
+  return worst_of(poses, 1.0 / plan.rate_hz, delay_s, largest_n_s_per_m);
+}
+
+/// The first of these that works, each a tenth less than the last; 0: none.
+double first_that(double from, const std::function<bool(double)>& works) {
+  for (int tries = 0; tries < kMostTries; ++tries, from *= kLessRatio) {
+    if (works(from)) return from;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+analysis::StabilityFit measure_stability(device::HapticDevice& device, device::Bench& bench,
+                                         const MeasuringPlan& plan,
+                                         const analysis::NoiseFit& noise,
+                                         const analysis::ForceFit& force,
+                                         const analysis::DelayFit& delay,
+                                         const StepProgress& progress) {
+  const double shape_m = core::ViscousDrag({.viscosity_pa_s = 0.0}).shape_constant_m();
+  analysis::StabilityFit fit{.rate_hz = plan.rate_hz,
+                             .is_single_mass = analysis::is_single_mass(delay, force)};
+  fit.damping = measure_damping_limit(device, bench, plan, std::max(0.0, delay.delay_s.value),
+                                      kThickest_pa_s * shape_m / kSafeRatio, progress);
+  fit.viscosity_pa_s = kSafeRatio * fit.damping.damping_n_s_per_m.ci95_low / shape_m;
+
+  // Limits of force as before, and everything else as in a session.
+  constexpr core::ForceLimiter::Parameters kSession;
+  GuidedRun::Parameters how{.swing_n = core::ForceOscillation::Parameters().swing_n};
+  how.limits.slew_n_per_s = kSession.slew_n_per_s;
+  DeviceOnBench started(device, bench, plan, how);
+  started.hold(kSoftHold);
+  GuidedStimuli stimuli(started, noise, force);
+  progress(0.9, "The device is drawn through the thickest fluid that this allows.");
+  fit.quiet_viscosity_pa_s = first_that(fit.viscosity_pa_s, [&](double viscosity_pa_s) {
+    return stimuli.is_drawn_through(viscosity_pa_s * shape_m);
+  });
+  progress(0.95, "The device rests on something solid.");
+  const auto rests = [&](double stiffness_n_per_m) {
+    return stimuli.rests_on(stiffness_n_per_m);
+  };
+  if (fit.is_single_mass) {
+    const double limit_n_per_m =
+        kSafeRatio * analysis::stiffness_limit(delay, force, 1.0 / plan.rate_hz).ci95_low;
+    // Into anything softer it would sink by 10 cm.
+    fit.stiffness_n_per_m = limit_n_per_m < kStiffnesses_n_per_m.first
+                                ? limit_n_per_m
+                                : first_that(limit_n_per_m, rests);
+  } else {
+    const device::StabilityLimit limit = device::largest_stable(kStiffnesses_n_per_m, rests);
+    // Found to the next rung and on one solid, so less of it, and never "or more".
+    fit.stiffness_n_per_m = kLessRatio * limit.value;
+  }
+  started.run().stop();
+  progress(1.0, "");
+  return fit;
 }
 
 }  // namespace jnd::app

@@ -9,6 +9,7 @@
 #include "analysis/commissioning/force_fit.h"
 #include "analysis/commissioning/frame_fit.h"
 #include "analysis/commissioning/noise_fit.h"
+#include "analysis/commissioning/stability_fit.h"
 #include "app/commissioning/measuring_plan.h"
 #include "device/bench.h"
 #include "device/haptic_device.h"
@@ -42,4 +43,11 @@ using StepProgress = std::function<void(double done, const std::string& now)>;
                                                device::Bench& bench, const MeasuringPlan& plan,
                                                const analysis::ForceFit& force,
                                                const StepProgress& progress);
+/// Up to which viscosity and stiffness it is stable, by its response to sweeps in three poses,
+/// and by rendering what that allows. Nothing is rendered beyond it.
+[[nodiscard]] analysis::StabilityFit measure_stability(
+    device::HapticDevice& device, device::Bench& bench, const MeasuringPlan& plan,
+    const analysis::NoiseFit& noise, const analysis::ForceFit& force,
+    const analysis::DelayFit& delay, const StepProgress& progress);
+
 }  // namespace jnd::app

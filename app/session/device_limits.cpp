@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "device/registry/device_registry.h"
@@ -12,15 +13,21 @@ std::optional<StabilityMap> stability_map_of(const std::string& device,
                                              const experiments::DeviceProfile& profile) {
   if (!profile.stability) return std::nullopt;
   const experiments::DeviceProfile::Stability& its = *profile.stability;
+  // Where the loop ends the force of a fluid because it is noisy, it does not render it.
+  const double quiet_pa_s = its.quiet_viscosity_pa_s.value_or(its.viscosity_pa_s.value);
   const device::ExoskeletonStability limits = {
-      .viscosity_pa_s = {.value = its.viscosity_pa_s.value,
-                         .is_beyond_ladder = its.viscosity_pa_s.is_beyond_ladder},
+      .viscosity_pa_s = {.value = std::min(its.viscosity_pa_s.value, quiet_pa_s),
+                         .is_beyond_ladder = its.viscosity_pa_s.is_beyond_ladder &&
+                                             quiet_pa_s >= its.viscosity_pa_s.value},
       .stiffness_n_per_m = {.value = its.stiffness_n_per_m.value,
                             .is_beyond_ladder = its.stiffness_n_per_m.is_beyond_ladder}};
   StabilityMap map{
       .device = device,
-      .measured = fmt::format("on {} with a phantom of {:g} kg{}", profile.measured_on,
-                              its.phantom_mass_kg, profile.simulated ? ", SIMULATED" : "")};
+      .measured = fmt::format("on {} with {}{}", profile.measured_on,
+                              its.phantom_mass_kg > 0.0
+                                  ? fmt::format("a phantom of {:g} kg", its.phantom_mass_kg)
+                                  : "nothing in it",
+                              profile.simulated ? ", SIMULATED" : "")};
   // A finger that came off was not measured by itself.
   for (const device::Contact contact :
        {device::Contact::kAttached, device::Contact::kDetached}) {

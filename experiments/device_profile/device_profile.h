@@ -80,7 +80,7 @@ struct ProfileStability {
   double rate_hz = 0.0;
   double phantom_mass_kg = 0.0;
   StableUpTo viscosity_pa_s{}, stiffness_n_per_m{};
-  std::optional<double> force_limit_n{};
+  std::optional<double> quiet_viscosity_pa_s{}, force_limit_n{};
 
   bool operator==(const ProfileStability&) const = default;
 };

@@ -247,16 +247,23 @@ const ParameterTable& profile_stability_table() {
   static const ParameterTable kTable = {
       .name = "stability",
       .meaning =
-          "Up to which stimuli the device is stable, with a phantom in place of a hand. "
+          "Up to which stimuli the device is stable, with no hand in it. "
           "`jnd plan` and the check before a session compare the study with it.",
       .parameters = {
           number_key("rate_hz", "Rate of the haptic loop.", "Hz", {100.0, 10000.0}),
-          number_key("phantom_mass_kg", "Mass that was held in place of a hand.", "kg",
-                     {0.0, 100.0, true}),
+          number_key("phantom_mass_kg",
+                     "Mass that was held in place of a hand; 0: nothing was in it, which is "
+                     "the lightest.",
+                     "kg", {0.0, 100.0}),
           stable_key("viscosity_pa_s", "Of a viscous fluid.", "Pa s"),
           stable_key("stiffness_n_per_m", "Of a solid.", "N/m"),
-          optional(number_key("force_limit_n", "At which a trial was broken off.", "N",
-                              {0.0, 100.0, true})),
+          optional(
+              number_key("quiet_viscosity_pa_s",
+                         "Thickest fluid through which it was drawn without a fault of the "
+                         "loop. Less than what is stable where its velocities are noisy.",
+                         "Pa s", {0.0, 1e6})),
+          optional(number_key("force_limit_n", "The most force in all while it was measured.",
+                              "N", {0.0, 100.0, true})),
       }};
   return kTable;
 }

@@ -63,6 +63,7 @@ void each_field(T& it, const Visit& visit) {
     visit("phantom_mass_kg", it.phantom_mass_kg);
     visit("viscosity_pa_s", it.viscosity_pa_s);
     visit("stiffness_n_per_m", it.stiffness_n_per_m);
+    visit("quiet_viscosity_pa_s", it.quiet_viscosity_pa_s);
     visit("force_limit_n", it.force_limit_n);
   } else if constexpr (IsA<T, P::DailyCheck>) {
     visit("checked_on", it.checked_on);

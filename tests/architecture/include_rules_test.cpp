@@ -87,7 +87,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "experiments/procedures", "experiments/protocol", "experiments/session",
       "experiments/participants", "analysis/movement", "app/command_line", "app/profile"}},
     {"app/commissioning",
-     {"core", "core/safety", "core/exchange", "core/storage", "device",
+     {"core", "core/media", "core/safety", "core/exchange", "core/storage", "device",
       "experiments/device_profile", "analysis/commissioning", "app/command_line"}},
     {"app/results",
      {"core", "core/storage", "experiments/study", "experiments/participants", "analysis/data",

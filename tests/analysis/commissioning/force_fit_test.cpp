@@ -108,6 +108,30 @@ TEST(ForceFit, WhatIsOpenOfTheLoadsWidensAllThatIsInNewtons) {
   EXPECT_TRUE(unsure.weight_n.holds(truth.weight_n));
 }
 
+TEST(ForceFit, DampingThatDiffersBetweenAxesIsThatOfTheFirst) {
+  const Truth truth;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  core::RandomStream random(6, "force");
+  std::vector<GuidedWay> ways = ways_of(truth, up, 0.03, random);
+  const ForceFit alike = fit_force(ways, up, kMassPerGain_kg, 0.0);
+  EXPECT_TRUE(alike.damps_alike);
+  // Ten times as damped along y, where nothing hangs.
+  for (GuidedWay& way : ways) {
+    if (way.direction.y() != 0.0) {
+      way.commanded_n += 9.0 * truth.damping_n_s_per_m * way.speed_m_per_s / truth.gain;
+    }
+  }
+  const ForceFit fit = fit_force(ways, up, kMassPerGain_kg, 0.0);
+  EXPECT_FALSE(fit.damps_alike);
+  EXPECT_TRUE(fit.damping_n_s_per_m.holds(truth.damping_n_s_per_m));
+  ASSERT_EQ(fit.damping_by_axis_n_s_per_m.size(), 3U);
+  EXPECT_TRUE(fit.damping_by_axis_n_s_per_m[1].holds(10.0 * truth.damping_n_s_per_m));
+  // What loads tell is as sure as before.
+  EXPECT_DOUBLE_EQ(fit.gain.value, alike.gain.value);
+  EXPECT_DOUBLE_EQ(fit.gain.ci95_low, alike.gain.ci95_low);
+  EXPECT_DOUBLE_EQ(fit.weight_n.value, alike.weight_n.value);
+}
+
 TEST(ForceFit, AGainThatDiffersBetweenPosesIsTold) {
   Truth weak, strong;
   weak.gain = 0.9;

@@ -53,7 +53,8 @@ TEST_F(CommissioningTest, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(second.next_step(), Step::kDelay);
   EXPECT_EQ(second.results().force->gain.value, gain) << "to the last digit";
   measure(second, Step::kDelay);
-  EXPECT_FALSE(second.next_step().has_value());
+  EXPECT_EQ(second.next_step(), Step::kStability);
+  EXPECT_FALSE(second.results().has(Step::kStability));
 }
 
 TEST_F(CommissioningTest, ALineThatTheProgramDiedInIsNoMeasurementAndDoesNoHarm) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -64,6 +66,71 @@ TEST(MeasuringSteps, RecoverWhatTwinsWereMadeWith) {
     tally.count("friction", force.friction_n.holds(truth.friction_n));
   }
   for (const auto& [name, held] : tally.counts()) EXPECT_GE(held, kFewestHeld) << name;
+}
+
+/// The damping or the stiffness from which on a twin without noise, friction and cogging swings
+/// ever further, worked out from its own steps of motion and nothing else.
+double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
+  constexpr double kStep_s = 1e-4;
+  constexpr int kSteps = 10;  // A tick.
+  const auto late = static_cast<int>(std::lround(twin.delay_s / kStep_s));
+  const int num_writes = late / kSteps + 2;
+  const auto grows = [&](double amount) {
+    Eigen::MatrixXd tick = Eigen::MatrixXd::Zero(2 + num_writes, 2 + num_writes);
+    for (int column = 0; column < 2 + num_writes; ++column) {
+      const Eigen::VectorXd before = Eigen::VectorXd::Unit(2 + num_writes, column);
+      double position_m = before[0], velocity_m_per_s = before[1];
+      const double written_n = -amount * (is_stiffness ? position_m : velocity_m_per_s);
+      for (int step = 0; step < kSteps; ++step) {
+        const int ticks_ago = step >= late ? 0 : (late - step + kSteps - 1) / kSteps;
+        const double force_n = ticks_ago == 0 ? written_n : before[1 + ticks_ago];
+        const double damped = 0.5 * kStep_s * twin.damping_n_s_per_m / twin.mass_kg;
+        const double next_m_per_s =
+            ((1.0 - damped) * velocity_m_per_s + kStep_s / twin.mass_kg * twin.gain * force_n) /
+            (1.0 + damped);
+        position_m += 0.5 * kStep_s * (velocity_m_per_s + next_m_per_s);
+        velocity_m_per_s = next_m_per_s;
+      }
+      // Under a fluid nothing brings the mass back to a place, so that is left out.
+      tick(0, column) = is_stiffness ? position_m : 0.0;
+      tick(1, column) = velocity_m_per_s;
+      tick(2, column) = written_n;
+      for (int i = 3; i < 2 + num_writes; ++i) tick(i, column) = before[i - 1];
+    }
+    return tick.eigenvalues().cwiseAbs().maxCoeff() >= 1.0;
+  };
+  double stable = 1e-3, unstable = 1e6;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = std::sqrt(stable * unstable);
+    (grows(middle) ? unstable : stable) = middle;
+  }
+  return stable;
+}
+
+// Every sixth of the twins, for time's sake; the document's table has them all.
+TEST(MeasuringSteps, LimitsOfStabilityLieBelowTheTwinsOwnButNotFar) {
+  constexpr double kShape_m = 1.7760;  // Of a viscous fluid.
+  constexpr double kThickest_pa_s = 512.0;
+  for (int seed = 1; seed <= 20; seed += 6) {
+    TwinDevice twin(device::drawn_twin(static_cast<std::uint64_t>(seed)));
+    const MeasuringPlan plan{.seed = static_cast<std::uint64_t>(seed)};
+    device::Bench& bench = *twin.bench();
+    const analysis::NoiseFit noise = measure_noise(twin, bench, plan, kQuiet);
+    const analysis::FrameFit frame = measure_frame(twin, bench, plan, kQuiet);
+    const analysis::ForceFit force = measure_force(twin, bench, plan, frame, kQuiet);
+    const analysis::DelayFit delay = measure_delay(twin, bench, plan, force, kQuiet);
+    const analysis::StabilityFit fit =
+        measure_stability(twin, bench, plan, noise, force, delay, kQuiet);
+    const double viscosity_pa_s = own_limit(twin.made_with(), false) / kShape_m,
+                 stiffness_n_per_m = own_limit(twin.made_with(), true);
+    EXPECT_LE(fit.viscosity_pa_s, viscosity_pa_s) << seed;
+    EXPECT_GE(fit.viscosity_pa_s, 0.8 * std::min(viscosity_pa_s, kThickest_pa_s)) << seed;
+    EXPECT_EQ(fit.damping.is_beyond, fit.viscosity_pa_s >= kThickest_pa_s - 1e-9) << seed;
+    EXPECT_LE(fit.stiffness_n_per_m, stiffness_n_per_m) << seed;
+    EXPECT_GE(fit.stiffness_n_per_m, 0.8 * stiffness_n_per_m) << seed;
+    EXPECT_GT(fit.quiet_viscosity_pa_s, 0.0) << seed;
+    EXPECT_LE(fit.quiet_viscosity_pa_s, fit.viscosity_pa_s) << seed;
+  }
 }
 
 }  // namespace measuring_steps_test
