@@ -3,9 +3,9 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -54,13 +54,14 @@ Complex mass_response(double angle_per_tick, double delay_ticks, double period_s
          std::polar(1.0, -angle_per_tick * whole);
 }
 
-/// What the lines of all ways but one come to together.
-Estimate estimate_of(const std::vector<Line>& lines, std::optional<int> left_out,
-                     double period_s, double angle_per_tick, double damping) {
+/// What these lines come to together.
+template <typename Counts>
+Estimate estimate_of(const std::vector<Line>& lines, const Counts& counts, double period_s,
+                     double angle_per_tick, double damping) {
   Complex across = 0.0;
   double force = 0.0;
   for (const Line& line : lines) {
-    if (line.way == left_out) continue;
+    if (!counts(line.way)) continue;
     across += line.position * std::conj(line.force);
     force += std::norm(line.force);
   }
@@ -115,19 +116,23 @@ DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s, in
                      .force = fourier(window.commanded_n, angle_per_tick),
                      .way = window.way});
   }
-  const auto estimate = [&](std::optional<int> left_out) {
-    return estimate_of(lines, left_out, period_s, angle_per_tick, damping_per_gain_n_s_per_m);
+  const auto estimate = [&](const auto& counts) {
+    return estimate_of(lines, counts, period_s, angle_per_tick, damping_per_gain_n_s_per_m);
   };
-  const Estimate whole = estimate(std::nullopt);
+  const Estimate whole = estimate([](int) { return true; });
   std::vector<double> delays_s, masses_kg;
+  std::vector<PushedWay> by_themselves;
   for (const int way : ways) {
-    const Estimate one = estimate(way);
-    delays_s.push_back(one.delay_s);
-    masses_kg.push_back(one.mass_kg);
+    const Estimate others = estimate([way](int one) { return one != way; });
+    delays_s.push_back(others.delay_s);
+    masses_kg.push_back(others.mass_kg);
+    const Estimate alone = estimate([way](int one) { return one == way; });
+    by_themselves.push_back({.delay_s = alone.delay_s, .mass_per_gain_kg = alone.mass_kg});
   }
   DelayFit fit{.delay_s = jackknifed(delays_s, whole.delay_s),
                .mass_per_gain_kg = jackknifed(masses_kg, whole.mass_kg),
-               .num_ways = static_cast<int>(ways.size())};
+               .num_ways = static_cast<int>(ways.size()),
+               .ways = std::move(by_themselves)};
   const double half_width_kg =
       0.5 * (fit.mass_per_gain_kg.ci95_high - fit.mass_per_gain_kg.ci95_low);
   if (!std::isfinite(whole.mass_kg) || !(whole.mass_kg > half_width_kg)) {

@@ -13,11 +13,17 @@ struct PushedWindow {
   int way = 0;  ///< Windows of the same way have the same cogging, and stand and fall together.
 };
 
+/// What the windows of one way come to by themselves.
+struct PushedWay {
+  double delay_s = 0.0, mass_per_gain_kg = 0.0;
+};
+
 /// How long a force takes to act, and how much it moves.
 struct DelayFit {
   Measured delay_s;           ///< From a write until its force acts, as positions show it.
   Measured mass_per_gain_kg;  ///< Of the device, in newtons commanded: mass over gain.
   int num_ways = 0;
+  std::vector<PushedWay> ways;  ///< Each by itself, to see how they scatter.
 };
 
 /// What the device makes of the pushes' fundamental, at angular frequency w, in each window,

@@ -252,6 +252,9 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
 
   ForceFit fit;
   fit.num_ways = static_cast<int>(ways.size());
+  fit.ways = ways;
+  fit.up = up;
+  fit.mass_per_gain_kg = mass_per_gain_kg;
   fit.residual_n = opposing.residual;
   const double gain = 1.0 / loaded->coefficients[kLoad];
   const double gain_error = gain * gain * loaded->error(kLoad);
@@ -290,6 +293,20 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
                           loaded->degrees_of_freedom);
   fit.pose_spread_ratio = gain_spread_ratio(of_loads, up, mass_per_gain_kg, *loaded);
   return fit;
+}
+
+double fitted_n(const ForceFit& fit, const GuidedWay& way) {
+  return (load_along_n(fit, way) + fit.damping_n_s_per_m.value * way.speed_m_per_s +
+          fit.friction_n.value - fit.offset_n.dot(way.direction)) /
+         fit.gain.value;
+}
+
+double commanded_without_mass_n(const ForceFit& fit, const GuidedWay& way) {
+  return way.commanded_n - fit.mass_per_gain_kg * way.acceleration_m_per_s2;
+}
+
+double load_along_n(const ForceFit& fit, const GuidedWay& way) {
+  return row_of(way, fit.up)[kLoad];
 }
 
 }  // namespace jnd::analysis

@@ -44,6 +44,9 @@ struct ForceFit {
   double residual_n = 0.0;         ///< Standard deviation of a way about the fit.
   double pose_spread_ratio = 0.0;  ///< Standard deviation of the gain between poses, over it.
   int num_ways = 0;
+  std::vector<GuidedWay> ways;  ///< That it rests on.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  double mass_per_gain_kg = 0.0;  ///< That it was computed with.
 };
 
 /// For unit directions e and `up` every way comes to
@@ -59,5 +62,12 @@ struct ForceFit {
 /// along three axes are wanted.
 [[nodiscard]] ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
                                  double mass_per_gain_kg, double load_uncertainty_ratio);
+
+/// What must be commanded on this way by the fit, without what the mass takes [N].
+[[nodiscard]] double fitted_n(const ForceFit& fit, const GuidedWay& way);
+/// What was commanded on it, likewise [N].
+[[nodiscard]] double commanded_without_mass_n(const ForceFit& fit, const GuidedWay& way);
+/// What hung from the tool, along this way, with what it takes to speed it up [N].
+[[nodiscard]] double load_along_n(const ForceFit& fit, const GuidedWay& way);
 
 }  // namespace jnd::analysis

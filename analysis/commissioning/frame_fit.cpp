@@ -54,6 +54,7 @@ FrameFit fit_frame(const std::vector<TouchedMark>& marks) {
 
   FrameFit fit;
   fit.num_marks = num_marks;
+  fit.marks = marks;
   fit.rotation = svd.matrixU() * mirror * svd.matrixV().transpose();
   fit.offset_m = workspace_mean_m - fit.rotation * device_mean_m;
 
@@ -75,6 +76,10 @@ FrameFit fit_frame(const std::vector<TouchedMark>& marks) {
   fit.rotation_ci95_rad = half_width.head<3>();
   fit.offset_ci95_m = half_width.tail<3>();
   return fit;
+}
+
+Eigen::Vector3d missed_by_m(const FrameFit& fit, const TouchedMark& mark) {
+  return fit.rotation * mark.device_m + fit.offset_m - mark.workspace_m;
 }
 
 }  // namespace jnd::analysis

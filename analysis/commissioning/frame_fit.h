@@ -21,11 +21,15 @@ struct FrameFit {
   Eigen::Vector3d offset_ci95_m = Eigen::Vector3d::Zero();
   double residual_m = 0.0;  ///< Standard deviation on each axis of how marks were met.
   int num_marks = 0;
+  std::vector<TouchedMark> marks;  ///< That it rests on.
 };
 
 /// The rotation and the offset with the least squared distances (Kabsch 1976; Arun, Huang and
 /// Blostein 1987), intervals by linearising about them. Throws `core::Error` for fewer than
 /// four marks, and where they lie on a line or nearly so: then a turn about it stays open.
 [[nodiscard]] FrameFit fit_frame(const std::vector<TouchedMark>& marks);
+
+/// Where the device says that a mark is, in the workspace, less where it is [m].
+[[nodiscard]] Eigen::Vector3d missed_by_m(const FrameFit& fit, const TouchedMark& mark);
 
 }  // namespace jnd::analysis

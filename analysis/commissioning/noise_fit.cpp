@@ -41,6 +41,18 @@ double least_step_m(const std::vector<Eigen::Vector3d>& position_m) {
   return least_m;
 }
 
+std::vector<Eigen::Vector3d> first_readings_m(const std::vector<Eigen::Vector3d>& position_m) {
+  constexpr std::size_t kMost = 250;
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& reading_m : position_m) mean_m += reading_m;
+  mean_m /= static_cast<double>(position_m.size());
+  std::vector<Eigen::Vector3d> first_m;
+  for (std::size_t i = 0; i < std::min(kMost, position_m.size()); ++i) {
+    first_m.push_back(position_m[i] - mean_m);
+  }
+  return first_m;
+}
+
 }  // namespace
 
 NoiseFit fit_noise(const std::vector<Eigen::Vector3d>& position_m,
@@ -51,7 +63,8 @@ NoiseFit fit_noise(const std::vector<Eigen::Vector3d>& position_m,
   }
   return {.position_sd_m = deviation_of(position_m),
           .position_resolution_m = least_step_m(position_m),
-          .velocity_sd_m_per_s = deviation_of(velocity_m_per_s)};
+          .velocity_sd_m_per_s = deviation_of(velocity_m_per_s),
+          .first_readings_m = first_readings_m(position_m)};
 }
 
 }  // namespace jnd::analysis

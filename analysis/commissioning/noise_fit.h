@@ -14,6 +14,8 @@ struct NoiseFit {
   /// The least step between two readings, all axes together; 0 where no reading differs.
   double position_resolution_m = 0.0;
   Measured velocity_sd_m_per_s;
+  /// The first readings of the position, at most 250, less the mean of all, to look at.
+  std::vector<Eigen::Vector3d> first_readings_m;
 };
 
 /// One reading a tick. Intervals of standard deviations by chi square. Throws `core::Error` for

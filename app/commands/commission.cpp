@@ -39,6 +39,7 @@ struct CommissionOptions {
   std::vector<std::string> only;
   double rate_hz = 1000.0;
   std::uint64_t seed = 1;
+  std::string operator_name;
   bool allow_no_realtime = false;
   bool json = false;
 };
@@ -120,7 +121,8 @@ int run_commission(const CommissionOptions& options) {
                            .loads_kg = options.loads_kg,
                            .load_uncertainty_ratio = options.load_uncertainty_ratio,
                            .seed = options.seed,
-                           .allow_no_realtime = options.allow_no_realtime};
+                           .allow_no_realtime = options.allow_no_realtime,
+                           .operator_name = options.operator_name};
   std::vector<CommissioningStep> again, only;
   for (const std::string& name : options.again) again.push_back(step_of("--again", name));
   for (const std::string& name : options.only) only.push_back(step_of("--only", name));
@@ -224,6 +226,8 @@ void add_commission(CLI::App& program, Invocation& invocation) {
   command->add_option("--seed", options->seed, "Of where the ways begin")
       ->check(seed_number())
       ->capture_default_str();
+  command->add_option("--operator", options->operator_name,
+                      "Who measures, for the record and the report");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "A real device also without real-time priority");
   command->add_flag("--json", options->json, "Print one JSON document");

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/commissioning/commissioning_json.h"
+#include "app/commissioning/commissioning_record.h"
 #include "core/error.h"
 #include "core/storage/files.h"
 
@@ -33,36 +34,11 @@ std::string now_text() {
   return text.data();
 }
 
-/// The beginning of a JSON document that has no end.
-bool is_torn(const std::string& line) {
-  try {
-    [[maybe_unused]] const json whole = json::parse(line);
-  } catch (const json::parse_error& error) {
-    return error.byte > line.size();
-  } catch (const json::exception&) {
-    return false;
-  }
-  return false;
-}
-
 bool ends_a_line(const fs::path& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in || in.tellg() == std::streampos(0)) return true;
   in.seekg(-1, std::ios::end);
   return in.get() == '\n';
-}
-
-std::string& measured_at(CommissioningResults& results, CommissioningStep step) {
-  return results.measured_at[static_cast<std::size_t>(step)];
-}
-
-/// What rests on a step that is measured anew, or taken back.
-void forget_after(CommissioningResults& results, CommissioningStep changed) {
-  for (const CommissioningStep step : kCommissioningSteps) {
-    for (const CommissioningStep before : steps_before(step)) {
-      if (before == changed) measured_at(results, step).clear();
-    }
-  }
 }
 
 }  // namespace
@@ -84,41 +60,23 @@ Commissioning::Commissioning(fs::path record, CommissionedDevice device, Measuri
 }
 
 void Commissioning::read_record() {
-  std::ifstream in(record_);
-  std::string line;
-  int number = 0;
-  try {
-    while (std::getline(in, line)) {
-      ++number;
-      // Of a program that died in the middle of it; whoever went on began another line.
-      if (is_torn(line)) continue;
-      const json entry = json::parse(line);
-      if (number == 1) {
-        const std::string model = entry.at("model").get<std::string>();
-        const std::string serial = entry.at("serial").get<std::string>();
-        if (model != device_.identity.model || serial != device_.identity.serial) {
-          throw core::Error(fmt::format(
-              "{}: expected the record of {} with serial \"{}\", found that of {} with serial "
-              "\"{}\"; give another file by --record",
-              record_.string(), device_.identity.model, device_.identity.serial, model,
-              serial));
-        }
-        continue;
-      }
-      if (entry.contains("failed")) continue;
-      const std::string name = entry.value("undone", entry.value("step", std::string()));
-      const std::optional<CommissioningStep> step = step_named(name);
-      if (!step) throw core::Error("a step called \"" + name + "\"");
-      measured_at(results_, *step).clear();
-      forget_after(results_, *step);
-      if (entry.contains("undone")) continue;
-      read_step_json(*step, entry.at("found"), results_);
-      measured_at(results_, *step) = entry.at("at").get<std::string>();
-    }
-  } catch (const json::exception& error) {
-    throw core::Error(fmt::format("{}:{}: expected a line of a commissioning, found {}",
-                                  record_.string(), number, error.what()));
+  CommissioningRecord record = read_commissioning_record(record_);
+  const device::DeviceIdentity& is = record.identity;
+  if (is.model != device_.identity.model || is.serial != device_.identity.serial) {
+    throw core::Error(fmt::format(
+        "{}: expected the record of {} with serial \"{}\", found that of {} with serial "
+        "\"{}\"; give another file by --record",
+        record_.string(), device_.identity.model, device_.identity.serial, is.model,
+        is.serial));
   }
+  for (const RecordedEntry& entry : record.entries) {
+    if (!step_named(entry.step)) {
+      throw core::Error(
+          fmt::format("{}:{}: expected a step that this program knows, found one called \"{}\"",
+                      record_.string(), entry.line, entry.step));
+    }
+  }
+  results_ = std::move(record.results);
 }
 
 void Commissioning::append(const std::string& line) {
@@ -172,24 +130,31 @@ void Commissioning::measure(CommissioningStep step, device::HapticDevice& device
         break;
     }
   } catch (const core::Error& error) {
-    append(ordered_json(
-               {{"failed", words_of(step).name}, {"at", now_text()}, {"why", error.what()}})
+    append(ordered_json({{"failed", words_of(step).name},
+                         {"at", now_text()},
+                         {"why", error.what()},
+                         {"conditions", conditions_json(plan_)}})
                .dump());
     throw;
   }
   const std::string at = now_text();
-  append(ordered_json(
-             {{"step", words_of(step).name}, {"at", at}, {"found", step_json(step, measured)}})
+  append(ordered_json({{"step", words_of(step).name},
+                       {"at", at},
+                       {"conditions", conditions_json(plan_)},
+                       {"found", step_json(step, measured)},
+                       {"points", points_json(step, measured)}})
              .dump());
   results_ = std::move(measured);
   forget_after(results_, step);
-  measured_at(results_, step) = at;
+  const auto place = static_cast<std::size_t>(step);
+  results_.measured_at[place] = at;
+  results_.conditions[place] = conditions_in(conditions_json(plan_));
 }
 
 void Commissioning::undo(CommissioningStep step) {
   if (!results_.has(step)) return;
   append(ordered_json({{"undone", words_of(step).name}, {"at", now_text()}}).dump());
-  measured_at(results_, step).clear();
+  results_.measured_at[static_cast<std::size_t>(step)].clear();
   forget_after(results_, step);
 }
 

@@ -48,6 +48,9 @@ struct CommissioningResults {
   /// When each was measured, "2026-11-25T10:12:00Z"; "" where it was not.
   std::array<std::string, kCommissioningSteps.size()> measured_at;
 
+  /// Under what each was measured; none: the record does not say.
+  std::array<std::optional<MeasuringConditions>, kCommissioningSteps.size()> conditions;
+
   [[nodiscard]] bool has(CommissioningStep step) const noexcept {
     return !measured_at[static_cast<std::size_t>(step)].empty();
   }

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/commissioning/guided_run.h"
+
 namespace jnd::app {
 namespace {
 
@@ -117,10 +119,10 @@ analysis::ForceFit force_in(const json& found) {
   fit.weight_n = value("weight_n");
   fit.offset_n = vector_in(found.at("offset_n"));
   fit.damping_n_s_per_m = value("damping_n_s_per_m");
-  for (const json& damping : found.at("damping_by_axis_n_s_per_m")) {
+  for (const json& damping : found.value("damping_by_axis_n_s_per_m", json::array())) {
     fit.damping_by_axis_n_s_per_m.push_back(measured_in(damping));
   }
-  fit.damps_alike = found.at("damps_alike").get<bool>();
+  fit.damps_alike = found.value("damps_alike", true);
   fit.friction_n = value("friction_n");
   fit.hysteresis_n = value("hysteresis_n");
   fit.residual_n = found.at("residual_n").get<double>();
@@ -129,7 +131,130 @@ analysis::ForceFit force_in(const json& found) {
   return fit;
 }
 
+ordered_json vectors_json(const std::vector<Eigen::Vector3d>& vectors) {
+  auto all = ordered_json::array();
+  for (const Eigen::Vector3d& vector : vectors) all.push_back(vector_json(vector));
+  return all;
+}
+
+ordered_json points_of(const analysis::FrameFit& fit) {
+  auto marks = ordered_json::array();
+  for (const analysis::TouchedMark& mark : fit.marks) {
+    marks.push_back({{"workspace_m", vector_json(mark.workspace_m)},
+                     {"device_m", vector_json(mark.device_m)}});
+  }
+  return {{"marks", std::move(marks)}};
+}
+
+ordered_json points_of(const analysis::ForceFit& fit) {
+  auto ways = ordered_json::array();
+  for (const analysis::GuidedWay& way : fit.ways) {
+    ways.push_back({{"direction", vector_json(way.direction)},
+                    {"speed_m_per_s", way.speed_m_per_s},
+                    {"acceleration_m_per_s2", way.acceleration_m_per_s2},
+                    {"commanded_n", way.commanded_n},
+                    {"load_n", way.load_n},
+                    {"pose", way.pose}});
+  }
+  return {{"up", vector_json(fit.up)},
+          {"mass_per_gain_kg", fit.mass_per_gain_kg},
+          {"ways", std::move(ways)}};
+}
+
+ordered_json points_of(const analysis::DelayFit& fit) {
+  auto ways = ordered_json::array();
+  for (const analysis::PushedWay& way : fit.ways) {
+    ways.push_back({{"delay_s", way.delay_s}, {"mass_per_gain_kg", way.mass_per_gain_kg}});
+  }
+  return {{"ways", std::move(ways)}};
+}
+
+analysis::GuidedWay guided_way_in(const json& found) {
+  return {.direction = vector_in(found.at("direction")),
+          .speed_m_per_s = found.at("speed_m_per_s").get<double>(),
+          .acceleration_m_per_s2 = found.at("acceleration_m_per_s2").get<double>(),
+          .commanded_n = found.at("commanded_n").get<double>(),
+          .load_n = found.at("load_n").get<double>(),
+          .pose = found.at("pose").get<int>()};
+}
+
 }  // namespace
+
+ordered_json points_json(CommissioningStep step, const CommissioningResults& results) {
+  switch (step) {
+    case CommissioningStep::kNoise:
+      return {{"first_readings_m", vectors_json(results.noise.value().first_readings_m)}};
+    case CommissioningStep::kFrame:
+      return points_of(results.frame.value());
+    case CommissioningStep::kForce:
+      return points_of(results.force.value());
+    case CommissioningStep::kDelay:
+      return points_of(results.delay.value());
+    default:
+      return ordered_json::object();
+  }
+}
+
+void read_points_json(CommissioningStep step, const json& points,
+                      CommissioningResults& results) {
+  switch (step) {
+    case CommissioningStep::kNoise:
+      for (const json& one : points.at("first_readings_m")) {
+        results.noise.value().first_readings_m.push_back(vector_in(one));
+      }
+      return;
+    case CommissioningStep::kFrame:
+      for (const json& one : points.at("marks")) {
+        results.frame.value().marks.push_back(
+            {.device_m = vector_in(one.at("device_m")),
+             .workspace_m = vector_in(one.at("workspace_m"))});
+      }
+      return;
+    case CommissioningStep::kForce:
+      results.force.value().up = vector_in(points.at("up"));
+      results.force.value().mass_per_gain_kg = points.at("mass_per_gain_kg").get<double>();
+      for (const json& one : points.at("ways")) {
+        results.force.value().ways.push_back(guided_way_in(one));
+      }
+      return;
+    case CommissioningStep::kDelay:
+      for (const json& one : points.at("ways")) {
+        results.delay.value().ways.push_back(
+            {.delay_s = one.at("delay_s").get<double>(),
+             .mass_per_gain_kg = one.at("mass_per_gain_kg").get<double>()});
+      }
+      return;
+    default:
+      return;
+  }
+}
+
+ordered_json conditions_json(const MeasuringPlan& plan) {
+  return {{"operator_name", plan.operator_name},
+          {"program_version", JND_VERSION},
+          {"rate_hz", plan.rate_hz},
+          {"loads_kg", plan.loads_kg},
+          {"load_uncertainty_ratio", plan.load_uncertainty_ratio},
+          {"seed", plan.seed},
+          {"max_force_per_point_n", kCommissioningLimits.per_point_n},
+          {"max_total_force_n", kCommissioningLimits.total_n},
+          {"max_slew_n_per_s", kCommissioningLimits.slew_n_per_s},
+          {"max_speed_m_per_s", kCommissioningLimits.max_speed_m_per_s}};
+}
+
+MeasuringConditions conditions_in(const json& conditions) {
+  const auto number = [&](const char* key) { return conditions.at(key).get<double>(); };
+  return {.operator_name = conditions.at("operator_name").get<std::string>(),
+          .program_version = conditions.at("program_version").get<std::string>(),
+          .rate_hz = number("rate_hz"),
+          .loads_kg = conditions.at("loads_kg").get<std::vector<double>>(),
+          .load_uncertainty_ratio = number("load_uncertainty_ratio"),
+          .seed = conditions.at("seed").get<std::uint64_t>(),
+          .max_force_per_point_n = number("max_force_per_point_n"),
+          .max_total_force_n = number("max_total_force_n"),
+          .max_slew_n_per_s = number("max_slew_n_per_s"),
+          .max_speed_m_per_s = number("max_speed_m_per_s")};
+}
 
 ordered_json step_json(CommissioningStep step, const CommissioningResults& results) {
   switch (step) {

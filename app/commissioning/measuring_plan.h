@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/safety/emergency_stop.h"
@@ -19,6 +20,20 @@ struct MeasuringPlan {
   std::uint64_t seed = 1;                 ///< Of where ways begin.
   bool allow_no_realtime = false;
   core::EmergencyStop* emergency_stop = nullptr;
+  std::string operator_name;  ///< Who measures; "": not said.
+};
+
+/// What a measurement was made under, as its record keeps it.
+struct MeasuringConditions {
+  std::string operator_name;  ///< "": not said.
+  std::string program_version;
+  double rate_hz = 0.0;
+  std::vector<double> loads_kg;
+  double load_uncertainty_ratio = 0.0;
+  std::uint64_t seed = 0;
+  /// Of the force while it was measured.
+  double max_force_per_point_n = 0.0, max_total_force_n = 0.0, max_slew_n_per_s = 0.0;
+  double max_speed_m_per_s = 0.0;
 };
 
 }  // namespace jnd::app
