@@ -67,7 +67,7 @@ std::string css_quoted(const std::string& text) {
 }  // namespace
 
 std::string html_document(const std::string& title, const std::string& mark,
-                          const std::string& body) {
+                          const std::string& body, const std::string& style) {
   std::string page =
       "@page { size: A4; margin: 18mm 17mm 20mm;\n"
       "  @bottom-right { content: counter(page) \" / \" counter(pages); font: 8pt Inter, "
@@ -81,7 +81,7 @@ std::string html_document(const std::string& title, const std::string& mark,
   page += "}\n";
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         html_escaped(title) + "</title>\n<style>" + kPageStyle + page +
+         html_escaped(title) + "</title>\n<style>" + kPageStyle + style + page +
          "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";
 }
 

@@ -52,8 +52,8 @@ class HtmlText {
 };
 
 /// The whole document around a body. `mark` stands at the top of every printed page: "SIMULATED
-/// data"; "" for nothing.
+/// data"; "" for nothing. `style`: CSS of this kind of document besides.
 [[nodiscard]] std::string html_document(const std::string& title, const std::string& mark,
-                                        const std::string& body);
+                                        const std::string& body, const std::string& style = "");
 
 }  // namespace jnd::analysis

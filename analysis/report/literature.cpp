@@ -19,6 +19,10 @@ constexpr Work kWorks[] = {
     {"Armitage 1955",
      "Armitage, P. (1955). Tests for linear trends in proportions and frequencies. Biometrics "
      "11, 375-386."},
+    {"Arun et al. 1987",
+     "Arun, K. S., Huang, T. S., Blostein, S. D. (1987). Least-squares fitting of two 3-D "
+     "point "
+     "sets. IEEE Transactions on Pattern Analysis and Machine Intelligence 9, 698-700."},
     {"Bergmann Tiest et al. 2013",
      "Bergmann Tiest, W. M., Vrijling, A. C. L., Kappers, A. M. L. (2013). Haptic "
      "discrimination "
@@ -32,6 +36,9 @@ constexpr Work kWorks[] = {
      "doi:10.31234/osf.io/tu6mp."},
     {"Efron and Tibshirani 1993",
      "Efron, B., Tibshirani, R. J. (1993). An introduction to the bootstrap. Chapman & Hall."},
+    {"Efron and Stein 1981",
+     "Efron, B., Stein, C. (1981). The jackknife estimate of variance. Annals of Statistics 9, "
+     "586-596."},
     {"Fisher 1921",
      "Fisher, R. A. (1921). On the “probable error” of a coefficient of correlation deduced "
      "from "
@@ -62,6 +69,11 @@ constexpr Work kWorks[] = {
      "Huber, P. J. (1967). The behavior of maximum likelihood estimates under nonstandard "
      "conditions. Proceedings of the Fifth Berkeley Symposium on Mathematical Statistics and "
      "Probability 1, 221-233."},
+    {"Jury 1964",
+     "Jury, E. I. (1964). Theory and application of the z-transform method. Wiley."},
+    {"Kabsch 1976",
+     "Kabsch, W. (1976). A solution for the best rotation to relate two sets of vectors. Acta "
+     "Crystallographica A 32, 922-923."},
     {"Kaernbach 1991",
      "Kaernbach, C. (1991). Simple adaptive testing with the weighted up-down method. "
      "Perception & Psychophysics 49, 227-229."},
