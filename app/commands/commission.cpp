@@ -17,6 +17,7 @@
 #include "app/commissioning/commissioned_profile.h"
 #include "app/commissioning/commissioning.h"
 #include "app/commissioning/commissioning_json.h"
+#include "app/commissioning/commissioning_report.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "core/error.h"
@@ -114,6 +115,23 @@ fs::path folder_for_profile(const CommissionOptions& options, bool is_simulated)
   return folders.back();
 }
 
+/// For the files of the laboratory, beside the profile.
+analysis::ReportOutcome written_report(const CommissionOptions& options, const fs::path& record,
+                                       const fs::path& profile) {
+  analysis::ReportOutcome report =
+      write_commissioning_report({.record = record,
+                                  .profile = read_known_profile(profile),
+                                  .operator_name = options.operator_name,
+                                  .program_version = JND_VERSION,
+                                  .written_on = today(),
+                                  .out = report_folder_beside(profile),
+                                  .tools = analysis::installed_report_tools()});
+  for (const std::string& problem : report.problems) {
+    std::fprintf(stderr, "jnd: %s\n", problem.c_str());
+  }
+  return report;
+}
+
 int run_commission(const CommissionOptions& options) {
   require_device(options.device);
   const MeasuringPlan plan{.rate_hz = options.rate_hz,
@@ -168,13 +186,18 @@ int run_commission(const CommissionOptions& options) {
     }
   }
   std::string profile;
+  analysis::ReportOutcome report;
   if (!commissioning.next_step() && (has_measured || !options.out.empty())) {
     profile = experiments::write_device_profile(
                   profile_of(commissioning, device->identity(), JND_VERSION),
                   folder_for_profile(options, device->capabilities().simulated))
                   .string();
+    report = written_report(options, commissioning.record(), profile);
   }
-  if (!options.json && !profile.empty()) fmt::print("profile: {}\n", profile);
+  if (!options.json && !profile.empty()) {
+    fmt::print("profile: {}\nreport: {}{}\n", profile, report.html.string(),
+               report.pdf.empty() ? "" : " and report.pdf");
+  }
   if (options.json) {
     nlohmann::ordered_json out = {{"device", options.device},
                                   {"model", commissioning.device().identity.model},
@@ -183,6 +206,8 @@ int run_commission(const CommissionOptions& options) {
                                   {"record", commissioning.record().string()},
                                   {"complete", !commissioning.next_step().has_value()},
                                   {"profile", profile},
+                                  {"report", report.html.string()},
+                                  {"report_pdf", report.pdf.string()},
                                   {"steps", results_json(commissioning.results())}};
     fmt::print("{}\n", json_text(out));
   }
@@ -195,15 +220,15 @@ void add_commission(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<CommissionOptions>();
   CLI::App* command = program.add_subcommand(
       "commission",
-      "Measures a device before a hand is in it: noise, frame, force, delay, stability");
+      "Measures a device before a hand is in it, and writes its profile and a report of it");
   command->add_option("device", options->device, "As after --device")->required();
   command->add_option("--record", options->record,
                       "File that keeps every measurement; one that is there is gone on with "
                       "(default: DEVICE.commissioning.jsonl)");
   command->add_option(
       "--out", options->out,
-      "Folder for the profile, NAME.device.json (default: where sessions look for it; of a "
-      "simulated device, beside the record)");
+      "Folder for the profile, NAME.device.json, and the report, NAME.report (default: where "
+      "sessions look for profiles; of a simulated device, beside the record)");
   command->add_option("--again", options->again, "Steps to measure anew, commas between")
       ->delimiter(',');
   command->add_option("--only", options->only, "Steps to measure now, commas between")

@@ -12,6 +12,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/commands/compare_option.h"
 #include "app/commands/inverted_option.h"
+#include "app/commissioning/commissioning_report.h"
 #include "app/results/study_report.h"
 
 namespace jnd::app {
@@ -19,6 +20,9 @@ namespace {
 
 struct ReportOptions {
   std::string folder;
+  std::string commissioning;  ///< A record; "": of a study.
+  std::string profile;        ///< With it; "": looked for.
+  std::string operator_name;  ///< With it; "": as the record says.
   std::string out;
   bool pilot = false;
   bool json = false;
@@ -28,8 +32,7 @@ struct ReportOptions {
   analysis::ResultsOptions results;
 };
 
-nlohmann::json report_json(const analysis::StudyResults& results, const ReportOptions& options,
-                           const analysis::ReportOutcome& outcome) {
+nlohmann::json figures_json(const analysis::ReportOutcome& outcome) {
   nlohmann::json figures = nlohmann::json::array();
   for (std::size_t i = 0; i < outcome.figures.size(); ++i) {
     const analysis::Figure& figure = outcome.figures[i];
@@ -40,13 +43,18 @@ nlohmann::json report_json(const analysis::StudyResults& results, const ReportOp
                        {"drawn", !outcome.drawn[i].svg.empty()},
                        {"problem", outcome.drawn[i].problem}});
   }
-  return {{"study", results.study},
-          {"simulated", results.simulated},
-          {"out", options.out},
-          {"html", outcome.html.string()},
-          {"pdf", outcome.pdf.empty() ? nlohmann::json(nullptr)
-                                      : nlohmann::json(outcome.pdf.string())},
-          {"figures", std::move(figures)},
+  return figures;
+}
+
+nlohmann::json pdf_json(const analysis::ReportOutcome& outcome) {
+  return outcome.pdf.empty() ? nlohmann::json(nullptr) : nlohmann::json(outcome.pdf.string());
+}
+
+nlohmann::json report_json(const analysis::StudyResults& results, const ReportOptions& options,
+                           const analysis::ReportOutcome& outcome) {
+  return {{"study", results.study},      {"simulated", results.simulated},
+          {"out", options.out},          {"html", outcome.html.string()},
+          {"pdf", pdf_json(outcome)},    {"figures", figures_json(outcome)},
           {"problems", outcome.problems}};
 }
 
@@ -63,7 +71,42 @@ StudyReport written(const ReportOptions& options) {
                              .on_progress = [&bar](double done) { bar.show(done); }});
 }
 
+/// Of a device instead of a study.
+int run_commissioning_report(const ReportOptions& options) {
+  const std::string on_day = today();
+  analysis::ReportOptions tools = analysis::installed_report_tools();
+  tools.jobs = options.jobs;
+  const analysis::ReportOutcome outcome = write_commissioning_report(
+      {.record = options.commissioning,
+       .profile = profile_of_record(options.commissioning, options.profile, on_day),
+       .operator_name = options.operator_name,
+       .program_version = JND_VERSION,
+       .written_on = on_day,
+       .out = options.out,
+       .tools = tools});
+  for (const std::string& problem : outcome.problems) {
+    std::fprintf(stderr, "jnd: %s\n", problem.c_str());
+  }
+  if (options.json) {
+    const nlohmann::json document = {
+        {"record", options.commissioning},  {"out", options.out},
+        {"html", outcome.html.string()},    {"pdf", pdf_json(outcome)},
+        {"figures", figures_json(outcome)}, {"problems", outcome.problems}};
+    std::puts(json_text(document).c_str());
+    return kDone;
+  }
+  std::printf("%s: report of the commissioning with %zu figures written to %s%s\n",
+              options.commissioning.c_str(), outcome.figures.size(), outcome.html.c_str(),
+              outcome.pdf.empty() ? "" : " and report.pdf");
+  return kDone;
+}
+
 int run_report(const ReportOptions& options) {
+  if (options.folder.empty() == options.commissioning.empty()) {
+    throw UsageError(
+        "report: expected a study folder or --commissioning RECORD, found neither of them");
+  }
+  if (!options.commissioning.empty()) return run_commissioning_report(options);
   const StudyReport report = written(options);
   const analysis::StudyResults& results = report.results;
   const analysis::ReportOutcome& outcome = report.outcome;
@@ -85,11 +128,19 @@ int run_report(const ReportOptions& options) {
 
 void add_report(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
-      "report", "Everything a study shows, as HTML and PDF with figures, for a paper");
+      "report",
+      "Everything a study shows, as HTML and PDF with figures, for a paper; or what was "
+      "measured of a device");
   const auto options = std::make_shared<ReportOptions>();
-  command->add_option("DIR", options->folder, "Study folder, NAME.study")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  CLI::Option* const folder =
+      command->add_option("DIR", options->folder, "Study folder, NAME.study")
+          ->check(CLI::ExistingDirectory);
+  CLI::Option* const record =
+      command
+          ->add_option("--commissioning", options->commissioning,
+                       "Instead of a study: the record of a device, DEVICE.commissioning.jsonl")
+          ->check(CLI::ExistingFile)
+          ->excludes(folder);
   command->add_option("--out", options->out, "Folder to write to: new or empty")->required();
   command->add_flag("--pilot", options->pilot, "Pilot sessions as well");
   command
@@ -105,6 +156,23 @@ void add_report(CLI::App& program, Invocation& invocation) {
   command->add_option("--jobs", options->jobs, "Figures and recordings at once")
       ->check(whole_number(1, 1024))
       ->capture_default_str();
+  // What says how a study is analysed says nothing of a device.
+  for (CLI::Option* const option : command->get_options()) {
+    const std::string name = option->get_name();
+    if (name == "--pilot" || name == "--resamples" || name == "--compare" ||
+        name == "--inverted" || name == "--seed") {
+      option->excludes(record);
+    }
+  }
+  command
+      ->add_option("--profile", options->profile,
+                   "With --commissioning: its profile, NAME.device.json; default: the newest "
+                   "of the device beside the record or where sessions look for it")
+      ->needs(record);
+  command
+      ->add_option("--operator", options->operator_name,
+                   "With --commissioning: who measured; default: as the record says")
+      ->needs(record);
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run_report(*options); }; });

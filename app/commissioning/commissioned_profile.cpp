@@ -28,15 +28,6 @@ MeasuredValue not_negative(const analysis::Measured& measured) {
           .ci95 = {std::max(0.0, measured.ci95_low), std::max(0.0, measured.ci95_high)}};
 }
 
-/// In kilograms, with what is open of the gain.
-MeasuredValue mass_of(const analysis::DelayFit& delay, const analysis::Measured& gain) {
-  const analysis::Measured& mass = delay.mass_per_gain_kg;
-  const double value_kg = mass.value * gain.value;
-  const double open = std::hypot((mass.ci95_high - mass.value) / mass.value,
-                                 (gain.ci95_high - gain.value) / gain.value);
-  return {.value = value_kg, .ci95 = {value_kg * (1.0 - open), value_kg * (1.0 + open)}};
-}
-
 /// "plugin:./my.so:real" as a name: "plugin_my_so_real".
 std::string name_of(const std::string& device) {
   std::string name;
@@ -95,6 +86,16 @@ experiments::ProfileLimits limits_of(const Commissioning& commissioning) {
 
 }  // namespace
 
+analysis::Measured mass_kg(const analysis::DelayFit& delay, const analysis::Measured& gain) {
+  const analysis::Measured& mass = delay.mass_per_gain_kg;
+  const double value_kg = mass.value * gain.value;
+  const double open = std::hypot((mass.ci95_high - mass.value) / mass.value,
+                                 (gain.ci95_high - gain.value) / gain.value);
+  return {.value = value_kg,
+          .ci95_low = value_kg * (1.0 - open),
+          .ci95_high = value_kg * (1.0 + open)};
+}
+
 DeviceProfile profile_of(const Commissioning& commissioning,
                          const device::DeviceIdentity& identity,
                          const std::string& program_version) {
@@ -136,7 +137,7 @@ DeviceProfile profile_of(const Commissioning& commissioning,
   profile.mechanics = {.damping_n_s_per_m = not_negative(force.damping_n_s_per_m),
                        .friction_n = not_negative(force.friction_n)};
   if (analysis::is_single_mass(*found.delay, force)) {
-    profile.mechanics.mass_kg = mass_of(*found.delay, force.gain);
+    profile.mechanics.mass_kg = value_of(mass_kg(*found.delay, force.gain));
     profile.delay_s = not_negative(found.delay->delay_s);
   }
   profile.noise = {.position_sd_m = found.noise->position_sd_m.value,

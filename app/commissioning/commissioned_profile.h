@@ -16,4 +16,8 @@ namespace jnd::app {
                                                     const device::DeviceIdentity& identity,
                                                     const std::string& program_version);
 
+/// In kilograms, with what is open of the gain.
+[[nodiscard]] analysis::Measured mass_kg(const analysis::DelayFit& delay,
+                                         const analysis::Measured& gain);
+
 }  // namespace jnd::app
