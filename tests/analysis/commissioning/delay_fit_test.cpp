@@ -128,6 +128,14 @@ TEST(DelayFit, WhatSeemsToMoveBeforeItIsPushedIsNoSingleMass) {
                               {.damps_alike = false}));
 }
 
+TEST(DelayFit, ADeviceWithoutNoiseMayBeNanosecondsOff) {
+  const auto of = [](double delay_s) {
+    return DelayFit{.delay_s = {delay_s, delay_s - 1e-9, delay_s + 1e-9}};
+  };
+  EXPECT_TRUE(is_single_mass(of(-14e-9), {}));
+  EXPECT_FALSE(is_single_mass(of(-50e-6), {}));
+}
+
 TEST(NoiseFit, TellsDeviationAndSteps) {
   core::RandomStream random(4, "noise");
   std::vector<Eigen::Vector3d> position_m, velocity_m_per_s;
