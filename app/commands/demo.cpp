@@ -11,6 +11,7 @@
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/commands/predictive_option.h"
+#include "app/commands/profile_option.h"
 #include "app/results/results_output.h"
 #include "app/session/device_checks.h"
 #include "app/session/pseudonym.h"
@@ -35,6 +36,7 @@ struct DemoOptions {
   std::string laboratory;  ///< "": the default of the device.
   int jobs = 2;
   std::string device = "lumped";
+  std::string profile;  ///< A file; "": none.
   PredictiveOption predictive;
   bool json = false;
 };
@@ -82,6 +84,8 @@ int run_demo(const DemoOptions& options) {
   for (const char* name : kStudies) {
     const fs::path file = user_or_shipped(name, "protocols");
     const experiments::Study study = experiments::read_study(file);
+    const std::optional<KnownProfile> profile =
+        profile_for(options.device, options.profile, study);
     const fs::path folder = out / (std::string(name) + ".study");
     {
       core::StudyStore store(folder, core::StudyStore::Mode::kCreate,
@@ -92,6 +96,7 @@ int run_demo(const DemoOptions& options) {
                         .laboratory = &laboratory,
                         .study_file = file,
                         .device = options.device,
+                        .profile = profile ? &*profile : nullptr,
                         .seed = options.seed,
                         .record = !options.fast},
                        next_participants(store, kParticipants));
@@ -168,6 +173,7 @@ void add_demo(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--device", options->device, "Simulated device")->capture_default_str();
+  add_profile_option(*command, options->profile);
   add_predictive_option(*command, options->predictive);
   command->add_flag("--json", options->json, "One JSON document on stdout");
   command->callback([&invocation, options] {

@@ -235,21 +235,6 @@ void require_arming(const RunOptions& options, const std::string& device, double
       "disarmed");
 }
 
-void tell(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) std::fprintf(stderr, "jnd: %s\n", remark.c_str());
-}
-
-/// What was measured of the device, if anything; throws where it has to be known.
-std::optional<KnownProfile> profile_for(const RunOptions& options,
-                                        const experiments::Study& study) {
-  const DeviceOfProfile device = device_of_profile(options.device, study.device.rate_hz);
-  ProfileChoice choice = choose_profile(device, options.profile, profile_folders(), today());
-  tell(choice.remarks);
-  const std::string refused = refused_words(device, choice, study);
-  if (!refused.empty()) throw EnvironmentError(refused);
-  return std::move(choice.known);
-}
-
 int run_run(RunOptions options) {
   (void)fitting_given(options.fitting);
   require_device(options.device);
@@ -277,7 +262,8 @@ int run_run(RunOptions options) {
   require_device_holds(options.device, study.device.rate_hz, study.device.min_contact_points);
   require_arming(options, options.device, study.device.rate_hz);
   require_device_starts(options.device, study.device.rate_hz);
-  const std::optional<KnownProfile> profile = profile_for(options, study);
+  const std::optional<KnownProfile> profile =
+      profile_for(options.device, options.profile, study);
   options.realtime |= has_own_clock(options.device);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,

@@ -9,6 +9,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/commands/field_options.h"
+#include "app/commands/profile_option.h"
 #include "app/session/device_checks.h"
 #include "app/session/pseudonym.h"
 #include "app/session/session_batch.h"
@@ -28,6 +29,7 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   int jobs = 2;
   std::string device = "lumped";
+  std::string profile;              ///< A file; "": none.
   std::vector<std::string> fields;  ///< "sex=female"
   bool fast = false;
   bool json = false;
@@ -41,6 +43,8 @@ int run_simulate(const SimulateOptions& options) {
   const experiments::Study study = experiments::read_study(file);
   experiments::FieldValues fields = fields_or_none(study, options.fields);
   require_device_starts(options.device, study.device.rate_hz);
+  const std::optional<KnownProfile> profile =
+      profile_for(options.device, options.profile, study);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
       "data/laboratories"));
@@ -48,15 +52,17 @@ int run_simulate(const SimulateOptions& options) {
                          core::Durability::kAtClose);
   const std::size_t num_before = store.sessions().size();
   const std::vector<std::string> participants = next_participants(store, options.participants);
-  const std::vector<std::int64_t> sessions = add_sessions(store,
-                                                          {.study = study,
-                                                           .laboratory = &laboratory,
-                                                           .study_file = file,
-                                                           .device = options.device,
-                                                           .seed = options.seed,
-                                                           .record = !options.fast,
-                                                           .fields = std::move(fields)},
-                                                          participants);
+  const std::vector<std::int64_t> sessions =
+      add_sessions(store,
+                   {.study = study,
+                    .laboratory = &laboratory,
+                    .study_file = file,
+                    .device = options.device,
+                    .profile = profile ? &*profile : nullptr,
+                    .seed = options.seed,
+                    .record = !options.fast,
+                    .fields = std::move(fields)},
+                   participants);
   stop_on_signals();
   const auto start = std::chrono::steady_clock::now();
   std::int64_t num_ticks = 0;
@@ -118,6 +124,7 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
       ->check(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--device", options->device, "Simulated device")->capture_default_str();
+  add_profile_option(*command, options->profile);
   add_field_option(*command, options->fields,
                    "What all of them bring; default: drawn for each");
   command->add_flag("--fast", options->fast, "Keep summaries of strokes instead of samples");
