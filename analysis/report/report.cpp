@@ -36,6 +36,9 @@ std::vector<Figure> figures_of(const ReportSource& source) {
       if (names.insert(figure.name).second) figures.push_back(std::move(figure));
     }
   };
+  if (source.delivered != nullptr) {
+    add(delivered_figures(source.results, *source.delivered, titles));
+  }
   add(published_figures(from));
   add(chart_figures(charts_of(from)));
   add(magnitude_figures(from));

@@ -6,6 +6,7 @@
 
 #include "analysis/data/study_data.h"
 #include "analysis/movement/movement_analysis.h"
+#include "analysis/report/report_delivered.h"
 #include "analysis/report/report_document.h"
 #include "analysis/results/study_results.h"
 #include "core/storage/study_store.h"
@@ -19,6 +20,7 @@ struct ReportSource {
   const StudyResults& results;
   ResultsOptions results_options;  ///< That the results were computed with.
   const MovementAnalysis& movement;
+  const DeliveredReport* delivered = nullptr;  ///< nullptr: nothing was measured of devices.
   std::string program_version;
   bool pilot = false;  ///< Pilot sessions are among the data.
 };

@@ -133,6 +133,10 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   HtmlText html;
   FigureChapters figure_chapters(html, figures, drawn, source.results);
   write_at_a_glance(html, source.results);
+  if (source.delivered != nullptr) {
+    write_delivered(html, source.results, *source.delivered, titles);
+    figure_chapters.write_section("delivered");
+  }
   figure_chapters.write_section("");
   write_methods(html, chapters);
   write_participants(html, chapters);

@@ -55,12 +55,11 @@ int run_results(ResultsOptions options) {
   const analysis::StudyData as_commanded = analysis::load_study(store);
   const MeasuredDevices devices =
       options.delivered ? measured_devices(store, as_commanded) : MeasuredDevices();
+  const bool leaves_out = options.inverted == "out";
   const auto intensities = [&](const analysis::DeviceParts& parts) {
+    if (options.delivered) return delivered_study(store, as_commanded, parts, leaves_out);
     analysis::DeliveredStudy study{.data = as_commanded};
-    if (options.delivered) {
-      study = analysis::with_delivered(std::move(study.data), store, parts);
-    }
-    if (options.inverted == "out") analysis::leave_out_inverted(study.data);
+    if (leaves_out) analysis::leave_out_inverted(study.data);
     return study;
   };
   const analysis::DeliveredStudy study = intensities(devices.parts);
@@ -69,12 +68,7 @@ int run_results(ResultsOptions options) {
   analysis::StudyResults results =
       results_of_data(study.data, options.results, people ? &*people : nullptr);
   if (!devices.parts.empty()) {
-    // Values alone are wanted of these.
-    analysis::ResultsOptions quick = options.results;
-    constexpr int kFewestResamples = 100;
-    quick.num_resamples = kFewestResamples;
-    tell_device_part(results, results_of_data(intensities(devices.least).data, quick, nullptr),
-                     results_of_data(intensities(devices.most).data, quick, nullptr));
+    tell_device_part(results, store, as_commanded, devices, options.results, leaves_out);
   }
   if (options.movement) {
     results.sections.push_back(

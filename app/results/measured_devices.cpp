@@ -7,7 +7,10 @@
 #include <optional>
 #include <set>
 
+#include "analysis/results/inverted_answers.h"
+#include "analysis/results/number_words.h"
 #include "app/profile/known_profile.h"
+#include "app/results/results_output.h"
 
 namespace jnd::app {
 namespace {
@@ -52,6 +55,54 @@ MeasuredDevices measured_devices(const core::StudyStore& store,
     }
   }
   return devices;
+}
+
+analysis::DeliveredStudy delivered_study(const core::StudyStore& store,
+                                         const analysis::StudyData& as_commanded,
+                                         const analysis::DeviceParts& parts,
+                                         bool leaves_out_inverted) {
+  analysis::DeliveredStudy study = analysis::with_delivered(as_commanded, store, parts);
+  if (leaves_out_inverted) analysis::leave_out_inverted(study.data);
+  return study;
+}
+
+void tell_device_part(analysis::StudyResults& results, const core::StudyStore& store,
+                      const analysis::StudyData& as_commanded, const MeasuredDevices& devices,
+                      const analysis::ResultsOptions& options, bool leaves_out_inverted) {
+  // Values alone are wanted of these.
+  analysis::ResultsOptions quick = options;
+  constexpr int kFewestResamples = 100;
+  quick.num_resamples = kFewestResamples;
+  const auto at = [&](const analysis::DeviceParts& parts) {
+    return results_of_data(
+        delivered_study(store, as_commanded, parts, leaves_out_inverted).data, quick);
+  };
+  tell_device_part(results, at(devices.least), at(devices.most));
+}
+
+std::vector<std::string> measured_device_words(const core::StudyStore& store,
+                                               const MeasuredDevices& devices) {
+  std::map<std::string, int> num_sessions;  // By the profile's sum.
+  for (const core::SessionRow& session : store.sessions()) {
+    if (devices.parts.contains(session.session)) ++num_sessions[session.device_profile_sha256];
+  }
+  const auto value = [](const std::optional<experiments::MeasuredValue>& measured,
+                        const char* unit) {
+    if (!measured) return std::string("not measured");
+    return fmt::format("{:.4g} ({:.4g} to {:.4g}){}", measured->value, measured->ci95[0],
+                       measured->ci95[1], unit);
+  };
+  std::vector<std::string> words;
+  for (const auto& [sha256, num] : num_sessions) {
+    const experiments::DeviceProfile profile = stored_profile(store, sha256).profile;
+    words.push_back(fmt::format(
+        "{}{}{}, measured on {}: gain {}, own damping {}; {}.",
+        profile.simulated ? "SIMULATED " : "", profile.device.model,
+        profile.device.serial.empty() ? "" : " " + profile.device.serial, profile.measured_on,
+        value(profile.force.gain, ""), value(profile.mechanics.damping_n_s_per_m, " N s/m"),
+        analysis::counted_words(num, "session")));
+  }
+  return words;
 }
 
 void tell_device_part(analysis::StudyResults& results, const analysis::StudyResults& at_least,

@@ -1,7 +1,10 @@
 #include "app/results/study_report.h"
 
+#include <optional>
+
 #include "analysis/data/study_data.h"
 #include "analysis/results/inverted_answers.h"
+#include "app/results/measured_devices.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
 #include "app/session/stored_session.h"
@@ -9,11 +12,31 @@
 namespace jnd::app {
 namespace {
 
+using analysis::DeliveredReport;
+
 /// A part of the whole, as a whole of its own.
 std::function<void(double)> part(const std::function<void(double)>& whole, double from,
                                  double to) {
   if (!whole) return [](double) {};
   return [&whole, from, to](double done) { whole(from + (to - from) * done); };
+}
+
+/// Where sessions keep what was measured of their devices: what these delivered.
+std::optional<DeliveredReport> delivered_report(const core::StudyStore& store,
+                                                const analysis::StudyData& as_commanded,
+                                                const StudyReportRequest& request) {
+  const MeasuredDevices devices = measured_devices(store, as_commanded);
+  if (devices.parts.empty()) return std::nullopt;
+  const bool leaves_out = request.leaves_out_inverted;
+  const analysis::DeliveredStudy study =
+      delivered_study(store, as_commanded, devices.parts, leaves_out);
+  DeliveredReport delivered{.results = results_of_data(study.data, request.results),
+                            .devices = measured_device_words(store, devices),
+                            .num_trials = study.num_replaced,
+                            .num_left_out = study.num_left_out};
+  tell_device_part(delivered.results, store, as_commanded, devices, request.results,
+                   leaves_out);
+  return delivered;
 }
 
 }  // namespace
@@ -25,6 +48,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   analysis::require_free_folder(request.out);
   reading(0.0);
   analysis::StudyData data = analysis::load_study(store, request.pilot);
+  const std::optional<DeliveredReport> delivered = delivered_report(store, data, request);
   if (request.leaves_out_inverted) analysis::leave_out_inverted(data);
   reading(0.2);
   StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};
@@ -42,6 +66,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
                                            .results = report.results,
                                            .results_options = request.results,
                                            .movement = movement,
+                                           .delivered = delivered ? &*delivered : nullptr,
                                            .program_version = JND_VERSION,
                                            .pilot = request.pilot},
                                           request.out, options);

@@ -83,5 +83,56 @@ TEST_F(CommissionCommandTest, AReportIsOfAStudyOrOfADevice) {
   }
 }
 
+TEST_F(CommissionCommandTest, AStudyOnItHasBothCommandedAndDeliveredInItsReport) {
+  const std::string device = "twin:gain=0.9,damping_n_s_per_m=2.4,friction_n=0.2";
+  const std::vector<std::string> simulate = {
+      "simulate", "viscosity_discrimination", "--participants", "2", "--device", device,
+      "--fast"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = simulate;
+    words.insert(words.end(), more.begin(), more.end());
+    return jnd(words);
+  };
+  const std::string found = document(jnd({"commission", device, "--out", "p", "--json"}).out)
+                                .at("profile")
+                                .get<std::string>();
+  ProgramOutcome outcome = with({"--study", "with.study", "--profile", found});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_FALSE(opened("with.study").sessions().at(1).device_profile_sha256.empty());
+  outcome = jnd({"report", "with.study", "--out", "with", "--resamples", "100", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string html = read_file(path("with/report.html"));
+  EXPECT_NE(html.find("Commanded and delivered"), std::string::npos);
+  EXPECT_NE(html.find("SIMULATED jnd twin ideal gain=0.9"), std::string::npos);
+  EXPECT_NE(html.find("; 2 sessions."), std::string::npos);
+  EXPECT_NE(read_file(path("with/figures/delivered.csv"))
+                .find("group_d.weber_fraction_median_person"),
+            std::string::npos);
+  // What the table of results says, the report says.
+  outcome = jnd({"results", "with.study", "--delivered", "--resamples", "100", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("ci95_device"), std::string::npos);
+
+  ASSERT_EQ(with({"--study", "without.study"}).exit_code, 0);
+  ASSERT_EQ(
+      jnd({"report", "without.study", "--out", "without", "--resamples", "100"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("without/report.html")).find("Commanded and delivered"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(path("without/figures/delivered.csv")));
+
+  // That of another device.
+  ASSERT_EQ(jnd({"commission", "twin:seed=3"}).exit_code, 0);
+  outcome = with({"--study", "other.study", "--profile", "twin_seed_3.device.json"});
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_FALSE(fs::exists(path("other.study")));
+  outcome = jnd({"demo", "--fast", "--out", "d", "--device", device, "--profile",
+                 "twin_seed_3.device.json"});
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("expected the profile of the device that is used"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(fs::exists(path("d")));
+}
+
 }  // namespace commission_test
 }  // namespace jnd::app
