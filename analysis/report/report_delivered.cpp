@@ -101,8 +101,9 @@ std::vector<Figure> delivered_figures(const StudyResults& commanded,
       .caption =
           "Of the group, by intensities as commanded (circles) and as delivered (squares), "
           "with "
-          "95 % intervals over people. Black, beside each square: what the measurement of the "
-          "device alone leaves open of it, 95 %, often less than the line is wide. Logarithmic "
+          "95 % intervals over people. Black diamonds beside the squares: what the measurement "
+          "of the "
+          "device alone leaves open of it, 95 %, often less than the mark is high. Logarithmic "
           "axis.",
       .width_in = std::min(6.6, 2.6 + 1.4 * static_cast<double>(names.size())),
       .height_in = 3.0};
@@ -122,7 +123,7 @@ std::vector<Figure> delivered_figures(const StudyResults& commanded,
                 bars("+0.06", "delivered", "lt 2 dt 1 ps 0.9 title 'delivered'") + ", " +
                 from_table(table) +
                 "(column('position')+0.16):'delivered':'device_low':'device_high' with "
-                "yerrorbars lt 5 dt 1 lw 1.5 pt 0 title 'of the device'\n";
+                "yerrorbars lt 5 dt 1 lw 1.5 pt 13 ps 0.7 title 'of the device'\n";
   figure.tables = {std::move(table)};
   return {std::move(figure)};
 }
