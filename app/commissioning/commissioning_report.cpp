@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -81,6 +82,19 @@ std::string missing_steps(const CommissioningResults& results) {
     missing += (missing.empty() ? "" : ", ") + std::string(words_of(step).name);
   }
   return missing;
+}
+
+/// Whether this profile is of these measurements: those of every step are in it, to the last
+/// digit. Every step was measured.
+bool is_of(const experiments::DeviceProfile& profile, const CommissioningResults& results) {
+  const auto& gain = profile.force.gain;
+  const auto& delay_s = profile.delay_s;
+  const Eigen::Vector3d& offset_m = results.frame->offset_m;
+  return profile.measured_on == date_of_moment(newest_of(results)) && gain &&
+         gain->value == results.force->gain.value && delay_s &&
+         delay_s->value == std::max(0.0, results.delay->delay_s.value) &&
+         profile.frame.offset_m == std::array{offset_m.x(), offset_m.y(), offset_m.z()} &&
+         profile.noise.position_sd_m == results.noise->position_sd_m.value;
 }
 
 /// Attempts that came to nothing after what counts: whoever signs has to know of them.
@@ -263,11 +277,12 @@ CommissioningVerdict verdict_of(const CommissioningRecord& record,
     verdict.lacks.emplace_back(
         "There is no profile of these measurements; jnd commission writes it.");
     against = "there is no profile";
-  } else if (profile->profile.measured_on != newest) {
-    verdict.lacks.push_back(fmt::format(
-        "The profile is of {}, and the record was measured anew on {}; jnd commission writes "
-        "another.",
-        profile->profile.measured_on, newest));
+  } else if (!is_of(profile->profile, results)) {
+    verdict.lacks.push_back(
+        fmt::format("The profile, of {}, does not hold what the record says, which was last "
+                    "measured on {}; "
+                    "jnd commission writes another.",
+                    profile->profile.measured_on, newest));
     against = "the profile is not of these measurements";
   } else if (const std::string words = outdated_words(*profile, on_day); !words.empty()) {
     verdict.lacks.push_back(words + ".");

@@ -128,6 +128,17 @@ TEST_F(CommissioningReportTest, TheVerdictSaysWhatIsMissing) {
   KnownProfile older = profile;
   older.profile.measured_on = "2020-01-01";
   EXPECT_FALSE(verdict(on_day, older).is_fit) << "of other measurements";
+  // Measured anew on the same day.
+  for (const Step step : kCommissioningSteps) {
+    KnownProfile other = profile;
+    if (step == Step::kNoise) *other.profile.noise.position_sd_m *= 1.01;
+    if (step == Step::kFrame) other.profile.frame.offset_m[1] += 1e-6;
+    if (step == Step::kForce) other.profile.force.gain->value += 1e-6;
+    if (step == Step::kDelay) other.profile.delay_s->value += 1e-9;
+    if (other.profile == profile.profile) continue;
+    EXPECT_FALSE(verdict(on_day, other).is_fit) << words_of(step).name;
+    EXPECT_TRUE(has(verdict(on_day, other).words, "not of these measurements"));
+  }
 
   {
     Commissioning commissioning = begun();
