@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "analysis/report/commissioning_figures.h"
@@ -99,11 +100,12 @@ bool is_of(const experiments::DeviceProfile& profile, const CommissioningResults
 
 /// Attempts that came to nothing after what counts: whoever signs has to know of them.
 void add_failures(const CommissioningRecord& record, std::vector<std::string>& lacks) {
-  std::set<std::string> told;
-  for (auto entry = record.entries.rbegin(); entry != record.entries.rend(); ++entry) {
-    if (!told.insert(entry->step).second || entry->fate != RecordedFate::kFailed) continue;
-    lacks.push_back(fmt::format("The last attempt at the step {}, on {}, failed: {}.",
-                                entry->step, date_of_moment(entry->at), entry->why));
+  std::map<std::string, const RecordedEntry*> last;  // By the step.
+  for (const RecordedEntry& entry : record.entries) last[entry.step] = &entry;
+  for (const auto& [step, entry] : last) {
+    if (entry->fate != RecordedFate::kFailed) continue;
+    lacks.push_back(fmt::format("The last attempt at the step {}, on {}, failed: {}.", step,
+                                date_of_moment(entry->at), entry->why));
   }
 }
 
