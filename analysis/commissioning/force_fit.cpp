@@ -274,6 +274,7 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
   fit.damping_n_s_per_m = in_newtons(opposing.damping);
   fit.friction_n = in_newtons(opposing.friction);
   fit.hysteresis_n = opposing.friction;
+  fit.lifting_opposed_n = loaded->coefficients[kOpposing];
   for (const Measured& damping : opposing.damping_by_line) {
     fit.damping_by_axis_n_s_per_m.push_back(in_newtons(damping));
   }
@@ -296,9 +297,12 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
 }
 
 double fitted_n(const ForceFit& fit, const GuidedWay& way) {
-  return (load_along_n(fit, way) + fit.damping_n_s_per_m.value * way.speed_m_per_s +
-          fit.friction_n.value - fit.offset_n.dot(way.direction)) /
-         fit.gain.value;
+  const double balanced_n =
+      (load_along_n(fit, way) - fit.offset_n.dot(way.direction)) / fit.gain.value;
+  // Loads have a fit of their own, for axes may be damped differently.
+  if (way.load_n != 0.0 && fit.lifting_opposed_n) return balanced_n + *fit.lifting_opposed_n;
+  return balanced_n + (fit.damping_n_s_per_m.value * way.speed_m_per_s + fit.friction_n.value) /
+                          fit.gain.value;
 }
 
 double commanded_without_mass_n(const ForceFit& fit, const GuidedWay& way) {
@@ -306,7 +310,7 @@ double commanded_without_mass_n(const ForceFit& fit, const GuidedWay& way) {
 }
 
 double load_along_n(const ForceFit& fit, const GuidedWay& way) {
-  return row_of(way, fit.up)[kLoad];
+  return load_along_n(way, fit.up);
 }
 
 }  // namespace jnd::analysis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "analysis/commissioning/measured.h"
@@ -41,6 +42,8 @@ struct ForceFit {
   bool damps_alike = true;
   /// Half of what must be commanded more to go one way than to come back, at no speed.
   Measured hysteresis_n;
+  /// What opposes lifting and lowering loads, in newtons commanded; none in old records.
+  std::optional<double> lifting_opposed_n;
   double residual_n = 0.0;         ///< Standard deviation of a way about the fit.
   double pose_spread_ratio = 0.0;  ///< Standard deviation of the gain between poses, over it.
   int num_ways = 0;

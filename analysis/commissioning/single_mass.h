@@ -6,8 +6,9 @@
 
 namespace jnd::analysis {
 
-/// Whether a device is one: it moves after it is pushed, and is damped alike along its axes. One
-/// whose tool or fingers give way seems to move before; then neither number of its delay is one.
+/// Whether a device is one: it moves after it is pushed, and is damped alike along its axes.
+/// One whose tool or fingers give way seems to move before; then neither number of its delay is
+/// one.
 [[nodiscard]] bool is_single_mass(const DelayFit& delay, const ForceFit& force) noexcept;
 
 /// A device as one mass, in newtons commanded: what was found, over the gain.

@@ -45,6 +45,10 @@ constexpr Work kWorks[] = {
      "a small sample. Metron 1, 3-32."},
     {"Gescheider 1997",
      "Gescheider, G. A. (1997). Psychophysics: the fundamentals (3rd ed.). Erlbaum."},
+    {"Gil et al. 2004",
+     "Gil, J. J., Avello, A., Rubio, A., & Florez, J. (2004). Stability analysis of a 1 DOF "
+     "haptic interface using the Routh-Hurwitz criterion. IEEE Transactions on Control Systems "
+     "Technology 12, 583-588."},
     {"Green and Swets 1966",
      "Green, D. M., Swets, J. A. (1966). Signal detection theory and psychophysics. Wiley."},
     {"Hautus 1995",
@@ -92,6 +96,9 @@ constexpr Work kWorks[] = {
     {"Liang and Zeger 1986",
      "Liang, K.-Y., Zeger, S. L. (1986). Longitudinal data analysis using generalized linear "
      "models. Biometrika 73, 13-22."},
+    {"MacFarlane and Postlethwaite 1977",
+     "MacFarlane, A. G. J., & Postlethwaite, I. (1977). The generalized Nyquist stability "
+     "criterion and multivariable root loci. International Journal of Control 25, 81-127."},
     {"Macmillan and Creelman 2005",
      "Macmillan, N. A., Creelman, C. D. (2005). Detection theory: a user’s guide (2nd ed.). "
      "Erlbaum."},

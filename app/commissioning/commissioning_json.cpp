@@ -67,6 +67,7 @@ ordered_json json_of(const analysis::ForceFit& fit) {
           {"damps_alike", fit.damps_alike},
           {"friction_n", measured_json(fit.friction_n)},
           {"hysteresis_n", measured_json(fit.hysteresis_n)},
+          {"lifting_opposed_n", fit.lifting_opposed_n.value_or(0.0)},
           {"residual_n", fit.residual_n},
           {"pose_spread_ratio", fit.pose_spread_ratio},
           {"num_ways", fit.num_ways}};
@@ -125,6 +126,9 @@ analysis::ForceFit force_in(const json& found) {
   fit.damps_alike = found.value("damps_alike", true);
   fit.friction_n = value("friction_n");
   fit.hysteresis_n = value("hysteresis_n");
+  if (found.contains("lifting_opposed_n")) {
+    fit.lifting_opposed_n = found.at("lifting_opposed_n").get<double>();
+  }
   fit.residual_n = found.at("residual_n").get<double>();
   fit.pose_spread_ratio = found.at("pose_spread_ratio").get<double>();
   fit.num_ways = found.at("num_ways").get<int>();
@@ -190,9 +194,10 @@ ordered_json points_json(CommissioningStep step, const CommissioningResults& res
       return points_of(results.force.value());
     case CommissioningStep::kDelay:
       return points_of(results.delay.value());
-    default:
+    case CommissioningStep::kStability:
       return ordered_json::object();
   }
+  return ordered_json::object();
 }
 
 void read_points_json(CommissioningStep step, const json& points,
@@ -224,7 +229,7 @@ void read_points_json(CommissioningStep step, const json& points,
              .mass_per_gain_kg = one.at("mass_per_gain_kg").get<double>()});
       }
       return;
-    default:
+    case CommissioningStep::kStability:
       return;
   }
 }

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/commissioning/single_mass.h"
 #include "analysis/report/commissioning_figures.h"
 #include "analysis/report/html_text.h"
 #include "app/commissioning/measured_quantities.h"
@@ -89,11 +90,16 @@ std::string missing_steps(const CommissioningResults& results) {
 /// digit. Every step was measured.
 bool is_of(const experiments::DeviceProfile& profile, const CommissioningResults& results) {
   const auto& gain = profile.force.gain;
-  const auto& delay_s = profile.delay_s;
+  // Of a device that is no single mass no delay is told.
+  constexpr double kNotTold = -1.0;
+  const double told_s = profile.delay_s ? profile.delay_s->value : kNotTold;
+  const double found_s = analysis::is_single_mass(*results.delay, *results.force)
+                             ? std::max(0.0, results.delay->delay_s.value)
+                             : kNotTold;
   const Eigen::Vector3d& offset_m = results.frame->offset_m;
   return profile.measured_on == date_of_moment(newest_of(results)) && gain &&
-         gain->value == results.force->gain.value && delay_s &&
-         delay_s->value == std::max(0.0, results.delay->delay_s.value) &&
+         gain->value == results.force->gain.value && told_s == found_s && profile.stability &&
+         profile.stability->viscosity_pa_s.value == results.stability->viscosity_pa_s &&
          profile.frame.offset_m == std::array{offset_m.x(), offset_m.y(), offset_m.z()} &&
          profile.noise.position_sd_m == results.noise->position_sd_m.value;
 }

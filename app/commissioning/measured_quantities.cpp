@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "analysis/commissioning/single_mass.h"
 #include "app/commissioning/commissioned_profile.h"
 
 namespace jnd::app {
@@ -79,19 +81,52 @@ std::vector<MeasuredQuantity> frame_quantities(const analysis::FrameFit& fit) {
 }
 
 std::vector<MeasuredQuantity> force_quantities(const analysis::ForceFit& fit) {
-  return {quantity("Gain: force given for a newton commanded", fit.gain, "N/N"),
-          quantity("Weight that the motors do not carry", fit.weight_n, "N"),
-          quantity("Own damping", fit.damping_n_s_per_m, "N s/m"),
-          quantity("Dry friction", fit.friction_n, "N"),
-          quantity("Hysteresis, in newtons commanded", fit.hysteresis_n, "N"),
-          {"Spread of the gain between poses, standard deviation",
-           fmt::format("{:.2f}", 100.0 * fit.pose_spread_ratio), "–", "%"},
-          {fmt::format("Scatter of {} ways about the fit, newtons commanded", fit.num_ways),
-           fmt::format("{:.4f}", fit.residual_n), "–", "N"}};
+  std::vector<MeasuredQuantity> all = {
+      quantity("Gain: force given for a newton commanded", fit.gain, "N/N"),
+      quantity("Weight that the motors do not carry", fit.weight_n, "N"),
+      quantity(fit.damps_alike ? "Own damping" : "Own damping along x", fit.damping_n_s_per_m,
+               "N s/m")};
+  constexpr std::array<const char*, 3> kNames = {"Own damping along x", "Own damping along y",
+                                                 "Own damping along z"};
+  for (std::size_t axis = 1;
+       !fit.damps_alike && axis < kNames.size() && axis < fit.damping_by_axis_n_s_per_m.size();
+       ++axis) {
+    all.push_back(quantity(kNames[axis], fit.damping_by_axis_n_s_per_m[axis], "N s/m"));
+  }
+  all.push_back(quantity("Dry friction", fit.friction_n, "N"));
+  all.push_back(quantity("Hysteresis, in newtons commanded", fit.hysteresis_n, "N"));
+  all.push_back({"Spread of the gain between poses, standard deviation",
+                 fmt::format("{:.2f}", 100.0 * fit.pose_spread_ratio), "–", "%"});
+  all.push_back({"Scatter of the ways without loads about the fit, newtons commanded",
+                 fmt::format("{:.4f}", fit.residual_n), "–", "N"});
+  return all;
+}
+
+std::vector<MeasuredQuantity> stability_quantities(const analysis::StabilityFit& fit) {
+  return {
+      quantity("Damping at which the loop would begin to swing", fit.damping.damping_n_s_per_m,
+               "N s/m"),
+      {"Frequency of that swing", fmt::format("{:.0f}", fit.damping.frequency_hz), "–", "Hz"},
+      {"Thickest fluid that is stable",
+       fmt::format("{:.3g}{}", fit.viscosity_pa_s, fit.damping.is_beyond ? " or more" : ""),
+       "–", "Pa s"},
+      {"Thickest fluid without a fault of the loop",
+       fmt::format("{:.3g}", fit.quiet_viscosity_pa_s), "–", "Pa s"},
+      {"Hardest solid that is stable", fmt::format("{:.3g}", fit.stiffness_n_per_m), "–",
+       "N/m"}};
+}
+
+bool is_no_single_mass(const CommissioningResults& results) {
+  return results.has(CommissioningStep::kDelay) && results.has(CommissioningStep::kForce) &&
+         !analysis::is_single_mass(*results.delay, *results.force);
 }
 
 std::vector<MeasuredQuantity> delay_quantities(const CommissioningResults& results) {
   const analysis::DelayFit& fit = *results.delay;
+  if (is_no_single_mass(results)) {
+    return {
+        {"Delay and mass: the device gives way, and is no single mass", "not told", "–", ""}};
+  }
   std::vector<MeasuredQuantity> all = {
       quantity("Delay: from a command until its force acts", fit.delay_s, "ms", 1e3)};
   if (results.has(CommissioningStep::kForce)) {
@@ -99,19 +134,6 @@ std::vector<MeasuredQuantity> delay_quantities(const CommissioningResults& resul
   }
   all.push_back(quantity("Mass over gain", fit.mass_per_gain_kg, "kg"));
   return all;
-}
-
-/// Of a step that has no words of its own here: as it is printed.
-MeasuredQuantity as_printed(const FoundLine& line) {
-  const std::size_t open = line.value.find(" [");
-  if (open == std::string::npos || line.value.back() != ']') {
-    return {line.what, line.value, "–", line.unit};
-  }
-  std::string interval = line.value.substr(open + 2, line.value.size() - open - 3);
-  if (const std::size_t comma = interval.find(", "); comma != std::string::npos) {
-    interval.replace(comma, 2, " to ");
-  }
-  return {line.what, line.value.substr(0, open), interval, line.unit};
 }
 
 std::string gain_words(const Measured& gain) {
@@ -137,12 +159,10 @@ std::vector<MeasuredQuantity> quantities_in(CommissioningStep step,
       return force_quantities(*results.force);
     case CommissioningStep::kDelay:
       return delay_quantities(results);
-    default: {
-      std::vector<MeasuredQuantity> all;
-      for (const FoundLine& line : found_in(step, results)) all.push_back(as_printed(line));
-      return all;
-    }
+    case CommissioningStep::kStability:
+      return stability_quantities(*results.stability);
   }
+  return {};
 }
 
 std::vector<std::string> main_findings(const CommissioningResults& results) {
@@ -163,7 +183,22 @@ std::vector<std::string> main_findings(const CommissioningResults& results) {
                           with_interval_words({-force.weight_n.value, -force.weight_n.ci95_high,
                                                -force.weight_n.ci95_low})));
   }
-  if (results.has(CommissioningStep::kDelay)) {
+  if (results.has(CommissioningStep::kStability)) {
+    const analysis::StabilityFit& stability = *results.stability;
+    found.push_back(fmt::format(
+        "It is stable in fluids up to {:.3g} Pa s{} and on solids up to {:.3g} N/m.{}",
+        stability.viscosity_pa_s, stability.damping.is_beyond ? " or more" : "",
+        stability.stiffness_n_per_m,
+        stability.quiet_viscosity_pa_s < stability.viscosity_pa_s
+            ? fmt::format(" Its velocities are so noisy that the loop ends the force in fluids "
+                          "above {:.3g} Pa s.",
+                          stability.quiet_viscosity_pa_s)
+            : std::string()));
+  }
+  if (is_no_single_mass(results)) {
+    found.emplace_back(
+        "It gives way where it is pushed, so no single delay and no single mass can be told.");
+  } else if (results.has(CommissioningStep::kDelay)) {
     found.push_back(fmt::format("A force acts {} ms after its command.",
                                 with_interval_words(results.delay->delay_s, 1e3)));
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -69,14 +71,21 @@ TEST_F(CommissioningRecordTest, KeepsThePointsThatEachStepRestsOn) {
 
   const analysis::ForceFit& force = *record.results.force;
   ASSERT_EQ(static_cast<int>(force.ways.size()), force.num_ways);
-  double squares_n2 = 0.0;
+  // Ways without loads tell damping, friction and the constant force, loads the gain; where
+  // both tell the constant force upwards, that of the loads is taken, which is as good to 1 %.
+  double squares_n2 = 0.0, num_unloaded = 0.0, furthest_n = 0.0;
   for (const analysis::GuidedWay& way : force.ways) {
     const double off_n =
         analysis::commanded_without_mass_n(force, way) - analysis::fitted_n(force, way);
+    furthest_n = std::max(furthest_n, std::abs(off_n));
+    if (way.load_n != 0.0) continue;
     squares_n2 += off_n * off_n;
+    num_unloaded += 1.0;
   }
-  EXPECT_NEAR(std::sqrt(squares_n2 / (force.num_ways - 6.0)), force.residual_n, 1e-9)
+  EXPECT_NEAR(std::sqrt(squares_n2 / (num_unloaded - 5.0)), force.residual_n,
+              0.02 * force.residual_n)
       << "what is left of the ways is what the fit left of them";
+  EXPECT_LT(furthest_n, 5.0 * force.residual_n) << "loaded ones are no worse";
 
   ASSERT_EQ(static_cast<int>(record.results.delay->ways.size()),
             record.results.delay->num_ways);

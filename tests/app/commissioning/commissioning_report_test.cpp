@@ -146,7 +146,7 @@ TEST_F(CommissioningReportTest, TheVerdictSaysWhatIsMissing) {
   }
   const CommissioningVerdict undone = verdict(on_day, profile);
   EXPECT_FALSE(undone.is_fit);
-  EXPECT_EQ(undone.lacks.front(), "Not measured: force, delay.");
+  EXPECT_EQ(undone.lacks.front(), "Not measured: force, delay, stability.");
   EXPECT_TRUE(has(report(profile), "NOT FIT FOR SESSIONS: not every step is measured."));
 }
 
@@ -169,7 +169,7 @@ TEST_F(CommissioningReportTest, OfARecordThatIsNotCompleteItIsWrittenAsWell) {
     measure(commissioning, Step::kFrame);
   }
   const std::string html = report();
-  EXPECT_TRUE(has(html, "Not measured: noise, force, delay."));
+  EXPECT_TRUE(has(html, "Not measured: noise, force, delay, stability."));
   EXPECT_TRUE(has(html, "measured anew later"));
   EXPECT_FALSE(has(html, "Own damping"));
   EXPECT_FALSE(has(html, "Jury"));
