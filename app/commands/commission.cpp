@@ -18,6 +18,7 @@
 #include "app/commissioning/commissioning.h"
 #include "app/commissioning/commissioning_json.h"
 #include "app/commissioning/commissioning_report.h"
+#include "app/commissioning/daily_check.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "core/error.h"
@@ -33,6 +34,7 @@ struct CommissionOptions {
   std::string device;
   std::string record;
   std::string out;
+  std::string profile;
   std::string marks;
   std::vector<double> loads_kg = {0.1, 0.2, 0.4};
   double load_uncertainty_ratio = 0.002;
@@ -42,6 +44,7 @@ struct CommissionOptions {
   std::uint64_t seed = 1;
   std::string operator_name;
   bool allow_no_realtime = false;
+  bool daily = false;
   bool json = false;
 };
 
@@ -132,8 +135,83 @@ analysis::ReportOutcome written_report(const CommissionOptions& options, const f
   return report;
 }
 
+void print_check(const CheckedQuantity& quantity) {
+  fmt::print("  {:<6} {:<44} {} {}, expected {}\n", quantity.passed() ? "passed" : "FAILED",
+             quantity.what, found_words(quantity), quantity.shown_unit,
+             expected_words(quantity));
+}
+
+nlohmann::ordered_json check_json(const CheckedQuantity& quantity) {
+  return {{"name", quantity.name},
+          {"unit", quantity.unit},
+          {"expected", quantity.expected},
+          {"least", quantity.least},
+          {"most", quantity.most},
+          {"found", quantity.found.value},
+          {"ci95", {quantity.found.ci95_low, quantity.found.ci95_high}},
+          {"passed", quantity.passed()}};
+}
+
+/// Compares the device with its profile, and writes what came of it into that.
+int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
+              device::HapticDevice& device, device::Bench& bench) {
+  const bool is_simulated = device.capabilities().simulated;
+  std::vector<fs::path> folders = profile_folders();
+  // Where the profile of a simulated device was written.
+  if (is_simulated || !options.out.empty()) {
+    folders.insert(folders.begin(), folder_for_profile(options, is_simulated));
+  }
+  const KnownProfile known = profile_to_check(
+      {.name = options.device, .identity = device.identity(), .is_simulated = is_simulated},
+      options.profile, folders, today());
+  if (!options.json) {
+    fmt::print("{}{}, profile {}, {}\n", options.device, is_simulated ? " (SIMULATED)" : "",
+               known.place, age_words(known.profile, today()));
+    if (device.bench() == nullptr) fmt::print("{}\n", daily_check_to_do());
+    std::fflush(stdout);
+  }
+  const DailyCheckResult result = [&] {
+    ProgressBar bar("daily");
+    return check_daily(device, bench, plan, known.profile,
+                       std::max(today(), experiments::last_checked_on(known.profile)),
+                       [&](double done, const std::string&) { bar.show(done); });
+  }();
+  experiments::add_daily_check(known.place, result.kept);
+  if (options.json) {
+    nlohmann::ordered_json out = {{"device", options.device},
+                                  {"model", known.profile.device.model},
+                                  {"serial", known.profile.device.serial},
+                                  {"simulated", is_simulated},
+                                  {"profile", known.place},
+                                  {"checked_on", result.kept.checked_on},
+                                  {"passed", result.passed()},
+                                  {"quantities", nlohmann::ordered_json::array()}};
+    for (const CheckedQuantity& quantity : result.quantities) {
+      out["quantities"].push_back(check_json(quantity));
+    }
+    fmt::print("{}\n", json_text(out));
+  } else {
+    for (const CheckedQuantity& quantity : result.quantities) print_check(quantity);
+    fmt::print("{}\n",
+               result.passed()
+                   ? "passed: the device is as its profile says"
+                   : "FAILED: no session begins with this profile until a check is passed; look "
+                     "for the reason, then check again or measure the device anew");
+  }
+  return result.passed() ? kDone : kHasProblems;
+}
+
 int run_commission(const CommissionOptions& options) {
   require_device(options.device);
+  if (options.daily && (!options.again.empty() || !options.only.empty())) {
+    throw UsageError(
+        "--daily: expected neither --again nor --only, for a daily check has no steps, found "
+        "one of them");
+  }
+  if (!options.daily && !options.profile.empty()) {
+    throw UsageError(
+        "--profile: expected with --daily, for otherwise a profile is written, found without");
+  }
   const MeasuringPlan plan{.rate_hz = options.rate_hz,
                            .marks_m = marks_in(options.marks),
                            .loads_kg = options.loads_kg,
@@ -153,6 +231,9 @@ int run_commission(const CommissionOptions& options) {
         "--json: expected a simulated device, for a real one asks what to do, found " +
         options.device);
   }
+  AskedBench asked(ask_in_terminal);
+  device::Bench* bench = device->bench() != nullptr ? device->bench() : &asked;
+  if (options.daily) return run_daily(options, plan, *device, *bench);
   Commissioning commissioning(
       options.record.empty() ? fs::path(file_name_of(options.device))
                              : fs::path(options.record),
@@ -160,8 +241,6 @@ int run_commission(const CommissionOptions& options) {
       plan);
   for (const CommissioningStep step : again) commissioning.undo(step);
 
-  AskedBench asked(ask_in_terminal);
-  device::Bench* bench = device->bench() != nullptr ? device->bench() : &asked;
   if (!options.json) {
     fmt::print("{}{}, record {}\n", options.device,
                device->capabilities().simulated ? " (SIMULATED)" : "",
@@ -222,6 +301,12 @@ void add_commission(CLI::App& program, Invocation& invocation) {
       "commission",
       "Measures a device before a hand is in it, and writes its profile and a report of it");
   command->add_option("device", options->device, "As after --device")->required();
+  command->add_flag("--daily", options->daily,
+                    "Check that the device is still as its profile says, in about two minutes, "
+                    "and keep that in the profile; exit 1 where it is not");
+  command->add_option("--profile", options->profile,
+                      "With --daily: the profile, NAME.device.json (default: the device's own, "
+                      "where it is found)");
   command->add_option("--record", options->record,
                       "File that keeps every measurement; one that is there is gone on with "
                       "(default: DEVICE.commissioning.jsonl)");

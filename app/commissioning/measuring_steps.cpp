@@ -19,9 +19,9 @@
 namespace jnd::app {
 namespace {
 
-int first_point(const device::DeviceCapabilities& can) {
+std::size_t first_point(const device::DeviceCapabilities& can) {
   for (int i = 0; i < core::kNumContactPoints; ++i) {
-    if (can.has_point(i)) return i;
+    if (can.has_point(i)) return static_cast<std::size_t>(i);
   }
   throw core::Error("commission: expected a device with a contact point, found none");
 }
@@ -38,26 +38,44 @@ std::vector<Eigen::Vector3d> default_marks_m() {
   return marks_m;
 }
 
-analysis::NoiseFit measure_noise(device::HapticDevice& device, device::Bench& bench,
-                                 const MeasuringPlan& plan, const StepProgress& progress) {
-  DeviceOnBench started(device, bench, plan);
-  progress(0.0, "The device rests; nothing may move it.");
+analysis::NoiseFit noise_at_rest(DeviceOnBench& started) {
   started.run().run_for(0.5);
-  const auto point = static_cast<std::size_t>(first_point(started.can()));
+  const std::size_t point = first_point(started.can());
   std::vector<Eigen::Vector3d> position_m, velocity_m_per_s;
   started.run().run_for(2.0, [&](const core::Sample& sample) {
     position_m.push_back(vector_of(sample.tip_position_m[point]));
     velocity_m_per_s.push_back(vector_of(sample.tip_velocity_m_per_s[point]));
   });
+  return analysis::fit_noise(position_m, velocity_m_per_s);
+}
+
+analysis::TouchedMark touched_mark(DeviceOnBench& started, device::Bench& bench,
+                                   const Eigen::Vector3d& mark_m) {
+  const std::size_t point = first_point(started.can());
+  started.run().while_asking([&] { bench.touch(mark_m); });
+  started.run().run_for(2.0);
+  Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+  int num_readings = 0;
+  started.run().run_for(0.3, [&](const core::Sample& sample) {
+    sum_m += vector_of(sample.tip_position_m[point]);
+    ++num_readings;
+  });
+  return {.device_m = sum_m / num_readings, .workspace_m = mark_m};
+}
+
+analysis::NoiseFit measure_noise(device::HapticDevice& device, device::Bench& bench,
+                                 const MeasuringPlan& plan, const StepProgress& progress) {
+  DeviceOnBench started(device, bench, plan);
+  progress(0.0, "The device rests; nothing may move it.");
+  const analysis::NoiseFit noise = noise_at_rest(started);
   started.run().stop();
   progress(1.0, "");
-  return analysis::fit_noise(position_m, velocity_m_per_s);
+  return noise;
 }
 
 analysis::FrameFit measure_frame(device::HapticDevice& device, device::Bench& bench,
                                  const MeasuringPlan& plan, const StepProgress& progress) {
   DeviceOnBench started(device, bench, plan);
-  const auto point = static_cast<std::size_t>(first_point(started.can()));
   const std::vector<Eigen::Vector3d> marks_m =
       plan.marks_m.empty() ? default_marks_m() : plan.marks_m;
   std::vector<analysis::TouchedMark> touched;
@@ -65,15 +83,7 @@ analysis::FrameFit measure_frame(device::HapticDevice& device, device::Bench& be
     progress(static_cast<double>(touched.size()) / static_cast<double>(marks_m.size()),
              "Mark " + std::to_string(touched.size() + 1) + " of " +
                  std::to_string(marks_m.size()) + " is touched.");
-    started.run().while_asking([&] { bench.touch(mark_m); });
-    started.run().run_for(2.0);
-    Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
-    int num_readings = 0;
-    started.run().run_for(0.3, [&](const core::Sample& sample) {
-      sum_m += vector_of(sample.tip_position_m[point]);
-      ++num_readings;
-    });
-    touched.push_back({.device_m = sum_m / num_readings, .workspace_m = mark_m});
+    touched.push_back(touched_mark(started, bench, mark_m));
   }
   started.run().stop();
   progress(1.0, "");

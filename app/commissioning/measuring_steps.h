@@ -10,6 +10,7 @@
 #include "analysis/commissioning/frame_fit.h"
 #include "analysis/commissioning/noise_fit.h"
 #include "analysis/commissioning/stability_fit.h"
+#include "app/commissioning/device_on_bench.h"
 #include "app/commissioning/measuring_plan.h"
 #include "device/bench.h"
 #include "device/haptic_device.h"
@@ -21,6 +22,12 @@ namespace jnd::app {
 
 /// Told how much of a step is done, 0 to 1, and what happens now.
 using StepProgress = std::function<void(double done, const std::string& now)>;
+
+/// Of a device that rests: noise and least step. For a moment. Throws as `GuidedRun` does.
+[[nodiscard]] analysis::NoiseFit noise_at_rest(DeviceOnBench& started);
+/// Somebody touches this mark, and it is read where the device says that it is. Likewise.
+[[nodiscard]] analysis::TouchedMark touched_mark(DeviceOnBench& started, device::Bench& bench,
+                                                 const Eigen::Vector3d& mark_m);
 
 /// One measurement each. `bench`: somebody simulated, or a person who is asked. Every one of
 /// them throws `core::Error` in a sentence: the device cannot be started, it stopped with a

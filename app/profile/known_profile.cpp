@@ -86,18 +86,22 @@ std::string foreign_words(const KnownProfile& known, const device::DeviceIdentit
   return "";
 }
 
+std::string ended_words(const KnownProfile& known, const std::string& on_day) {
+  if (!(known.profile.valid_until < on_day)) return "";
+  return fmt::format(
+      "{}: expected a profile that is valid today ({}), found that it ended on {}; measure "
+      "the device again with `jnd commission`",
+      known.place, on_day, known.profile.valid_until);
+}
+
 std::string outdated_words(const KnownProfile& known, const std::string& on_day) {
+  if (std::string words = ended_words(known, on_day); !words.empty()) return words;
   const experiments::DeviceProfile& profile = known.profile;
-  if (profile.valid_until < on_day) {
-    return fmt::format(
-        "{}: expected a profile that is valid today ({}), found that it ended on {}; measure "
-        "the device again with `jnd commission`",
-        known.place, on_day, profile.valid_until);
-  }
   if (!profile.checks.empty() && !profile.checks.back().passed) {
     return fmt::format(
         "{}: expected a device whose last daily check was passed, found that of {} failed; "
-        "look for the reason, then measure the device again with `jnd commission`",
+        "look for the reason, then check it again with `jnd commission --daily`, or measure it "
+        "anew with `jnd commission`",
         known.place, profile.checks.back().checked_on);
   }
   return "";

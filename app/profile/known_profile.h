@@ -45,6 +45,9 @@ struct KnownProfile {
                                         const device::DeviceIdentity& device, bool is_simulated,
                                         bool is_open);
 
+/// Why the profile has no meaning on this day, likewise: it ended.
+[[nodiscard]] std::string ended_words(const KnownProfile& known, const std::string& on_day);
+
 /// Why the profile cannot be used on this day, likewise: it ended, or its last check failed.
 [[nodiscard]] std::string outdated_words(const KnownProfile& known, const std::string& on_day);
 

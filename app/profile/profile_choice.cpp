@@ -39,9 +39,11 @@ std::vector<fs::path> profile_files(const std::vector<fs::path>& folders) {
   return files;
 }
 
-/// The last one measured is the greatest; of those, the one checked last.
-std::tuple<std::string, std::string> newness(const KnownProfile& known) {
-  return {known.profile.measured_on, experiments::last_checked_on(known.profile)};
+/// The last one measured is the greatest; of those, the one checked last, for copies of one
+/// have the checks that came before.
+std::tuple<std::string, std::string, std::size_t> newness(const KnownProfile& known) {
+  return {known.profile.measured_on, experiments::last_checked_on(known.profile),
+          known.profile.checks.size()};
 }
 
 bool is_at_rest(const core::MediumAmounts& amounts) {
@@ -137,6 +139,30 @@ ProfileChoice choose_profile(const DeviceOfProfile& device, const std::string& f
   if (!found.known && choice.lack.empty()) choice.lack = without_words(device);
   if (choice.lack.empty()) choice.known = std::move(found.known);
   return choice;
+}
+
+KnownProfile profile_to_check(const DeviceOfProfile& device, const std::string& file,
+                              const std::vector<fs::path>& folders, const std::string& on_day) {
+  std::optional<KnownProfile> known;
+  std::string problem;
+  if (!file.empty()) {
+    known = read_known_profile(file);
+    problem = foreign_words(*known, device.identity, device.is_simulated, false);
+  } else {
+    FoundProfile found = find_profile(device, folders, on_day);
+    known = std::move(found.known);
+    if (!known) problem = std::move(found.problem);
+    if (!known && problem.empty()) {
+      problem = fmt::format(
+          "--device {}: expected a profile of {} to check it against, found none; measure the "
+          "device with `jnd commission {}`, or say which with --profile FILE",
+          device.name, device_words(device.identity.model, device.identity.serial),
+          device.name);
+    }
+  }
+  if (problem.empty()) problem = ended_words(*known, on_day);
+  if (!problem.empty()) throw core::Error(problem);
+  return std::move(*known);
 }
 
 bool asks_for_force(const experiments::Study& study) {

@@ -28,7 +28,8 @@ struct DeviceOfProfile {
 
 /// What the folders have for a device.
 struct FoundProfile {
-  std::optional<KnownProfile> known;  ///< The one measured last, then the one checked last.
+  /// The one measured last, then the one checked last; of the same day, most often.
+  std::optional<KnownProfile> known;
   std::string problem;                ///< Why it is not to be used, a sentence; "" if it is.
   /// Others that fit, files that cannot be read: sentences.
   std::vector<std::string> remarks;
@@ -51,6 +52,14 @@ struct ProfileChoice {
                                            const std::string& file,
                                            const std::vector<std::filesystem::path>& folders,
                                            const std::string& on_day);
+
+/// The profile that a daily check of the device is about: this file, or the one that is found,
+/// also for a simulated device. Its last check may have failed. Throws as `choose_profile`, and
+/// `core::Error` where there is none.
+[[nodiscard]] KnownProfile profile_to_check(const DeviceOfProfile& device,
+                                            const std::string& file,
+                                            const std::vector<std::filesystem::path>& folders,
+                                            const std::string& on_day);
 
 /// Whether anything in the study is to be felt: a medium that is not free space, or a wall.
 [[nodiscard]] bool asks_for_force(const experiments::Study& study);

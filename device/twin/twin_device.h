@@ -106,13 +106,15 @@ class TwinDevice final : public HapticDevice {
 };
 
 /// What follows `twin:`, "seed=7,gain=0.9": `seed` draws a device with faults, each other key
-/// sets one. Throws `core::Error` naming what is wrong.
+/// sets one, and it is another device; "drifted_gain_ratio", "added_damping_n_s_per_m" and
+/// "turned_rad" change the same one, as if after it was measured. Throws `core::Error` naming what is wrong.
 [[nodiscard]] TwinDevice::Parameters twin_parameters(std::string_view options);
 
 /// A device that nobody made well: everything about it is drawn.
 [[nodiscard]] TwinDevice::Parameters drawn_twin(std::uint64_t seed);
 
 inline constexpr std::string_view kTwinOptions =
-    "seed=N,mass_kg=X,damping_n_s_per_m=X,friction_n=X,weight_n=X,gain=X,delay_s=X";
+    "seed=N,mass_kg=X,damping_n_s_per_m=X,friction_n=X,weight_n=X,gain=X,delay_s=X,"
+    "drifted_gain_ratio=X,added_damping_n_s_per_m=X,turned_rad=X";
 
 }  // namespace jnd::device

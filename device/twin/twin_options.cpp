@@ -29,6 +29,20 @@ constexpr struct {
                 {"velocity_sd_m_per_s", &Parameters::velocity_sd_m_per_s},
                 {"touch_sd_m", &Parameters::touch_sd_m}};
 
+/// What has changed of the device since somebody measured it: it is the same one, with the same
+/// serial.
+constexpr struct {
+  std::string_view key;
+  void (*change)(Parameters& twin, double by);
+} kChanges[] = {
+    {"drifted_gain_ratio", [](Parameters& twin, double by) { twin.gain *= by; }},
+    {"added_damping_n_s_per_m",
+     [](Parameters& twin, double by) { twin.damping_n_s_per_m += by; }},
+    // On its table.
+    {"turned_rad", [](Parameters& twin, double by) {
+       twin.rotation = Eigen::AngleAxisd(by, Eigen::Vector3d::UnitZ()) * twin.rotation;
+     }}};
+
 template <typename Number>
 Number number_in(std::string_view option, std::string_view text) {
   Number number{};
@@ -96,9 +110,16 @@ Parameters twin_parameters(std::string_view options) {
     }
     double Parameters::*field = nullptr;
     std::string known = "seed";
+    for (const auto& entry : kChanges) known += ", " + std::string(entry.key);
     for (const auto& entry : kNumbers) {
       if (entry.key == key) field = entry.field;
       known += ", " + std::string(entry.key);
+    }
+    const auto* const changed_now =
+        std::ranges::find_if(kChanges, [key](const auto& one) { return one.key == key; });
+    if (changed_now != std::end(kChanges)) {
+      changed_now->change(twin, number_in<double>(key, text));
+      continue;
     }
     if (field == nullptr) {
       throw core::Error("device twin: expected one of " + known +

@@ -85,9 +85,13 @@ struct ProfileStability {
   bool operator==(const ProfileStability&) const = default;
 };
 
+/// What was found; how it was judged is told by `passed` alone.
 struct DailyCheck {
   std::string checked_on;
-  std::optional<MeasuredValue> gain{}, weight_n{};
+  std::optional<MeasuredValue> gain{}, weight_n{}, damping_n_s_per_m{}, friction_n{};
+  /// Of the device's frame since the profile was measured, at the middle of the marks.
+  std::optional<double> turned_rad{}, shifted_m{};
+  std::optional<double> position_sd_m{}, velocity_sd_m_per_s{};
   bool passed = false;
 
   bool operator==(const DailyCheck&) const = default;

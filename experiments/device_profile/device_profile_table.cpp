@@ -271,14 +271,29 @@ const ParameterTable& profile_stability_table() {
 const ParameterTable& daily_check_table() {
   static const ParameterTable kTable = {
       .name = "daily_check",
-      .meaning = "Whether gain and weight were still those of the profile.",
+      .meaning = "Whether the device was still the one of the profile, and what was found.",
       .parameters = {
           {.key = "checked_on", .kind = ValueKind::kDate, .meaning = "Day of the check."},
           measured_key("gain", "As in `force`.", "", {0.0, 10.0, true}),
           measured_key("weight_n", "As in `tool`.", "N", {-100.0, 100.0}),
+          measured_key("damping_n_s_per_m",
+                       "As in `mechanics`; noise may make it less than nothing.", "N s/m",
+                       {-1000.0, 1000.0}),
+          measured_key("friction_n", "Likewise.", "N", {-100.0, 100.0}),
+          optional(number_key("turned_rad",
+                              "Angle by which the device's frame had turned since it was "
+                              "measured.",
+                              "rad", {0.0, 3.2})),
+          optional(number_key("shifted_m",
+                              "How far it had moved, at the middle of the marks that were "
+                              "touched.",
+                              "m", {0.0, 10.0})),
+          optional(number_key("position_sd_m", "As in `noise`.", "m", {0.0, 1.0})),
+          optional(number_key("velocity_sd_m_per_s", "As in `noise`.", "m/s", {0.0, 100.0})),
           {.key = "passed",
            .kind = ValueKind::kBoolean,
-           .meaning = "They were. Where the last check says `false`, the profile is not used."},
+           .meaning =
+               "It was. Where the last check says `false`, the profile is not used."},
       }};
   return kTable;
 }

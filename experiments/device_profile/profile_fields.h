@@ -69,6 +69,12 @@ void each_field(T& it, const Visit& visit) {
     visit("checked_on", it.checked_on);
     visit("gain", it.gain);
     visit("weight_n", it.weight_n);
+    visit("damping_n_s_per_m", it.damping_n_s_per_m);
+    visit("friction_n", it.friction_n);
+    visit("turned_rad", it.turned_rad);
+    visit("shifted_m", it.shifted_m);
+    visit("position_sd_m", it.position_sd_m);
+    visit("velocity_sd_m_per_s", it.velocity_sd_m_per_s);
     visit("passed", it.passed);
   } else {
     static_assert(IsA<T, P>);

@@ -1,11 +1,14 @@
 #include "experiments/device_profile/profile_writer.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +16,7 @@
 #include "core/storage/files.h"
 #include "experiments/device_profile/device_profile_table.h"
 #include "experiments/device_profile/profile_fields.h"
+#include "experiments/device_profile/profile_reader.h"
 #include "experiments/device_profile/profile_signature.h"
 
 namespace jnd::experiments {
@@ -101,14 +105,18 @@ void print(const ordered_json& value, std::size_t indent, std::string& text) {
   text += std::string(indent, ' ') + (value.is_object() ? '}' : ']');
 }
 
+[[noreturn]] void fail_to_write(const std::filesystem::path& file) {
+  throw core::Error(file.string() + ": expected to write the device's profile, found: " +
+                    std::strerror(errno));
+}
+
 /// Writes and syncs a new file; false: there is one already.
 bool write_new(const std::filesystem::path& file, const std::string& text) {
-  const auto fail = [&file]() -> bool {
-    throw core::Error(file.string() + ": expected to write the device's profile, found: " +
-                      std::strerror(errno));
-  };
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor < 0) return errno == EEXIST ? false : fail();
+  if (descriptor < 0) {
+    if (errno == EEXIST) return false;
+    fail_to_write(file);
+  }
   std::size_t num_written = 0;
   while (num_written < text.size()) {
     const ssize_t more =
@@ -123,11 +131,29 @@ bool write_new(const std::filesystem::path& file, const std::string& text) {
   if (!is_whole) {
     ::unlink(file.c_str());
     errno = error;
-    return fail();
+    fail_to_write(file);
   }
   core::sync_folder(file.parent_path());
   return true;
 }
+
+/// Of whoever changes a profile in this folder: the others wait.
+class ChangingProfiles {
+ public:
+  explicit ChangingProfiles(const std::filesystem::path& folder)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~ChangingProfiles() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  ChangingProfiles(const ChangingProfiles&) = delete;
+  ChangingProfiles& operator=(const ChangingProfiles&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace
 
@@ -161,6 +187,48 @@ std::filesystem::path write_device_profile(const DeviceProfile& profile,
   throw core::Error(folder.string() +
                     ": expected a free name for the device's profile, found " +
                     "none; take old ones of `" + profile.name + "` away");
+}
+
+void add_daily_check(const std::filesystem::path& file, const DailyCheck& check) {
+  // Where it is a link, what it leads to is replaced.
+  std::error_code problem;
+  const std::filesystem::path whole = std::filesystem::canonical(file, problem);
+  if (problem) {
+    throw core::Error(file.string() + ": expected a device profile, found: " +
+                      problem.message());
+  }
+  const ChangingProfiles alone(whole.parent_path());
+  (void)read_device_profile(whole);  // Of an edited one the signature stays wrong.
+  std::ifstream stream(whole, std::ios::binary);
+  ordered_json profile =
+      ordered_json::parse(std::string{std::istreambuf_iterator<char>(stream), {}});
+  if (!profile.contains("checks")) {
+    // Before the signature, where the writer has it.
+    ordered_json signature = std::move(profile["signature"]);
+    profile.erase("signature");
+    profile["checks"] = ordered_json::array();
+    profile["signature"] = std::move(signature);
+  }
+  profile["checks"].push_back(json_of(check));
+  profile["signature"]["checks"] =
+      signature_of(nlohmann::json::parse(profile.dump()), "checks");
+  std::string text;
+  print(profile, 0, text);
+  text += '\n';
+  (void)read_device_profile_text(text, file.string());
+
+  std::filesystem::path fresh = whole;
+  fresh += ".new";
+  std::filesystem::remove(fresh, problem);  // Of a program that died.
+  if (!write_new(fresh, text)) fail_to_write(fresh);
+  std::filesystem::permissions(fresh, std::filesystem::status(whole).permissions(), problem);
+  if (::rename(fresh.c_str(), whole.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(fresh.c_str());
+    errno = error;
+    fail_to_write(whole);
+  }
+  core::sync_folder(whole.parent_path());
 }
 
 }  // namespace jnd::experiments

@@ -18,4 +18,11 @@ namespace jnd::experiments {
 std::filesystem::path write_device_profile(const DeviceProfile& profile,
                                            const std::filesystem::path& folder);
 
+/// Adds a check behind the others of the profile in this file, and signs them anew; everything
+/// else stays as it stands there, comments too. The file is replaced as a whole and is on disk
+/// when this returns; whatever happens, it is there with the check or without it. Two programs
+/// that add at once both do. Throws `core::Error`, or `ProtocolError` where the profile is not
+/// sound or would not be with this check. Not real time.
+void add_daily_check(const std::filesystem::path& file, const DailyCheck& check);
+
 }  // namespace jnd::experiments

@@ -58,6 +58,12 @@ inline experiments::DeviceProfile sound_profile(const std::string& model = "wam"
   profile.checks = {{.checked_on = "2026-11-24",
                      .gain = MeasuredValue{0.971, {0.95, 0.99}},
                      .weight_n = MeasuredValue{0.31, {0.2, 0.42}},
+                     .damping_n_s_per_m = MeasuredValue{2.1, {2.0, 2.2}},
+                     .friction_n = MeasuredValue{0.4, {0.39, 0.41}},
+                     .turned_rad = 0.001,
+                     .shifted_m = 0.0004,
+                     .position_sd_m = 0.00001,
+                     .velocity_sd_m_per_s = 0.002,
                      .passed = true},
                     {.checked_on = "2026-11-25", .passed = true}};
   return profile;

@@ -101,6 +101,37 @@ TEST_F(ProfileChoiceTest, OfOneMeasurementTheOneCheckedLastCounts) {
   EXPECT_EQ(choice(device()).known->profile.checks.size(), 2u);
 }
 
+TEST_F(ProfileChoiceTest, OfOneDayTheOneCheckedMoreOftenCounts) {
+  DeviceProfile once = sound_profile(), twice = sound_profile();
+  twice.checks.push_back({.checked_on = once.checks.back().checked_on, .passed = false});
+  write(once, "other");
+  write(twice);
+  EXPECT_FALSE(choice(device()).known) << "a copy from before does not lift a failed check";
+}
+
+TEST_F(ProfileChoiceTest, ADailyCheckIsAboutOneThatIsValidAlsoWhereTheLastOneFailed) {
+  const auto checked = [&](const DeviceOfProfile& its, const std::string& file) {
+    try {
+      return profile_to_check(its, file, folders(), kDay).place;
+    } catch (const core::Error& error) {
+      return "refused: " + std::string(error.what());
+    }
+  };
+  EXPECT_TRUE(checked(device(), "").starts_with("refused: --device plugin:wam: expected a "
+                                                "profile of `wam` 17 to check it against"));
+  DeviceProfile profile = sound_profile();
+  profile.checks.back().passed = false;
+  const fs::path file = write(profile);
+  EXPECT_EQ(checked(device(), ""), file.string());
+  EXPECT_EQ(checked(device(), file.string()), file.string());
+  EXPECT_EQ(checked(device("17", true), ""), file.string()) << "of a simulated one as well";
+  EXPECT_NE(checked(device("18"), file.string()).find("found that of `wam` 17"),
+            std::string::npos);
+  profile.valid_until = "2026-11-25";
+  const fs::path ended = write(profile, "ended");
+  EXPECT_NE(checked(device(), ended.string()).find("found that it ended"), std::string::npos);
+}
+
 TEST_F(ProfileChoiceTest, ARealDeviceWithoutOneLacksIt) {
   const ProfileChoice none = choice(device());
   EXPECT_FALSE(none.known);
