@@ -19,6 +19,7 @@
 #include "app/commissioning/commissioning_json.h"
 #include "app/commissioning/commissioning_report.h"
 #include "app/commissioning/daily_check.h"
+#include "app/profile/known_profile.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "core/error.h"
@@ -81,16 +82,6 @@ std::vector<Eigen::Vector3d> marks_in(const std::string& file) {
   return marks_m;
 }
 
-/// "twin:seed=7" as a part of a file's name.
-std::string file_name_of(const std::string& device) {
-  std::string name;
-  for (const char letter : device) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
-    name += is_plain ? letter : '_';
-  }
-  return name + ".commissioning.jsonl";
-}
-
 /// Says what is to do and waits for Enter.
 void ask_in_terminal(const std::string& to_do) {
   std::cerr << to_do << " Then press Enter. " << std::flush;
@@ -108,14 +99,6 @@ void print_step(CommissioningStep step, const CommissioningResults& results) {
     fmt::print("  {:<52} {} {}\n", line.what, line.value, line.unit);
   }
   std::fflush(stdout);
-}
-
-/// Where sessions look for it; of a simulated device, which needs none, beside the record.
-fs::path folder_for_profile(const CommissionOptions& options, bool is_simulated) {
-  if (!options.out.empty()) return options.out;
-  const std::vector<fs::path> folders = profile_folders();
-  if (is_simulated || folders.empty()) return fs::path(options.record).parent_path() / ".";
-  return folders.back();
 }
 
 /// For the files of the laboratory, beside the profile.
@@ -159,7 +142,8 @@ int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
   std::vector<fs::path> folders = profile_folders();
   // Where the profile of a simulated device was written.
   if (is_simulated || !options.out.empty()) {
-    folders.insert(folders.begin(), folder_for_profile(options, is_simulated));
+    folders.insert(folders.begin(),
+                   folder_for_profile(options.out, options.record, is_simulated));
   }
   const KnownProfile known = profile_to_check(
       {.name = options.device, .identity = device.identity(), .is_simulated = is_simulated},
@@ -192,11 +176,12 @@ int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
     fmt::print("{}\n", json_text(out));
   } else {
     for (const CheckedQuantity& quantity : result.quantities) print_check(quantity);
-    fmt::print("{}\n",
-               result.passed()
-                   ? "passed: the device is as its profile says"
-                   : "FAILED: no session begins with this profile until a check is passed; look "
-                     "for the reason, then check again or measure the device anew");
+    fmt::print(
+        "{}\n",
+        result.passed()
+            ? "passed: the device is as its profile says"
+            : "FAILED: no session begins with this profile until a check is passed; look "
+              "for the reason, then check again or measure the device anew");
   }
   return result.passed() ? kDone : kHasProblems;
 }
@@ -235,8 +220,7 @@ int run_commission(const CommissionOptions& options) {
   device::Bench* bench = device->bench() != nullptr ? device->bench() : &asked;
   if (options.daily) return run_daily(options, plan, *device, *bench);
   Commissioning commissioning(
-      options.record.empty() ? fs::path(file_name_of(options.device))
-                             : fs::path(options.record),
+      options.record.empty() ? usual_record(options.device) : fs::path(options.record),
       {.name = options.device, .identity = device->identity(), .can = device->capabilities()},
       plan);
   for (const CommissioningStep step : again) commissioning.undo(step);
@@ -267,10 +251,11 @@ int run_commission(const CommissionOptions& options) {
   std::string profile;
   analysis::ReportOutcome report;
   if (!commissioning.next_step() && (has_measured || !options.out.empty())) {
-    profile = experiments::write_device_profile(
-                  profile_of(commissioning, device->identity(), JND_VERSION),
-                  folder_for_profile(options, device->capabilities().simulated))
-                  .string();
+    profile =
+        experiments::write_device_profile(
+            profile_of(commissioning, device->identity(), JND_VERSION),
+            folder_for_profile(options.out, options.record, device->capabilities().simulated))
+            .string();
     report = written_report(options, commissioning.record(), profile);
   }
   if (!options.json && !profile.empty()) {

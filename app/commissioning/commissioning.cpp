@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -77,6 +78,15 @@ void Commissioning::read_record() {
     }
   }
   results_ = std::move(record.results);
+}
+
+fs::path usual_record(std::string_view device) {
+  std::string name;
+  for (const char letter : device) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    name += is_plain ? letter : '_';
+  }
+  return name + ".commissioning.jsonl";
 }
 
 void Commissioning::append(const std::string& line) {

@@ -21,9 +21,9 @@ inline constexpr std::array kCommissioningSteps = {
 
 /// How a step is called and what somebody has to do for it.
 struct StepWords {
-  std::string_view name;   ///< "force", as options and records spell it.
-  std::string_view title;  ///< "Force, weight and friction"
-  std::string_view to_do;  ///< What is wanted of whoever stands at the device; sentences.
+  std::string_view name;  ///< "force", as options and records spell it.
+  const char* title;      ///< "Force, weight and friction"
+  const char* to_do;      ///< What is wanted of whoever stands at the device; sentences.
 };
 [[nodiscard]] const StepWords& words_of(CommissioningStep step) noexcept;
 /// None of them has this name: nothing.
@@ -90,6 +90,10 @@ class Commissioning {
   MeasuringPlan plan_;
   CommissioningResults results_;
 };
+
+/// The file that keeps what is measured of this device, unless another is given: in the folder
+/// that the program runs in.
+[[nodiscard]] std::filesystem::path usual_record(std::string_view device);
 
 /// What a step found, a line each for people: "Gain", "0.902 [0.898, 0.906]", "N/N".
 struct FoundLine {

@@ -5,28 +5,29 @@
 
 #include "analysis/commissioning/single_mass.h"
 #include "app/commissioning/commissioning.h"
+#include "app/language/words.h"
 
 namespace jnd::app {
 namespace {
 
 constexpr std::array<StepWords, kCommissioningSteps.size()> kWords = {{
-    {"noise", "Noise and resolution",
-     "Home the device as its maker says, take every hand out, and rest its tool on something "
-     "that "
-     "does not move, brakes on."},
-    {"frame", "Frame, by touching marks",
-     "Bring the tool's first contact point to each mark in turn, and hold it there for 3 "
-     "seconds."},
-    {"force", "Force, weight and friction",
-     "Leave the tool free to move by 10 cm all around. It goes to and fro by itself, then you "
-     "are "
-     "asked to hang known weights from it."},
-    {"delay", "Delay and mass",
-     "Leave the tool free to move by 10 cm all around. It is pushed to and fro by 4 N."},
-    {"stability", "Stability, by sweeps and stimuli",
-     "Leave the tool free to move by 25 cm all around, and keep away. It hums as it goes to "
-     "and "
-     "fro, is drawn through thick fluids, and falls onto something solid that is not there."},
+    {"noise", tr_later("Noise and resolution"),
+     tr_later("Home the device as its maker says, take every hand out, and rest its tool on "
+              "something that does not move, brakes on.")},
+    {"frame", tr_later("Frame, by touching marks"),
+     tr_later(
+         "Bring the tool's first contact point to each mark in turn, and hold it there for "
+         "3 seconds.")},
+    {"force", tr_later("Force, weight and friction"),
+     tr_later("Leave the tool free to move by 10 cm all around. It goes to and fro by itself, "
+              "then you are asked to hang known weights from it.")},
+    {"delay", tr_later("Delay and mass"),
+     tr_later("Leave the tool free to move by 10 cm all around. It is pushed to and fro by "
+              "4 N.")},
+    {"stability", tr_later("Stability, by sweeps and stimuli"),
+     tr_later("Leave the tool free to move by 25 cm all around, and keep away. It hums as it goes "
+              "to and fro, is drawn through thick fluids, and falls onto something solid that is "
+              "not there.")},
 }};
 
 /// Three digits of what the interval leaves open.
@@ -69,70 +70,72 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
   if (!results.has(step)) return {};
   switch (step) {
     case CommissioningStep::kNoise:
-      return {{"Noise of a position, one axis",
+      return {{tr_later("Noise of a position, one axis"),
                with_interval(results.noise->position_sd_m, 1e6), "um"},
-              {"Least step of a position",
+              {tr_later("Least step of a position"),
                fmt::format("{:.3g}", 1e6 * results.noise->position_resolution_m), "um"},
-              {"Noise of a velocity, one axis",
+              {tr_later("Noise of a velocity, one axis"),
                with_interval(results.noise->velocity_sd_m_per_s, 1e3), "mm/s"}};
     case CommissioningStep::kFrame: {
       const analysis::FrameFit& fit = *results.frame;
-      return {{"Device's origin in the workspace",
+      return {{tr_later("Device's origin in the workspace"),
                fmt::format("{:.4f}, {:.4f}, {:.4f}", fit.offset_m.x(), fit.offset_m.y(),
                            fit.offset_m.z()),
                "m"},
-              {"Open in it, 95 %",
+              {tr_later("Open in it, 95 %"),
                fmt::format("{:.2f}, {:.2f}, {:.2f}", 1e3 * fit.offset_ci95_m.x(),
                            1e3 * fit.offset_ci95_m.y(), 1e3 * fit.offset_ci95_m.z()),
                "mm"},
-              {"Open in its turn, 95 %",
+              {tr_later("Open in its turn, 95 %"),
                fmt::format("{:.2f}, {:.2f}, {:.2f}", 1e3 * fit.rotation_ci95_rad.x(),
                            1e3 * fit.rotation_ci95_rad.y(), 1e3 * fit.rotation_ci95_rad.z()),
                "mrad"},
-              {fmt::format("How {} marks were met, one axis", fit.num_marks),
+              {tr_later("How well the marks were met, one axis"),
                fmt::format("{:.2f}", 1e3 * fit.residual_m), "mm"}};
     }
     case CommissioningStep::kDelay:
       if (!analysis::is_single_mass(*results.delay, *results.force)) {
-        return {{"From a command until its force acts",
-                 "not told: it gives way where it is pushed, and is no single mass", ""}};
+        return {{tr_later("From a command until its force acts"),
+                 tr_later("not told: it gives way where it is pushed, and is no single mass"), ""}};
       }
       return {
-          {"From a command until its force acts", with_interval(results.delay->delay_s, 1e3),
+          {tr_later("From a command until its force acts"), with_interval(results.delay->delay_s, 1e3),
            "ms"},
-          {"Mass, in newtons commanded", with_interval(results.delay->mass_per_gain_kg), "kg"}};
+          {tr_later("Mass, in newtons commanded"), with_interval(results.delay->mass_per_gain_kg), "kg"}};
     case CommissioningStep::kForce: {
       const analysis::ForceFit& fit = *results.force;
       std::vector<FoundLine> lines = {
-          {"Force given for a newton commanded", with_interval(fit.gain), "N/N"},
-          {"Weight that is not carried", with_interval(fit.weight_n), "N"},
-          {fit.damps_alike ? "Own damping" : "Own damping along x",
+          {tr_later("Force given for a newton commanded"), with_interval(fit.gain), "N/N"},
+          {tr_later("Weight that is not carried"), with_interval(fit.weight_n), "N"},
+          {fit.damps_alike ? tr_later("Own damping") : tr_later("Own damping along x"),
            with_interval(fit.damping_n_s_per_m), "N s/m"}};
-      constexpr std::array kAxes = {"x", "y", "z"};
+      constexpr std::array kAxes = {tr_later("Own damping along x"),
+                                    tr_later("Own damping along y"),
+                                    tr_later("Own damping along z")};
       for (std::size_t axis = 1; !fit.damps_alike && axis < kAxes.size() &&
                                  axis < fit.damping_by_axis_n_s_per_m.size();
            ++axis) {
-        lines.push_back({fmt::format("Own damping along {}", kAxes[axis]),
+        lines.push_back({kAxes[axis],
                          with_interval(fit.damping_by_axis_n_s_per_m[axis]), "N s/m"});
       }
-      lines.push_back({"Dry friction", with_interval(fit.friction_n), "N"});
+      lines.push_back({tr_later("Dry friction"), with_interval(fit.friction_n), "N"});
       lines.push_back(
-          {"Hysteresis, in newtons commanded", with_interval(fit.hysteresis_n), "N"});
-      lines.push_back({"Spread of the gain between poses",
+          {tr_later("Hysteresis, in newtons commanded"), with_interval(fit.hysteresis_n), "N"});
+      lines.push_back({tr_later("Spread of the gain between poses"),
                        fmt::format("{:.2f}", 100.0 * fit.pose_spread_ratio), "%"});
       return lines;
     }
     case CommissioningStep::kStability: {
       const analysis::StabilityFit& fit = *results.stability;
       return {
-          {"Stable in fluids up to",
+          {tr_later("Stable in fluids up to"),
            fmt::format("{:.3g}{}", fit.viscosity_pa_s, fit.damping.is_beyond ? " or more" : ""),
            "Pa s"},
-          {"Where it would begin to swing", fmt::format("{:.0f}", fit.damping.frequency_hz),
+          {tr_later("Where it would begin to swing"), fmt::format("{:.0f}", fit.damping.frequency_hz),
            "Hz"},
-          {"Drawn without a fault through fluids up to",
+          {tr_later("Drawn without a fault through fluids up to"),
            fmt::format("{:.3g}", fit.quiet_viscosity_pa_s), "Pa s"},
-          {"Stable on solids up to", fmt::format("{:.3g}", fit.stiffness_n_per_m), "N/m"}};
+          {tr_later("Stable on solids up to"), fmt::format("{:.3g}", fit.stiffness_n_per_m), "N/m"}};
     }
   }
   return {};

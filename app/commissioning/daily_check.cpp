@@ -12,6 +12,7 @@
 #include "app/commissioning/device_on_bench.h"
 #include "app/commissioning/guided_pushes.h"
 #include "app/commissioning/guided_ways.h"
+#include "app/language/words.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -72,15 +73,14 @@ class DailyMeasurement {
       : bench_(bench), plan_(plan), progress_(progress), started_(device, bench, plan) {}
 
   [[nodiscard]] analysis::NoiseFit noise() {
-    progress_(0.0, "The device rests; nothing may move it.");
+    progress_(0.0, tr_later("The device rests; nothing may move it."));
     return noise_at_rest(started_);
   }
 
   [[nodiscard]] analysis::FrameFit frame(const std::vector<Eigen::Vector3d>& marks_m) {
     std::vector<analysis::TouchedMark> touched;
     for (const Eigen::Vector3d& mark_m : marks_m) {
-      progress_(0.05 + 0.1 * static_cast<double>(touched.size()),
-                fmt::format("Mark {} of {} is touched.", touched.size() + 1, marks_m.size()));
+      progress_(0.05 + 0.1 * static_cast<double>(touched.size()), kMarkIsRead);
       touched.push_back(touched_mark(started_, bench_, mark_m));
     }
     return analysis::fit_frame(touched);
@@ -101,12 +101,12 @@ class DailyMeasurement {
     const analysis::DelayFit roughly = how_it_moves(profile, home_m);
     GuidedWays ways(started_, plan_, roughly);
     for (int axis = 0; axis < 3; ++axis) {
-      progress_(0.5 + 0.1 * axis, "The device goes to and fro, with nothing on it.");
+      progress_(0.5 + 0.1 * axis, tr_later("The device goes to and fro, with nothing on it."));
       for (const double speed_m_per_s : kSpeeds_m_per_s) {
         ways.go(home_m, to_device.col(axis), kHalfWay_m, speed_m_per_s, {});
       }
     }
-    progress_(0.8, "The device lifts and lowers a load.");
+    progress_(0.8, tr_later("The device lifts and lowers a load."));
     started_.act([&] { bench_.hang(load_kg); });
     for (int round = 0; round < kLoadedRounds; ++round) {
       for (const double speed_m_per_s : kLoadedSpeeds_m_per_s) {
@@ -132,7 +132,8 @@ class DailyMeasurement {
                   as_it_is(profile.mechanics.mass_kg->value / profile.force.gain->value)};
     }
     GuidedPushes pushes(started_, plan_);
-    pushes.go(home_m, 3, [&](int) { progress_(0.45, "The device is pushed to and fro."); });
+    pushes.go(home_m, 3,
+              [&](int) { progress_(0.45, tr_later("The device is pushed to and fro.")); });
     return pushes.fit(0.0);
   }
 
@@ -149,7 +150,7 @@ void judge_noise(const DeviceProfile& profile, const analysis::NoiseFit& found,
   const double step_m = profile.noise.position_resolution_m.value_or(0.0);
   if (const auto expected_m = profile.noise.position_sd_m) {
     all.push_back(at_most({.name = "position_sd_m",
-                           .what = "Noise of a position at rest",
+                           .what = tr_later("Noise of a position at rest"),
                            .unit = "m",
                            .found = found.position_sd_m,
                            .shown_scale = 1e6,
@@ -158,7 +159,7 @@ void judge_noise(const DeviceProfile& profile, const analysis::NoiseFit& found,
   }
   if (const auto expected_m_per_s = profile.noise.velocity_sd_m_per_s) {
     all.push_back(at_most({.name = "velocity_sd_m_per_s",
-                           .what = "Noise of a velocity at rest",
+                           .what = tr_later("Noise of a velocity at rest"),
                            .unit = "m/s",
                            .found = found.velocity_sd_m_per_s,
                            .shown_scale = 1e3,
@@ -173,22 +174,21 @@ void judge_frame(const DeviceProfile& profile, const analysis::FrameFit& found,
   const Eigen::AngleAxisd turn(found.rotation * rotation.transpose());
   const double turned_rad = std::abs(turn.angle());
   const double open_rad = found.rotation_ci95_rad.maxCoeff();
-  all.push_back(at_most({.name = "turned_rad",
-                         .what = "Turn of the frame since it was measured",
-                         .unit = "rad",
-                         .found = {.value = turned_rad,
-                                   .ci95_low = std::max(0.0, turned_rad - open_rad),
-                                   .ci95_high = turned_rad + open_rad},
-                         .shown_scale = 57.29577951,
-                         .shown_unit = "degrees"},
-                        0.0,
-                        kDailyTolerances.turned_rad +
-                            profile.frame.rotation_ci95_rad.value_or(0.0)));
+  all.push_back(at_most(
+      {.name = "turned_rad",
+       .what = tr_later("Turn of the frame since it was measured"),
+       .unit = "rad",
+       .found = {.value = turned_rad,
+                 .ci95_low = std::max(0.0, turned_rad - open_rad),
+                 .ci95_high = turned_rad + open_rad},
+       .shown_scale = 57.29577951,
+       .shown_unit = "degrees"},
+      0.0, kDailyTolerances.turned_rad + profile.frame.rotation_ci95_rad.value_or(0.0)));
   // Where the marks are, as they were touched, by either frame.
   const Eigen::Vector3d touched_m = found.rotation.transpose() * (middle_m - found.offset_m);
   const double shifted_m = (rotation * touched_m + offset_of(profile) - middle_m).norm();
   all.push_back(at_most({.name = "shifted_m",
-                         .what = "Shift of the frame, at the middle of the marks",
+                         .what = tr_later("Shift of the frame, at the middle of the marks"),
                          .unit = "m",
                          .found = as_it_is(shifted_m),
                          .shown_scale = 1e3,
@@ -199,7 +199,7 @@ void judge_frame(const DeviceProfile& profile, const analysis::FrameFit& found,
 void judge_force(const DeviceProfile& profile, const analysis::ForceFit& found,
                  std::vector<CheckedQuantity>& all) {
   all.push_back(around({.name = "gain",
-                        .what = "Force given for a newton commanded",
+                        .what = tr_later("Force given for a newton commanded"),
                         .unit = "N/N",
                         .found = found.gain,
                         .shown_unit = "N/N"},
@@ -207,7 +207,7 @@ void judge_force(const DeviceProfile& profile, const analysis::ForceFit& found,
                        kDailyTolerances.gain_ratio * profile.force.gain->value));
   if (const auto& expected = profile.tool.weight_n) {
     all.push_back(around({.name = "weight_n",
-                          .what = "Weight that is not carried",
+                          .what = tr_later("Weight that is not carried"),
                           .unit = "N",
                           .found = found.weight_n,
                           .shown_unit = "N"},
@@ -215,7 +215,7 @@ void judge_force(const DeviceProfile& profile, const analysis::ForceFit& found,
   }
   if (const auto& expected = profile.mechanics.damping_n_s_per_m) {
     all.push_back(around({.name = "damping_n_s_per_m",
-                          .what = "Own damping",
+                          .what = tr_later("Own damping"),
                           .unit = "N s/m",
                           .found = found.damping_n_s_per_m,
                           .shown_unit = "N s/m"},
@@ -223,7 +223,7 @@ void judge_force(const DeviceProfile& profile, const analysis::ForceFit& found,
   }
   if (const auto& expected = profile.mechanics.friction_n) {
     all.push_back(around({.name = "friction_n",
-                          .what = "Dry friction",
+                          .what = tr_later("Dry friction"),
                           .unit = "N",
                           .found = found.friction_n,
                           .shown_unit = "N"},
@@ -279,10 +279,11 @@ bool CheckedQuantity::passed() const noexcept {
   return found.value >= least && found.value <= most && half_open <= 0.5 * (most - least);
 }
 
-std::string_view daily_check_to_do() noexcept {
-  return "Home the device as its maker says, take every hand out, and rest its tool on "
-         "something that does not move. Then you are asked to touch four marks, to leave the "
-         "tool free to move by 10 cm all around, and to hang one known weight from it.";
+const char* daily_check_to_do() noexcept {
+  return tr_later(
+      "Home the device as its maker says, take every hand out, and rest its tool on something "
+      "that does not move. Then you are asked to touch four marks, to leave the tool free to "
+      "move by 10 cm all around, and to hang one known weight from it.");
 }
 
 std::vector<Eigen::Vector3d> daily_marks_m(const std::vector<Eigen::Vector3d>& marks_m) {
@@ -331,8 +332,8 @@ DailyCheckResult check_daily(device::HapticDevice& device, device::Bench& bench,
   DailyMeasurement measurement(device, bench, plan, progress);
   const analysis::NoiseFit noise = measurement.noise();
   const analysis::FrameFit frame = measurement.frame(marks_m);
-  const analysis::ForceFit force = measurement.force(
-      profile, frame, middle_m, *std::ranges::max_element(plan.loads_kg));
+  const analysis::ForceFit force =
+      measurement.force(profile, frame, middle_m, *std::ranges::max_element(plan.loads_kg));
   judge_noise(profile, noise, result.quantities);
   judge_frame(profile, frame, middle_m, result.quantities);
   judge_force(profile, force, result.quantities);

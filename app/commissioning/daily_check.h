@@ -13,20 +13,20 @@ namespace jnd::app {
 /// How far a device may be from its profile on another day, on top of what the profile's own
 /// interval leaves open. Each is several times what the check itself leaves open.
 inline constexpr struct DailyTolerances {
-  double gain_ratio = 0.03;             ///< Of the expected gain.
+  double gain_ratio = 0.03;  ///< Of the expected gain.
   double weight_n = 0.15;
   double damping_n_s_per_m = 0.25;
   double friction_n = 0.15;
-  double turned_rad = 0.0087;           ///< Half a degree.
-  double shifted_m = 0.002;             ///< At the middle of the marks.
-  double noise_factor = 2.0;            ///< Times the expected standard deviation, at most.
+  double turned_rad = 0.0087;  ///< Half a degree.
+  double shifted_m = 0.002;    ///< At the middle of the marks.
+  double noise_factor = 2.0;   ///< Times the expected standard deviation, at most.
 } kDailyTolerances;
 
 /// One thing that was checked: passed where `least <= found <= most`, and where the check
 /// itself left less open than it is to decide.
 struct CheckedQuantity {
   std::string_view name;  ///< "gain", as `experiments::DailyCheck` has it.
-  std::string_view what;  ///< "Force given for a newton commanded"
+  const char* what = "";  ///< "Force given for a newton commanded"
   std::string_view unit;  ///< "N/N", "": none; of the numbers below.
   double expected = 0.0;  ///< By the profile.
   double least = 0.0, most = 0.0;
@@ -47,7 +47,7 @@ struct DailyCheckResult {
 };
 
 /// What is wanted of whoever stands at the device; sentences.
-[[nodiscard]] std::string_view daily_check_to_do() noexcept;
+[[nodiscard]] const char* daily_check_to_do() noexcept;
 
 /// The four of these marks that tell a turn best. Throws `core::Error` for fewer than four.
 [[nodiscard]] std::vector<Eigen::Vector3d> daily_marks_m(

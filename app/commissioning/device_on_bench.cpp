@@ -34,7 +34,8 @@ DeviceOnBench::DeviceOnBench(device::HapticDevice& device, device::Bench& bench,
                     .limits = how.limits,
                     .swing_n = how.swing_n,
                     .allow_no_realtime = plan.allow_no_realtime,
-                    .emergency_stop = plan.emergency_stop}) {
+                    .emergency_stop = plan.emergency_stop,
+                    .watcher = plan.watcher}) {
   run_.while_asking([&bench] {
     bench.take_hand_out();
     bench.clamp();

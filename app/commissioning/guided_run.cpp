@@ -72,6 +72,16 @@ struct GuidedRun::Implementation {
     return telemetry.value().fault;
   }
 
+  /// A sign of life, unless a window that should watch gives none. One thread at a time.
+  void beat() noexcept {
+    if (parameters.watcher != nullptr) {
+      const std::uint64_t count = parameters.watcher->count();
+      if (count == last_watched) return;
+      last_watched = count;
+    }
+    heartbeat.beat();
+  }
+
   /// Only whoever waits here beats: a program that hangs lets the force fade.
   core::Fault run(double duration_s, const std::function<void(const core::Sample&)>& take) {
     const auto num_ticks = std::llround(duration_s * parameters.rate_hz);
@@ -91,7 +101,7 @@ struct GuidedRun::Implementation {
     }
     samples.drain([](const core::Sample&) {});  // From before.
     while (num_taken < num_ticks) {
-      heartbeat.beat();
+      beat();
       if (stop_requested() && !stop.is_pressed()) stop.press();
       samples.drain(visit);
       const core::Fault found = fault();
@@ -111,6 +121,7 @@ struct GuidedRun::Implementation {
   core::EmergencyStop own_stop;
   core::EmergencyStop& stop;
   core::Heartbeat heartbeat;
+  std::uint64_t last_watched = 0;
   core::WatchdogState watched;
   core::SpscQueue<core::Sample> samples{kSampleCapacity};
   device::MotionGuide guide;
@@ -145,7 +156,7 @@ void GuidedRun::while_asking(const std::function<void()>& act) {
   // Who waits for a person cannot beat, nor see that the program is to stop.
   const std::jthread beating([&my](const std::stop_token& ends) {
     while (!ends.stop_requested()) {
-      my.heartbeat.beat();
+      my.beat();
       if (stop_requested() && !my.stop.is_pressed()) my.stop.press();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }

@@ -7,6 +7,7 @@
 #include "core/safety/emergency_stop.h"
 #include "core/safety/fault.h"
 #include "core/safety/force_limiter.h"
+#include "core/safety/heartbeat.h"
 #include "core/sample.h"
 #include "device/haptic_device.h"
 #include "device/motion_guide.h"
@@ -31,6 +32,9 @@ class GuidedRun {
     double swing_n = 10.0;
     bool allow_no_realtime = false;
     core::EmergencyStop* emergency_stop = nullptr;  ///< nullptr: one of its own.
+    /// Of a window: while it is silent, the force fades, for nobody could press the stop there.
+    /// nullptr: there is none. Outlives this.
+    const core::Heartbeat* watcher = nullptr;
   };
 
   /// Throws `core::Error` if loop or device cannot be started. The device outlives this.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/safety/emergency_stop.h"
+#include "core/safety/heartbeat.h"
 
 namespace jnd::app {
 
@@ -20,6 +21,8 @@ struct MeasuringPlan {
   std::uint64_t seed = 1;                 ///< Of where ways begin.
   bool allow_no_realtime = false;
   core::EmergencyStop* emergency_stop = nullptr;
+  /// Of the window in which somebody could press the stop; nullptr: it is at the terminal.
+  const core::Heartbeat* watcher = nullptr;
   std::string operator_name;  ///< Who measures; "": not said.
 };
 

@@ -66,7 +66,7 @@ analysis::TouchedMark touched_mark(DeviceOnBench& started, device::Bench& bench,
 analysis::NoiseFit measure_noise(device::HapticDevice& device, device::Bench& bench,
                                  const MeasuringPlan& plan, const StepProgress& progress) {
   DeviceOnBench started(device, bench, plan);
-  progress(0.0, "The device rests; nothing may move it.");
+  progress(0.0, tr_later("The device rests; nothing may move it."));
   const analysis::NoiseFit noise = noise_at_rest(started);
   started.run().stop();
   progress(1.0, "");
@@ -81,8 +81,7 @@ analysis::FrameFit measure_frame(device::HapticDevice& device, device::Bench& be
   std::vector<analysis::TouchedMark> touched;
   for (const Eigen::Vector3d& mark_m : marks_m) {
     progress(static_cast<double>(touched.size()) / static_cast<double>(marks_m.size()),
-             "Mark " + std::to_string(touched.size() + 1) + " of " +
-                 std::to_string(marks_m.size()) + " is touched.");
+             kMarkIsRead);
     touched.push_back(touched_mark(started, bench, mark_m));
   }
   started.run().stop();
@@ -99,7 +98,7 @@ analysis::DelayFit measure_delay(device::HapticDevice& device, device::Bench& be
   GuidedPushes pushes(started, plan);
   pushes.go(started.place_m(), kRounds, [&](int round) {
     progress(static_cast<double>(round) / kRounds,
-             "The device is pushed to and fro as it moves.");
+             tr_later("The device is pushed to and fro as it moves."));
   });
   started.run().stop();
   progress(1.0, "");
@@ -120,7 +119,8 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   const Eigen::Vector3d home_m = started.place_m();
   // How heavy and how late it is, roughly, for whoever guides it.
   GuidedPushes pushes(started, plan);
-  pushes.go(home_m, 3, [&](int) { progress(0.0, "The device is pushed to and fro."); });
+  pushes.go(home_m, 3,
+            [&](int) { progress(0.0, tr_later("The device is pushed to and fro.")); });
   // Along the axes of the workspace, as the device has them.
   const Eigen::Matrix3d to_device = frame.rotation.transpose();
   const Eigen::Vector3d up = to_device.col(2);
@@ -130,7 +130,7 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   double done = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     for (int axis = 0; axis < 3; ++axis) {
-      progress(done++ / num_parts, "The device goes to and fro, with nothing on it.");
+      progress(done++ / num_parts, tr_later("The device goes to and fro, with nothing on it."));
       for (const double speed_m_per_s : kSpeeds_m_per_s) {
         ways.go(home_m, to_device.col(axis), kHalfWay_m, speed_m_per_s, {});
       }
@@ -139,7 +139,7 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   std::vector<double> loads_kg = plan.loads_kg;
   loads_kg.insert(loads_kg.begin(), 0.0);
   for (const double load_kg : loads_kg) {
-    progress(done++ / num_parts, "The device lifts and lowers a load.");
+    progress(done++ / num_parts, tr_later("The device lifts and lowers a load."));
     started.act([&] { bench.hang(load_kg); });
     for (int pose = 0; pose < static_cast<int>(kHeights_m.size()); ++pose) {
       const Eigen::Vector3d middle_m = home_m + kHeights_m[static_cast<std::size_t>(pose)] * up;

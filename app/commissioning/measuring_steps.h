@@ -12,6 +12,7 @@
 #include "analysis/commissioning/stability_fit.h"
 #include "app/commissioning/device_on_bench.h"
 #include "app/commissioning/measuring_plan.h"
+#include "app/language/words.h"
 #include "device/bench.h"
 #include "device/haptic_device.h"
 
@@ -19,6 +20,9 @@ namespace jnd::app {
 
 /// The corners of a box of 20 cm about the home of a hand, 15 cm below the surface.
 [[nodiscard]] std::vector<Eigen::Vector3d> default_marks_m();
+
+/// What is told while somebody holds the tool at a mark.
+inline constexpr const char* kMarkIsRead = tr_later("A mark is touched and read.");
 
 /// Told how much of a step is done, 0 to 1, and what happens now.
 using StepProgress = std::function<void(double done, const std::string& now)>;

@@ -77,6 +77,13 @@ std::vector<fs::path> profile_folders() {
   return folders;
 }
 
+fs::path folder_for_profile(const fs::path& given, const fs::path& record, bool is_simulated) {
+  if (!given.empty()) return given;
+  const std::vector<fs::path> folders = profile_folders();
+  if (is_simulated || folders.empty()) return record.parent_path() / ".";
+  return folders.back();
+}
+
 DeviceOfProfile device_of_profile(const std::string& name, double rate_hz) {
   const std::unique_ptr<device::HapticDevice> device = device::make_device(name, rate_hz);
   return {.name = name,

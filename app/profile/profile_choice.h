@@ -16,6 +16,12 @@ namespace jnd::app {
 /// `devices` in the user's XDG_CONFIG_HOME/jnd, else in ~/.config/jnd.
 [[nodiscard]] std::vector<std::filesystem::path> profile_folders();
 
+/// Where a profile is written: the folder that is given, else where sessions look for it; of a
+/// simulated device, which needs none, beside the record of its measurements.
+[[nodiscard]] std::filesystem::path folder_for_profile(const std::filesystem::path& given,
+                                                       const std::filesystem::path& record,
+                                                       bool is_simulated);
+
 /// What is known of a device before it is open.
 struct DeviceOfProfile {
   std::string name;  ///< As after `--device`, for messages.
@@ -30,7 +36,7 @@ struct DeviceOfProfile {
 struct FoundProfile {
   /// The one measured last, then the one checked last; of the same day, most often.
   std::optional<KnownProfile> known;
-  std::string problem;                ///< Why it is not to be used, a sentence; "" if it is.
+  std::string problem;  ///< Why it is not to be used, a sentence; "" if it is.
   /// Others that fit, files that cannot be read: sentences.
   std::vector<std::string> remarks;
 };

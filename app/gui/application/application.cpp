@@ -20,13 +20,14 @@ Application::Application(WindowRequest request, std::function<void()> wake)
     : request_(std::move(request)),
       wake_(std::move(wake)),
       study_(wake_),
-      start_(*this, recent_),
+      start_(*this, recent_, request_),
       prepare_(*this, study_, request_),
       session_(*this, study_, request_.allow_no_realtime,
                request_.resume_session ? request_.device_profile.string() : ""),
       sessions_(*this, study_),
       results_(*this, study_),
       study_screen_(*this, study_),
+      device_(*this, study_, request_),
       participant_stop_(ParticipantStop::key_named(request_.participant_stop),
                         request_.participant_holds ? ParticipantStop::Way::kHold
                                                    : ParticipantStop::Way::kPress) {
@@ -72,6 +73,8 @@ void Application::picture_saved(const fs::path& file, const std::string& problem
 void Application::escape() noexcept {
   if (session_.is_live()) {
     session_.press_stop();
+  } else if (shows(device_)) {
+    device_.press_stop();
   } else {
     prepare_.press_stop();
   }
@@ -96,6 +99,7 @@ void Application::end_soon() {
   if (session_.is_live()) {
     session_.leave_and_close(as_is("the program was told to end"));
   } else {
+    device_.leave_off();
     closed_ = true;
   }
 }
@@ -104,6 +108,7 @@ void Application::ask_to_close() {
   if (session_.is_live()) {
     session_.ask_to_close();
   } else {
+    device_.leave_off();  // What was measured is on disk.
     closed_ = true;
   }
 }

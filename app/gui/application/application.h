@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/command_line/open_window.h"
+#include "app/gui/application/device_screen.h"
 #include "app/gui/application/open_study.h"
 #include "app/gui/application/prepare_screen.h"
 #include "app/gui/application/results_screen.h"
@@ -38,8 +39,11 @@ class Application final : private ScreenHost {
 
   // What the window asks and tells.
   [[nodiscard]] const char* view_name() const noexcept { return screen_->name(); }
-  /// A session is under way: frames at the pace of its pictures, and a heartbeat.
-  [[nodiscard]] bool is_live() const noexcept { return session_.is_live(); }
+  /// A session is under way, or a device moves: frames at the pace of its pictures, and a
+  /// heartbeat.
+  [[nodiscard]] bool is_live() const noexcept {
+    return session_.is_live() || device_.is_live();
+  }
   [[nodiscard]] bool works() const noexcept;
   /// Looks at what changes beside the window: once a second or more often. True if a frame
   /// should show it.
@@ -65,6 +69,7 @@ class Application final : private ScreenHost {
   void beat() noexcept {
     keep_stopped();
     session_.beat();
+    device_.beat();
   }
   /// Of the mouse, logical pixels, whenever it moves.
   void cursor(float x, float y) noexcept { session_.cursor(x, y); }
@@ -107,8 +112,9 @@ class Application final : private ScreenHost {
   SessionsScreen sessions_;
   ResultsScreen results_;
   StudyScreen study_screen_;
-  const std::vector<Screen*> screens_ = {&start_,    &prepare_, &session_,
-                                         &sessions_, &results_, &study_screen_};
+  DeviceScreen device_;
+  const std::vector<Screen*> screens_ = {&start_,   &prepare_,      &session_, &sessions_,
+                                         &results_, &study_screen_, &device_};
   Screen* screen_ = &start_;  ///< That stands in the window.
 
   ParticipantStop participant_stop_;

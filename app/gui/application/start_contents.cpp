@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/language/words.h"
+#include "app/operator/device_look.h"
 #include "app/operator/study_outline.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
@@ -88,7 +89,8 @@ FolderEntry::Kind kind_of_study(const fs::path& folder) {
 
 }  // namespace
 
-StartModel look_around(const RecentStudies& recent, WorkControl& control) {
+StartModel look_around(const RecentStudies& recent, const std::string& device,
+                       const std::string& profile, WorkControl& control) {
   StartModel model{.shipped = shipped_studies(), .version = JND_VERSION};
   for (const RecentStudy& study : recent.list()) {
     control.stop_if_cancelled();
@@ -96,6 +98,7 @@ StartModel look_around(const RecentStudies& recent, WorkControl& control) {
   }
   tell_namesakes_apart(model.studies);
   model.machine = look_at_machine();
+  model.machine.push_back(waiting_device_line(device, profile));
   return model;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/gui/views/start_view.h"
@@ -9,9 +10,10 @@
 
 namespace jnd::app::gui {
 
-/// What the start view shows: the studies opened lately, the shipped ones, the machine. Reads
-/// every study, so not on the thread of the window.
-[[nodiscard]] StartModel look_around(const RecentStudies& recent, WorkControl& control);
+/// What the start view shows: the studies opened lately, the shipped ones, the machine, the
+/// device that waits and its profile. Reads every study, so not on the thread of the window.
+[[nodiscard]] StartModel look_around(const RecentStudies& recent, const std::string& device,
+                                     const std::string& profile, WorkControl& control);
 
 /// Folders and study files in a folder, folders of studies first and their backups next;
 /// nothing of one that cannot be read.

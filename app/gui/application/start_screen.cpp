@@ -1,5 +1,6 @@
 #include "app/gui/application/start_screen.h"
 
+#include "app/gui/application/device_screen.h"
 #include "app/gui/application/start_contents.h"
 #include "app/language/words.h"
 #include "app/operator/study_folder.h"
@@ -13,7 +14,10 @@ namespace fs = std::filesystem;
 void StartScreen::show() {
   state_.new_folder.clear();
   task_ = std::make_unique<BackgroundTask<StartModel>>(
-      [recent = recent_](WorkControl& control) { return look_around(recent, control); },
+      [recent = recent_, device = waiting_device(request_),
+       profile = request_.device_profile.string()](WorkControl& control) {
+        return look_around(recent, device, profile, control);
+      },
       host_.wake());
 }
 
@@ -31,6 +35,8 @@ void StartScreen::draw(Ui& ui) {
                           result.create->folder);
       host_.open(result.create->folder);
     });
+  } else if (result.device) {
+    host_.go_to(StudyTab::kDevice);
   } else if (result.start_tour) {
     host_.attempt(tr("The tour cannot be started"), [this] { start_tour(); });
   }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "app/command_line/open_window.h"
 #include "app/gui/application/screen.h"
 #include "app/gui/views/start_view.h"
 #include "app/operator/background_task.h"
@@ -12,8 +13,9 @@ namespace jnd::app::gui {
 /// Studies opened lately, the shipped ones, and a look at the machine.
 class StartScreen final : public Screen {
  public:
-  /// `recent` must outlive it.
-  StartScreen(ScreenHost& host, RecentStudies& recent) : host_(host), recent_(recent) {}
+  /// `request`: the device that the command line asks for. All outlive it.
+  StartScreen(ScreenHost& host, RecentStudies& recent, const WindowRequest& request)
+      : host_(host), recent_(recent), request_(request) {}
   [[nodiscard]] const char* name() const noexcept override { return "start"; }
   [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kStart; }
   void show() override;
@@ -25,6 +27,7 @@ class StartScreen final : public Screen {
 
   ScreenHost& host_;
   RecentStudies& recent_;
+  const WindowRequest& request_;
   StartModel model_;
   std::unique_ptr<BackgroundTask<StartModel>> task_;
   StartViewState state_;

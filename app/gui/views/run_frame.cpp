@@ -88,6 +88,8 @@ std::string stored_up_to(const SessionView& view) {
 
 }  // namespace
 
+float emergency_stop_width(const Ui& ui) { return ui.button_width(tr(kStopLabel), kStop); }
+
 bool draw_emergency_stop(Ui& ui) {
   Rect strip = ui.screen().take_top(kRunHeader);
   strip.take_right(kStopMargin);

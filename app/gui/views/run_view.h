@@ -75,6 +75,8 @@ struct RunViewResult {
 /// The button at the right of the header, to be drawn after any dialog: what is drawn below one
 /// cannot be used. True when it was pressed.
 [[nodiscard]] bool draw_emergency_stop(Ui& ui);
+/// How much of the header it takes.
+[[nodiscard]] float emergency_stop_width(const Ui& ui);
 
 /// Asks whether to leave a session that goes on, as when the window is being closed.
 void ask_to_leave(RunViewState& state);

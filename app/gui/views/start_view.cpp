@@ -158,8 +158,14 @@ void draw_tour(Ui& ui, Rect& column, StartViewResult& result) {
   }
 }
 
-void draw_machine(Ui& ui, Rect column, const StartModel& model) {
-  ui.heading(column.take_top(18, 10), tr("This machine"));
+void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult& result) {
+  Rect heading = column.take_top(18, 10);
+  const ButtonStyle device{.tone = Tone::kQuiet, .key = {letter('D')}};
+  const Rect button = heading.take_right(ui.button_width(tr("Device"), device), 12);
+  if (ui.button("device", {button.x, button.y - 8, button.width, 32}, tr("Device"), device)) {
+    result.device = true;
+  }
+  ui.heading(heading, tr("This machine"));
   constexpr float kLine = 34;
   const std::size_t count = std::max<std::size_t>(1, model.machine.size());
   Rect card = column.take_top(static_cast<float>(count) * kLine + 2 * 10);
@@ -212,7 +218,7 @@ StartViewResult draw_start_view(
   if (resumes > 0) left.take_top(resumes + kBetweenCards);
   draw_studies(ui, left, model, state, result);
   draw_tour(ui, right, result);
-  draw_machine(ui, right, model);
+  draw_machine(ui, right, model, result);
   draw_study_footer(ui, footer, tr("Version {}", model.version), "");
   if (state.dialog == StartViewState::Dialog::kNew) draw_new_dialog(ui, model, state, result);
   if (state.dialog == StartViewState::Dialog::kOpen) {

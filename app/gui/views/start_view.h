@@ -61,6 +61,7 @@ struct StartViewResult {
   };
   std::optional<New> create;
   bool start_tour = false;
+  bool device = false;  ///< Its view.
 };
 
 /// `entries_of` lists a folder, so that the view does no reading: once for each that is shown.

@@ -9,7 +9,7 @@
 
 namespace jnd::app::gui {
 
-enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy };
+enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy, kDevice };
 
 struct StudyTabLook {
   StudyTab tab;
@@ -18,6 +18,7 @@ struct StudyTabLook {
 };
 /// From the right.
 inline constexpr std::array kStudyTabs = {
+    StudyTabLook{StudyTab::kDevice, "tab_device", tr_later("Device"), '4'},
     StudyTabLook{StudyTab::kStudy, "tab_study", tr_later("Study"), '3'},
     StudyTabLook{StudyTab::kResults, "tab_results", tr_later("Results"), '2'},
     StudyTabLook{StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'},

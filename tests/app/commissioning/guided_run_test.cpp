@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -102,6 +103,26 @@ TEST(GuidedRun, TheForceStandsWhileSomebodyIsAskedAndIsGoneWhereTheyAct) {
   EXPECT_NO_THROW(run.run_for(0.1)) << "no heartbeat was lost";
   run.without_force([] { std::this_thread::sleep_for(std::chrono::milliseconds(600)); });
   EXPECT_NO_THROW(run.run_for(0.1)) << "and it is armed again";
+}
+
+TEST(GuidedRun, TheForceEndsWhileTheWindowThatHasTheStopIsSilent) {
+  TimedTwin twin;
+  core::Heartbeat window;
+  std::atomic<bool> is_alive = true;
+  const std::jthread drawing([&](const std::stop_token& ends) {
+    while (!ends.stop_requested()) {
+      if (is_alive) window.beat();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+  GuidedRun run(twin, {.allow_no_realtime = true, .watcher = &window});
+  run.arm();
+  run.order(kHold);
+  EXPECT_NO_THROW(run.run_for(0.6));
+  run.while_asking([] { std::this_thread::sleep_for(std::chrono::milliseconds(600)); });
+  EXPECT_NO_THROW(run.run_for(0.1)) << "also while somebody is asked";
+  is_alive = false;
+  EXPECT_THROW(run.run_for(1.0), core::Error);
 }
 
 TEST(GuidedRun, AnEmergencyStopEndsItAndNothingArmsItMeanwhile) {

@@ -51,7 +51,19 @@ TEST_F(ApplicationTest, EveryTabOfAStudyOpensItsScreen) {
   EXPECT_EQ(after({letter('3'), true}), "study");
   EXPECT_EQ(after({letter('2'), true}), "results");
   EXPECT_EQ(after({letter('1'), true}), "sessions");
+  EXPECT_EQ(after({letter('4'), true}), "device");
   EXPECT_EQ(after({letter('0'), true}), "start");
+}
+
+TEST_F(ApplicationTest, TheDeviceIsThereWithoutAStudy) {
+  open({});
+  EXPECT_EQ(after({letter('D')}), "device");
+  EXPECT_TRUE(ui_.drawn().shows("lumped"));
+  application_->escape();
+  draw();
+  EXPECT_TRUE(ui_.drawn().shows("The emergency stop is pressed."));
+  application_->ask_to_close();
+  EXPECT_TRUE(application_->closed());
 }
 
 TEST_F(ApplicationTest, AStudyFileIsShownWithoutAFolder) {

@@ -18,10 +18,10 @@ TEST(StartContents, StudiesOfOneTitleShowTheirFolders) {
   const RecentStudies recent(one.temporary() / "recent.json");
   recent.add(one.folder(), 1);
   WorkControl control;
-  EXPECT_EQ(look_around(recent, control).studies.at(0).summary, "no session yet");
+  EXPECT_EQ(look_around(recent, "lumped", "", control).studies.at(0).summary, "no session yet");
   create_study_folder(other.file(), other.folder());
   recent.add(other.folder(), 2);
-  const StartModel model = look_around(recent, control);
+  const StartModel model = look_around(recent, "lumped", "", control);
   ASSERT_EQ(model.studies.size(), 2U);
   for (const StartModel::Study& study : model.studies) {
     EXPECT_EQ(study.title, "Tiny");

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command_line/open_window.h"
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
+#include "app/gui/views/bench_view.h"
+#include "app/operator/operated_device.h"
+
+namespace jnd::app::gui {
+
+/// A device, outside of any session: what it is, its profile, its commissioning and checks.
+class DeviceScreen final : public Screen {
+ public:
+  /// `request`: the device that the command line asks for. All outlive it.
+  DeviceScreen(ScreenHost& host, const OpenStudy& study, const WindowRequest& request);
+  [[nodiscard]] const char* name() const noexcept override { return "device"; }
+  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kDevice; }
+  void show() override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override { return device_.works(); }
+
+  /// The device may move, or waits for an answer.
+  [[nodiscard]] bool is_live() const noexcept { return device_.is_live(); }
+  /// Any thread.
+  void press_stop() noexcept { device_.press_stop(); }
+  void beat() noexcept { device_.beat(); }
+  /// Ends what goes on; what was measured is kept.
+  void leave_off() { device_.leave_off(); }
+
+ private:
+  void act(const BenchViewResult& result);
+
+  ScreenHost& host_;
+  const OpenStudy& study_;
+  const WindowRequest& request_;
+  std::vector<BenchModel::Choice> choices_;
+  BenchViewState state_;
+  OperatedDevice device_;
+};
+
+/// The device that waits: the one asked for, else the first there is.
+[[nodiscard]] std::string waiting_device(const WindowRequest& request);
+
+}  // namespace jnd::app::gui

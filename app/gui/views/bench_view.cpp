@@ -1,0 +1,66 @@
+#include "app/gui/views/bench_view.h"
+
+#include <algorithm>
+
+#include "app/gui/views/bench_parts.h"
+#include "app/gui/views/layout.h"
+#include "app/gui/views/run_parts.h"
+#include "app/language/words.h"
+
+namespace jnd::app::gui {
+namespace {
+
+/// While it may move, nothing leads away from the stop.
+void draw_header(Ui& ui, const Rect& place, const BenchModel& model, bool may_move,
+                 BenchViewResult& result) {
+  ui.fill(place, Colour::kCard);
+  ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
+  Rect strip = place;
+  strip.take_left(20);
+  strip.take_right(20 + emergency_stop_width(ui), 12);
+  ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
+          {.font = Font::kLarge});
+  if (may_move) {
+    ui.text(strip, tr("The device may move: keep clear of it."), {.colour = Colour::kAmber});
+    return;
+  }
+  for (const StudyTabLook& tab : kStudyTabs) {
+    const bool leads_somewhere =
+        model.has_study || tab.tab == StudyTab::kStart || tab.tab == StudyTab::kDevice;
+    if (!leads_somewhere) continue;
+    const ButtonStyle style{.tone = Tone::kQuiet,
+                            .key = {.key = letter(tab.digit), .control = true},
+                            .selected = tab.tab == StudyTab::kDevice};
+    const Rect its = strip.take_right(ui.button_width(tr(tab.label), style));
+    if (ui.button(tab.name, its.middle(its.width, 36), tr(tab.label), style)) {
+      result.tab = tab.tab;
+    }
+  }
+}
+
+}  // namespace
+
+BenchViewResult draw_bench_view(Ui& ui, const BenchModel& model, BenchViewState& state) {
+  BenchViewResult result;
+  const DeviceWork work = model.device.work;
+  const bool may_move = work == DeviceWork::kMeasuring || work == DeviceWork::kChecking ||
+                        work == DeviceWork::kTryingForce;
+  Rect rest = ui.screen();
+  draw_header(ui, rest.take_top(kHeaderHeight), model, may_move, result);
+  const Rect footer = rest.take_bottom(kFooterHeight);
+  rest = rest.inset(kGap);
+  const Rect left = rest.take_left(std::clamp(rest.width * 0.38f, 330.0f, 560.0f), kGap);
+  draw_device_card(ui, left, model, state, result);
+  draw_work_card(ui, rest, model, state, result);
+  draw_study_footer(ui, footer,
+                    model.device.record.empty()
+                        ? std::string()
+                        : tr("Every measurement is kept in {}", model.device.record),
+                    "");
+  if (may_move) state.dialog = BenchViewState::Dialog::kNone;
+  draw_bench_dialog(ui, model, state, result);
+  result.stop = draw_emergency_stop(ui);
+  return result;
+}
+
+}  // namespace jnd::app::gui
