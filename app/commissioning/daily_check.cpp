@@ -176,19 +176,19 @@ void judge_frame(const DeviceProfile& profile, const analysis::FrameFit& found,
   const double open_rad = found.rotation_ci95_rad.maxCoeff();
   all.push_back(at_most(
       {.name = "turned_rad",
-       .what = tr_later("Turn of the frame since it was measured"),
+       .what = tr_later("Turn of the frame"),
        .unit = "rad",
        .found = {.value = turned_rad,
                  .ci95_low = std::max(0.0, turned_rad - open_rad),
                  .ci95_high = turned_rad + open_rad},
        .shown_scale = 57.29577951,
-       .shown_unit = "degrees"},
+       .shown_unit = "°"},
       0.0, kDailyTolerances.turned_rad + profile.frame.rotation_ci95_rad.value_or(0.0)));
   // Where the marks are, as they were touched, by either frame.
   const Eigen::Vector3d touched_m = found.rotation.transpose() * (middle_m - found.offset_m);
   const double shifted_m = (rotation * touched_m + offset_of(profile) - middle_m).norm();
   all.push_back(at_most({.name = "shifted_m",
-                         .what = tr_later("Shift of the frame, at the middle of the marks"),
+                         .what = tr_later("Shift of the frame"),
                          .unit = "m",
                          .found = as_it_is(shifted_m),
                          .shown_scale = 1e3,
@@ -199,7 +199,7 @@ void judge_frame(const DeviceProfile& profile, const analysis::FrameFit& found,
 void judge_force(const DeviceProfile& profile, const analysis::ForceFit& found,
                  std::vector<CheckedQuantity>& all) {
   all.push_back(around({.name = "gain",
-                        .what = tr_later("Force given for a newton commanded"),
+                        .what = tr_later("Gain of the force"),
                         .unit = "N/N",
                         .found = found.gain,
                         .shown_unit = "N/N"},

@@ -26,7 +26,7 @@ inline constexpr struct DailyTolerances {
 /// itself left less open than it is to decide.
 struct CheckedQuantity {
   std::string_view name;  ///< "gain", as `experiments::DailyCheck` has it.
-  const char* what = "";  ///< "Force given for a newton commanded"
+  const char* what = "";  ///< "Gain of the force"
   std::string_view unit;  ///< "N/N", "": none; of the numbers below.
   double expected = 0.0;  ///< By the profile.
   double least = 0.0, most = 0.0;

@@ -105,9 +105,8 @@ DeviceView::Check check_line(const experiments::DailyCheck& check) {
   std::string words = check.passed ? tr("passed") : tr("failed");
   if (check.gain) words += tr(" · gain {:.3f}", check.gain->value);
   if (check.damping_n_s_per_m) {
-    words += tr(" · damping {:.2f} N s/m", check.damping_n_s_per_m->value);
+    words += tr(" · {:.2f} N s/m", check.damping_n_s_per_m->value);
   }
-  if (check.turned_rad) words += tr(" · turned {:.2f}°", 57.29577951 * *check.turned_rad);
   return {.day = check.checked_on, .words = std::move(words), .passed = check.passed};
 }
 

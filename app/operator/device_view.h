@@ -69,6 +69,7 @@ struct DeviceView {
 
   /// Of the last work that ended; "": there is nothing to say.
   std::string outcome;
+  DeviceWork outcome_of = DeviceWork::kNone;
   bool outcome_is_good = true;
   struct CheckedLine {
     std::string what, expected, found;

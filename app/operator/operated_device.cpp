@@ -175,10 +175,12 @@ void OperatedDevice::begin(DeviceWork kind, const std::function<std::string()>& 
         DeviceView seen = look_at_device(device_, profile_, plan());
         const std::lock_guard lock(mutex_);
         const bool left = std::exchange(leaves_off_, false);
-        if (left && !is_good) outcome = tr("Stopped. What was measured before is kept.");
+        if ((left || emergency_stop_.is_pressed()) && !is_good)
+          outcome = tr("Stopped. What was measured before is kept.");
         seen.checked = std::move(view_.checked);
         seen.check_passed = view_.check_passed;
         seen.outcome = std::move(outcome);
+        seen.outcome_of = kind;
         seen.outcome_is_good = is_good;
         view_ = std::move(seen);
         if (own_press_ != 0) (void)emergency_stop_.release(std::exchange(own_press_, 0));

@@ -4,6 +4,7 @@
 
 #include "app/language/words.h"
 #include "app/operator/study_words.h"
+#include "app/session/fitting.h"
 #include "app/session/pseudonym.h"
 #include "device/haptic_device.h"
 #include "device/registry/device_registry.h"
@@ -41,6 +42,7 @@ void PrepareScreen::show() {
   }
   seed_ = request_.seed ? *request_.seed : seed_of(store);
   state_.fields = std::exchange(request_.fields, {});
+  state_.fitting = fitting_line(std::exchange(request_.fitting, {}));
   assign(store);
   state_.participant = request_.participant.empty() ? next_participants(store, 1).front()
                                                     : std::exchange(request_.participant, "");
@@ -115,7 +117,7 @@ void PrepareScreen::draw(Ui& ui) {
                            .pilot = state_.pilot,
                            .language = state_.language,
                            .fields = state_.fields,
-                           .fitting = std::exchange(request_.fitting, {})});
+                           .fitting = fitting_in(state_.fitting, tr("Fitting"))});
     });
   } else {
     host_.go_to(result.tab);

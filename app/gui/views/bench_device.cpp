@@ -23,15 +23,16 @@ void draw_block(Ui& ui, Rect& inside, const char* heading,
 
 void draw_profile_status(Ui& ui, Rect& inside, const PreflightLine& line) {
   ui.heading(inside.take_top(18, 6), tr("What a session would say"));
-  Rect first = inside.take_top(26, 4);
-  const float middle = first.y + 13;
+  const TextStyle found{.font = Font::kStrong, .colour = colour_of(line.status), .wrap = true};
+  Rect first = inside.take_top(ui.text_height(inside.width - 24, line.found, found), 4);
+  const float middle = first.y + ui.line_height(Font::kStrong) / 2;
   if (line.status == PreflightLine::Status::kOk) {
     ui.check(first.x + 7, middle, 14, Colour::kGreen);
   } else {
     ui.dot(first.x + 7, middle, 5, colour_of(line.status));
   }
   first.take_left(24);
-  ui.text(first, line.found, {.font = Font::kStrong, .colour = colour_of(line.status)});
+  ui.text(first, line.found, found);
   if (!line.remedy.empty()) {
     const TextStyle style{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
     ui.text(inside.take_top(ui.text_height(inside.width, line.remedy, style), 4), line.remedy,
@@ -52,8 +53,8 @@ void draw_checks(Ui& ui, Rect& inside, const std::vector<DeviceView::Check>& che
     } else {
       ui.dot(line.x + 6, middle, 4.5f, Colour::kRed);
     }
-    line.take_left(22);
-    ui.text(line.take_left(92, 8), checks[i].day, {.font = Font::kSmall});
+    line.take_left(18);
+    ui.text(line.take_left(78, 8), checks[i].day, {.font = Font::kSmall});
     ui.text(line, checks[i].words, {.font = Font::kSmall, .colour = Colour::kSoft});
   }
   if (checks.size() > kMost) {

@@ -210,7 +210,9 @@ void draw_pushed(Sheet& sheet, int axis) {
   };
   sheet.arrow(from_tool(0.25f), from_tool(1.0f), Colour::kAmber);
   sheet.arrow(from_tool(-0.25f), from_tool(-0.8f), Colour::kSoft);
-  sheet.words({from_tool(1.35f).x, from_tool(1.35f).y},
+  constexpr float kBeyond[] = {1.45f, 1.6f, 1.3f};
+  const Point label = from_tool(kBeyond[std::clamp(axis, 0, 2)]);
+  sheet.words({label.x, label.y},
               axis == 0   ? tr("right")
               : axis == 1 ? tr("away")
                           : tr("up"),

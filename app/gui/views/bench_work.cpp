@@ -14,6 +14,8 @@ namespace {
 using Page = BenchViewState::Page;
 
 constexpr float kButtons = 48;
+/// A drawing, however large the window.
+constexpr float kTallest = 440;
 constexpr std::array kStepNames = {tr_later("Noise"), tr_later("Frame"), tr_later("Force"),
                                    tr_later("Delay")};
 
@@ -77,7 +79,8 @@ void draw_step_strip(Ui& ui, const Rect& strip, const DeviceView& device,
 void draw_scene(Ui& ui, const Rect& place, const BenchPicture& picture,
                 const std::string& title, const std::string& words, const std::string& below) {
   Rect rest = place;
-  const Rect left = rest.take_left(std::min(place.width * 0.48f, place.height * 1.34f), 22);
+  Rect left = rest.take_left(std::min(place.width * 0.48f, place.height * 1.34f), 22);
+  left.height = std::min(left.height, 0.8f * left.width);
   ui.fill(left, Colour::kGround, 8);
   draw_bench_picture(ui, left.inset(8), picture);
   const TextStyle large{.font = Font::kLarge, .wrap = true};
@@ -127,8 +130,12 @@ void draw_under_way(Ui& ui, const Rect& place, const DeviceView& device,
              tr("Keep clear, with the stop at hand."));
 }
 
-void draw_outcome(Ui& ui, Rect& inside, const DeviceView& device) {
-  if (device.outcome.empty() || is_busy(device)) return;
+/// What came of the last work, on the page that began it.
+void draw_outcome(Ui& ui, Rect& inside, const DeviceView& device, Page page) {
+  const Page its = device.outcome_of == DeviceWork::kChecking      ? Page::kDaily
+                   : device.outcome_of == DeviceWork::kTryingForce ? Page::kForce
+                                                                   : Page::kCommission;
+  if (device.outcome.empty() || is_busy(device) || its != page) return;
   const TextStyle style{.font = Font::kSmall,
                         .colour = device.outcome_is_good ? Colour::kGreen : Colour::kRed,
                         .wrap = true};
@@ -164,15 +171,16 @@ void draw_release(Ui& ui, Rect bottom, BenchViewResult& result) {
                 release)) {
     result.release_stop = true;
   }
-  ui.text(bottom, tr("The emergency stop is pressed. Nothing begins before it is released."),
-          {.colour = Colour::kRed});
+  ui.text(bottom, tr("The emergency stop is pressed."),
+          {.font = Font::kStrong, .colour = Colour::kRed});
 }
 
 void draw_rehearsal(Ui& ui, Rect& bottom, const DeviceView& device, BenchViewState& state) {
   if (!device.is_simulated) return;
   const ButtonStyle style{
       .tone = Tone::kQuiet, .key = {letter('Q')}, .selected = state.rehearses};
-  const char* label = tr("Ask as a real one would");
+  const char* label = tr("Rehearse");
+  if (ui.button_width(label, style) > bottom.width) return;
   if (ui.button("rehearse", bottom.take_left(ui.button_width(label, style), 12), label,
                 style)) {
     state.rehearses = !state.rehearses;
@@ -204,7 +212,7 @@ void draw_commission_buttons(Ui& ui, Rect bottom, const DeviceView& device,
       }
     }
     const ButtonStyle again{.key = {letter('M')}, .enabled = can && !step.waits};
-    const char* label = tr("Measure again");
+    const char* label = tr("Again");
     if (ui.button("measure_again", bottom.take_right(ui.button_width(label, again), 12), label,
                   again)) {
       result.measure = which;
@@ -236,9 +244,10 @@ void draw_found(Ui& ui, const Rect& place, const std::vector<DeviceLine>& lines,
 void draw_commission(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& state) {
   draw_step_strip(ui, inside.take_top(44, 14), device, state);
   if (is_busy(device) && device.work != DeviceWork::kLooking) {
-    return draw_under_way(ui, inside.take_top(std::min(inside.height, 320.0f)), device, state);
+    return draw_under_way(ui, inside.take_top(std::min(inside.height, kTallest)), device,
+                          state);
   }
-  draw_outcome(ui, inside, device);
+  draw_outcome(ui, inside, device, state.page);
   const DeviceView::Step& step = device.steps[shown_step(device, state)];
   const bool is_measured = !step.measured_at.empty();
   std::string below;
@@ -248,18 +257,22 @@ void draw_commission(Ui& ui, Rect inside, const DeviceView& device, BenchViewSta
     below = device.record_problem;
   } else if (step.waits) {
     below = tr("A step before it has to be measured first.");
+  } else if (device.is_simulated) {
+    below =
+        tr("A simulated device does all of it by itself. To rehearse, let it ask as a real "
+           "one would.");
   }
   const float lines = static_cast<float>(step.found.size()) * 27.0f;
   const float room = is_measured ? inside.height - lines - 14 : inside.height;
-  draw_scene(ui, inside.take_top(std::clamp(room, 130.0f, 300.0f), 14),
+  draw_scene(ui, inside.take_top(std::clamp(room, 130.0f, kTallest), 14),
              picture_of_step(device, shown_step(device, state)), step.title, step.to_do, below);
   if (is_measured) draw_found(ui, inside, step.found, state);
 }
 
 void draw_checked(Ui& ui, const Rect& place, const DeviceView& device, BenchViewState& state) {
-  const std::vector<ColumnLook> columns = {{tr("Quantity"), 1.5f},
-                                           {tr("Found"), 1.25f, Align::kRight},
-                                           {tr("Passes within"), 0.95f, Align::kRight}};
+  const std::vector<ColumnLook> columns = {{tr("Quantity"), 1.3f},
+                                           {tr("Found"), 1.3f, Align::kRight},
+                                           {tr("Passes within"), 0.85f, Align::kRight}};
   Rect inside = ui.begin_scroll("found", place, state.found_height);
   const float top = inside.y;
   draw_table_head(ui, inside, columns);
@@ -287,14 +300,15 @@ void draw_checked(Ui& ui, const Rect& place, const DeviceView& device, BenchView
 
 void draw_daily(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& state) {
   if (is_busy(device) && device.work != DeviceWork::kLooking) {
-    return draw_under_way(ui, inside.take_top(std::min(inside.height, 320.0f)), device, state);
+    return draw_under_way(ui, inside.take_top(std::min(inside.height, kTallest)), device,
+                          state);
   }
-  draw_outcome(ui, inside, device);
+  draw_outcome(ui, inside, device, state.page);
   const bool has_result = !device.checked.empty();
   const float lines = 30 + static_cast<float>(device.checked.size()) * 27.0f;
   const float room = has_result ? inside.height - lines - 14 : inside.height;
   draw_scene(
-      ui, inside.take_top(std::clamp(room, 130.0f, 300.0f), 14),
+      ui, inside.take_top(std::clamp(room, 130.0f, kTallest), 14),
       {.scene = BenchPicture::Scene::kMarks, .marks_m = device.daily_marks_m},
       tr("Is the device still as its profile says?"),
       has_result && room < 200 ? "" : device.daily_to_do,
@@ -304,9 +318,10 @@ void draw_daily(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& s
 
 void draw_force(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& state) {
   if (is_busy(device) && device.work != DeviceWork::kLooking) {
-    return draw_under_way(ui, inside.take_top(std::min(inside.height, 320.0f)), device, state);
+    return draw_under_way(ui, inside.take_top(std::min(inside.height, kTallest)), device,
+                          state);
   }
-  draw_outcome(ui, inside, device);
+  draw_outcome(ui, inside, device, state.page);
   Rect strip = inside.take_top(42, 14);
   struct Look {
     const char *name, *label;
@@ -320,7 +335,7 @@ void draw_force(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& s
     const Rect its = strip.take_left(std::max(110.0f, ui.button_width(look.label, style)), 10);
     if (ui.button(look.name, its, look.label, style)) state.axis = axis;
   }
-  draw_scene(ui, inside.take_top(std::clamp(inside.height, 130.0f, 300.0f)),
+  draw_scene(ui, inside.take_top(std::clamp(inside.height, 130.0f, kTallest)),
              {.scene = BenchPicture::Scene::kPushed, .axis = state.axis},
              tr("Does it push the way it is told?"),
              tr("A soft spring holds the tool, and 0.5 N push it to and fro, through the loop "

@@ -5,6 +5,7 @@
 #include "app/gui/views/layout.h"
 #include "app/language/words.h"
 #include "app/operator/study_words.h"
+#include "app/session/fitting.h"
 #include "app/session/pseudonym.h"
 
 namespace jnd::app::gui {
@@ -26,6 +27,12 @@ std::string participant_problem(const PrepareModel& model, const std::string& pa
   return "";
 }
 
+/// Why nothing can be kept of how the device was fitted; "" if it can.
+std::string fitting_problem(const PrepareViewState& state) {
+  if (is_fitting(state.fitting)) return "";
+  return tr("Fitting: write glove=M, thumb=thin pad. Keys in small letters, each once.");
+}
+
 /// Why the session cannot start; "" if it can.
 std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
   std::string participant = participant_problem(model, state.participant);
@@ -35,6 +42,7 @@ std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
       return tr("Choose first: {}", in_language(field.question, model.languages.front()));
     }
   }
+  if (std::string fitting = fitting_problem(state); !fitting.empty()) return fitting;
   std::string failed;
   for (const PreflightLine& line : model.lines) {
     if (line.status == Status::kFailed) failed += (failed.empty() ? "" : ", ") + line.name;
@@ -173,6 +181,18 @@ void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSta
   }
 }
 
+/// How the device is fitted to this person, in the words of whoever fits it.
+void draw_fitting(Ui& ui, Rect& inside, PrepareViewState& state) {
+  ui.heading(inside.take_top(18, 6), tr("How the device was fitted"));
+  (void)ui.text_field("fitting", inside.take_top(46, 6), state.fitting,
+                      tr("glove=M, thumb=thin pad; may be left empty"));
+  const std::string problem = fitting_problem(state);
+  ui.text(inside.take_top(20, 16),
+          problem.empty() ? std::string(tr("Kept with the session, and with the points held."))
+                          : problem,
+          {.font = Font::kSmall, .colour = problem.empty() ? Colour::kSoft : Colour::kRed});
+}
+
 void draw_seed(Ui& ui, Rect place, const PrepareModel& model) {
   ui.heading(place.take_top(18, 6), tr("Seed of every order"));
   // Whoever knows the seed can draw the orders elsewhere.
@@ -257,6 +277,7 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   draw_languages(ui, both, model, state);
   draw_fields(ui, inside, model, state, result);
   draw_devices(ui, inside, model, state, result);
+  draw_fitting(ui, inside, state);
   state.session_height = inside.y - top;
   ui.end_scroll();
   draw_lines(ui, rest, model, state, result);

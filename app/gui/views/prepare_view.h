@@ -40,6 +40,7 @@ struct PrepareViewState {
   std::string device;
   std::string language;
   std::map<std::string, std::string> fields;  ///< Chosen so far: name to value.
+  std::string fitting;  ///< Typed: "glove=M, thumb=thin pad"; may be empty.
   float lines_height = 0, session_height = 0;
 };
 

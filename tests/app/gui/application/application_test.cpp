@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <thread>
 
 #include "app/environment.h"
 #include "app/gui/headless_ui.h"
@@ -60,6 +61,7 @@ TEST_F(ApplicationTest, TheDeviceIsThereWithoutAStudy) {
   EXPECT_EQ(after({letter('D')}), "device");
   EXPECT_TRUE(ui_.drawn().shows("lumped"));
   application_->escape();
+  while (application_->works()) std::this_thread::yield();
   draw();
   EXPECT_TRUE(ui_.drawn().shows("The emergency stop is pressed."));
   application_->ask_to_close();

@@ -177,6 +177,7 @@ TEST_F(BenchViewTest, AnotherDeviceIsChosenFromTheListOrByItsAddress) {
 
 TEST_F(BenchViewTest, EveryPageFitsOnASmallScreen) {
   HeadlessUi small(1024, 640);
+  device_.is_simulated = true;
   measure_up_to(4);
   for (const Page page : {Page::kCommission, Page::kDaily, Page::kForce}) {
     state_.page = page;
@@ -184,6 +185,11 @@ TEST_F(BenchViewTest, EveryPageFitsOnASmallScreen) {
     for (const Drawn::Widget& widget : small.drawn().widgets) {
       EXPECT_LE(widget.place.right(), 1024.5f) << widget.name;
       EXPECT_LE(widget.place.bottom(), 640.5f) << widget.name;
+      for (const Drawn::Widget& other : small.drawn().widgets) {
+        if (&other == &widget) continue;
+        const Rect both = widget.place.common(other.place);
+        EXPECT_LT(both.width * both.height, 1.0f) << widget.name << " on " << other.name;
+      }
     }
   }
 }

@@ -53,6 +53,15 @@ TEST_F(PrepareViewTest, AWarningForbidsNothing) {
   }
 }
 
+TEST_F(PrepareViewTest, HowTheDeviceWasFittedIsWrittenAsPairsOrNotAtAll) {
+  EXPECT_TRUE(after_key({Key::kEnter}).start) << "it may be left empty";
+  state_.fitting = "glove M";
+  EXPECT_FALSE(after_key({Key::kEnter}).start);
+  EXPECT_TRUE(ui_.drawn().shows("Fitting: write glove=M"));
+  state_.fitting = "glove=M, thumb = thin pad";
+  EXPECT_TRUE(after_key({Key::kEnter}).start);
+}
+
 TEST_F(PrepareViewTest, AFailureForbidsAndIsNamed) {
   model_.lines[0].status = Status::kFailed;
   EXPECT_FALSE(after_key({Key::kEnter}).start);
