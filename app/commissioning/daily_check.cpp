@@ -344,7 +344,7 @@ DailyCheckResult check_daily(device::HapticDevice& device, device::Bench& bench,
 std::string found_words(const CheckedQuantity& quantity) {
   const int decimals = shown_decimals(quantity);
   const double scale = quantity.shown_scale;
-  const std::string value = fmt::format("{:.{}f}", scale * quantity.found.value, decimals);
+  std::string value = fmt::format("{:.{}f}", scale * quantity.found.value, decimals);
   if (!(quantity.found.ci95_high > quantity.found.ci95_low)) return value;
   return value + fmt::format(" [{:.{}f}, {:.{}f}]", scale * quantity.found.ci95_low, decimals,
                              scale * quantity.found.ci95_high, decimals);

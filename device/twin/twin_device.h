@@ -107,7 +107,8 @@ class TwinDevice final : public HapticDevice {
 
 /// What follows `twin:`, "seed=7,gain=0.9": `seed` draws a device with faults, each other key
 /// sets one, and it is another device; "drifted_gain_ratio", "added_damping_n_s_per_m" and
-/// "turned_rad" change the same one, as if after it was measured. Throws `core::Error` naming what is wrong.
+/// "turned_rad" change the same one, as if after it was measured. Throws `core::Error` naming
+/// what is wrong.
 [[nodiscard]] TwinDevice::Parameters twin_parameters(std::string_view options);
 
 /// A device that nobody made well: everything about it is drawn.

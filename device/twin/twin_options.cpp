@@ -34,14 +34,14 @@ constexpr struct {
 constexpr struct {
   std::string_view key;
   void (*change)(Parameters& twin, double by);
-} kChanges[] = {
-    {"drifted_gain_ratio", [](Parameters& twin, double by) { twin.gain *= by; }},
-    {"added_damping_n_s_per_m",
-     [](Parameters& twin, double by) { twin.damping_n_s_per_m += by; }},
-    // On its table.
-    {"turned_rad", [](Parameters& twin, double by) {
-       twin.rotation = Eigen::AngleAxisd(by, Eigen::Vector3d::UnitZ()) * twin.rotation;
-     }}};
+} kChanges[] = {{"drifted_gain_ratio", [](Parameters& twin, double by) { twin.gain *= by; }},
+                {"added_damping_n_s_per_m",
+                 [](Parameters& twin, double by) { twin.damping_n_s_per_m += by; }},
+                // On its table.
+                {"turned_rad", [](Parameters& twin, double by) {
+                   twin.rotation =
+                       Eigen::AngleAxisd(by, Eigen::Vector3d::UnitZ()) * twin.rotation;
+                 }}};
 
 template <typename Number>
 Number number_in(std::string_view option, std::string_view text) {

@@ -292,8 +292,7 @@ const ParameterTable& daily_check_table() {
           optional(number_key("velocity_sd_m_per_s", "As in `noise`.", "m/s", {0.0, 100.0})),
           {.key = "passed",
            .kind = ValueKind::kBoolean,
-           .meaning =
-               "It was. Where the last check says `false`, the profile is not used."},
+           .meaning = "It was. Where the last check says `false`, the profile is not used."},
       }};
   return kTable;
 }

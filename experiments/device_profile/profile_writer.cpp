@@ -106,8 +106,8 @@ void print(const ordered_json& value, std::size_t indent, std::string& text) {
 }
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file) {
-  throw core::Error(file.string() + ": expected to write the device's profile, found: " +
-                    std::strerror(errno));
+  throw core::Error(file.string() +
+                    ": expected to write the device's profile, found: " + std::strerror(errno));
 }
 
 /// Writes and syncs a new file; false: there is one already.
@@ -194,8 +194,8 @@ void add_daily_check(const std::filesystem::path& file, const DailyCheck& check)
   std::error_code problem;
   const std::filesystem::path whole = std::filesystem::canonical(file, problem);
   if (problem) {
-    throw core::Error(file.string() + ": expected a device profile, found: " +
-                      problem.message());
+    throw core::Error(file.string() +
+                      ": expected a device profile, found: " + problem.message());
   }
   const ChangingProfiles alone(whole.parent_path());
   (void)read_device_profile(whole);  // Of an edited one the signature stays wrong.

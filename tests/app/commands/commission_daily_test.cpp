@@ -44,9 +44,8 @@ TEST_F(CommissionDailyTest, PassesAsCommissionedFailsOnceItHasChangedAndPassesAg
   EXPECT_EQ(num_failed, 1) << weaker.out;
   EXPECT_EQ(num_checks(), 2U);
   const std::vector<std::string> session = {
-      "run",          "short_tour", "--study",  "s.study",     "--participant",
-      "P01",          "--headless", "--device", "twin:seed=7", "--profile",
-      "twin_seed_7.device.json"};
+      "run",        "short_tour", "--study",     "s.study",   "--participant",          "P01",
+      "--headless", "--device",   "twin:seed=7", "--profile", "twin_seed_7.device.json"};
   const ProgramOutcome refused = jnd(session);
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_NE(refused.err.find("last daily check"), std::string::npos) << refused.err;
@@ -64,8 +63,8 @@ TEST_F(CommissionDailyTest, SaysWhatItLacks) {
   EXPECT_EQ(jnd({"commission", "twin:seed=7", "--daily", "--only", "noise"}).exit_code, 2);
   EXPECT_EQ(jnd({"commission", "twin:seed=7", "--profile", "x"}).exit_code, 2);
   ASSERT_EQ(jnd({"commission", "twin:seed=7", "--record", "record"}).exit_code, 0);
-  const ProgramOutcome foreign = jnd(
-      {"commission", "twin:seed=8", "--daily", "--profile", "twin_seed_7.device.json"});
+  const ProgramOutcome foreign =
+      jnd({"commission", "twin:seed=8", "--daily", "--profile", "twin_seed_7.device.json"});
   EXPECT_EQ(foreign.exit_code, 1);
   EXPECT_NE(foreign.err.find("seed-8"), std::string::npos) << foreign.err;
   EXPECT_EQ(num_checks(), 0U);

@@ -111,8 +111,8 @@ TEST(DailyCheckOfTwins, FindsADampingThatGrewByHalfANewtonSecondAMetre) {
     TwinDevice::Parameters twin = device::drawn_twin(seed);
     twin.damping_n_s_per_m += 0.5;
     const DailyCheckResult result = checked(twin, seed);
-    EXPECT_TRUE(has_failed(result, "damping_n_s_per_m"))
-        << seed << ":\n" << words_of_result(result);
+    EXPECT_TRUE(has_failed(result, "damping_n_s_per_m")) << seed << ":\n"
+                                                         << words_of_result(result);
     EXPECT_FALSE(result.passed());
   }
 }

@@ -117,8 +117,9 @@ TEST_F(ProfileChoiceTest, ADailyCheckIsAboutOneThatIsValidAlsoWhereTheLastOneFai
       return "refused: " + std::string(error.what());
     }
   };
-  EXPECT_TRUE(checked(device(), "").starts_with("refused: --device plugin:wam: expected a "
-                                                "profile of `wam` 17 to check it against"));
+  EXPECT_TRUE(checked(device(), "")
+                  .starts_with("refused: --device plugin:wam: expected a "
+                               "profile of `wam` 17 to check it against"));
   DeviceProfile profile = sound_profile();
   profile.checks.back().passed = false;
   const fs::path file = write(profile);
