@@ -17,6 +17,8 @@ namespace {
 constexpr double kGravity_m_per_s2 = 9.80665;
 /// Directions that are one line, to or fro.
 constexpr double kAlongRatio = 0.99;
+/// From which on one speed is another.
+constexpr double kOtherSpeedRatio = 1.3;
 
 /// Ordinary least squares.
 struct Regression {
@@ -73,7 +75,6 @@ double load_along_n(const GuidedWay& way, const Eigen::Vector3d& up) {
 /// Up and down with loads, and without at the same speeds.
 std::vector<GuidedWay> ways_of_loads(const std::vector<GuidedWay>& ways,
                                      const Eigen::Vector3d& up) {
-  constexpr double kAboutRatio = 1.2;
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
   for (const GuidedWay& way : ways) {
     if (way.load_n == 0.0) continue;
@@ -83,17 +84,29 @@ std::vector<GuidedWay> ways_of_loads(const std::vector<GuidedWay>& ways,
   std::vector<GuidedWay> chosen;
   std::copy_if(ways.begin(), ways.end(), std::back_inserter(chosen), [&](const GuidedWay& way) {
     return std::abs(way.direction.dot(up)) > kAlongRatio &&
-           way.speed_m_per_s > slowest / kAboutRatio &&
-           way.speed_m_per_s < fastest * kAboutRatio;
+           way.speed_m_per_s > slowest / kOtherSpeedRatio &&
+           way.speed_m_per_s < fastest * kOtherSpeedRatio;
   });
   return chosen;
 }
 
-enum LoadCoefficient : Eigen::Index { kUpwards, kLoad, kOpposing, kNumLoadCoefficients };
+/// The last one only where the loads were lifted at more than one speed.
+enum LoadCoefficient : Eigen::Index { kUpwards, kLoad, kOpposing, kOpposingSpeed };
 
-Eigen::Matrix<double, 1, kNumLoadCoefficients> load_row(const GuidedWay& way,
-                                                        const Eigen::Vector3d& up) {
-  return {-way.direction.dot(up), load_along_n(way, up), 1.0};
+/// `num_coefficients` as the regression has.
+Eigen::RowVectorXd load_row(const GuidedWay& way, const Eigen::Vector3d& up,
+                            Eigen::Index num_coefficients) {
+  Eigen::RowVector4d row(-way.direction.dot(up), load_along_n(way, up), 1.0, way.speed_m_per_s);
+  return row.head(num_coefficients);
+}
+
+Eigen::Index num_load_coefficients(const std::vector<GuidedWay>& of_loads) {
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  for (const GuidedWay& way : of_loads) {
+    slowest = std::min(slowest, way.speed_m_per_s);
+    fastest = std::max(fastest, way.speed_m_per_s);
+  }
+  return fastest > kOtherSpeedRatio * slowest ? kOpposingSpeed + 1 : kOpposing + 1;
 }
 
 /// Standard deviation of the gain of single poses, over the gain of all.
@@ -109,7 +122,7 @@ double gain_spread_ratio(const std::vector<GuidedWay>& of_loads, const Eigen::Ve
     others[kLoad] = 0.0;
     const double x = load_along_n(way, up);
     const double y = way.commanded_n - mass_per_gain_kg * way.acceleration_m_per_s2 -
-                     load_row(way, up).dot(others);
+                     load_row(way, up, others.size()).dot(others);
     poses[way.pose].xx += x * x;
     poses[way.pose].xy += x * y;
   }
@@ -239,8 +252,10 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
 ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
                    double mass_per_gain_kg, double load_uncertainty_ratio) {
   const std::vector<GuidedWay> of_loads = ways_of_loads(ways, up);
-  const auto loaded = regression_over(of_loads, kNumLoadCoefficients, mass_per_gain_kg,
-                                      [&](const GuidedWay& way) { return load_row(way, up); });
+  const Eigen::Index num_coefficients = num_load_coefficients(of_loads);
+  const auto loaded = regression_over(
+      of_loads, num_coefficients, mass_per_gain_kg,
+      [&](const GuidedWay& way) { return load_row(way, up, num_coefficients); });
   if (!loaded) refuse_ways();
   if (!(loaded->coefficients[kLoad] > 0.0)) {
     throw core::Error(
@@ -274,7 +289,10 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
   fit.damping_n_s_per_m = in_newtons(opposing.damping);
   fit.friction_n = in_newtons(opposing.friction);
   fit.hysteresis_n = opposing.friction;
-  fit.lifting_opposed_n = loaded->coefficients[kOpposing];
+  // At several speeds damping and friction stand for it.
+  if (num_coefficients == kOpposing + 1) {
+    fit.lifting_opposed_n = loaded->coefficients[kOpposing];
+  }
   for (const Measured& damping : opposing.damping_by_line) {
     fit.damping_by_axis_n_s_per_m.push_back(in_newtons(damping));
   }

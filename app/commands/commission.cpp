@@ -101,23 +101,6 @@ void print_step(CommissioningStep step, const CommissioningResults& results) {
   std::fflush(stdout);
 }
 
-/// For the files of the laboratory, beside the profile.
-analysis::ReportOutcome written_report(const CommissionOptions& options, const fs::path& record,
-                                       const fs::path& profile) {
-  analysis::ReportOutcome report =
-      write_commissioning_report({.record = record,
-                                  .profile = read_known_profile(profile),
-                                  .operator_name = options.operator_name,
-                                  .program_version = JND_VERSION,
-                                  .written_on = today(),
-                                  .out = report_folder_beside(profile),
-                                  .tools = analysis::installed_report_tools()});
-  for (const std::string& problem : report.problems) {
-    std::fprintf(stderr, "jnd: %s\n", problem.c_str());
-  }
-  return report;
-}
-
 void print_check(const CheckedQuantity& quantity) {
   fmt::print("  {:<6} {:<44} {} {}, expected {}\n", quantity.passed() ? "passed" : "FAILED",
              quantity.what, found_words(quantity), quantity.shown_unit,
@@ -248,19 +231,19 @@ int run_commission(const CommissionOptions& options) {
       print_step(step, commissioning.results());
     }
   }
-  std::string profile;
-  analysis::ReportOutcome report;
+  CommissioningFiles files;
   if (!commissioning.next_step() && (has_measured || !options.out.empty())) {
-    profile =
-        experiments::write_device_profile(
-            profile_of(commissioning, device->identity(), JND_VERSION),
-            folder_for_profile(options.out, options.record, device->capabilities().simulated))
-            .string();
-    report = written_report(options, commissioning.record(), profile);
-  }
-  if (!options.json && !profile.empty()) {
-    fmt::print("profile: {}\nreport: {}{}\n", profile, report.html.string(),
-               report.pdf.empty() ? "" : " and report.pdf");
+    files = write_commissioning_files(
+        commissioning, device->identity(),
+        folder_for_profile(options.out, options.record, device->capabilities().simulated),
+        JND_VERSION, today());
+    for (const std::string& problem : files.report.problems) {
+      std::fprintf(stderr, "jnd: %s\n", problem.c_str());
+    }
+    if (!options.json) {
+      fmt::print("profile: {}\nreport: {}{}\n", files.profile.string(),
+                 files.report.html.string(), files.report.pdf.empty() ? "" : " and report.pdf");
+    }
   }
   if (options.json) {
     nlohmann::ordered_json out = {{"device", options.device},
@@ -269,9 +252,9 @@ int run_commission(const CommissionOptions& options) {
                                   {"simulated", commissioning.device().can.simulated},
                                   {"record", commissioning.record().string()},
                                   {"complete", !commissioning.next_step().has_value()},
-                                  {"profile", profile},
-                                  {"report", report.html.string()},
-                                  {"report_pdf", report.pdf.string()},
+                                  {"profile", files.profile.string()},
+                                  {"report", files.report.html.string()},
+                                  {"report_pdf", files.report.pdf.string()},
                                   {"steps", results_json(commissioning.results())}};
     fmt::print("{}\n", json_text(out));
   }

@@ -67,7 +67,8 @@ ordered_json json_of(const analysis::ForceFit& fit) {
           {"damps_alike", fit.damps_alike},
           {"friction_n", measured_json(fit.friction_n)},
           {"hysteresis_n", measured_json(fit.hysteresis_n)},
-          {"lifting_opposed_n", fit.lifting_opposed_n.value_or(0.0)},
+          {"lifting_opposed_n", fit.lifting_opposed_n ? ordered_json(*fit.lifting_opposed_n)
+                                                      : ordered_json(nullptr)},
           {"residual_n", fit.residual_n},
           {"pose_spread_ratio", fit.pose_spread_ratio},
           {"num_ways", fit.num_ways}};
@@ -126,8 +127,8 @@ analysis::ForceFit force_in(const json& found) {
   fit.damps_alike = found.value("damps_alike", true);
   fit.friction_n = value("friction_n");
   fit.hysteresis_n = value("hysteresis_n");
-  if (found.contains("lifting_opposed_n")) {
-    fit.lifting_opposed_n = found.at("lifting_opposed_n").get<double>();
+  if (const json& opposed = found.value("lifting_opposed_n", json()); opposed.is_number()) {
+    fit.lifting_opposed_n = opposed.get<double>();
   }
   fit.residual_n = found.at("residual_n").get<double>();
   fit.pose_spread_ratio = found.at("pose_spread_ratio").get<double>();

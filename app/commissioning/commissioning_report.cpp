@@ -14,12 +14,14 @@
 #include "analysis/commissioning/single_mass.h"
 #include "analysis/report/commissioning_figures.h"
 #include "analysis/report/html_text.h"
+#include "app/commissioning/commissioned_profile.h"
 #include "app/commissioning/measured_quantities.h"
 #include "app/commissioning/report_chapters.h"
 #include "app/profile/profile_choice.h"
 #include "core/error.h"
 #include "core/storage/sha256.h"
 #include "experiments/device_profile/device_profile.h"
+#include "experiments/device_profile/profile_writer.h"
 
 namespace jnd::app {
 namespace {
@@ -380,6 +382,24 @@ fs::path report_folder_beside(const fs::path& profile) {
     free = folder / (name + "-" + std::to_string(number) + ".report");
   }
   return free;
+}
+
+CommissioningFiles write_commissioning_files(const Commissioning& commissioning,
+                                             const device::DeviceIdentity& identity,
+                                             const std::filesystem::path& folder,
+                                             const std::string& program_version,
+                                             const std::string& today) {
+  const std::filesystem::path profile = experiments::write_device_profile(
+      profile_of(commissioning, identity, program_version), folder);
+  return {
+      .profile = profile,
+      .report = write_commissioning_report({.record = commissioning.record(),
+                                            .profile = read_known_profile(profile),
+                                            .operator_name = commissioning.plan().operator_name,
+                                            .program_version = program_version,
+                                            .written_on = today,
+                                            .out = report_folder_beside(profile),
+                                            .tools = analysis::installed_report_tools()})};
 }
 
 }  // namespace jnd::app

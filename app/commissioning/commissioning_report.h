@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/report/report_document.h"
+#include "app/commissioning/commissioning.h"
 #include "app/commissioning/commissioning_record.h"
 #include "app/profile/known_profile.h"
 
@@ -46,6 +47,18 @@ struct CommissioningReportRequest {
 [[nodiscard]] std::optional<KnownProfile> profile_of_record(const std::filesystem::path& record,
                                                             const std::string& file,
                                                             const std::string& on_day);
+
+/// What a complete commissioning leaves: the profile in this folder, the report beside it.
+/// Throws as `profile_of`, `experiments::write_device_profile` and
+/// `write_commissioning_report`.
+struct CommissioningFiles {
+  std::filesystem::path profile;
+  analysis::ReportOutcome report;
+};
+[[nodiscard]] CommissioningFiles write_commissioning_files(
+    const Commissioning& commissioning, const device::DeviceIdentity& identity,
+    const std::filesystem::path& folder, const std::string& program_version,
+    const std::string& today);
 
 /// A folder for the report beside this profile that is not there yet: NAME.report for
 /// NAME.device.json, else with a number.

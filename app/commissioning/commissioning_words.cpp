@@ -25,9 +25,10 @@ constexpr std::array<StepWords, kCommissioningSteps.size()> kWords = {{
      tr_later("Leave the tool free to move by 10 cm all around. It is pushed to and fro by "
               "4 N.")},
     {"stability", tr_later("Stability, by sweeps and stimuli"),
-     tr_later("Leave the tool free to move by 25 cm all around, and keep away. It hums as it goes "
-              "to and fro, is drawn through thick fluids, and falls onto something solid that is "
-              "not there.")},
+     tr_later(
+         "Leave the tool free to move by 25 cm all around, and keep away. It hums as it goes "
+         "to and fro, is drawn through thick fluids, and falls onto something solid that is "
+         "not there.")},
 }};
 
 /// Three digits of what the interval leaves open.
@@ -96,12 +97,13 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
     case CommissioningStep::kDelay:
       if (!analysis::is_single_mass(*results.delay, *results.force)) {
         return {{tr_later("From a command until its force acts"),
-                 tr_later("not told: it gives way where it is pushed, and is no single mass"), ""}};
+                 tr_later("not told: it gives way where it is pushed, and is no single mass"),
+                 ""}};
       }
-      return {
-          {tr_later("From a command until its force acts"), with_interval(results.delay->delay_s, 1e3),
-           "ms"},
-          {tr_later("Mass, in newtons commanded"), with_interval(results.delay->mass_per_gain_kg), "kg"}};
+      return {{tr_later("From a command until its force acts"),
+               with_interval(results.delay->delay_s, 1e3), "ms"},
+              {tr_later("Mass, in newtons commanded"),
+               with_interval(results.delay->mass_per_gain_kg), "kg"}};
     case CommissioningStep::kForce: {
       const analysis::ForceFit& fit = *results.force;
       std::vector<FoundLine> lines = {
@@ -115,8 +117,8 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
       for (std::size_t axis = 1; !fit.damps_alike && axis < kAxes.size() &&
                                  axis < fit.damping_by_axis_n_s_per_m.size();
            ++axis) {
-        lines.push_back({kAxes[axis],
-                         with_interval(fit.damping_by_axis_n_s_per_m[axis]), "N s/m"});
+        lines.push_back(
+            {kAxes[axis], with_interval(fit.damping_by_axis_n_s_per_m[axis]), "N s/m"});
       }
       lines.push_back({tr_later("Dry friction"), with_interval(fit.friction_n), "N"});
       lines.push_back(
@@ -131,11 +133,12 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
           {tr_later("Stable in fluids up to"),
            fmt::format("{:.3g}{}", fit.viscosity_pa_s, fit.damping.is_beyond ? " or more" : ""),
            "Pa s"},
-          {tr_later("Where it would begin to swing"), fmt::format("{:.0f}", fit.damping.frequency_hz),
-           "Hz"},
+          {tr_later("Where it would begin to swing"),
+           fmt::format("{:.0f}", fit.damping.frequency_hz), "Hz"},
           {tr_later("Drawn without a fault through fluids up to"),
            fmt::format("{:.3g}", fit.quiet_viscosity_pa_s), "Pa s"},
-          {tr_later("Stable on solids up to"), fmt::format("{:.3g}", fit.stiffness_n_per_m), "N/m"}};
+          {tr_later("Stable on solids up to"), fmt::format("{:.3g}", fit.stiffness_n_per_m),
+           "N/m"}};
     }
   }
   return {};

@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "app/commissioning/commissioned_profile.h"
+#include "app/commissioning/commissioning_report.h"
 #include "app/commissioning/daily_check.h"
 #include "app/commissioning/force_test.h"
 #include "app/language/words.h"
@@ -255,10 +255,11 @@ void OperatedDevice::write_profile() {
     const Commissioning commissioning(
         usual_record(device_),
         {.name = device_, .identity = made->identity(), .can = made->capabilities()}, plan());
-    const std::filesystem::path file = experiments::write_device_profile(
-        profile_of(commissioning, made->identity(), JND_VERSION),
-        folder_for_profile({}, commissioning.record(), is_simulated));
-    return tr("The profile is written: {}", file.string());
+    const CommissioningFiles files = write_commissioning_files(
+        commissioning, made->identity(),
+        folder_for_profile({}, commissioning.record(), is_simulated), JND_VERSION, today());
+    return tr("The profile is written: {}, and a report: {}", files.profile.string(),
+              files.report.html.string());
   });
 }
 

@@ -272,6 +272,7 @@ BenchPicture picture_of_step(const DeviceView& view, std::size_t step) {
     case CommissioningStep::kForce:
       return {.scene = Scene::kHang};
     case CommissioningStep::kDelay:
+    case CommissioningStep::kStability:
       break;
   }
   return {.scene = Scene::kMoves};

@@ -17,7 +17,8 @@ constexpr float kButtons = 48;
 /// A drawing, however large the window.
 constexpr float kTallest = 440;
 constexpr std::array kStepNames = {tr_later("Noise"), tr_later("Frame"), tr_later("Force"),
-                                   tr_later("Delay")};
+                                   tr_later("Delay"), tr_later("Stability")};
+static_assert(kStepNames.size() == kCommissioningSteps.size());
 
 bool is_busy(const DeviceView& device) { return device.work != DeviceWork::kNone; }
 
@@ -48,7 +49,8 @@ void draw_pages(Ui& ui, Rect strip, const DeviceView& device, BenchViewState& st
 void draw_step_strip(Ui& ui, const Rect& strip, const DeviceView& device,
                      BenchViewState& state) {
   const std::size_t shown = shown_step(device, state);
-  const float width = (strip.width - 3 * 8) / 4;
+  const auto num_steps = static_cast<float>(device.steps.size());
+  const float width = (strip.width - (num_steps - 1) * 8) / num_steps;
   for (std::size_t i = 0; i < device.steps.size(); ++i) {
     const Rect cell{strip.x + static_cast<float>(i) * (width + 8), strip.y, width,
                     strip.height};
