@@ -102,4 +102,7 @@ struct FoundLine {
 [[nodiscard]] std::vector<FoundLine> found_in(CommissioningStep step,
                                               const CommissioningResults& results);
 
+/// To three digits and without a power of ten: "2120", "83.5".
+[[nodiscard]] std::string three_digits(double value);
+
 }  // namespace jnd::app

@@ -100,10 +100,10 @@ analysis::StabilityFit stability_in(const json& found) {
 
 analysis::FrameFit frame_in(const json& found) {
   analysis::FrameFit fit;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      fit.rotation(row, column) =
-          found.at("rotation").at(static_cast<std::size_t>(3 * row + column)).get<double>();
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      fit.rotation(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+          found.at("rotation").at(3 * row + column).get<double>();
     }
   }
   fit.offset_m = vector_in(found.at("offset_m"));

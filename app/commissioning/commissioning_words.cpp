@@ -44,6 +44,13 @@ std::string with_interval(const analysis::Measured& measured, double scale = 1.0
 
 }  // namespace
 
+std::string three_digits(double value) {
+  constexpr double kWhole = 100.0;
+  if (value < kWhole) return fmt::format("{:.3g}", value);
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return fmt::format("{:.0f}", step * std::round(value / step));
+}
+
 const StepWords& words_of(CommissioningStep step) noexcept {
   return kWords[static_cast<std::size_t>(step)];
 }
@@ -72,9 +79,9 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
   switch (step) {
     case CommissioningStep::kNoise:
       return {{tr_later("Noise of a position, one axis"),
-               with_interval(results.noise->position_sd_m, 1e6), "um"},
+               with_interval(results.noise->position_sd_m, 1e6), "µm"},
               {tr_later("Least step of a position"),
-               fmt::format("{:.3g}", 1e6 * results.noise->position_resolution_m), "um"},
+               fmt::format("{:.3g}", 1e6 * results.noise->position_resolution_m), "µm"},
               {tr_later("Noise of a velocity, one axis"),
                with_interval(results.noise->velocity_sd_m_per_s, 1e3), "mm/s"}};
     case CommissioningStep::kFrame: {
@@ -129,16 +136,14 @@ std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResul
     }
     case CommissioningStep::kStability: {
       const analysis::StabilityFit& fit = *results.stability;
-      return {
-          {tr_later("Stable in fluids up to"),
-           fmt::format("{:.3g}{}", fit.viscosity_pa_s, fit.damping.is_beyond ? " or more" : ""),
-           "Pa s"},
-          {tr_later("Where it would begin to swing"),
-           fmt::format("{:.0f}", fit.damping.frequency_hz), "Hz"},
-          {tr_later("Drawn without a fault through fluids up to"),
-           fmt::format("{:.3g}", fit.quiet_viscosity_pa_s), "Pa s"},
-          {tr_later("Stable on solids up to"), fmt::format("{:.3g}", fit.stiffness_n_per_m),
-           "N/m"}};
+      return {{tr_later("Stable in fluids up to"),
+               three_digits(fit.viscosity_pa_s) + (fit.damping.is_beyond ? " or more" : ""),
+               "Pa s"},
+              {tr_later("Where it would begin to swing"),
+               fmt::format("{:.0f}", fit.damping.frequency_hz), "Hz"},
+              {tr_later("Drawn without a fault through fluids up to"),
+               three_digits(fit.quiet_viscosity_pa_s), "Pa s"},
+              {tr_later("Stable on solids up to"), three_digits(fit.stiffness_n_per_m), "N/m"}};
     }
   }
   return {};

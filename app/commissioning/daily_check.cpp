@@ -154,7 +154,7 @@ void judge_noise(const DeviceProfile& profile, const analysis::NoiseFit& found,
                            .unit = "m",
                            .found = found.position_sd_m,
                            .shown_scale = 1e6,
-                           .shown_unit = "um"},
+                           .shown_unit = "µm"},
                           *expected_m, factor * *expected_m + step_m));
   }
   if (const auto expected_m_per_s = profile.noise.velocity_sd_m_per_s) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "device/stability.h"
 
@@ -53,10 +54,10 @@ class Swing {
 
 }  // namespace
 
-GuidedStimuli::GuidedStimuli(DeviceOnBench& started, const analysis::NoiseFit& noise,
+GuidedStimuli::GuidedStimuli(DeviceOnBench& started, analysis::NoiseFit noise,
                              const analysis::ForceFit& force)
     : started_(started),
-      noise_(noise),
+      noise_(std::move(noise)),
       friction_n_(std::max(0.0, force.friction_n.value) / force.gain.value),
       carrying_n_(-force.offset_n / force.gain.value),
       home_m_(started.place_m()) {}

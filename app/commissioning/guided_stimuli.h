@@ -11,7 +11,7 @@ namespace jnd::app {
 /// again afterwards, held where it then is.
 class GuidedStimuli {
  public:
-  GuidedStimuli(DeviceOnBench& started, const analysis::NoiseFit& noise,
+  GuidedStimuli(DeviceOnBench& started, analysis::NoiseFit noise,
                 const analysis::ForceFit& force);
 
   /// Drawn through a fluid of this damping along the device's x, and knocked: no fault of the

@@ -110,10 +110,9 @@ std::vector<MeasuredQuantity> stability_quantities(const analysis::StabilityFit&
       {"Thickest fluid that is stable",
        fmt::format("{:.3g}{}", fit.viscosity_pa_s, fit.damping.is_beyond ? " or more" : ""),
        "–", "Pa s"},
-      {"Thickest fluid without a fault of the loop",
-       fmt::format("{:.3g}", fit.quiet_viscosity_pa_s), "–", "Pa s"},
-      {"Hardest solid that is stable", fmt::format("{:.3g}", fit.stiffness_n_per_m), "–",
-       "N/m"}};
+      {"Thickest fluid without a fault of the loop", three_digits(fit.quiet_viscosity_pa_s),
+       "–", "Pa s"},
+      {"Hardest solid that is stable", three_digits(fit.stiffness_n_per_m), "–", "N/m"}};
 }
 
 bool is_no_single_mass(const CommissioningResults& results) {
@@ -186,13 +185,13 @@ std::vector<std::string> main_findings(const CommissioningResults& results) {
   if (results.has(CommissioningStep::kStability)) {
     const analysis::StabilityFit& stability = *results.stability;
     found.push_back(fmt::format(
-        "It is stable in fluids up to {:.3g} Pa s{} and on solids up to {:.3g} N/m.{}",
-        stability.viscosity_pa_s, stability.damping.is_beyond ? " or more" : "",
-        stability.stiffness_n_per_m,
+        "It is stable in fluids up to {} Pa s{} and on solids up to {} N/m.{}",
+        three_digits(stability.viscosity_pa_s), stability.damping.is_beyond ? " or more" : "",
+        three_digits(stability.stiffness_n_per_m),
         stability.quiet_viscosity_pa_s < stability.viscosity_pa_s
             ? fmt::format(" Its velocities are so noisy that the loop ends the force in fluids "
-                          "above {:.3g} Pa s.",
-                          stability.quiet_viscosity_pa_s)
+                          "above {} Pa s.",
+                          three_digits(stability.quiet_viscosity_pa_s))
             : std::string()));
   }
   if (is_no_single_mass(results)) {

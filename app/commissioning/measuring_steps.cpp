@@ -67,7 +67,7 @@ analysis::NoiseFit measure_noise(device::HapticDevice& device, device::Bench& be
                                  const MeasuringPlan& plan, const StepProgress& progress) {
   DeviceOnBench started(device, bench, plan);
   progress(0.0, tr_later("The device rests; nothing may move it."));
-  const analysis::NoiseFit noise = noise_at_rest(started);
+  analysis::NoiseFit noise = noise_at_rest(started);
   started.run().stop();
   progress(1.0, "");
   return noise;

@@ -37,7 +37,8 @@ TEST_F(DevicePicturesTest, OfADeviceThatIsCommissionedCheckedAndTried) {
   window_->use("leave_off");
   window_->wait_for("rehearse");
   window_->use("rehearse");
-  for (const char* next : {"Force, weight and friction", "Delay and mass"}) {
+  for (const char* next :
+       {"Force, weight and friction", "Delay and mass", "Stability, by sweeps and stimuli"}) {
     window_->use("measure");
     window_->wait_for_text(next);
   }
