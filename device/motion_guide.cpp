@@ -73,7 +73,8 @@ core::PointVectors MotionGuide::force_n(const core::HapticState& state,
          order.damping_n_s_per_m * (speed_m_per_s - state.tip_velocity_m_per_s[i]) + pulse_n);
   }
   const auto swept = static_cast<std::size_t>(order.sweep_point);
-  if (order.sweep_n != 0.0 && swept < shares_.size() && shares_[swept] > 0.0) {
+  if (order.sweep_n != 0.0 && order.sweep_ticks > 0 && swept < shares_.size() &&
+      shares_[swept] > 0.0) {
     force_n[swept][std::clamp(order.sweep_axis, 0, 2)] +=
         order.sweep_n * sweep_at(num_ticks_, order.sweep_ticks);
   }

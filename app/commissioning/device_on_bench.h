@@ -25,6 +25,10 @@ using GuideOrder = device::MotionGuide::Order;
 inline constexpr GuideOrder kSoftHold = {
     .stiffness_n_per_m = 40.0, .damping_n_s_per_m = 3.0, .is_on = true};
 
+/// That keeps up with ways under pushes, sweeps and stimuli.
+inline constexpr GuideOrder kFirmHold = {
+    .stiffness_n_per_m = 100.0, .damping_n_s_per_m = 10.0, .is_on = true};
+
 /// A device without a hand and its loop. Nothing moves it before `hold`.
 class DeviceOnBench {
  public:

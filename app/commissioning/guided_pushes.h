@@ -25,8 +25,6 @@ class GuidedPushes {
 
   static constexpr double kPush_s = 0.030, kHalfWay_m = 0.14, kSpeed_m_per_s = 0.15,
                           kGathering_s = 0.6;
-  static constexpr GuideOrder kFirmHold = {
-      .stiffness_n_per_m = 100.0, .damping_n_s_per_m = 10.0, .is_on = true};
 
   DeviceOnBench& started_;
   double period_s_;

@@ -11,8 +11,6 @@
 namespace jnd::app {
 namespace {
 
-constexpr GuideOrder kFirmHold = {
-    .stiffness_n_per_m = 100.0, .damping_n_s_per_m = 10.0, .is_on = true};
 /// Far above whatever the device reaches.
 constexpr double kNoSurface_m = 100.0;
 constexpr double kForever_s = 1e6;

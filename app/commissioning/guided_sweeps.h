@@ -32,8 +32,6 @@ class GuidedSweeps {
 
   static constexpr double kSweep_s = 0.128, kHalfWay_m = 0.14, kSpeed_m_per_s = 0.2,
                           kGathering_s = 0.4;
-  static constexpr GuideOrder kFirmHold = {
-      .stiffness_n_per_m = 100.0, .damping_n_s_per_m = 10.0, .is_on = true};
 
   DeviceOnBench& started_;
   double rate_hz_;

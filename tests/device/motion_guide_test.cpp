@@ -67,6 +67,16 @@ TEST(MotionGuide, ASweepWhereThereIsNoPointIsNone) {
   }
 }
 
+TEST(MotionGuide, ASweepOfNoTicksIsNone) {
+  MotionGuide guide(core::kAreaShareRatio);
+  for (const int num_ticks : {0, -4}) {
+    guide.order({.sweep_n = 3.0, .sweep_ticks = num_ticks, .is_on = true});
+    for (const Eigen::Vector3d& force_n : guide.force_n(at_rest(), kPeriod_s)) {
+      EXPECT_EQ(force_n, Eigen::Vector3d(Eigen::Vector3d::Zero())) << num_ticks;
+    }
+  }
+}
+
 TEST(MotionGuide, WhatPushesWithoutASpringForgetsWhereItWas) {
   MotionGuide guide(core::kAreaShareRatio);
   core::HapticState state = at_rest();
