@@ -54,6 +54,7 @@ inline experiments::DeviceProfile sound_profile(const std::string& model = "wam"
       .phantom_mass_kg = 0.2,
       .viscosity_pa_s = {.value = 400.0, .is_beyond_ladder = true},
       .stiffness_n_per_m = {.value = 3000.0, .is_beyond_ladder = false},
+      .quiet_viscosity_pa_s = 90.0,
       .force_limit_n = 8.0};
   profile.checks = {{.checked_on = "2026-11-24",
                      .gain = MeasuredValue{0.971, {0.95, 0.99}},
