@@ -124,6 +124,8 @@ TEST(ForceFit, DampingThatDiffersBetweenAxesIsThatOfTheFirst) {
   const ForceFit fit = fit_force(ways, up, kMassPerGain_kg, 0.0);
   EXPECT_FALSE(fit.damps_alike);
   EXPECT_TRUE(fit.damping_n_s_per_m.holds(truth.damping_n_s_per_m));
+  // One damping for all axes would leave much more open.
+  EXPECT_LT(fit.damping_n_s_per_m.ci95_high - fit.damping_n_s_per_m.ci95_low, 2.0);
   ASSERT_EQ(fit.damping_by_axis_n_s_per_m.size(), 3U);
   EXPECT_TRUE(fit.damping_by_axis_n_s_per_m[1].holds(10.0 * truth.damping_n_s_per_m));
   // What loads tell is as sure as before.
