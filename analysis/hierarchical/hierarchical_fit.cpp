@@ -340,6 +340,8 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   fit.log_likelihood = found.log_likelihood - structure.log_prior(found.parameters);
   fill_conditions(fit, all, structure, found, options);
   fill_differences(fit, found, options.link);
+  fit.influence = found.influence.topRows(num_conditions * (structure.has_places ? 2 : 1));
+  fit.people = all.participants;
   fill_correlation(fit, structure, found);
   const bool has_own_places = options.pse != HierarchicalPse::kCommon &&
                               (options.pse != HierarchicalPse::kReference || has_orders);

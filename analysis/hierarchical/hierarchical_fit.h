@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,10 @@ struct HierarchicalFit {
   std::vector<HierarchicalDifference>
       differences;  ///< Difference of each condition to the first.
   std::vector<HierarchicalPersonEstimate> participants;
+  /// How far each person, a column, moves the slope numbers of the conditions and, where they
+  /// are free, their place numbers: the parts of the sandwich that differences rest on.
+  Eigen::MatrixXd influence;
+  std::vector<std::string> people;       ///< Of its columns.
   std::optional<double> log_likelihood;  ///< Without binomial coefficients.
   std::string note;                      ///< What a reader has to know; "" if nothing.
 };

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "analysis/hierarchical/hierarchical_fit.h"
 #include "analysis/results/discrimination_answers.h"
 #include "analysis/results/magnitude_fits.h"
 #include "analysis/statistics/comparison.h"
+#include "analysis/statistics/effect_test.h"
+#include "analysis/statistics/multiplicity.h"
 #include "analysis/statistics/summary.h"
 
 namespace jnd::analysis {
@@ -66,6 +69,145 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
   // Production is answered with an intensity: the slope of ln I over ln S, 1 / exponent.
   own.plain = fit_log_estimation(logs).a;
   return own;
+}
+
+/// The answers in several blocks as if they were one.
+PlannedAnswers joined(const PlannedPerson& person, const std::vector<std::size_t>& places) {
+  PlannedAnswers all;
+  std::map<std::pair<double, double>, AnswerCount> counts;
+  for (const std::size_t place : places) {
+    for (const AnswerCount& count : person[place].counts) {
+      AnswerCount& sum = counts[{count.intensity, count.order}];
+      sum.intensity = count.intensity;
+      sum.order = count.order;
+      sum.num_yes += count.num_yes;
+      sum.num_trials += count.num_trials;
+    }
+    for (const auto& [x, values] : person[place].magnitudes) {
+      std::vector<double>& into = all.magnitudes[x];
+      into.insert(into.end(), values.begin(), values.end());
+    }
+  }
+  for (const auto& [key, count] : counts) all.counts.push_back(count);
+  return all;
+}
+
+/// A person's number in one condition of a contrast, as of `ConditionNumbers` of the results.
+std::optional<double> contrast_number(const PlannedAnalysis& analysis,
+                                      const PowerContrast& contrast,
+                                      const std::vector<std::size_t>& places,
+                                      const PlannedPerson& person) {
+  using experiments::ContrastMeasure;
+  const PlannedBlock& block = analysis.blocks[places.front()];
+  const PlannedAnswers answers = joined(person, places);
+  if (answers.counts.empty() && answers.magnitudes.empty()) return std::nullopt;
+  switch (contrast.measure) {
+    case ContrastMeasure::kWeberFraction: {
+      const OwnNumber own = own_number(analysis, block, answers);
+      return own.plain ? own.plain : own.corrected;
+    }
+    case ContrastMeasure::kPse: {
+      const std::optional<double> pse =
+          fit_psychometric(answers.counts, {.reference = block.reference,
+                                            .free_pse = true,
+                                            .by_order = true,
+                                            .intervals = false,
+                                            .solver = Solver::kNewton})
+              .pse;
+      if (!pse || !(*pse > 0.0)) return std::nullopt;
+      return std::log(*pse / block.reference);
+    }
+    case ContrastMeasure::kExponent:
+      if (block.quantity == PlannedQuantity::kProductionExponent) {
+        return fit_own_intensity_on_magnitude(answers.magnitudes).a;
+      }
+      return own_number(analysis, block, answers).plain;
+    case ContrastMeasure::kMatch:
+      return own_number(analysis, block, answers).plain;
+    case ContrastMeasure::kMagnitude: {
+      std::vector<double> means;
+      for (const auto& [x, mean] :
+           means_of(log_answers(answers.magnitudes, ZeroRule::kHalfSmallest).logs)) {
+        means.push_back(mean);
+      }
+      return summary_of(means).mean;
+    }
+    case ContrastMeasure::kResponseTime:
+      break;
+  }
+  return std::nullopt;
+}
+
+/// A person's own contrast.
+struct ContrastScore {
+  std::size_t group = 0;
+  double score = 0.0;
+};
+
+std::optional<ContrastScore> contrast_score(const PlannedAnalysis& analysis,
+                                            const PowerContrast& contrast,
+                                            const PlannedPerson& person,
+                                            const experiments::Levels& levels) {
+  const auto is_its = [&](const experiments::Levels& group) {
+    return std::ranges::all_of(group, [&](const auto& level) {
+      const auto own = levels.find(level.first);
+      return own != levels.end() && own->second == level.second;
+    });
+  };
+  const auto group = std::ranges::find_if(contrast.groups, is_its);
+  if (group == contrast.groups.end()) return std::nullopt;
+  ContrastScore score{.group = static_cast<std::size_t>(group - contrast.groups.begin())};
+  for (std::size_t at = 0; at < contrast.conditions.size(); ++at) {
+    const auto number = contrast_number(analysis, contrast, contrast.conditions[at], person);
+    if (!number) return std::nullopt;
+    score.score += contrast.weights[score.group][at] * *number;
+  }
+  return score;
+}
+
+/// By contrast, then by person.
+using ContrastScores = std::vector<std::vector<std::optional<ContrastScore>>>;
+
+/// The tests of all contrasts with the first `size` people, p values adjusted in their
+/// families.
+std::vector<PlannedTest> contrast_tests(const PlannedAnalysis& analysis,
+                                        const ContrastScores& scores, std::size_t size) {
+  std::vector<std::optional<EffectEstimate>> estimates;
+  std::map<std::string, std::vector<std::size_t>> families;
+  for (std::size_t at = 0; at < analysis.contrasts.size(); ++at) {
+    std::vector<std::vector<double>> by_group(analysis.contrasts[at].groups.size());
+    for (std::size_t person = 0; person < size; ++person) {
+      const std::optional<ContrastScore>& one = scores[at][person];
+      if (one) by_group[one->group].push_back(one->score);
+    }
+    estimates.push_back(contrast_estimate(by_group));
+    families[analysis.contrasts[at].family].push_back(at);
+  }
+  std::vector<std::optional<double>> adjusted(analysis.contrasts.size());
+  for (const auto& [family, members] : families) {
+    std::vector<std::optional<double>> p_values;
+    for (const std::size_t at : members) {
+      p_values.push_back(
+          estimates[at] ? std::optional(p_value_of(*estimates[at], analysis.contrasts[at].tail))
+                        : std::nullopt);
+    }
+    using experiments::Correction;
+    const Correction correction = analysis.contrasts[members.front()].correction;
+    if (correction == Correction::kHolm) p_values = holm_adjusted(p_values);
+    if (correction == Correction::kBonferroni) p_values = bonferroni_adjusted(p_values);
+    for (std::size_t i = 0; i < members.size(); ++i) adjusted[members[i]] = p_values[i];
+  }
+  std::vector<PlannedTest> tests;
+  for (std::size_t at = 0; at < analysis.contrasts.size(); ++at) {
+    const auto effect = estimates[at] ? std::optional(estimates[at]->effect) : std::nullopt;
+    tests.push_back({effect, adjusted[at]});
+    if (!analysis.contrasts[at].margin) continue;
+    tests.push_back({effect, estimates[at]
+                                 ? std::optional(equivalence_p_value(
+                                       *estimates[at], *analysis.contrasts[at].margin))
+                                 : std::nullopt});
+  }
+  return tests;
 }
 
 /// Back from where it is normally distributed.
@@ -228,7 +370,9 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
   return names;
 }
 
-std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
+namespace {
+
+std::vector<PlannedName> pair_names(const PlannedAnalysis& analysis) {
   if (!analysis.compared) return {};
   const std::string pair = analysis.blocks[analysis.compared->first].name + " - " +
                            analysis.blocks[analysis.compared->second].name;
@@ -252,8 +396,29 @@ std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
   return names;
 }
 
+}  // namespace
+
+std::vector<PlannedName> test_names(const PlannedAnalysis& analysis) {
+  std::vector<PlannedName> names = pair_names(analysis);
+  for (const PowerContrast& contrast : analysis.contrasts) {
+    names.push_back({.name = contrast.name,
+                     .meaning = contrast.meaning,
+                     .alpha = contrast.alpha,
+                     .of_contrast = true,
+                     .is_ratio = contrast.is_ratio});
+    if (!contrast.margin) continue;
+    names.push_back({.name = contrast.name + ": equivalence",
+                     .meaning = "two one-sided tests against the smallest effect of interest",
+                     .alpha = contrast.alpha,
+                     .of_contrast = true,
+                     .is_ratio = contrast.is_ratio});
+  }
+  return names;
+}
+
 PlannedRun analyse_run(const PlannedAnalysis& analysis,
-                       const std::vector<PlannedPerson>& people) {
+                       const std::vector<PlannedPerson>& people,
+                       const std::vector<experiments::Levels>& levels) {
   std::vector<std::vector<OwnNumber>> numbers;
   for (const PlannedPerson& person : people) {
     std::vector<OwnNumber>& own = numbers.emplace_back();
@@ -261,9 +426,21 @@ PlannedRun analyse_run(const PlannedAnalysis& analysis,
       own.push_back(own_number(analysis, analysis.blocks[block], person[block]));
     }
   }
+  ContrastScores scores;
+  for (const PowerContrast& contrast : analysis.contrasts) {
+    auto& of_contrast = scores.emplace_back();
+    for (std::size_t person = 0; person < people.size(); ++person) {
+      of_contrast.push_back(
+          contrast_score(analysis, contrast, people[person],
+                         person < levels.size() ? levels[person] : experiments::Levels{}));
+    }
+  }
   PlannedRun run;
   for (const int size : analysis.sizes) {
     run.push_back(SizeAnalysis(analysis, people, numbers, size).result());
+    for (PlannedTest& test : contrast_tests(analysis, scores, static_cast<std::size_t>(size))) {
+      run.back().tests.push_back(std::move(test));
+    }
   }
   return run;
 }

@@ -8,6 +8,7 @@
 
 #include "analysis/data/magnitude_means.h"
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/planning/power_contrasts.h"
 #include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
@@ -37,14 +38,18 @@ struct PlannedAnalysis {
   std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
   bool free_pse = true;       ///< False: at the reference, as in blocks of two intervals.
   bool hierarchical = false;  ///< Also the hierarchical fit, which is a thousand times slower.
+  std::vector<PowerContrast> contrasts;  ///< Of the study file, in its order.
 };
 
 /// What the numbers of a `PlannedSize` are, in its order.
 struct PlannedName {
   std::string name;
   std::string meaning;
-  std::size_t block = 0;  ///< Of an estimate: its place in `blocks`.
-  bool quick = false;     ///< It stands for the hierarchical fit's, lapses left out.
+  std::size_t block = 0;     ///< Of an estimate: its place in `blocks`.
+  bool quick = false;        ///< It stands for the hierarchical fit's, lapses left out.
+  double alpha = 0.05;       ///< Of a test.
+  bool of_contrast = false;  ///< It tests a contrast that the study file plans.
+  bool is_ratio = false;     ///< Its difference is the logarithm of a ratio.
 };
 [[nodiscard]] std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis);
 /// The meaning of the test to plan by: that of the hierarchical fit, as in the results, or,
@@ -71,8 +76,10 @@ struct PlannedEstimate {
   Interval ci95;
 };
 struct PlannedTest {
-  std::optional<double> difference;  ///< In ln ln(1 + w), first minus second.
-  std::optional<double> p_value;     ///< Two-sided; none where the test is undefined.
+  /// In ln ln(1 + w), first minus second; of a contrast the effect, a ratio as its logarithm.
+  std::optional<double> difference;
+  /// Two-sided, of a contrast as planned and adjusted; none where the test is undefined.
+  std::optional<double> p_value;
 };
 
 /// How a study with that many participants came out.
@@ -96,8 +103,12 @@ using PlannedRun = std::vector<PlannedSize>;
 /// second one adds half an answer to everybody
 /// (`with_half_an_answer`), so that nobody is left out: more power, but where levels lie
 /// differently about two references that half moves their fractions differently.
-/// `people` are as many as the largest size. Not real time.
+/// `people` are as many as the largest size. `levels`: what each of them is in the factors that
+/// people differ in; only contrasts look at it. A contrast is Student's t of people's own
+/// contrasts, Welch's where there are groups, in the same numbers as the quick test, of Weber
+/// fractions those with half an answer added where there is no fit. Not real time.
 [[nodiscard]] PlannedRun analyse_run(const PlannedAnalysis& analysis,
-                                     const std::vector<PlannedPerson>& people);
+                                     const std::vector<PlannedPerson>& people,
+                                     const std::vector<experiments::Levels>& levels = {});
 
 }  // namespace jnd::analysis

@@ -12,14 +12,15 @@
 namespace jnd::analysis {
 namespace {
 
-PlannedPower power_of(const std::vector<PlannedRun>& runs, std::size_t size, std::size_t test) {
+PlannedPower power_of(const std::vector<PlannedRun>& runs, std::size_t size, std::size_t test,
+                      double alpha) {
   PlannedPower power{.num_runs = static_cast<std::int64_t>(runs.size())};
   double sum = 0.0;
   std::int64_t num_differences = 0;
   for (const PlannedRun& run : runs) {
     const PlannedTest& one = run[size].tests[test];
     power.num_undefined += one.p_value ? 0 : 1;
-    power.num_significant += one.p_value && *one.p_value < kPlannedLevel ? 1 : 0;
+    power.num_significant += one.p_value && *one.p_value < alpha ? 1 : 0;
     if (!one.difference) continue;
     sum += *one.difference;
     ++num_differences;
@@ -88,14 +89,14 @@ PlannedPrecision precision_of(const std::vector<PlannedRun>& runs, std::size_t s
 std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
                                             const std::vector<PlannedRun>& runs) {
   core::require(!runs.empty(), "runs", "a number >= 1", 0.0);
-  const std::size_t num_tests = test_names(analysis).size();
+  const std::vector<PlannedName> tests = test_names(analysis);
   const std::vector<PlannedName> estimates = estimate_names(analysis);
   std::vector<PlannedSummary> summaries;
   for (std::size_t size = 0; size < analysis.sizes.size(); ++size) {
     PlannedSummary& summary = summaries.emplace_back();
     summary.num_participants = analysis.sizes[size];
-    for (std::size_t test = 0; test < num_tests; ++test) {
-      summary.tests.push_back(power_of(runs, size, test));
+    for (std::size_t test = 0; test < tests.size(); ++test) {
+      summary.tests.push_back(power_of(runs, size, test, tests[test].alpha));
     }
     for (std::size_t estimate = 0; estimate < estimates.size(); ++estimate) {
       const std::size_t place = estimates[estimate].block;
@@ -171,7 +172,7 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
   const std::vector<PlannedName> tests = test_names(analysis);
   for (std::size_t place = 0; (null_hypothesis || alike) && place < tests.size(); ++place) {
     const PlannedPower& one = largest.tests[place];
-    if (one.power_low <= kTooOften) continue;
+    if (tests[place].of_contrast || one.power_low <= kTooOften) continue;
     doubts.push_back(tests[place].name + at + "it finds a difference where there is none in " +
                      percent_words(one.power) +
                      " of the studies, not in 5 %: the blocks are not measured alike, and this "

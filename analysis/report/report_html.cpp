@@ -1,6 +1,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
+#include "analysis/report/report_contrasts.h"
 #include "analysis/report/report_methods.h"
 #include "analysis/report/report_results.h"
 #include "analysis/results/number_words.h"
@@ -133,6 +134,7 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   HtmlText html;
   FigureChapters figure_chapters(html, figures, drawn, source.results);
   write_at_a_glance(html, source.results);
+  write_deviations(html, source.results);
   if (source.delivered != nullptr) {
     write_delivered(html, source.results, *source.delivered, titles);
     figure_chapters.write_section("delivered");
@@ -142,6 +144,7 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   write_participants(html, chapters);
   write_data_quality(html, chapters);
   html.heading(2, "Results");
+  write_contrasts(html, source.results);
   for (const ResultsSection& section : source.results.sections) {
     html.heading(3, section_title(titles, section.name));
     write_section(html, source.data, source.results, section);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/report/report_contrasts.h"
 #include "analysis/report/report_published.h"
 #include "analysis/results/number_words.h"
 #include "analysis/results/test_families.h"
@@ -303,6 +304,7 @@ void write_at_a_glance(HtmlText& html, const StudyResults& results) {
   const ResultsSection comparisons = primary_comparisons(results);
   if (primary.rows.empty() && published.rows.empty()) return;
   html.heading(2, "At a glance");
+  write_contrast_sentences(html, results);
   if (!primary.rows.empty()) html.table(primary);
   if (!comparisons.comparisons.empty()) write_comparisons(html, comparisons);
   if (!published.rows.empty()) html.table(published);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/data/cell_arms.h"
 #include "analysis/data/running_numbers.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/test_families.h"
@@ -146,20 +147,6 @@ void add_effect(ResultsSection& section, const StudyData& data, const BlockDesig
            values, effect.unit);
   add_tests(section, name + " against 0", one_sample_t_test(values),
             wilcoxon_test(values, std::vector<double>(values.size(), 0.0)));
-}
-
-/// "priming=primed;method_order=estimation,production" by counterbalance.
-std::map<std::string, std::string> arms_of(const std::string& cells) {
-  std::map<std::string, std::string> arms;
-  for (std::size_t begin = 0; begin < cells.size();) {
-    const std::size_t end = std::min(cells.find(';', begin), cells.size());
-    const std::string cell = cells.substr(begin, end - begin);
-    if (const std::size_t equals = cell.find('='); equals != std::string::npos) {
-      arms[cell.substr(0, equals)] = cell.substr(equals + 1);
-    }
-    begin = end + 1;
-  }
-  return arms;
 }
 
 /// A parameter that every participant has for themselves, on the scale where people spread

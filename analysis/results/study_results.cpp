@@ -87,7 +87,8 @@ StudyResults results_of(const StudyData& data, const Published& published,
                        .citation = published.citation,
                        .num_participants = static_cast<int>(data.participants.size()),
                        .sessions = data.sessions,
-                       .losses = level_losses(data)};
+                       .losses = level_losses(data),
+                       .contrasts = planned_contrasts(data)};
   const std::vector<BlockDesign> estimations = blocks_that(&BlockDesign::estimates, data);
   const std::vector<BlockDesign> productions = blocks_that(&BlockDesign::produces, data);
   const std::vector<BlockDesign> discriminations = comparing_blocks(data);
@@ -128,7 +129,11 @@ StudyResults results_of(const StudyData& data, const Published& published,
   mark_primary(results, data);
   add_without_affected(results, data, options);
   mark_movement_family(results.sections);
-  mark_pairs_family(results.sections, !options.compared.empty());
+  if (data.written.contrasts.empty()) {
+    mark_pairs_family(results.sections, !options.compared.empty());
+  } else {
+    mark_pairs_beside_plan(results.sections);
+  }
   adjust_by_family(results.sections);
   add_published(results, data, published, options);
   for (ResultsSection& section : results.sections) {

@@ -6,6 +6,8 @@
 
 #include "analysis/data/compared_blocks.h"
 #include "analysis/data/study_data.h"
+#include "analysis/results/deviation.h"
+#include "analysis/results/planned_contrasts.h"
 #include "analysis/results/predictive.h"
 #include "analysis/results/published.h"
 #include "analysis/statistics/comparison.h"
@@ -132,7 +134,9 @@ struct StudyResults {
   std::string citation;             ///< Of the published values; "" without any.
   int num_participants = 0;
   MissingSessions sessions;
-  std::vector<LevelLoss> losses;  ///< Losses at every level of every block.
+  std::vector<LevelLoss> losses;          ///< Losses at every level of every block.
+  PreregisteredStudy preregistration;  ///< Filled by whoever has the study folder.
+  std::vector<ContrastResult> contrasts;  ///< That the study file plans, in its order.
   std::vector<ResultsSection> sections;
   Predictive predictive;  ///< What published values are compared with.
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "analysis/statistics/multiplicity.h"
 
@@ -28,7 +29,21 @@ void mark_pairs_family(std::vector<ResultsSection>& sections, bool were_asked_fo
   }
 }
 
+void mark_pairs_beside_plan(std::vector<ResultsSection>& sections) {
+  constexpr std::string_view kPrimary = " (primary)";
+  for (ResultsSection& section : sections) {
+    for (NamedComparison& named : section.comparisons) {
+      if (!named.primary) continue;
+      named.primary = false;
+      named.family = kBesidePlanFamily;
+      const std::size_t at = named.name.find(kPrimary);
+      if (at != std::string::npos) named.name.erase(at, kPrimary.size());
+    }
+  }
+}
+
 std::string family_note(const NamedComparison& named) {
+  if (named.family == kBesidePlanFamily) return kBesidePlanNote;
   if (named.family == kPairsFamily) return kPairsNote;
   return named.family == kAskedFamily ? kAskedNote : "";
 }

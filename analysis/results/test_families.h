@@ -11,7 +11,7 @@ namespace jnd::analysis {
 inline constexpr char kEffectsFamily[] = "exploratory, effects within and between people";
 inline constexpr char kTrialTrendsFamily[] = "exploratory, changes over the trials";
 /// Pairs of blocks that nobody chose, and those that somebody chose when the results were
-/// computed. No study file plans a comparison yet, so neither is called planned.
+/// computed. What is planned stands in the study file as a contrast, so neither is.
 inline constexpr char kPairsFamily[] = "exploratory, every two blocks";
 inline constexpr char kAskedFamily[] = "asked for with --compare, not planned in the study";
 /// What that means for their p values, a sentence each, for who reads the numbers.
@@ -23,6 +23,11 @@ inline constexpr char kAskedNote[] =
     "study file plans none, so their p values are those of planned tests only if the choice "
     "was "
     "made before anybody saw the data.";
+/// Pairs of blocks of a study that plans contrasts, and not these.
+inline constexpr char kBesidePlanFamily[] = "exploratory, beside the planned contrasts";
+inline constexpr char kBesidePlanNote[] =
+    "The study file plans contrasts, which stand first; comparisons of every two blocks beside "
+    "them are exploratory.";
 inline constexpr char kMovementFamily[] = "exploratory, movement";
 
 /// Puts the paired tests of how people moved into one family; the unpaired ones, of the same
@@ -33,7 +38,12 @@ void mark_movement_family(std::vector<ResultsSection>& sections);
 /// `kPairsFamily`.
 void mark_pairs_family(std::vector<ResultsSection>& sections, bool were_asked_for);
 
-/// `kPairsNote` or `kAskedNote`, whichever belongs to the comparison; "" for all others.
+/// The same tests of a study that plans contrasts: none of them is primary, and they are a
+/// family of their own.
+void mark_pairs_beside_plan(std::vector<ResultsSection>& sections);
+
+/// `kPairsNote`, `kAskedNote` or `kBesidePlanNote`, whichever belongs to the comparison; "" for
+/// all others.
 [[nodiscard]] std::string family_note(const NamedComparison& named);
 
 /// Adjusts the tests of each family by Holm (1979), whichever sections they stand in. One test

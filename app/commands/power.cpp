@@ -11,6 +11,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/commands/compare_option.h"
+#include "app/commands/effect_option.h"
 #include "app/commands/participant_list.h"
 #include "app/planning/power_files.h"
 #include "app/planning/power_study.h"
@@ -25,6 +26,7 @@ struct PowerOptions {
   std::string participants;
   std::int64_t runs = 1000;
   std::string laboratory = "thesis";
+  std::vector<std::string> effects;
   std::string compare;
   std::uint64_t seed = 1;
   int jobs = 2;
@@ -69,7 +71,7 @@ int run_power(const PowerOptions& options) {
   const experiments::Study study =
       experiments::read_study(user_or_shipped(options.file, "protocols"));
   const experiments::Laboratory laboratory =
-      experiments::read_laboratory(user_or_shipped(options.laboratory, "data/laboratories"));
+      laboratory_with_effects(options.laboratory, options.effects);
   const PowerStudy power(study, laboratory, request);
   stop_on_signals();
   std::vector<analysis::PlannedRun> runs;
@@ -116,9 +118,10 @@ void add_power(CLI::App& program, Invocation& invocation) {
                    "Laboratory file, or a shipped one; misspecified does not share the formula "
                    "of the fits")
       ->capture_default_str();
-  command->add_option(
-      "--compare", options->compare,
-      "Two blocks with a reference, A,B; default: the first two of one quantity");
+  add_effect_option(*command, options->effects);
+  command->add_option("--compare", options->compare,
+                      "Two blocks with a reference, A,B, besides the contrasts that the study "
+                      "plans; default: the first two of one quantity where it plans none");
   command->add_flag("--pse-at-reference", options->pse_at_reference,
                     "Hold the pse at the reference, as the thesis fits; default: free");
   command->add_flag("--hierarchical", options->hierarchical,

@@ -7,6 +7,7 @@
   ADD(demo)                                                                \
   /* Writing a study. */                                                   \
   ADD(validate) ADD(schema) ADD(new) ADD(plan) ADD(power) ADD(power_merge) \
+  ADD(preregister)                                                         \
   /* Running it. */                                                        \
   ADD(run) ADD(simulate) ADD(resume)                                       \
   /* Keeping it, and acts on what is kept. */                              \

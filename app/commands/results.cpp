@@ -16,6 +16,7 @@
 #include "app/commands/compare_option.h"
 #include "app/commands/inverted_option.h"
 #include "app/commands/predictive_option.h"
+#include "app/preregistration/deviations.h"
 #include "app/results/measured_devices.h"
 #include "app/results/results_output.h"
 #include "app/session/stored_session.h"
@@ -33,6 +34,15 @@ struct ResultsOptions {
   PredictiveOption predictive;
   analysis::ResultsOptions results;
 };
+
+/// "group_d, group_e; group_d, group_f"
+std::string compared_words(const std::vector<analysis::BlockNames>& compared) {
+  std::string words;
+  for (const auto& [first, second] : compared) {
+    words += (words.empty() ? "" : "; ") + first + ", " + second;
+  }
+  return words;
+}
 
 /// What the intensities are that the fits rest on.
 nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
@@ -67,6 +77,11 @@ int run_results(ResultsOptions options) {
       people_asked_for(options.predictive, store, study.data);
   analysis::StudyResults results =
       results_of_data(study.data, options.results, people ? &*people : nullptr);
+  results.preregistration =
+      preregistered_study(store, as_commanded,
+                          {.delivered = options.delivered,
+                           .inverted_out = leaves_out,
+                           .compared = compared_words(options.results.compared)});
   if (!devices.parts.empty()) {
     tell_device_part(results, store, as_commanded, devices, options.results, leaves_out);
   }

@@ -8,6 +8,7 @@
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
+#include "app/commands/effect_option.h"
 #include "app/commands/field_options.h"
 #include "app/commands/profile_option.h"
 #include "app/session/device_checks.h"
@@ -29,8 +30,9 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   int jobs = 2;
   std::string device = "lumped";
-  std::string profile;              ///< A file; "": none.
-  std::vector<std::string> fields;  ///< "sex=female"
+  std::string profile;               ///< A file; "": none.
+  std::vector<std::string> fields;   ///< "sex=female"
+  std::vector<std::string> effects;  ///< See `add_effect_option`.
   bool fast = false;
   bool json = false;
 };
@@ -45,9 +47,9 @@ int run_simulate(const SimulateOptions& options) {
   require_device_starts(options.device, study.device.rate_hz);
   const std::optional<KnownProfile> profile =
       profile_for(options.device, options.profile, study);
-  const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
+  const experiments::Laboratory laboratory = laboratory_with_effects(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
-      "data/laboratories"));
+      options.effects);
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const std::size_t num_before = store.sessions().size();
@@ -117,6 +119,7 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
   command->add_option("--laboratory", options->laboratory,
                       "Laboratory file, or a shipped one; default: thesis, or "
                       "thesis_exoskeleton with that device");
+  add_effect_option(*command, options->effects);
   command->add_option("--seed", options->seed, "Of everything that is drawn")
       ->check(seed_number())
       ->capture_default_str();

@@ -70,7 +70,7 @@ int run_validate(const ValidateOptions& options) {
                std::make_move_iterator(found.end()));
   };
   for (const std::string& name : options.files) {
-    const std::filesystem::path file = user_or_shipped(name, "protocols");
+    const std::filesystem::path file = user_or_shipped(name, "protocols", /*keep_near=*/true);
     std::vector<experiments::StudyProblem> found = problems_of(file, options, profile);
     if (!options.json && found.empty()) {
       fmt::print("{}: {}\n", name, praise(file, options));

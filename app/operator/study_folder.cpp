@@ -12,6 +12,7 @@
 #include "analysis/results/block_words.h"
 #include "app/language/words.h"
 #include "app/operator/study_words.h"
+#include "app/preregistration/preregistration.h"
 #include "app/session/stored_session.h"
 #include "core/error.h"
 #include "core/storage/backup.h"
@@ -229,6 +230,9 @@ core::ProtocolRow protocol_in(const core::StudyStore& store) {
   const std::vector<core::SessionRow> sessions = store.sessions();
   if (!sessions.empty()) return store.protocol(sessions.back().protocol_sha256);
   std::vector<core::ProtocolRow> protocols = store.protocols();
+  std::erase_if(protocols, [](const core::ProtocolRow& row) {
+    return row.file_name == kPreregistrationFile;
+  });
   if (protocols.empty()) {
     throw core::Error(
         tr("{}: expected a study in this folder, found none; begin it with a study "

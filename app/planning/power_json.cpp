@@ -1,5 +1,6 @@
 #include "app/planning/power_json.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -61,15 +62,37 @@ ordered_json request_json(const PowerDesign& design) {
 }
 
 ordered_json to_json(const PlannedPower& power, const PlannedName& name, bool alike) {
-  return {{"name", name.name},
-          {"primary", name.meaning == kPrimaryTest},
-          {"meaning", name.meaning},
-          {"power", power.power},
-          {"power_is", alike ? "false_positive_rate" : "power"},
-          {"power_ci95", {power.power_low, power.power_high}},
-          {"num_significant", power.num_significant},
-          {"num_undefined", power.num_undefined},
-          {"mean_difference", number(power.mean_difference)}};
+  ordered_json json = {{"name", name.name},
+                       {"primary", name.meaning == kPrimaryTest},
+                       {"meaning", name.meaning},
+                       {"power", power.power},
+                       {"power_is", alike ? "false_positive_rate" : "power"},
+                       {"power_ci95", {power.power_low, power.power_high}},
+                       {"num_significant", power.num_significant},
+                       {"num_undefined", power.num_undefined},
+                       {"mean_difference", number(power.mean_difference)}};
+  json["alpha"] = name.alpha;
+  json["planned"] = name.of_contrast;
+  if (name.of_contrast) {
+    json["power_is"] = "power";
+    json["effect_is"] = name.is_ratio ? "ratio" : "difference";
+    json["mean_effect"] = number(power.mean_difference && name.is_ratio
+                                     ? std::optional(std::exp(*power.mean_difference))
+                                     : power.mean_difference);
+  }
+  return json;
+}
+
+ordered_json contrasts_json(const PowerDesign& design) {
+  auto contrasts = ordered_json::array();
+  for (const analysis::PowerContrast& one : design.analysis.contrasts) {
+    contrasts.push_back({{"name", one.name},
+                         {"meaning", one.meaning},
+                         {"alpha", one.alpha},
+                         {"margin", number(one.margin)},
+                         {"effect_is", one.is_ratio ? "ratio" : "difference"}});
+  }
+  return contrasts;
 }
 
 ordered_json to_json(const PlannedPrecision& precision, const PlannedName& name,
@@ -107,6 +130,7 @@ ordered_json to_json(const PowerDesign& design) {
   }
   json["durations_s"] = std::move(durations);
   json["left_out"] = design.left_out;
+  json["contrasts"] = contrasts_json(design);
   return json;
 }
 
@@ -149,6 +173,14 @@ PowerDesign power_design_of(const ordered_json& json) {
     design.durations.push_back({.mean_s = one.at(0), .total_s = one.at(1)});
   }
   design.left_out = json.at("left_out").get<std::vector<std::string>>();
+  // Shards of programs that knew no contrasts have none.
+  for (const ordered_json& one : json.value("contrasts", ordered_json::array())) {
+    design.analysis.contrasts.push_back({.name = one.at("name"),
+                                         .meaning = one.at("meaning"),
+                                         .alpha = one.at("alpha"),
+                                         .margin = number_of(one.at("margin")),
+                                         .is_ratio = one.at("effect_is") == "ratio"});
+  }
   constexpr std::int64_t kMostRuns = 1'000'000;
   if (request.sizes.empty() || design.durations.size() != request.sizes.size() ||
       request.num_runs < 1 || request.num_runs > kMostRuns) {
@@ -211,6 +243,7 @@ ordered_json power_result(const PowerDesign& design,
   const std::vector<PlannedName> estimates = estimate_names(design.analysis);
   ordered_json json = request_json(design);
   json["level"] = kPlannedLevel;
+  json["contrasts"] = contrasts_json(design);
   const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
   json["true_difference"] = number(true_difference(design.analysis));
   json["nothing_differs"] = alike;

@@ -17,6 +17,7 @@
 #include "experiments/order/counterbalance.h"
 #include "experiments/participants/answer_simulator.h"
 #include "experiments/participants/median_person.h"
+#include "experiments/procedures/contrast_conditions.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
@@ -249,6 +250,64 @@ std::vector<PlannedDuration> durations_of(const Study& study, const Laboratory& 
   return durations;
 }
 
+std::string contrast_meaning(const PlannedContrast& plan) {
+  std::string meaning = std::string(plan.primary ? "primary" : "secondary") + ", in the " +
+                        measure_words(plan.measure);
+  if (plan.direction != ContrastDirection::kEither) meaning += ", one-sided";
+  if (plan.correction != Correction::kNone) {
+    meaning += ", p by " +
+               std::string(plan.correction == Correction::kHolm ? "Holm" : "Bonferroni") +
+               " within the family " + plan.family;
+  }
+  return meaning + "; Student's t of people's own contrasts";
+}
+
+/// The contrasts of the study file; those whose blocks are not simulated are named.
+std::vector<analysis::PowerContrast> contrasts_of(const Study& study,
+                                                  const std::vector<const Stage*>& blocks,
+                                                  std::vector<std::string>& left_out) {
+  std::vector<analysis::PowerContrast> contrasts;
+  for (const PlannedContrast& plan : study.contrasts) {
+    const ContrastConditions found = contrast_conditions(study, plan);
+    if (plan.measure == ContrastMeasure::kResponseTime || !found.problem.empty()) {
+      left_out.push_back("contrast " + plan.name + " (simulated people have no " +
+                         measure_words(plan.measure) + ")");
+      continue;
+    }
+    analysis::PowerContrast one{
+        .name = plan.name,
+        .meaning = contrast_meaning(plan),
+        .alpha = plan.alpha,
+        .is_ratio = is_ratio(plan.measure),
+        .measure = plan.measure,
+        .tail = plan.direction == ContrastDirection::kGreater ? analysis::Tail::kGreater
+                : plan.direction == ContrastDirection::kLess  ? analysis::Tail::kLess
+                                                              : analysis::Tail::kTwoSided,
+        .family = plan.family,
+        .correction = plan.correction,
+        .weights = found.weights};
+    if (plan.smallest_effect) {
+      one.margin = one.is_ratio ? std::log(*plan.smallest_effect) : *plan.smallest_effect;
+    }
+    bool is_whole = true;
+    for (const ContrastCondition& condition : found.conditions) {
+      std::vector<std::size_t>& places = one.conditions.emplace_back();
+      for (const std::string& name : condition.blocks) {
+        const auto place = std::ranges::find(blocks, name, &Stage::name);
+        is_whole &= place != blocks.end();
+        places.push_back(static_cast<std::size_t>(place - blocks.begin()));
+      }
+    }
+    for (const ContrastGroup& group : found.groups) one.groups.push_back(group.levels);
+    if (is_whole) {
+      contrasts.push_back(std::move(one));
+    } else {
+      left_out.push_back("contrast " + plan.name + " (of blocks that are not planned for)");
+    }
+  }
+  return contrasts;
+}
+
 /// A laboratory in which two blocks have the same Weber fraction.
 Laboratory null_laboratory(const Laboratory& laboratory, const Block& first,
                            const Block& second, const core::ForceMap* map) {
@@ -256,6 +315,7 @@ Laboratory null_laboratory(const Laboratory& laboratory, const Block& first,
                                   median_weber_fraction(laboratory, second, map));
   Laboratory alike = laboratory;
   alike.device.mechanical_viscosity_n_s_per_m = 0.0;
+  alike.effects.clear();
   alike.perceiver.weber_fraction = common;
   if (alike.pressing) alike.pressing->weber_fraction = common;
   return alike;
@@ -287,7 +347,12 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
   PlannedAnalysis planned{.sizes = request.sizes,
                           .free_pse = request.free_pse,
                           .hierarchical = request.hierarchical};
-  planned.compared = compared_places(blocks, request);
+  std::vector<std::string> left_out = left_out_of(study);
+  planned.contrasts = contrasts_of(study, blocks, left_out);
+  // What the study plans goes before two blocks that nobody asked to compare.
+  if (request.compare || planned.contrasts.empty()) {
+    planned.compared = compared_places(blocks, request);
+  }
   if (planned.compared) {
     const auto& [a, b] = *planned.compared;
     planned.paired = somebody_gets_both(study, blocks[a]->name, blocks[b]->name);
@@ -295,6 +360,9 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
       laboratory_ =
           null_laboratory(laboratory, block_of(*blocks[a]), block_of(*blocks[b]), map.get());
     }
+  } else if (request.null_hypothesis && !planned.contrasts.empty()) {
+    laboratory_.device.mechanical_viscosity_n_s_per_m = 0.0;
+    laboratory_.effects.clear();
   } else if (request.null_hypothesis) {
     throw UsageError("--null: expected a study with two blocks to compare, found none in " +
                      study.name);
@@ -305,7 +373,8 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
       one.reference = block_of(*stage).reference_intensity.value_or(0.0);
       one.either_interval =
           experiments::task_of(block_of(*stage)) == experiments::Task::kTwoInterval;
-      one.true_value = median_curve_fraction(laboratory_, block_of(*stage), map.get());
+      one.true_value =
+          median_curve_fraction(laboratory_, experiments::block_of(*stage, 0, {}), map.get());
     } else {
       one.true_value = value_of_everybody(study, laboratory_, one);
     }
@@ -319,7 +388,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
              .request = request,
              .analysis = std::move(planned),
              .durations = durations_of(study, laboratory, request),
-             .left_out = left_out_of(study)};
+             .left_out = std::move(left_out)};
   if (design_.analysis.compared) {
     const auto& [a, b] = *design_.analysis.compared;
     design_.request.compare = {blocks[a]->name, blocks[b]->name};
@@ -342,12 +411,14 @@ std::vector<analysis::PlannedRun> PowerStudy::run(const Work& work) const {
     const std::uint64_t seed = run_seed(design_.request.seed, runs[i]);
     const std::vector<Cell> cells = planned_cells(study_, {}, seed, 0, num_people);
     std::vector<PlannedPerson> people;
+    std::vector<Levels> levels;
     for (std::size_t person = 0; person < cells.size(); ++person) {
+      levels.push_back(people_levels(cells[person]));
       people.push_back(person_of(
           design_.analysis, simulator.answers(stages.at(to_string(cells[person])),
                                               session_seed(seed, study_.name, names[person]))));
     }
-    outcomes[i] = analysis::analyse_run(design_.analysis, people);
+    outcomes[i] = analysis::analyse_run(design_.analysis, people, levels);
     if (work.on_progress) {
       work.on_progress(static_cast<double>(++num_done) / static_cast<double>(runs.size()));
     }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "app/planning/power_files.h"
 
 namespace jnd::app {
@@ -10,6 +12,12 @@ using namespace analysis;
 
 std::string decimals(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "-";
+}
+
+/// Of a ratio its geometric mean over the runs.
+std::optional<double> effect_of(const PlannedPower& power, const PlannedName& name) {
+  if (!power.mean_difference || !name.is_ratio) return power.mean_difference;
+  return std::exp(*power.mean_difference);
 }
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
@@ -29,7 +37,7 @@ std::string power_table(const PowerDesign& design,
   std::string table = heading(design);
   const std::vector<PlannedName> tests = test_names(design.analysis);
   const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
-  if (!tests.empty()) {
+  if (design.analysis.compared) {
     table += fmt::format("\nTrue difference in ln ln(1 + w): {}{}\n",
                          decimals(true_difference(design.analysis)),
                          alike ? ". Nothing differs: the share with p < 0.05 is the rate of "
@@ -37,17 +45,19 @@ std::string power_table(const PowerDesign& design,
                                : "");
   }
   for (std::size_t test = 0; test < tests.size(); ++test) {
-    table += fmt::format("\n{}{}\n  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", tests[test].name,
-                         tests[test].meaning.empty() ? "" : " (" + tests[test].meaning + ")",
-                         "participants", alike ? "p < 0.05" : "power", "95 % of the share",
-                         "undefined", "difference");
+    const bool is_null = alike && !tests[test].of_contrast;
+    table += fmt::format(
+        "\n{}{}\n  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", tests[test].name,
+        tests[test].meaning.empty() ? "" : " (" + tests[test].meaning + ")", "participants",
+        is_null ? fmt::format("p < {:.3g}", tests[test].alpha) : "power", "95 % of the share",
+        "undefined", tests[test].is_ratio ? "ratio" : "difference");
     for (const PlannedSummary& summary : summaries) {
       const PlannedPower& power = summary.tests[test];
       table += fmt::format(
           "  {:>12} {:>8}  {:>18}  {:>9}  {:>10}\n", summary.num_participants,
           percent(power.power),
           fmt::format("{} .. {}", percent(power.power_low), percent(power.power_high)),
-          power.num_undefined, decimals(power.mean_difference));
+          power.num_undefined, decimals(effect_of(power, tests[test])));
     }
   }
   const std::vector<PlannedName> estimates = estimate_names(design.analysis);

@@ -8,6 +8,7 @@
 #include "analysis/data/study_data.h"
 #include "analysis/results/published_comparison.h"
 #include "app/command_line/command.h"
+#include "app/preregistration/deviations.h"
 #include "app/results/predictive_studies.h"
 #include "app/results/published_words.h"
 #include "app/session/shipped_files.h"
@@ -56,6 +57,68 @@ json losses_json(const std::vector<analysis::LevelLoss>& losses) {
                       {"num_affected", one.num_affected}});
   }
   return levels;
+}
+
+json preregistration_json(const analysis::PreregisteredStudy& plan) {
+  if (plan.registered_on.empty()) return nullptr;
+  json deviations = json::array();
+  for (const analysis::Deviation& one : plan.deviations) {
+    deviations.push_back(
+        {{"topic", one.topic}, {"planned", one.planned}, {"found", one.found}});
+  }
+  return {{"registered_on", plan.registered_on},
+          {"sha256", plan.sha256},
+          {"deviations", std::move(deviations)}};
+}
+
+json contrast_test_json(const analysis::ContrastTest& test) {
+  return {{"method", test.method},
+          {"effect", json_number(test.effect)},
+          {"ci95", interval(test.ci95)},
+          {"statistic_name", test.statistic_name},
+          {"statistic", json_number(test.statistic)},
+          {"degrees_of_freedom", json_number(test.degrees_of_freedom)},
+          {"p_value", json_number(test.p_value)},
+          {"n", test.num_participants},
+          {"reason", test.reason}};
+}
+
+json contrast_json(const analysis::ContrastResult& one) {
+  const experiments::PlannedContrast& plan = one.plan;
+  json otherwise = json::array();
+  for (const analysis::ContrastTest& test : one.otherwise) {
+    otherwise.push_back(contrast_test_json(test));
+  }
+  json excluded = json::array();
+  for (const analysis::ExcludedParticipant& left_out : one.excluded) {
+    excluded.push_back({{"participant", left_out.participant}, {"reason", left_out.reason}});
+  }
+  json equivalence = nullptr;
+  if (one.equivalence) {
+    equivalence = {{"margin", one.equivalence->margin},
+                   {"interval", interval(one.equivalence->interval)},
+                   {"confidence", 1.0 - 2.0 * plan.alpha},
+                   {"p_value", one.equivalence->p_value},
+                   {"is_shown", one.equivalence->is_shown}};
+  }
+  json contrast = contrast_test_json(one.test);
+  contrast.update({{"name", plan.name},
+                   {"measure", to_string(plan.measure)},
+                   {"effect_is", is_ratio(plan.measure) ? "ratio" : "difference"},
+                   {"hypothesis", one.hypothesis},
+                   {"conditions", one.conditions},
+                   {"primary", plan.primary},
+                   {"family", plan.family},
+                   {"correction", to_string(plan.correction)},
+                   {"direction", to_string(plan.direction)},
+                   {"alpha", plan.alpha},
+                   {"p_value_adjusted", json_number(one.p_value_adjusted)},
+                   {"equivalence", std::move(equivalence)},
+                   {"otherwise", std::move(otherwise)},
+                   {"excluded", std::move(excluded)},
+                   {"cautions", one.cautions},
+                   {"sentence", one.sentence}});
+  return contrast;
 }
 
 /// Text of the shipped laboratory of this name; "" if there is none.
@@ -135,7 +198,10 @@ analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
-  return results_of_data(analysis::load_study(store), options);
+  const analysis::StudyData data = analysis::load_study(store);
+  analysis::StudyResults results = results_of_data(data, options);
+  results.preregistration = preregistered_study(store, data);
+  return results;
 }
 
 analysis::StudyResults results_of_data(const analysis::StudyData& data,
@@ -248,7 +314,13 @@ json results_json(const analysis::StudyResults& results) {
                         {"free_answers", std::move(free_answers)},
                         {"cautions", std::move(cautions)}});
   }
+  json contrasts = json::array();
+  for (const analysis::ContrastResult& one : results.contrasts) {
+    contrasts.push_back(contrast_json(one));
+  }
   return {{"study", results.study},
+          {"contrasts", std::move(contrasts)},
+          {"preregistration", preregistration_json(results.preregistration)},
           {"simulated", results.simulated},
           {"laboratory", results.laboratory},
           {"laboratory_changed", results.laboratory_changed},

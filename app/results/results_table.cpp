@@ -248,6 +248,38 @@ std::string in_short(const analysis::StudyResults& results, int width) {
   return table.empty() ? "" : "\nin short: the primary values, explained below\n" + table;
 }
 
+/// What the study was planned to answer, a sentence each, before everything else.
+std::string planned(const analysis::StudyResults& results) {
+  if (results.contrasts.empty()) return "";
+  std::string table = "\nplanned contrasts\n";
+  for (const analysis::ContrastResult& one : results.contrasts) {
+    table += fmt::format("  {} ({}): {}\n", one.plan.name,
+                         one.plan.primary ? "primary" : "secondary",
+                         one.sentence.empty() ? "no value, " + one.test.reason : one.sentence);
+    table += fmt::format("    of {} by {}\n", fmt::join(one.conditions, ", "), one.test.method);
+    table += caution_lines(one.cautions);
+    for (const analysis::ExcludedParticipant& left_out : one.excluded) {
+      table += fmt::format("    left out of people's own contrasts: {}: {}\n",
+                           left_out.participant, left_out.reason);
+    }
+  }
+  return table;
+}
+
+/// What deviates from what was planned; "" where nothing was registered.
+std::string deviations(const analysis::PreregisteredStudy& plan) {
+  if (plan.registered_on.empty()) return "";
+  std::string table = fmt::format("\npreregistered on {}: {}\n", plan.registered_on,
+                                  plan.deviations.empty()
+                                      ? "nothing deviates from it"
+                                      : counted_words(std::ssize(plan.deviations),
+                                                      "deviation"));
+  for (const analysis::Deviation& one : plan.deviations) {
+    table += fmt::format("  {}: planned {}, found {}\n", one.topic, one.planned, one.found);
+  }
+  return table;
+}
+
 /// Names of numbers that nobody has an interval or a reason for: they fit into columns.
 std::vector<std::string> plain_names(const analysis::ResultsSection& section) {
   std::vector<std::string> names;
@@ -361,8 +393,8 @@ std::string note_of(const std::string& table) {
 
 std::string to_table(const analysis::StudyResults& results) {
   const int width = name_width(results);
-  std::string table =
-      heading(results) + in_short(results, width) + losses_table(results.losses, width);
+  std::string table = heading(results) + deviations(results.preregistration) + planned(results) + in_short(results, width) +
+                      losses_table(results.losses, width);
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n", section.name);
     for (const Estimate& estimate : section.estimates) {

@@ -137,7 +137,8 @@ class SimulatedSession {
     throw core::Error("counterbalance: expected to be resolved before the session");
   }
 
-  void run_stage(const Block& block) {
+  void run_stage(const Block&) {
+    const Block block = session_.current_block_as_drawn();
     while (session_.state().current_trial()) {
       player_.run_trial(block);
       trial_progress();

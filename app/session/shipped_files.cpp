@@ -1,6 +1,10 @@
 #include "app/session/shipped_files.h"
 
 #include <cstdlib>
+#include <vector>
+
+#include "core/error.h"
+#include "experiments/study/study_problem.h"
 
 namespace jnd::app {
 namespace {
@@ -31,7 +35,7 @@ fs::path languages_folder() {
   return is_built ? built : shipped_folder() / "languages";
 }
 
-fs::path user_or_shipped(const std::string& name, const std::string& folder) {
+fs::path user_or_shipped(const std::string& name, const std::string& folder, bool keep_near) {
   std::error_code ignored;
   if (fs::exists(name, ignored)) return name;
   const fs::path file_name = fs::path(name).filename();
@@ -40,7 +44,19 @@ fs::path user_or_shipped(const std::string& name, const std::string& folder) {
         shipped_folder() / folder / (file_name.string() + ".json")}) {
     if (fs::exists(candidate, ignored)) return candidate;
   }
-  return name;
+  if (keep_near || name.find('/') != std::string::npos) return name;
+  std::vector<std::string> shipped;
+  for (const auto& entry : fs::directory_iterator(shipped_folder() / folder, ignored)) {
+    const fs::path& file = entry.path();
+    const bool is_schema = file.stem().extension() == ".schema";
+    if (file.extension() == ".json" && !is_schema) shipped.push_back(file.stem().string());
+  }
+  const std::string near = experiments::nearest_word(name, shipped);
+  if (near.empty()) return name;
+  throw core::Error(name +
+                    ": expected a file or the name of a shipped one, found neither; did "
+                    "you mean `" +
+                    near + "`?");
 }
 
 }  // namespace jnd::app

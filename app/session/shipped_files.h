@@ -15,8 +15,10 @@ namespace jnd::app {
 
 /// A file that the user named, or a shipped one: "short_tour" and "protocols/short_tour.json"
 /// both find the shipped study. `folder` is "protocols" or "data/laboratories". Returns the
-/// name as it is if nothing is found, for the reader to complain about.
+/// name as it is if nothing is found, for the reader to complain about; where the name is
+/// nearly that of a shipped file, it throws `Error` with that name, unless `keep_near` is set.
 [[nodiscard]] std::filesystem::path user_or_shipped(const std::string& name,
-                                                    const std::string& folder);
+                                                    const std::string& folder,
+                                                    bool keep_near = false);
 
 }  // namespace jnd::app

@@ -199,4 +199,12 @@ const Assignment* find_assignment(const Cell& cell, const std::string& counterba
   return nullptr;
 }
 
+Levels people_levels(const Cell& cell) {
+  Levels levels;
+  for (const Assignment& given : cell) {
+    if (given.arms.size() == 1) levels[given.counterbalance] = given.arms.front();
+  }
+  return levels;
+}
+
 }  // namespace jnd::experiments

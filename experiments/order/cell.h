@@ -62,6 +62,10 @@ using FieldValues = std::map<std::string, std::string>;
 /// one without a square.
 [[nodiscard]] std::size_t order_row(const Cell& cell, const std::string& block);
 
+/// Counterbalance or field to the one arm or value that a participant of this cell has; nothing
+/// of orders.
+[[nodiscard]] Levels people_levels(const Cell& cell);
+
 /// What a cell says of this counterbalance, block or field; null for nothing.
 [[nodiscard]] const Assignment* find_assignment(const Cell& cell,
                                                 const std::string& counterbalance);

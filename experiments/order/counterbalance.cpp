@@ -159,9 +159,11 @@ std::vector<Cell> planned_cells(const Study& study, std::vector<std::string> com
   return cells;
 }
 
-Block block_of(const Stage& stage, std::size_t row) {
+Block block_of(const Stage& stage, std::size_t row, const Levels& people) {
   Block block = std::get<Block>(stage.content);
   block.order.row = row;
+  block.levels.insert(people.begin(), people.end());
+  block.levels[kBlockFactor] = stage.name;
   return block;
 }
 
@@ -169,6 +171,8 @@ std::vector<StageInstance> stages_of(const Study& study, const Cell& cell) {
   require_cell(study, cell);
   Flattening flattening(cell);
   flattening.add(study.stages, "");
+  const Levels people = people_levels(cell);
+  for (StageInstance& instance : flattening.list) instance.people = people;
   return std::move(flattening.list);
 }
 

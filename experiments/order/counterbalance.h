@@ -39,10 +39,12 @@ struct StageInstance {
   const Stage* stage = nullptr;  ///< Into the study, never a counterbalance.
   std::string path;  ///< "method_order/production/magnitude_production"; unique in the list.
   std::size_t order_row = 0;  ///< Of a block's square; 0 without one.
+  Levels people;              ///< See `people_levels`.
 };
 
-/// The block of a stage, as procedures draw it, for a participant who begins with this row.
-[[nodiscard]] Block block_of(const Stage& stage, std::size_t row);
+/// The block of a stage, as procedures draw it, for a participant who begins with this row. Its
+/// levels are joined by those of `people` and by its own name, as a level of `block`.
+[[nodiscard]] Block block_of(const Stage& stage, std::size_t row, const Levels& people = {});
 
 /// The participant's own list of stages: counterbalances resolved, stages for others left out.
 /// Throws `Error` if the cell is not one of this study. The study must outlive the list.

@@ -1,6 +1,7 @@
 #include "experiments/participants/abilities.h"
 
 #include "core/error.h"
+#include "experiments/participants/effects.h"
 #include "experiments/procedures/magnitude_estimation.h"
 #include "experiments/study/stage_walk.h"
 
@@ -16,6 +17,7 @@ namespace {
 }  // namespace
 
 void require_abilities(const Laboratory& laboratory, const Study& study) {
+  require_known_effects(laboratory, study);
   for_each_stage(study.stages, [&](const Stage& stage) {
     const auto* block = std::get_if<Block>(&stage.content);
     if (block == nullptr) return;

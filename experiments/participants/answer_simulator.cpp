@@ -211,7 +211,7 @@ class BlockPlayer {
   TrialForm form_;
   StrokeIntent strokes_;
   double presentation_s_;
-  const Perceiver& perceiver_;
+  const Perceiver perceiver_;
   Moment moment_;
   double felt_ = 0.0;
   double felt_s_ = 0.0;
@@ -250,7 +250,8 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
   std::int64_t trial = 0;  // Running number in the session.
   for (std::size_t index = 0; index < stages.size(); ++index) {
     if (!std::holds_alternative<Block>(stages[index].stage->content)) continue;
-    const Block block = block_of(*stages[index].stage, stages[index].order_row);
+    const Block block =
+        block_of(*stages[index].stage, stages[index].order_row, stages[index].people);
     BlockPlayer player(laboratory_, map_.get(), participant, session_seed, block, device_);
     std::vector<AnsweredTrial> answered;
     while (true) {

@@ -35,6 +35,43 @@ class Section {
     }
   }
 
+  /// The object at this place of a list.
+  Section(const json& list, std::size_t index, const std::string& path,
+          std::vector<std::string>& problems)
+      : path_(path), problems_(problems) {
+    if (list.at(index).is_object()) {
+      object_ = &list.at(index);
+    } else {
+      problems_.push_back(path + ": expected an object, found none");
+    }
+  }
+
+  /// The same as `number` of a key that may be absent.
+  void optional_number(const char* key, double& value, double low, double high) {
+    if (has(key)) {
+      number(key, value, low, high);
+    } else {
+      known_.insert(key);
+    }
+  }
+
+  /// An object of names to names, at least one.
+  void words(const char* key, std::map<std::string, std::string>& words) {
+    known_.insert(key);
+    if (object_ == nullptr) return;
+    const bool is_there = has(key) && object_->at(key).is_object() && !object_->at(key).empty();
+    if (is_there) {
+      for (const auto& [name, value] : object_->at(key).items()) {
+        if (value.is_string()) words[name] = value.get<std::string>();
+      }
+    }
+    if (is_there && words.size() == object_->at(key).size()) return;
+    problems_.push_back(path_ + "/" + key +
+                        R"(: expected names of factors and levels such as {"fluid": "thin"}, )"
+                        "found " +
+                        (has(key) ? in_words(object_->at(key)) : "none"));
+  }
+
   /// A number, or {"value": number, "basis": ..., "source": ...}, with low <= value <= high.
   void number(const char* key, double& value, double low, double high) {
     known_.insert(key);
@@ -237,6 +274,31 @@ void read_answers(const json& file, Laboratory::Answers& answers,
   in.finish();
 }
 
+void read_effects(const json& file, std::vector<Laboratory::Effect>& effects,
+                  std::vector<std::string>& problems) {
+  if (!file.contains("effects")) return;
+  const json& list = file.at("effects");
+  if (!list.is_array()) {
+    problems.emplace_back("/effects: expected a list of objects, found " + in_words(list));
+    return;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Laboratory::Effect& effect = effects.emplace_back();
+    const std::string path = "/effects/" + std::to_string(i);
+    Section in(list, i, path, problems);
+    in.words("levels", effect.levels);
+    in.optional_number("weber_fraction_factor", effect.weber_fraction_factor, 1e-3, 1e3);
+    in.optional_number("weber_fraction_sd_ln", effect.weber_fraction_sd_ln, 0.0, 2.0);
+    in.optional_number("pse_factor", effect.pse_factor, 1e-3, 1e3);
+    in.optional_number("pse_sd_ln", effect.pse_sd_ln, 0.0, 2.0);
+    in.optional_number("exponent_difference", effect.exponent_difference, -5.0, 5.0);
+    in.optional_number("exponent_sd", effect.exponent_sd, 0.0, 1.0);
+    in.optional_number("magnitude_factor", effect.magnitude_factor, 1e-3, 1e3);
+    in.optional_number("magnitude_sd_ln", effect.magnitude_sd_ln, 0.0, 2.0);
+    in.finish();
+  }
+}
+
 /// A list of names of estimates, empty if there is none.
 void read_names(const json& file, const char* key, std::vector<std::string>& names,
                 std::vector<std::string>& problems) {
@@ -271,8 +333,8 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   std::vector<std::string> problems;
   Laboratory laboratory{.text = text};
   static const std::set<std::string> kKeys = {
-      "format",   "name",    "title",     "comment",  "calibrated_on", "device", "arm",
-      "movement", "strokes", "perceiver", "pressing", "answers",       "implied"};
+      "format",   "name",    "title",     "comment",  "calibrated_on", "device",  "arm",
+      "movement", "strokes", "perceiver", "pressing", "answers",       "implied", "effects"};
   for (const auto& [key, value] : file.items()) {
     if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
   }
@@ -296,6 +358,7 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   read_perceiver(file, laboratory.perceiver, problems);
   read_pressing(file, laboratory.pressing, problems);
   read_answers(file, laboratory.answers, problems);
+  read_effects(file, laboratory.effects, problems);
   if (!problems.empty()) {
     std::string message = place + ": " + std::to_string(problems.size()) + " problem(s)";
     constexpr std::size_t kMostTold = 100;

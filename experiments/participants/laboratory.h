@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/design.h"
+
 namespace jnd::experiments {
 
 /// A simulated laboratory: an apparatus with its imperfections and a population of
@@ -98,6 +100,18 @@ struct Laboratory {
     double scale_step_ratio = 0.0, scale_step_sd_ratio = 0.0;  ///< 0 worst, 1 best.
   };
 
+  /// What conditions do to people. What applies to a block, by its levels and those of the
+  /// person, is taken together: factors multiply, differences add.
+  struct Effect {
+    Levels levels;  ///< All of these have to hold; `block` is the name of a block.
+    /// Of the Weber fraction, for total felt viscosity or for stiffness, > 0.
+    double weber_fraction_factor = 1.0, weber_fraction_sd_ln = 0.0;
+    /// Of what feels equal to the reference or the standard, > 0: a bias.
+    double pse_factor = 1.0, pse_sd_ln = 0.0;
+    double exponent_difference = 0.0, exponent_sd = 0.0;
+    double magnitude_factor = 1.0, magnitude_sd_ln = 0.0;  ///< Of what numbers say, > 0.
+  };
+
   std::string name;
   std::string title;
   std::string text;  ///< The file word for word; stored with every session.
@@ -108,6 +122,7 @@ struct Laboratory {
   Perceiver perceiver;
   std::optional<Pressing> pressing;  ///< None: nobody is asked about solids.
   Answers answers;
+  std::vector<Effect> effects;  ///< None where conditions do nothing of themselves.
   /// Names of estimates, as in results, that parameters were fitted to.
   std::vector<std::string> calibrated_on;
   /// Names of estimates that follow from those, nearly or wholly.

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "experiments/participants/calculated_stroke.h"
+#include "experiments/participants/effects.h"
 #include "experiments/procedures/stimulus.h"
 
 namespace jnd::experiments {
@@ -22,6 +23,10 @@ Laboratory without_noise(Laboratory laboratory) {
   p.fatigue_ratio_per_trial = p.look_again_probability = 0.0;
   laboratory.movement.max_speed_sd_ln = laboratory.movement.stroke_speed_sd_ratio = 0.0;
   for (auto& [procedure, strokes] : laboratory.strokes) strokes.amplitude_sd_ln = 0.0;
+  for (Laboratory::Effect& effect : laboratory.effects) {
+    effect.weber_fraction_sd_ln = effect.pse_sd_ln = effect.exponent_sd = 0.0;
+    effect.magnitude_sd_ln = 0.0;
+  }
   return laboratory;
 }
 
@@ -66,9 +71,10 @@ class Felt {
 double median_weber_fraction(const Laboratory& laboratory, const Block& block,
                              const core::ForceMap* map) {
   const Felt felt(laboratory, block, map);
-  if (block.is_pressed()) return laboratory.pressing.value().weber_fraction;
+  const double factor = effects_on(laboratory, block.levels).weber_fraction_factor;
+  if (block.is_pressed()) return factor * laboratory.pressing.value().weber_fraction;
   const double reference = *block.reference_intensity;
-  const double wanted = (1.0 + laboratory.perceiver.weber_fraction) * felt(reference);
+  const double wanted = (1.0 + factor * laboratory.perceiver.weber_fraction) * felt(reference);
   double high = 2.0 * reference;
   while (felt(high) < wanted && high < 1e9 * reference) high *= 2.0;
   return felt.intensity_at(wanted, reference, high) / reference - 1.0;
@@ -80,7 +86,8 @@ double median_curve_fraction(const Laboratory& laboratory, const Block& block,
   if (block.is_pressed()) return up;
   const Felt felt(laboratory, block, map);
   const double reference = *block.reference_intensity;
-  const double wanted = felt(reference) / (1.0 + laboratory.perceiver.weber_fraction);
+  const double factor = effects_on(laboratory, block.levels).weber_fraction_factor;
+  const double wanted = felt(reference) / (1.0 + factor * laboratory.perceiver.weber_fraction);
   const double least = 1e-9 * reference;
   if (!(felt(least) < wanted)) return up;
   const double down = reference / felt.intensity_at(wanted, least, reference);

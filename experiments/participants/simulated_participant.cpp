@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/random_stream.h"
+#include "experiments/participants/effects.h"
 
 namespace jnd::experiments {
 namespace {
@@ -31,6 +32,14 @@ SimulatedParticipant::SimulatedParticipant(const Laboratory& laboratory,
     pressing_perceiver_.emplace(laboratory, person_, session_seed,
                                 Perceiver::Feels::kStiffness);
   }
+}
+
+Perceiver SimulatedParticipant::perceiver(const Block& block) const {
+  if (laboratory_.effects.empty()) {
+    return block.is_pressed() ? pressing_perceiver_.value() : perceiver_;
+  }
+  return {laboratory_, affected(laboratory_, person_, seed_, block.levels), seed_,
+          block.is_pressed() ? Perceiver::Feels::kStiffness : Perceiver::Feels::kDamping};
 }
 
 double SimulatedParticipant::home_height_m() const {

@@ -39,9 +39,8 @@ class SimulatedParticipant {
 
   [[nodiscard]] const Person& person() const noexcept { return person_; }
   /// In this block: of a solid what is felt is its stiffness, else a damping.
-  [[nodiscard]] const Perceiver& perceiver(const Block& block) const {
-    return block.is_pressed() ? pressing_perceiver_.value() : perceiver_;
-  }
+  /// The laboratory's effects of the block's levels are in it.
+  [[nodiscard]] Perceiver perceiver(const Block& block) const;
 
   /// Where the hand rests, workspace frame.
   [[nodiscard]] double home_height_m() const;

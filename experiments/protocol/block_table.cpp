@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/protocol/design_tables.h"
 #include "experiments/protocol/stage_tables.h"
 #include "experiments/study/media.h"
 
@@ -105,6 +106,7 @@ const ParameterTable& block_table() {
   static const ParameterTable kTable = [] {
     std::vector<Parameter> own = {procedure_parameter(), medium_parameter()};
     for (Parameter& parameter : procedure_parameters()) own.push_back(std::move(parameter));
+    own.push_back(levels_parameter());
     own.push_back({.key = "instruction",
                    .kind = ValueKind::kText,
                    .meaning = "What the participant is told before the block."});

@@ -129,6 +129,29 @@ std::size_t behind_value_before(std::string_view text, std::size_t byte) {
   return last == std::string_view::npos ? byte : last + 1;
 }
 
+/// Where the innermost brace or bracket before this byte opens that nothing closes, in words:
+/// "; the `{` in line 3, column 5 is not closed". "" where all are closed, and before the end
+/// of the text for the outermost one, for then something else is closed too often.
+std::string open_words(std::string_view text, std::size_t byte, bool at_end) {
+  std::vector<std::size_t> open;
+  bool in_string = false;
+  for (std::size_t i = 0; i < std::min(byte, text.size()); ++i) {
+    if (in_string && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == '"') {
+      in_string = !in_string;
+    } else if (!in_string && (text[i] == '[' || text[i] == '{')) {
+      open.push_back(i);
+    } else if (!in_string && (text[i] == ']' || text[i] == '}') && !open.empty()) {
+      open.pop_back();
+    }
+  }
+  if (open.empty() || (open.size() == 1 && !at_end)) return "";
+  const TextPosition at = position_of(text, open.back());
+  return std::string("; the `") + text[open.back()] + "` in line " + std::to_string(at.line) +
+         ", column " + std::to_string(at.column) + " is not closed";
+}
+
 /// What the library says went wrong, in the words of this program. `byte` is moved to where the
 /// author has to look.
 std::string worded(const std::string& what, std::string_view text, std::size_t& byte) {
@@ -155,7 +178,10 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
       return "expected `,` or " + token_words(wanted) + " behind this value, found " +
              token_words(found);
     }
-    return wrong_token(found, wanted, word);
+    const bool wants_end = wanted == "'}'" || wanted == "']'";
+    const bool is_end = found == "'}'" || found == "']'" || found == "end of input";
+    return wrong_token(found, wanted, word) +
+           (wants_end && is_end ? open_words(text, byte, found == "end of input") : "");
   }
   if (const std::size_t at = said.find("invalid string: "); at != std::string::npos) {
     return "expected a text in quotes that is whole, found an error in it: " +

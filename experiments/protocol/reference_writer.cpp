@@ -80,6 +80,10 @@ std::string type_words(const Parameter& parameter) {
       return counted(parameter, "[stages](#stages)");
     case ValueKind::kArms:
       return "object: counterbalance and arm";
+    case ValueKind::kLevels:
+      return "object: factor and level";
+    case ValueKind::kWeights:
+      return "object: factor and weights of its levels";
   }
   return "";
 }

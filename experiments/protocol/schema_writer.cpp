@@ -49,6 +49,18 @@ Json list_schema(const Parameter& parameter, Json items) {
 
 Json table_schema(const ParameterTable& table);
 
+/// Factors, each with weights of its levels; a comment may stand among either.
+Json weights_schema() {
+  const Json levels = {{"type", "object"},
+                       {"minProperties", 1},
+                       {"properties", {{"comment", {{"type", "string"}}}}},
+                       {"additionalProperties", {{"type", "number"}}}};
+  return {{"type", "object"},
+          {"minProperties", 1},
+          {"properties", {{"comment", {{"type", "string"}}}}},
+          {"additionalProperties", levels}};
+}
+
 Json value_schema(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::kString:
@@ -89,9 +101,12 @@ Json value_schema(const Parameter& parameter) {
     case ValueKind::kStages:
       return list_schema(parameter, reference("stage"));
     case ValueKind::kArms:
+    case ValueKind::kLevels:
       return {{"type", "object"},
               {"minProperties", 1},
               {"additionalProperties", {{"type", "string"}, {"pattern", kNamePattern}}}};
+    case ValueKind::kWeights:
+      return weights_schema();
   }
   return {};
 }

@@ -247,7 +247,11 @@ void StructureCheck::check_value(const json& value, const std::string& pointer,
     case ValueKind::kObject:
       return check_object(value, pointer, *parameter.nested);
     case ValueKind::kArms:
+    case ValueKind::kLevels:
       if (expect(value.is_object() && !value.empty())) check_arms(value, pointer);
+      return;
+    case ValueKind::kWeights:
+      if (expect(value.is_object() && !value.empty())) check_weights(value, pointer);
       return;
     case ValueKind::kNumbers:
     case ValueKind::kStrings:
@@ -400,6 +404,32 @@ void StructureCheck::check_arms(const json& arms, const std::string& pointer) {
       check_value(arm, child, comment_parameter());
     } else {
       check_string(arm, child, name);
+    }
+  }
+}
+
+void StructureCheck::check_weights(const json& weights, const std::string& pointer) {
+  const Parameter weight = {
+      .key = "weight", .kind = ValueKind::kNumber, .range = {-1000.0, 1000.0}};
+  for (const auto& [factor, levels] : weights.items()) {
+    const std::string child = pointer + '/' + pointer_token(factor);
+    if (factor == "comment") {
+      check_value(levels, child, comment_parameter());
+      continue;
+    }
+    if (!levels.is_object() || levels.empty()) {
+      report(child, R"(expected levels with their weights such as {"thin": 1, "thick": -1}, )"
+                    "found " +
+                        found_words(levels));
+      continue;
+    }
+    for (const auto& [level, value] : levels.items()) {
+      const std::string at = child + '/' + pointer_token(level);
+      if (level == "comment") {
+        check_value(value, at, comment_parameter());
+      } else {
+        check_number(value, at, weight);
+      }
     }
   }
 }

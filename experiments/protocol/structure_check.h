@@ -44,6 +44,7 @@ class StructureCheck : StudyCheck {
                   const Parameter& parameter);
   void check_stage(const nlohmann::json& stage, const std::string& pointer);
   void check_arms(const nlohmann::json& arms, const std::string& pointer);
+  void check_weights(const nlohmann::json& weights, const std::string& pointer);
   void read_languages();
 
   [[nodiscard]] const ParameterTable& whole_file() const { return *tables_.front(); }

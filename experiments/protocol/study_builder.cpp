@@ -47,8 +47,20 @@ class ObjectReader {
     return get<std::vector<std::string>>(key);
   }
   [[nodiscard]] Text text(const std::string& key) const { return to_text(value(key)); }
-  [[nodiscard]] std::map<std::string, std::string> arms(const std::string& key) const {
+  [[nodiscard]] std::map<std::string, std::string> names(const std::string& key) const {
     return to_text(value(key));
+  }
+  [[nodiscard]] std::map<std::string, std::map<std::string, double>> weights(
+      const std::string& key) const {
+    std::map<std::string, std::map<std::string, double>> found;
+    const json written = value(key);
+    for (const auto& [factor, levels] : written.items()) {
+      if (factor == "comment") continue;
+      for (const auto& [level, weight] : levels.items()) {
+        if (level != "comment") found[factor][level] = weight.get<double>();
+      }
+    }
+    return found;
   }
   [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
   /// Nothing where it is absent and has no default, and for texts.
@@ -222,6 +234,7 @@ Block block(const ObjectReader& in) {
   block.reference_intensity = block.settings.optional_number("reference");
   block.feedback = in.boolean("feedback");
   if (in.has("practice")) block.practice = practice(in.object("practice"));
+  block.levels = in.names("levels");
   return block;
 }
 
@@ -290,7 +303,7 @@ class StageBuilder {
     Stage stage;
     stage.name = in.string("name");
     stage.title = in.text("title");
-    if (kind != "counterbalance") stage.only_for = in.arms("only_for");
+    if (kind != "counterbalance") stage.only_for = in.names("only_for");
     stage.line = file_.value_position(pointer).line;
     if (kind == "checklist") stage.content = checklist(in);
     if (kind == "consent") stage.content = consent(in);
@@ -356,6 +369,29 @@ DeviceNeeds device_needs(const ObjectReader& in) {
   return needs;
 }
 
+PlannedContrast planned_contrast(const ObjectReader& in) {
+  PlannedContrast contrast{.name = in.string("name"),
+                           .hypothesis = in.text("hypothesis"),
+                           .weights = in.weights("of"),
+                           .primary = in.string("role") == "primary",
+                           .smallest_effect = in.optional_number("smallest_effect"),
+                           .alpha = in.number("alpha"),
+                           .family = in.string("family")};
+  for (const ContrastMeasure measure : contrast_measures()) {
+    if (to_string(measure) == in.string("measure")) contrast.measure = measure;
+  }
+  const std::string direction = in.string("direction");
+  contrast.direction = direction == "greater" ? ContrastDirection::kGreater
+                       : direction == "less"  ? ContrastDirection::kLess
+                                              : ContrastDirection::kEither;
+  const std::string correction = in.string("correction");
+  contrast.correction = correction == "none"         ? Correction::kNone
+                        : correction == "bonferroni" ? Correction::kBonferroni
+                                                     : Correction::kHolm;
+  if (contrast.family.empty()) contrast.family = in.string("role");
+  return contrast;
+}
+
 }  // namespace
 
 Study build_study(const LocatedJson& file, std::string text) {
@@ -384,6 +420,13 @@ Study build_study(const LocatedJson& file, std::string text) {
     study.participant_fields.push_back({.name = field.string("name"),
                                         .question = field.text("question"),
                                         .options = options(field)});
+  });
+  in.each_object("factors", [&](const ObjectReader& factor, std::size_t) {
+    study.factors.push_back(
+        {.name = factor.string("name"), .levels = factor.strings("levels")});
+  });
+  in.each_object("contrasts", [&](const ObjectReader& contrast, std::size_t) {
+    study.contrasts.push_back(planned_contrast(contrast));
   });
   study.stages = StageBuilder(file).stages(in.list("stages"), "/stages");
   study.text = std::move(text);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "experiments/protocol/checked_file.h"
+#include "experiments/protocol/design_rules.h"
 #include "experiments/protocol/drawing_rules.h"
 #include "experiments/protocol/level_doubts.h"
 #include "experiments/protocol/located_json.h"
@@ -37,6 +38,7 @@ LocatedJson checked(const std::string& text, const std::string& file_name,
       const Study study = build_study(file, text);
       check_drawing(file, study, problems, begun == Begun::kNo);
       check_session_limit_rules(file, study, problems);
+      check_contrasts(file, study, problems);
     }
   }
   arrange(problems, file_name);

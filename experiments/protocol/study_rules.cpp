@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/media/force_map.h"
+#include "experiments/protocol/design_rules.h"
 #include "experiments/protocol/label_rules.h"
 #include "experiments/protocol/order_rules.h"
 #include "experiments/protocol/participant_field_rules.h"
@@ -343,6 +344,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_task_rules(file, problems);
   check_order_rules(file, problems);
   check_participant_field_rules(file, problems);
+  check_design_rules(file, problems);
 }
 
 }  // namespace jnd::experiments

@@ -1,5 +1,6 @@
 #include "experiments/protocol/study_table.h"
 
+#include "experiments/protocol/design_tables.h"
 #include "experiments/protocol/stage_tables.h"
 
 namespace jnd::experiments {
@@ -250,6 +251,18 @@ const ParameterTable& study_table() {
            .required = false,
            .max_items = 10,
            .nested = &participant_field_table()},
+          {.key = "factors",
+           .kind = ValueKind::kObjects,
+           .meaning = "What the study varies on purpose; see `contrasts`.",
+           .required = false,
+           .max_items = 6,
+           .nested = &factor_table()},
+          {.key = "contrasts",
+           .kind = ValueKind::kObjects,
+           .meaning = "Comparisons of conditions that are planned before anybody takes part.",
+           .required = false,
+           .max_items = 40,
+           .nested = &contrast_table()},
           {.key = "stages",
            .kind = ValueKind::kStages,
            .meaning = "What happens in a session, in order."},
@@ -271,7 +284,9 @@ const std::vector<const ParameterTable*>& all_tables() {
                                                  &immersion_table(),
                                                  &force_map_row_table(),
                                                  &participant_field_table(),
-                                                 &session_limits_table()};
+                                                 &session_limits_table(),
+                                                 &factor_table(),
+                                                 &contrast_table()};
     for (const ParameterTable* stage : stage_tables()) {
       tables.push_back(stage);
       for (const Parameter& parameter : stage->parameters) {

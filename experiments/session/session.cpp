@@ -93,9 +93,16 @@ void Session::enter_stage() {
   if (std::holds_alternative<Block>(stage->content)) draw_trials();
 }
 
+Block Session::current_block_as_drawn() const {
+  (void)current_block();
+  const Stage& stage = *current_stage();
+  return block_of(stage, order_row(parameters_.cell, stage.name),
+                  people_levels(parameters_.cell));
+}
+
 void Session::draw_trials() {
   const Stage& stage = *current_stage();
-  const Block block = block_of(stage, order_row(parameters_.cell, stage.name));
+  const Block block = current_block_as_drawn();
   const std::vector<AnsweredTrial> answered = state_.answered_in(state_.stage);
   core::RandomStream stream(parameters_.seed, "order",
                             {state_.stage, static_cast<std::int64_t>(answered.size())});

@@ -58,6 +58,9 @@ class Session {
   [[nodiscard]] const Stage* current_stage() const noexcept;
   /// Of the current stage; throws `Error` if it is no block.
   [[nodiscard]] const Block& current_block() const;
+  /// The same as its trials are drawn and felt: with the row of its square, and with the levels
+  /// that it has for this participant; see `block_of`. Throws as `current_block`.
+  [[nodiscard]] Block current_block_as_drawn() const;
   /// Of the current trial, or of the block where none waits.
   [[nodiscard]] TrialForm current_form() const;
 

@@ -143,6 +143,10 @@ std::string expectation(const Parameter& parameter) {
       return list + "stages";
     case ValueKind::kArms:
       return R"(an object such as {"priming": "primed"})";
+    case ValueKind::kLevels:
+      return R"(an object such as {"fluid": "thin"})";
+    case ValueKind::kWeights:
+      return R"(an object such as {"fluid": {"thin": 1, "thick": -1}})";
   }
   return "";
 }

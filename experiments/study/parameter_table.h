@@ -25,6 +25,8 @@ enum class ValueKind {
   kObjects,   ///< List of such objects.
   kStages,    ///< List of stages; the table of each follows from its `kind`.
   kArms,      ///< Object: name of a `one_of` counterbalance to name of its arm.
+  kLevels,    ///< Object: name of a factor to name of one of its levels.
+  kWeights,   ///< Object: name of a factor to an object, names of levels to their weights.
 };
 
 struct Range {

@@ -10,12 +10,10 @@
 #include "core/media/force_map.h"
 #include "core/media/immersion.h"
 #include "core/media/viscous_drag.h"
+#include "experiments/study/design.h"
 #include "experiments/study/settings.h"
 
 namespace jnd::experiments {
-
-/// A text in the languages of the study: language code ("en", "de") to words.
-using Text = std::map<std::string, std::string>;
 
 /// A medium as a study names it, with its one varied quantity.
 struct MediumSetting {
@@ -109,6 +107,7 @@ struct Block {
   double expected_trial_s = 0.0;        ///< For planning the length of a session, > 0.
   bool feedback = false;                ///< Right or wrong is told after each answer.
   std::optional<Practice> practice;     ///< The block is practice, and no data.
+  Levels levels;                        ///< Of the study's factors; may be empty.
   Settings settings;                    ///< The procedure's own keys, all of them.
 
   /// A surface that is pressed, not a fluid that is stroked through.
@@ -232,6 +231,8 @@ struct Study {
   Blinding blinding = Blinding::kNone;
   SessionLimits session_limits;
   std::vector<ParticipantField> participant_fields;
+  std::vector<DesignFactor> factors;
+  std::vector<PlannedContrast> contrasts;
   std::vector<Stage> stages;
   std::string text;  ///< The file word for word; its SHA-256 identifies the study.
 };

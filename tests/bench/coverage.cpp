@@ -2,10 +2,13 @@
 // analyses their answers, and counts how often the intervals hold the truth. `./dev coverage`
 // prints the page data/reference/coverage/README.md. The same seed gives the same page.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/fits/psychometric_fit.h"
@@ -157,14 +160,34 @@ int main(int argc, char** argv) {
     return 2;
   }
   constexpr std::uint64_t kSeed = 2018;
-  std::printf(
-      "# What the intervals cover\n\nWritten by `./dev coverage %d`; seed %d. People are "
-      "simulated, their Weber fractions known.\n",
-      num_sets, static_cast<int>(kSeed));
   using namespace jnd::coverage;
-  cover_one_person(num_sets, kSeed);
-  cover_own_values(num_sets, kSeed);
-  cover_groups(num_sets, kSeed);
-  cover_difference(std::max(4, num_sets / 2), kSeed);
+  const int few = std::max(4, num_sets / 2);
+  const std::vector<std::pair<std::string, std::function<void()>>> sections = {
+      {"person", [=] { cover_one_person(num_sets, kSeed); }},
+      {"own_values", [=] { cover_own_values(num_sets, kSeed); }},
+      {"groups", [=] { cover_groups(num_sets, kSeed); }},
+      {"difference", [=] { cover_difference(few, kSeed); }},
+      {"contrasts", [=] { cover_contrasts(num_sets, kSeed); }}};
+  const std::string wanted = argc > 2 ? argv[2] : "";
+  const bool is_known = wanted.empty() || std::ranges::any_of(sections, [&](const auto& one) {
+                          return one.first == wanted;
+                        });
+  if (!is_known) {
+    std::fprintf(
+        stderr,
+        "coverage: expected person, own_values, groups, difference or contrasts as the "
+        "section, found %s\n",
+        argv[2]);
+    return 2;
+  }
+  if (wanted.empty()) {
+    std::printf(
+        "# What the intervals cover\n\nWritten by `./dev coverage %d`; seed %d. People are "
+        "simulated, their Weber fractions known.\n",
+        num_sets, static_cast<int>(kSeed));
+  }
+  for (const auto& [name, write] : sections) {
+    if (wanted.empty() || wanted == name) write();
+  }
   return 0;
 }

@@ -155,5 +155,85 @@ TEST(PowerRun, WhereNobodyGetsBothBlocksTheTestIsUnpaired) {
   EXPECT_NEAR(*run[1].tests[0].p_value, *expected.p_value, 1e-9);
 }
 
+PowerContrast contrast_of(std::vector<std::vector<std::size_t>> conditions,
+                          std::vector<std::vector<double>> weights) {
+  PowerContrast contrast{.name = "planned", .family = "primary"};
+  contrast.conditions = std::move(conditions);
+  contrast.groups = std::vector<experiments::Levels>(weights.size());
+  contrast.weights = std::move(weights);
+  return contrast;
+}
+
+TEST(PowerRun, APlannedContrastOfTwoBlocksIsThePairedTest) {
+  PlannedAnalysis analysis = two_blocks();
+  analysis.contrasts = {contrast_of({{0}, {1}}, {{1.0, -1.0}})};
+  ASSERT_EQ(test_names(analysis).size(), 3U);
+  EXPECT_TRUE(test_names(analysis).back().of_contrast);
+  const PlannedRun run = analyse_run(analysis, people(6, 0.5, 0.3, 2));
+  for (const PlannedSize& size : run) {
+    ASSERT_EQ(size.tests.size(), 3U);
+    ASSERT_EQ(size.num_degenerate, (std::vector<int>{0, 0})) << "both tests have everybody";
+    EXPECT_NEAR(*size.tests[2].difference, *size.tests[0].difference, 1e-9);
+    EXPECT_NEAR(*size.tests[2].p_value, *size.tests[0].p_value, 1e-9);
+  }
+}
+
+TEST(PowerRun, BlocksOfOneConditionAreTakenTogether) {
+  PlannedAnalysis pooled = two_blocks();
+  pooled.compared.reset();
+  pooled.blocks.push_back({.name = "c", .reference = 1.0});
+  pooled.contrasts = {contrast_of({{0, 2}, {1}}, {{1.0, -1.0}})};
+  std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 2);
+  std::vector<PlannedPerson> doubled = everybody;
+  for (std::size_t person = 0; person < everybody.size(); ++person) {
+    everybody[person].push_back(everybody[person][0]);
+    for (AnswerCount& count : doubled[person][0].counts) {
+      count.num_yes *= 2;
+      count.num_trials *= 2;
+    }
+  }
+  PlannedAnalysis alone = two_blocks();
+  alone.compared.reset();
+  alone.contrasts = {contrast_of({{0}, {1}}, {{1.0, -1.0}})};
+  const PlannedRun of_three = analyse_run(pooled, everybody);
+  const PlannedRun of_two = analyse_run(alone, doubled);
+  EXPECT_NEAR(*of_three[1].tests[0].difference, *of_two[1].tests[0].difference, 1e-9);
+  EXPECT_NEAR(*of_three[1].tests[0].p_value, *of_two[1].tests[0].p_value, 1e-9);
+}
+
+TEST(PowerRun, GroupsOfAContrastAreThoseOfTheirLevels) {
+  PlannedAnalysis analysis = two_blocks();
+  analysis.compared.reset();
+  analysis.contrasts = {contrast_of({{0}}, {{1.0}, {-1.0}})};
+  analysis.contrasts[0].groups = {{{"priming", "primed"}}, {{"priming", "control"}}};
+  const std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 2);
+  std::vector<experiments::Levels> levels;
+  std::vector<double> primed, control;
+  for (std::size_t person = 0; person < everybody.size(); ++person) {
+    const bool is_primed = person % 2 == 0;
+    levels.push_back({{"priming", is_primed ? "primed" : "control"}});
+    (is_primed ? primed : control).push_back(own_log_log(everybody[person][0]));
+  }
+  const PlannedTest test = analyse_run(analysis, everybody, levels)[1].tests.at(0);
+  const Comparison expected = welch_t_test(primed, control);
+  EXPECT_NEAR(*test.difference, *expected.estimate, 1e-9);
+  EXPECT_NEAR(*test.p_value, *expected.p_value, 1e-9);
+}
+
+TEST(PowerRun, AFamilyIsAdjustedAndEquivalenceIsItsOwnTest) {
+  PlannedAnalysis analysis = two_blocks();
+  analysis.compared.reset();
+  const PowerContrast one = contrast_of({{0}, {1}}, {{1.0, -1.0}});
+  analysis.contrasts = {one};
+  const PlannedRun alone = analyse_run(analysis, people(6, 0.5, 0.3, 2));
+  analysis.contrasts = {one, one};
+  analysis.contrasts[1].margin = 3.0;
+  const PlannedRun both = analyse_run(analysis, people(6, 0.5, 0.3, 2));
+  ASSERT_EQ(both[1].tests.size(), 3U);
+  EXPECT_NEAR(*both[1].tests[0].p_value, 2.0 * *alone[1].tests[0].p_value, 1e-12);
+  EXPECT_LT(*both[1].tests[2].p_value, 0.05) << "well within so wide a margin";
+  EXPECT_EQ(test_names(analysis).back().name, "planned: equivalence");
+}
+
 }  // namespace power_run_test
 }  // namespace jnd::analysis

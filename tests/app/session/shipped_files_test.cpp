@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "app/tiny_study.h"
+#include "core/error.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
@@ -31,6 +32,18 @@ TEST(Share, TheUsersOwnFileComesFirst) {
 
 TEST(Share, WhatIsNowhereKeepsItsNameForTheReaderToComplainAbout) {
   EXPECT_EQ(user_or_shipped("no_such_study.json", "protocols"), "no_such_study.json");
+}
+
+TEST(Share, WhatIsNearlyAShippedNameIsToldThatName) {
+  try {
+    (void)user_or_shipped("short_tou", "protocols");
+    ADD_FAILURE() << "taken";
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(), "short_tou: expected a file or the name of a shipped one, found "
+                               "neither; did you mean `short_tour`?");
+  }
+  EXPECT_EQ(user_or_shipped("short_tou", "protocols", /*keep_near=*/true), "short_tou");
+  EXPECT_EQ(user_or_shipped("folder/short_tou", "protocols"), "folder/short_tou");
 }
 
 TEST(Share, AFolderInTheEnvironmentComesBeforeTheRest) {

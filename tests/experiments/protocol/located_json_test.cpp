@@ -106,6 +106,18 @@ TEST(LocatedJson, SaysWhatBelongsThereAndGuessesWhatWasMeant) {
             "`\xE2\x80\x9Eno\xE2\x80\x9C` (write the straight quotes of the keyboard)");
 }
 
+TEST(LocatedJson, SaysWhereWhatIsNotClosedBegins) {
+  EXPECT_EQ(problems_in("{\"a\": [1,\n {\"b\": 2],\n \"c\": 3}"),
+            "x:2:9: /a/1/b: expected `,` or `}`, found `]`; the `{` in line 2, column 2 is not "
+            "closed");
+  EXPECT_EQ(problems_in("{\"a\": {\"b\": [\"}\", 2}}"),
+            "x:1:20: /a/b/2: expected `,` or `]`, found `}`; the `[` in line 1, column 13 is "
+            "not closed");
+  EXPECT_EQ(problems_in("[[1, 2]"),
+            "x:1:8: /1: expected `,` or `]`, found the end of the file; the `[` in line 1, "
+            "column 1 is not closed");
+}
+
 TEST(LocatedJson, PlacesAMissingCommaBehindTheValueBefore) {
   EXPECT_EQ(problems_in("[0.5 0.75, 1]"),
             "x:1:5: /1: expected `,` or `]` behind this value, found a number");

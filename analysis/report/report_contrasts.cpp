@@ -1,0 +1,159 @@
+#include "analysis/report/report_contrasts.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "analysis/results/contrast_words.h"
+#include "analysis/results/number_words.h"
+
+namespace jnd::analysis {
+namespace {
+
+using experiments::PlannedContrast;
+
+std::string spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string title_of(const ContrastResult& one) {
+  const PlannedContrast& plan = one.plan;
+  std::string title = spaced(plan.name);
+  if (!one.hypothesis.empty()) title += "\n" + one.hypothesis;
+  return title;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : "; ") + word;
+  return all;
+}
+
+HtmlTable plan_table(const StudyResults& results) {
+  HtmlTable table{.caption = "Contrasts as they were planned in the study file",
+                  .columns = {{"Contrast", false, true},
+                              {"In"},
+                              {"Conditions and their weights"},
+                              {"Role, family"},
+                              {"Direction"},
+                              {"Smallest effect", true},
+                              {"Alpha", true},
+                              {"Correction"}}};
+  for (const ContrastResult& one : results.contrasts) {
+    const PlannedContrast& plan = one.plan;
+    const std::string role = plan.primary ? "primary" : "secondary";
+    table.rows.push_back({title_of(one), measure_words(plan.measure), joined(one.conditions),
+                          plan.family == role ? role : role + ", " + plan.family,
+                          to_string(plan.direction),
+                          plan.smallest_effect ? shortest_words(*plan.smallest_effect) : "–",
+                          shortest_words(plan.alpha), to_string(plan.correction)});
+  }
+  return table;
+}
+
+std::vector<std::string> test_row(const std::string& title, const ContrastTest& test,
+                                  const std::optional<double>& adjusted) {
+  std::string statistic = "–";
+  if (test.statistic) {
+    statistic = test.statistic_name + " = " + number_words(test.statistic, 2);
+  }
+  return {title,
+          test.effect ? number_words(test.effect) : "– " + test.reason,
+          test.effect ? interval_words(test.ci95, test.effect) : "–",
+          statistic,
+          test.degrees_of_freedom ? number_words(test.degrees_of_freedom, 1) : "–",
+          p_words(test.p_value),
+          p_words(adjusted),
+          std::to_string(test.num_participants)};
+}
+
+HtmlTable outcome_table(const std::string& caption) {
+  return {.caption = caption,
+          .columns = {{"Contrast", false, true},
+                      {"Effect", true},
+                      {"95 % interval", true},
+                      {"Statistic", true},
+                      {"df", true},
+                      {"p", true},
+                      {"p, adjusted", true},
+                      {"n", true}}};
+}
+
+}  // namespace
+
+void write_contrast_sentences(HtmlText& html, const StudyResults& results) {
+  for (const bool primary : {true, false}) {
+    std::vector<std::string> sentences;
+    for (const ContrastResult& one : results.contrasts) {
+      if (one.plan.primary != primary) continue;
+      sentences.push_back(one.sentence.empty() ? "The contrast “" + spaced(one.plan.name) +
+                                                     "” has no value: " + one.test.reason + "."
+                                               : one.sentence);
+    }
+    if (sentences.empty()) continue;
+    html.paragraph(primary ? "What the study was planned to answer:"
+                           : "What else was planned:");
+    html.list(sentences);
+  }
+}
+
+void write_deviations(HtmlText& html, const StudyResults& results) {
+  const PreregisteredStudy& plan = results.preregistration;
+  if (plan.registered_on.empty()) return;
+  html.heading(2, "Deviations from the preregistration");
+  html.paragraph("The study was registered on " + plan.registered_on + " (SHA-256 " +
+                 plan.sha256 + "). " +
+                 (plan.deviations.empty() ? "Nothing deviates from it." : ""));
+  HtmlTable table{.caption = "What is not as it was planned",
+                  .columns = {{"What"}, {"Planned"}, {"Found"}}};
+  for (const Deviation& one : plan.deviations) {
+    table.rows.push_back({one.topic, one.planned, one.found});
+  }
+  html.table(table);
+}
+
+void write_contrasts(HtmlText& html, const StudyResults& results) {
+  if (results.contrasts.empty()) return;
+  html.heading(3, "Planned contrasts");
+  html.table(plan_table(results));
+  HtmlTable answers = outcome_table("What came of them");
+  HtmlTable otherwise = outcome_table("The same by other means");
+  HtmlTable equivalence{.caption = "Against the smallest effect of interest",
+                        .columns = {{"Contrast", false, true},
+                                    {"Margin", true},
+                                    {"Interval", true},
+                                    {"p, two one-sided tests", true},
+                                    {"Equivalent"}}};
+  HtmlTable excluded{.caption = "Left out of people's own contrasts, and why",
+                     .columns = {{"Contrast", false, true}, {"Who"}, {"Reason"}}};
+  std::vector<std::string> cautions;
+  for (const ContrastResult& one : results.contrasts) {
+    const std::string title = spaced(one.plan.name);
+    answers.rows.push_back(
+        test_row(title + "\n" + one.test.method, one.test, one.p_value_adjusted));
+    for (const ContrastTest& other : one.otherwise) {
+      otherwise.rows.push_back(test_row(title + "\n" + other.method, other, std::nullopt));
+    }
+    if (one.equivalence) {
+      const Equivalence& found = *one.equivalence;
+      equivalence.rows.push_back(
+          {title, shortest_words(found.margin), interval_words(found.interval, one.test.effect),
+           p_words(found.p_value), found.is_shown ? "yes" : "not shown"});
+    }
+    for (const ExcludedParticipant& left_out : one.excluded) {
+      excluded.rows.push_back({title, left_out.participant, left_out.reason});
+    }
+    for (const std::string& caution : one.cautions) cautions.push_back(title + ": " + caution);
+  }
+  answers.notes.emplace_back(
+      "Effects are ratios, but of exponents differences. p values are on the side that was "
+      "planned; the adjusted ones are within the family of each contrast.");
+  html.table(answers);
+  if (!cautions.empty()) html.list(cautions);
+  html.table(equivalence);
+  html.table(otherwise);
+  html.table(excluded);
+}
+
+}  // namespace jnd::analysis

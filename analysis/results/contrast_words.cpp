@@ -1,0 +1,182 @@
+#include "analysis/results/contrast_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jnd::analysis {
+namespace {
+
+using experiments::ContrastDirection;
+using experiments::ContrastMeasure;
+using experiments::PlannedContrast;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) all += i + 1 == words.size() ? " and " : ", ";
+    all += words[i];
+  }
+  return all;
+}
+
+/// Names of a study are words that `_` joins.
+std::string shown(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+using Weights = std::map<std::string, double>;
+
+std::vector<std::string> levels_with(const Weights& weights, bool above) {
+  std::vector<std::string> levels;
+  for (const auto& [level, weight] : weights) {
+    if (above ? weight > 0.0 : weight < 0.0) levels.push_back(shown(level));
+  }
+  return levels;
+}
+
+bool compares(const Weights& weights) { return !levels_with(weights, false).empty(); }
+
+/// ", of those primed": to which levels a contrast is restricted.
+std::string restriction_words(const PlannedContrast& plan) {
+  std::string words;
+  for (const auto& [factor, weights] : plan.weights) {
+    if (compares(weights)) continue;
+    words += " (" + shown(factor) + ": " + joined(levels_with(weights, true)) + ")";
+  }
+  return words;
+}
+
+std::string decimals(double value, int num_decimals) {
+  return fmt::format("{:.{}f}", value, num_decimals);
+}
+
+/// Two decimals of what is about 1, three significant digits of anything else.
+std::string effect_words(const std::optional<double>& value) {
+  if (!value) return "open";
+  const double size = std::abs(*value);
+  const int num_decimals = size >= 100.0 ? 0 : size >= 10.0 ? 1 : size >= 0.1 ? 2 : 3;
+  return decimals(*value, num_decimals);
+}
+
+std::string interval_text(const Interval& interval) {
+  return "[" + effect_words(interval.low) + ", " + effect_words(interval.high) + "]";
+}
+
+std::string test_words(const ContrastTest& test, const PlannedContrast& plan) {
+  std::string words;
+  if (test.statistic && test.degrees_of_freedom) {
+    const double df = *test.degrees_of_freedom;
+    const bool is_whole = std::abs(df - std::round(df)) < 1e-6;
+    words = ", " + test.statistic_name + "(" + decimals(df, is_whole ? 0 : 1) +
+            ") = " + decimals(*test.statistic, 2);
+  }
+  if (test.p_value) {
+    words += ", " + journal_p_words(*test.p_value);
+    if (plan.direction != ContrastDirection::kEither) words += " (one-sided)";
+  }
+  return words;
+}
+
+/// What a single factor compares: "was 2.10 times as large in thin as in thick".
+std::string main_words(const PlannedContrast& plan, double effect, const Weights& weights) {
+  const std::string above = joined(levels_with(weights, true));
+  const std::string below = joined(levels_with(weights, false));
+  const std::string large = plan.measure == ContrastMeasure::kResponseTime ? "long" : "large";
+  if (is_ratio(plan.measure)) {
+    const std::string what =
+        plan.measure == ContrastMeasure::kPse ? ", relative to its reference, was " : " was ";
+    return what + effect_words(effect) + " times as " + large + " in " + above + " as in " +
+           below;
+  }
+  return " was " + effect_words(std::abs(effect)) + (effect < 0.0 ? " smaller" : " larger") +
+         " in " + above + " than in " + below;
+}
+
+/// What several factors compare: "The ratio of the Weber fraction in thin to that in thick was
+/// 1.30 times as large in primed as in control".
+std::string interaction_words(const PlannedContrast& plan, double effect,
+                              const std::vector<const Weights*>& factors) {
+  const bool of_ratios = is_ratio(plan.measure);
+  std::string subject = "the " + measure_words(plan.measure);
+  for (std::size_t i = 0; i + 1 < factors.size(); ++i) {
+    const std::string above = joined(levels_with(*factors[i], true));
+    const std::string below = joined(levels_with(*factors[i], false));
+    subject = of_ratios
+                  ? "the ratio of " + subject + " in " + above + " to that in " + below
+                  : "the difference of " + subject + " in " + above + " less that in " + below;
+  }
+  subject.front() = 'T';
+  const std::string above = joined(levels_with(*factors.back(), true));
+  const std::string below = joined(levels_with(*factors.back(), false));
+  if (of_ratios) {
+    return subject + " was " + effect_words(effect) + " times as large in " + above +
+           " as in " + below;
+  }
+  return subject + " was " + effect_words(std::abs(effect)) +
+         (effect < 0.0 ? " smaller" : " larger") + " in " + above + " than in " + below;
+}
+
+std::string equivalence_words(const ContrastResult& result) {
+  if (!result.equivalence) return "";
+  const Equivalence& found = *result.equivalence;
+  const bool of_ratios = is_ratio(result.plan.measure);
+  const std::string range =
+      of_ratios ? effect_words(1.0 / found.margin) + " to " + effect_words(found.margin)
+                : effect_words(-found.margin) + " to " + effect_words(found.margin);
+  const std::string confidence = fmt::format("{:.4g}", 100.0 * (1.0 - 2.0 * result.plan.alpha));
+  return (found.is_shown ? " It is equivalent to no effect within the margin of "
+                         : " Equivalence to no effect was not shown within the margin of ") +
+         range + ", " + confidence + " % CI " + interval_text(found.interval) + ", " +
+         journal_p_words(found.p_value) + " (two one-sided tests).";
+}
+
+}  // namespace
+
+std::string journal_p_words(double p_value) {
+  if (p_value < 0.001) return "p < .001";
+  if (p_value > 0.999) return "p > .999";
+  const std::string digits = fmt::format("{:.{}f}", p_value, p_value < 0.01 ? 4 : 3);
+  return "p = " + digits.substr(1);
+}
+
+std::vector<std::string> condition_words(const experiments::ContrastConditions& conditions) {
+  std::vector<std::pair<double, std::string>> all;
+  for (std::size_t group = 0; group < conditions.groups.size(); ++group) {
+    for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
+      const double weight = conditions.weights[group][at];
+      const std::string& of_group = conditions.groups[group].name;
+      std::string name = conditions.conditions[at].name;
+      if (!of_group.empty()) name += ", " + of_group;
+      all.emplace_back(-weight, fmt::format("{} ({:+.3g})", name, weight));
+    }
+  }
+  std::ranges::stable_sort(all, {}, &std::pair<double, std::string>::first);
+  std::vector<std::string> words;
+  for (const auto& [weight, name] : all) words.push_back(name);
+  return words;
+}
+
+std::string contrast_sentence(const ContrastResult& result) {
+  const PlannedContrast& plan = result.plan;
+  if (!result.test.effect) return "";
+  std::vector<const Weights*> factors;
+  for (const auto& [factor, weights] : plan.weights) {
+    if (compares(weights)) factors.push_back(&weights);
+  }
+  std::string sentence = factors.size() == 1
+                             ? "The " + measure_words(plan.measure) +
+                                   main_words(plan, *result.test.effect, *factors.front())
+                             : interaction_words(plan, *result.test.effect, factors);
+  sentence += restriction_words(plan) + ", 95 % CI " + interval_text(result.test.ci95) +
+              test_words(result.test, plan);
+  if (result.p_value_adjusted && result.test.p_value &&
+      *result.p_value_adjusted != *result.test.p_value) {
+    sentence += ", " + journal_p_words(*result.p_value_adjusted) + " adjusted for the family";
+  }
+  return sentence + "." + equivalence_words(result);
+}
+
+}  // namespace jnd::analysis

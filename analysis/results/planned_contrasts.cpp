@@ -1,0 +1,312 @@
+#include "analysis/results/planned_contrasts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "analysis/hierarchical/hierarchical_contrast.h"
+#include "analysis/results/contrast_answers.h"
+#include "analysis/results/contrast_words.h"
+#include "analysis/statistics/comparison.h"
+#include "analysis/statistics/multiplicity.h"
+#include "core/error.h"
+
+namespace jnd::analysis {
+namespace {
+
+using experiments::ContrastConditions;
+using experiments::ContrastDirection;
+using experiments::ContrastMeasure;
+using experiments::PlannedContrast;
+
+Tail tail_of(const PlannedContrast& plan) {
+  return plan.direction == ContrastDirection::kGreater ? Tail::kGreater
+         : plan.direction == ContrastDirection::kLess  ? Tail::kLess
+                                                       : Tail::kTwoSided;
+}
+
+/// From the scale on which an effect is tested to that in which it is told.
+std::optional<double> told(const PlannedContrast& plan, const std::optional<double>& value) {
+  if (!value) return std::nullopt;
+  const double effect = is_ratio(plan.measure) ? std::exp(*value) : *value;
+  return std::isfinite(effect) ? std::optional(effect) : std::nullopt;
+}
+
+Interval told(const PlannedContrast& plan, const Interval& interval) {
+  return {told(plan, interval.low), told(plan, interval.high)};
+}
+
+constexpr double kConfidence = 0.95;
+
+ContrastTest test_of(const PlannedContrast& plan, const std::optional<EffectEstimate>& estimate,
+                     std::string method, int num_participants, std::string reason) {
+  ContrastTest test{.method = std::move(method), .num_participants = num_participants};
+  if (!estimate) {
+    test.reason = std::move(reason);
+    return test;
+  }
+  test.effect = told(plan, estimate->effect);
+  test.ci95 = told(plan, interval_of(*estimate, kConfidence));
+  test.statistic = estimate->statistic();
+  test.degrees_of_freedom = estimate->degrees_of_freedom;
+  test.p_value = p_value_of(*estimate, tail_of(plan));
+  return test;
+}
+
+Equivalence equivalence_of(const PlannedContrast& plan, const EffectEstimate& estimate) {
+  const double margin = *plan.smallest_effect;
+  Equivalence found{.margin = margin,
+                    .interval = told(plan, interval_of(estimate, 1.0 - 2.0 * plan.alpha))};
+  found.p_value =
+      equivalence_p_value(estimate, is_ratio(plan.measure) ? std::log(margin) : margin);
+  found.is_shown = found.p_value < plan.alpha;
+  return found;
+}
+
+/// People's weighted sums, by group, of those who have a number wherever they need one.
+struct Scores {
+  std::vector<std::vector<double>> by_group;
+  std::vector<ExcludedParticipant> excluded;
+  int num_participants = 0;
+};
+
+Scores scores_of(const ConditionNumbers& own, const ContrastConditions& conditions,
+                 ContrastMeasure measure) {
+  Scores scores{.by_group = std::vector<std::vector<double>>(conditions.groups.size())};
+  for (std::size_t person = 0; person < own.participants.size(); ++person) {
+    const auto group =
+        static_cast<std::size_t>(std::ranges::find(conditions.groups, own.groups[person],
+                                                   &experiments::ContrastGroup::name) -
+                                 conditions.groups.begin());
+    double score = 0.0;
+    std::string lacking;
+    for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
+      const double weight = conditions.weights[group][at];
+      const std::optional<double>& number = own.numbers[person][at];
+      if (!number) {
+        lacking = conditions.conditions[at].name;
+        break;
+      }
+      score += weight * *number;
+    }
+    if (!lacking.empty()) {
+      scores.excluded.push_back({own.participants[person], "no " + measure_words(measure) +
+                                                               " of their own in " + lacking});
+      continue;
+    }
+    scores.by_group[group].push_back(score);
+    ++scores.num_participants;
+  }
+  return scores;
+}
+
+std::string people_words(const ContrastConditions& conditions) {
+  return conditions.groups.size() == 1 ? "Student's t of people's own contrasts"
+                                       : "Welch's t of people's own contrasts";
+}
+
+/// Of what people's own numbers are, in a table of methods.
+std::string number_words_of(ContrastMeasure measure) {
+  switch (measure) {
+    case ContrastMeasure::kWeberFraction:
+      return "ln ln(1 + w)";
+    case ContrastMeasure::kPse:
+      return "ln(pse / reference)";
+    case ContrastMeasure::kExponent:
+      return "exponents";
+    case ContrastMeasure::kMagnitude:
+      return "mean ln magnitudes";
+    case ContrastMeasure::kMatch:
+      return "mean ln matches";
+    case ContrastMeasure::kResponseTime:
+      return "mean ln response times";
+  }
+  return "";
+}
+
+constexpr char kTooFew[] =
+    "expected two or more people in each group who differ from each other, found fewer";
+
+/// The same by ranks, which rest on no distribution: of one group alone.
+std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& scores,
+                                     const std::string& numbers) {
+  if (scores.by_group.size() != 1 || scores.by_group.front().empty()) return std::nullopt;
+  const std::vector<double>& values = scores.by_group.front();
+  const Comparison ranks = wilcoxon_test(values, std::vector<double>(values.size(), 0.0));
+  ContrastTest test{.method = ranks.method + " of people's own " + numbers + ", two-sided",
+                    .num_participants = scores.num_participants,
+                    .reason = ranks.reason};
+  test.effect = told(plan, ranks.hodges_lehmann);
+  test.ci95 = told(plan, ranks.hodges_lehmann_ci95);
+  test.statistic = ranks.statistic;
+  test.statistic_name = ranks.statistic_name;
+  test.p_value = ranks.p_value;
+  return test;
+}
+
+/// A contrast of the median person in all conditions at once.
+class HierarchicalTest {
+ public:
+  HierarchicalTest(const StudyData& data, const PlannedContrast& plan,
+                   const ContrastConditions& conditions)
+      : plan_(plan) {
+    for (const ParticipantData& participant : data.participants) {
+      if (const auto group = group_of(participant, conditions)) {
+        groups_[participant.participant] = static_cast<int>(*group);
+      }
+    }
+    std::vector<DiscriminationAnswers> everything;
+    for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
+      std::map<int, int> num_people;
+      for (DiscriminationAnswers& one : condition_answers(data, conditions.conditions[at])) {
+        const auto group = groups_.find(one.participant);
+        if (group == groups_.end()) continue;
+        ++num_people[group->second];
+        const std::string& of_group =
+            conditions.groups[static_cast<std::size_t>(group->second)].name;
+        const std::string& name = conditions.conditions[at].name;
+        const std::string condition = of_group.empty() ? name : name + ", " + of_group;
+        weights_[condition] = conditions.weights[static_cast<std::size_t>(group->second)][at];
+        answers_.push_back({one.participant, condition, one.reference, one.rows()});
+        everything.push_back(std::move(one));
+      }
+      for (std::size_t group = 0; group < conditions.groups.size(); ++group) {
+        const auto place = static_cast<int>(group);
+        const int num = num_people.contains(place) ? num_people.at(place) : 0;
+        const auto [known, is_new] = num_people_.emplace(place, num);
+        if (!is_new) known->second = std::min(known->second, num);
+      }
+    }
+    num_conditions_ = weights_.size();
+    pse_ = primary_pse(everything);
+    is_paired_ = num_conditions_ == 2 && conditions.groups.size() == 1;
+  }
+
+  /// Whether the model takes so many conditions.
+  [[nodiscard]] bool is_possible() const {
+    return num_conditions_ >= 2 &&
+           num_conditions_ <= (pse_ == HierarchicalPse::kPersonal ? std::size_t{4} : 8);
+  }
+
+  [[nodiscard]] ContrastTest test(std::optional<EffectEstimate>& estimate,
+                                  std::vector<std::string>& cautions) const {
+    const HierarchicalFit fit = fit_hierarchical(
+        answers_,
+        {.pse = pse_,
+         .slopes = is_paired_ ? HierarchicalSlopes::kCorrelated : HierarchicalSlopes::kShared,
+         .lapse_profile = false});
+    const auto number = plan_.measure == ContrastMeasure::kPse
+                            ? HierarchicalNumber::kLogPse
+                            : HierarchicalNumber::kLogWeberFraction;
+    estimate = hierarchical_contrast(fit, HierarchicalLink::kLogSlope, number, weights_,
+                                     groups_, num_people_);
+    std::string method = fit.method.empty() ? "hierarchical fit" : fit.method;
+    for (const HierarchicalCondition& one : fit.conditions) {
+      for (const std::string& caution : one.cautions) {
+        cautions.push_back(one.condition + ": " + caution);
+      }
+    }
+    return test_of(plan_, estimate, "median person, " + method, fit.num_participants,
+                   fit.reason.empty() ? kTooFew : fit.reason);
+  }
+
+ private:
+  const PlannedContrast& plan_;
+  std::vector<ParticipantAnswers> answers_;
+  std::map<std::string, double> weights_;
+  std::map<std::string, int> groups_;
+  std::map<int, int> num_people_;
+  std::size_t num_conditions_ = 0;
+  HierarchicalPse pse_ = HierarchicalPse::kPersonal;
+  bool is_paired_ = false;
+};
+
+ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
+  ContrastResult result{.plan = plan};
+  if (!data.written.languages.empty()) {
+    const auto words = plan.hypothesis.find(data.written.languages.front());
+    if (words != plan.hypothesis.end()) result.hypothesis = words->second;
+  }
+  const ContrastConditions conditions = contrast_conditions(data.written, plan);
+  if (!conditions.problem.empty()) {
+    result.test.reason = conditions.problem;
+    return result;
+  }
+  result.conditions = condition_words(conditions);
+  const Scores scores =
+      scores_of(condition_numbers(data, plan.measure, conditions), conditions, plan.measure);
+  const std::string numbers = number_words_of(plan.measure);
+  const std::optional<EffectEstimate> of_people = contrast_estimate(scores.by_group);
+  ContrastTest own = test_of(plan, of_people, people_words(conditions) + " in " + numbers,
+                             scores.num_participants, kTooFew);
+  if (plan.measure == ContrastMeasure::kWeberFraction) {
+    own.method += "; its effect is a ratio of ln(1 + w)";
+  }
+  std::optional<EffectEstimate> answer = of_people;
+  const bool is_fitted =
+      plan.measure == ContrastMeasure::kWeberFraction || plan.measure == ContrastMeasure::kPse;
+  result.excluded = scores.excluded;
+  if (is_fitted) {
+    const HierarchicalTest hierarchical(data, plan, conditions);
+    if (hierarchical.is_possible()) {
+      answer.reset();
+      result.test = hierarchical.test(answer, result.cautions);
+      result.otherwise.push_back(std::move(own));
+    } else {
+      result.test = std::move(own);
+      result.cautions.emplace_back(
+          "the hierarchical fit does not take so many conditions; the answer is by people's "
+          "own fits");
+    }
+  } else {
+    result.test = std::move(own);
+  }
+  if (auto ranks = by_ranks(plan, scores, numbers)) {
+    result.otherwise.push_back(std::move(*ranks));
+  }
+  if (plan.smallest_effect && answer) result.equivalence = equivalence_of(plan, *answer);
+  return result;
+}
+
+/// Adjusts p values in each family.
+void adjust(std::vector<ContrastResult>& results) {
+  std::set<std::string> families;
+  for (const ContrastResult& one : results) families.insert(one.plan.family);
+  for (const std::string& family : families) {
+    std::vector<ContrastResult*> members;
+    std::vector<std::optional<double>> p_values;
+    for (ContrastResult& one : results) {
+      if (one.plan.family != family) continue;
+      members.push_back(&one);
+      p_values.push_back(one.test.p_value);
+    }
+    switch (members.front()->plan.correction) {
+      case experiments::Correction::kHolm:
+        p_values = holm_adjusted(p_values);
+        break;
+      case experiments::Correction::kBonferroni:
+        p_values = bonferroni_adjusted(p_values);
+        break;
+      case experiments::Correction::kNone:
+        break;
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      members[i]->p_value_adjusted = p_values[i];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ContrastResult> planned_contrasts(const StudyData& data) {
+  std::vector<ContrastResult> results;
+  for (const PlannedContrast& plan : data.written.contrasts) {
+    results.push_back(result_of(data, plan));
+  }
+  adjust(results);
+  for (ContrastResult& one : results) one.sentence = contrast_sentence(one);
+  return results;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/participants/laboratory.h"
+
+namespace jnd::app {
+
+/// Adds `--effect LEVELS:AMOUNTS`, repeatable: what conditions do to simulated people.
+void add_effect_option(CLI::App& command, std::vector<std::string>& given);
+
+/// A laboratory file, or a shipped one, with these effects joined to its own. Throws
+/// `UsageError` for an effect that is written wrongly, `Error` as `read_laboratory`.
+[[nodiscard]] experiments::Laboratory laboratory_with_effects(
+    const std::string& laboratory, const std::vector<std::string>& effects);
+
+}  // namespace jnd::app

@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/report/html_text.h"
+#include "app/preregistration/preregistration.h"
+
+namespace jnd::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A field of the template: its title, and paragraphs or points.
+struct Field {
+  std::string title;
+  std::vector<std::string> paragraphs;
+  std::vector<std::string> points{};
+};
+
+struct Chapter {
+  std::string title;
+  std::vector<Field> fields;
+};
+
+std::string spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string list_words(const Json& list) {
+  std::string words;
+  for (const Json& one : list) {
+    const std::string word = one.is_string() ? one.get<std::string>() : one.dump();
+    words += (words.empty() ? "" : ", ") + word;
+  }
+  return words;
+}
+
+std::string weights_words(const Json& of) {
+  std::string words;
+  for (const auto& [factor, weights] : of.items()) {
+    std::string levels;
+    for (const auto& [level, weight] : weights.items()) {
+      levels += (levels.empty() ? "" : ", ") +
+                fmt::format("{} {:+g}", spaced(level), weight.get<double>());
+    }
+    words += (words.empty() ? "" : "; ") + spaced(factor) + ": " + levels;
+  }
+  return words;
+}
+
+std::string contrast_words(const Json& contrast) {
+  std::string words =
+      fmt::format("{} ({}): {} of {}, ", spaced(contrast.at("name")),
+                  contrast.at("role").get<std::string>(), spaced(contrast.at("measure")),
+                  weights_words(contrast.at("of")));
+  const std::string direction = contrast.at("direction");
+  words += direction == "either" ? "two-sided" : "one-sided (" + direction + ")";
+  words += fmt::format(", alpha {:g}", contrast.at("alpha").get<double>());
+  if (!contrast.at("smallest_effect").is_null()) {
+    words += fmt::format(", smallest effect of interest {:g}",
+                         contrast.at("smallest_effect").get<double>());
+  }
+  words +=
+      fmt::format(", {} correction in the family {}.",
+                  contrast.at("correction").get<std::string>(), spaced(contrast.at("family")));
+  const std::string hypothesis = contrast.at("hypothesis");
+  return hypothesis.empty() ? words : hypothesis + " " + words;
+}
+
+std::string block_words(const Json& block) {
+  std::string words = fmt::format("{}: {} of {} ({}), ", spaced(block.at("name")),
+                                  spaced(block.at("procedure")), spaced(block.at("medium")),
+                                  block.at("quantity").get<std::string>());
+  if (!block.at("intensities").empty()) {
+    words += "stimuli " + list_words(block.at("intensities")) + ", ";
+  }
+  if (!block.at("reference").is_null()) {
+    words += "reference " + block.at("reference").dump() + ", ";
+  }
+  words += fmt::format("repetitions {}", block.at("repetitions").dump());
+  if (block.at("practice").get<bool>()) words += "; practice, no data";
+  const std::string question = block.at("question");
+  return words + "." + (question.empty() ? "" : " Question: " + question);
+}
+
+std::string counterbalance_words(const Json& one) {
+  const std::string method = one.at("method");
+  const std::string how = method == "one_of" ? "each participant gets one of"
+                          : method == "latin"
+                              ? "everybody gets all, in the order of a Latin square, of"
+                              : "everybody gets all, in counterbalanced order, of";
+  std::string words =
+      spaced(one.at("name")) + ": " + how + " " + spaced(list_words(one.at("arms")));
+  const std::string field = one.at("stratify_by");
+  return words + (field.empty() ? "" : ", balanced within " + spaced(field)) + ".";
+}
+
+std::vector<std::string> each(const Json& list, std::string (*words)(const Json&)) {
+  std::vector<std::string> points;
+  for (const Json& one : list) points.push_back(words(one));
+  return points;
+}
+
+std::string or_words(const Json& plan, const char* key, const std::string& otherwise) {
+  const std::string text = plan.value(key, "");
+  return text.empty() ? otherwise : text;
+}
+
+std::string blinding_words(const std::string& blinding) {
+  if (blinding == "double") {
+    return "Neither participant nor experimenter sees which stimulus is presented.";
+  }
+  return blinding == "participant" ? "The participant does not see which stimulus is presented."
+                                   : "Nobody is blind to the stimuli.";
+}
+
+std::string power_words(const Json& power) {
+  return fmt::format(
+      "{} with {} participants: {:.1f} % (95 % {:.1f} to {:.1f} %) at alpha "
+      "{:g}, in {} simulated studies of the laboratory {}.",
+      spaced(power.at("test")), power.at("participants").dump(),
+      100.0 * power.at("power").get<double>(),
+      100.0 * power.at("power_ci95").at(0).get<double>(),
+      100.0 * power.at("power_ci95").at(1).get<double>(), power.at("alpha").get<double>(),
+      power.at("runs").dump(), power.at("laboratory").get<std::string>());
+}
+
+std::vector<Chapter> chapters_of(const Json& plan) {
+  const std::string num = plan.at("num_participants").dump();
+  std::vector<std::string> factors;
+  for (const Json& factor : plan.at("factors")) {
+    factors.push_back(spaced(factor.at("name")) + ": " + list_words(factor.at("levels")));
+  }
+  const bool has_contrasts = !plan.at("contrasts").empty();
+  return {
+      {"Study information",
+       {{"Title", {plan.at("title")}},
+        {"Authors", {list_words(plan.at("authors"))}},
+        {"Description", {or_words(plan, "description", "Not described in the study file.")}},
+        {"Hypotheses",
+         has_contrasts ? std::vector<std::string>{}
+                       : std::vector<std::string>{"The study file plans no contrast."},
+         each(plan.at("contrasts"), contrast_words)}}},
+      {"Design plan",
+       {{"Study type",
+         {"Experiment: stimuli are assigned by the program, which renders them and keeps every "
+          "answer."}},
+        {"Blinding", {blinding_words(plan.at("blinding"))}},
+        {"Study design",
+         {"The blocks, in the order of the study file:"},
+         each(plan.at("blocks"), block_words)},
+        {"Randomization",
+         {"Orders of stimuli are drawn from random streams of a seed that is kept with each "
+          "session. A new participant gets the combination of arms that the fewest have "
+          "completed."},
+         each(plan.at("counterbalances"), counterbalance_words)}}},
+      {"Sampling plan",
+       {{"Existing data", {"No session of this study was run before the registration."}},
+        {"Data collection procedures",
+         {"Device: " + or_words(plan, "device", "not said") + "."}},
+        {"Sample size", {num + " participants with a complete session."}},
+        {"Sample size rationale",
+         {or_words(plan, "sample_rationale", "Not said.")},
+         each(plan.at("power"), power_words)},
+        {"Stopping rule",
+         {or_words(plan, "stopping",
+                   "The study ends when " + num +
+                       " sessions are complete, whatever they "
+                       "show.")}}}},
+      {"Variables",
+       {{"Manipulated variables",
+         factors.empty() ? std::vector<std::string>{"The blocks of the study file."}
+                         : std::vector<std::string>{},
+         std::move(factors)},
+        {"Measured variables",
+         {"Every answer with its response time, and how the hand moved in every "
+          "presentation."}}}},
+      {"Analysis plan",
+       {{"Statistical models",
+         {has_contrasts
+              ? "The contrasts above as jnd computes them: Weber fractions and points "
+                "of subjective equality by a hierarchical probit model, everything "
+                "else by t tests of people's own contrasts."
+              : "Estimates of every block as jnd computes them; comparisons are "
+                "exploratory."}},
+        {"Transformations", {"Ratios are tested on their logarithms; exponents as they are."}},
+        {"Inference criteria",
+         {"p values below the alpha of a contrast after the correction in its family. "
+          "Equivalence by two one-sided tests where a smallest effect of interest is "
+          "stated."}},
+        {"Data exclusion", {or_words(plan, "exclusions", "No data are excluded.")}},
+        {"Missing data",
+         {"Who lacks a condition is left out of people's own contrasts and named; the "
+          "hierarchical fit uses every answer there is."}},
+        {"Exploratory analysis",
+         {"Every comparison that is not listed above is exploratory and called so."}}}},
+      {"Other",
+       {{"What identifies this plan",
+         {"Registered on " + plan.at("registered_on").get<std::string>() + ".",
+          "Study file " + plan.at("study_file").get<std::string>() + ", SHA-256 " +
+              plan.at("study_sha256").get<std::string>() + ".",
+          "jnd " + plan.at("program_version").get<std::string>() + "."}}}}};
+}
+
+std::string title_of(const Json& plan) {
+  return "Preregistration: " + plan.at("title").get<std::string>();
+}
+
+}  // namespace
+
+std::string preregistration_markdown(const Preregistration& plan) {
+  std::string text = "# " + title_of(plan) + "\n";
+  for (const Chapter& chapter : chapters_of(plan)) {
+    text += "\n## " + chapter.title + "\n";
+    for (const Field& field : chapter.fields) {
+      text += "\n### " + field.title + "\n";
+      for (const std::string& paragraph : field.paragraphs) text += "\n" + paragraph + "\n";
+      if (!field.points.empty()) text += "\n";
+      for (const std::string& point : field.points) text += "- " + point + "\n";
+    }
+  }
+  return text;
+}
+
+std::string preregistration_html(const Preregistration& plan) {
+  analysis::HtmlText html;
+  for (const Chapter& chapter : chapters_of(plan)) {
+    html.heading(2, chapter.title);
+    for (const Field& field : chapter.fields) {
+      html.heading(3, field.title);
+      for (const std::string& paragraph : field.paragraphs) html.paragraph(paragraph);
+      if (!field.points.empty()) html.list(field.points);
+    }
+  }
+  return analysis::html_document(
+      title_of(plan), "",
+      "<h1>" + analysis::html_escaped(title_of(plan)) + "</h1>\n" + html.text());
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,130 @@
+#include "experiments/protocol/design_tables.h"
+
+#include "experiments/study/design.h"
+
+namespace jnd::experiments {
+namespace {
+
+std::vector<std::string> measure_names() {
+  std::vector<std::string> names;
+  for (const ContrastMeasure measure : contrast_measures()) names.push_back(to_string(measure));
+  return names;
+}
+
+}  // namespace
+
+const ParameterTable& factor_table() {
+  static const ParameterTable kTable = {
+      .name = "factor",
+      .meaning =
+          "Something that the study varies on purpose. Where its name is that of a `one_of` "
+          "counterbalance or of a participant field, people differ in it, and its levels are "
+          "the names of the arms or the values of the field. Otherwise everybody meets all of "
+          "its levels, and each block says in `levels` which ones it has. Blocks with the same "
+          "levels are one condition, and contrasts take their answers together.",
+      .example = R"({"name": "fluid", "levels": ["thin", "thick"]})",
+      .parameters = {
+          {.key = "name",
+           .kind = ValueKind::kName,
+           .meaning = "Name of the factor, unlike that of any other. `block` is a factor that "
+                      "every study has: each block is a level of it."},
+          {.key = "levels",
+           .kind = ValueKind::kStrings,
+           .meaning = "Names of its levels, each of lower-case letters, digits and `_`.",
+           .min_items = 2,
+           .max_items = 20}}};
+  return kTable;
+}
+
+const ParameterTable& contrast_table() {
+  static const ParameterTable kTable = {
+      .name = "contrast",
+      .meaning =
+          "A comparison of conditions that is planned before anybody takes part. The results "
+          "tell planned contrasts first, and call every other comparison exploratory.",
+      .example =
+          R"json({"name": "thin_against_thick", "measure": "weber_fraction", "role": "primary",
+  "of": {"fluid": {"thin": 1, "thick": -1}}, "direction": "greater", "smallest_effect": 1.25})json",
+      .parameters = {
+          {.key = "name",
+           .kind = ValueKind::kName,
+           .meaning = "Name of the contrast in results and report, unlike that of any other."},
+          {.key = "hypothesis",
+           .kind = ValueKind::kText,
+           .meaning = "What is expected, in a sentence for readers of the report.",
+           .required = false},
+          {.key = "measure",
+           .kind = ValueKind::kString,
+           .meaning =
+               "What the conditions are compared in. `weber_fraction` and `pse` (point of "
+               "subjective equality: a bias, priming, an aftereffect) are of comparisons with "
+               "a "
+               "reference. `exponent` and `magnitude` are of estimated or produced magnitudes, "
+               "`match` is of matching. `response_time` is of any block.",
+           .allowed = measure_names()},
+          {.key = "of",
+           .kind = ValueKind::kWeights,
+           .meaning =
+               "Factors with weights of their levels. Weights that add up to 0 compare: the "
+               "weighted mean of the levels above 0 with that of the levels below 0. Of one "
+               "such factor this is a main effect, of several their interaction. A factor "
+               "whose "
+               "weights are all above 0 restricts the contrast to these levels. Over the "
+               "levels "
+               "of factors that are not named the contrast takes the mean. `block` with the "
+               "names of blocks compares any blocks."},
+          {.key = "role",
+           .kind = ValueKind::kString,
+           .meaning = "`primary`: the study is there to answer it. `secondary`: it is planned, "
+                      "too.",
+           .allowed = {"primary", "secondary"}},
+          {.key = "direction",
+           .kind = ValueKind::kString,
+           .meaning =
+               "What is expected. `greater`: the levels with weights above 0 have more. "
+               "`less`: they have less. Both make the test one-sided. `either`: the test "
+               "is two-sided.",
+           .required = false,
+           .default_json = R"("either")",
+           .allowed = {"either", "greater", "less"}},
+          {.key = "smallest_effect",
+           .kind = ValueKind::kNumber,
+           .meaning =
+               "Smallest effect of interest: of an `exponent` a difference, of every other "
+               "measure a ratio above 1 (1.25 stands for a quarter more and for a fifth less). "
+               "With it, two one-sided tests tell whether the effect is smaller than that. "
+               "Absent: nothing is said about equivalence.",
+           .required = false,
+           .range = {0.0, 1000.0, true}},
+          {.key = "alpha",
+           .kind = ValueKind::kNumber,
+           .meaning = "How often the tests may err where nothing differs.",
+           .required = false,
+           .default_json = "0.05",
+           .range = {0.0, 0.5, true}},
+          {.key = "family",
+           .kind = ValueKind::kName,
+           .meaning = "Contrasts whose p values are adjusted together have the same word here. "
+                      "Absent: the contrast is in a family with all others of its role that "
+                      "name none.",
+           .required = false},
+          {.key = "correction",
+           .kind = ValueKind::kString,
+           .meaning = "How the p values of the family are adjusted; all of a family say the "
+                      "same.",
+           .required = false,
+           .default_json = R"("holm")",
+           .allowed = {"holm", "bonferroni", "none"}}}};
+  return kTable;
+}
+
+Parameter levels_parameter() {
+  return {.key = "levels",
+          .kind = ValueKind::kLevels,
+          .meaning =
+              "Which level the block has of each of the study's `factors` that blocks "
+              "differ in. A block without levels is in no contrast of these factors.",
+          .required = false};
+}
+
+}  // namespace jnd::experiments

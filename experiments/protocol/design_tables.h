@@ -1,0 +1,14 @@
+#pragma once
+
+#include "experiments/study/parameter_table.h"
+
+namespace jnd::experiments {
+
+/// What a study varies on purpose.
+[[nodiscard]] const ParameterTable& factor_table();
+/// A comparison of conditions that is planned before anybody takes part.
+[[nodiscard]] const ParameterTable& contrast_table();
+/// The levels of a block.
+[[nodiscard]] Parameter levels_parameter();
+
+}  // namespace jnd::experiments
