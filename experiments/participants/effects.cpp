@@ -25,6 +25,10 @@ bool applies(const Laboratory::Effect& effect, const Levels& levels) {
   });
 }
 
+const std::vector<std::string> kAmounts = {
+    "weber_fraction_factor", "weber_fraction_sd_ln", "pse_factor",       "pse_sd_ln",
+    "exponent_difference",   "exponent_sd",          "magnitude_factor", "magnitude_sd_ln"};
+
 [[noreturn]] void refuse(const std::string& written, const std::string& found) {
   throw core::Error(
       "effect: expected levels and amounts such as "
@@ -108,6 +112,11 @@ std::string with_effects(const std::string& laboratory_text,
       effect["levels"][factor] = level;
     }
     for (const auto& [amount, value] : pairs_of(written.substr(colon + 1), written)) {
+      if (std::ranges::find(kAmounts, amount) == kAmounts.end()) {
+        refuse(written, "of which `" + amount + "` is no amount" +
+                            did_you_mean(amount, kAmounts) + "; amounts are " +
+                            one_of_words(kAmounts));
+      }
       effect[amount] = number_of(value, written);
     }
     file["effects"].push_back(std::move(effect));

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "analysis/hand_made_study.h"
+#include "analysis/hierarchical/hierarchical_contrast.h"
 #include "analysis/results/contrast_answers.h"
 #include "analysis/results/contrast_words.h"
 #include "analysis/results/study_results.h"
@@ -177,6 +180,66 @@ TEST(PlannedContrasts, OfWeberFractionsAreThoseOfTheMedianPerson) {
   }
   ASSERT_FALSE(all[0].otherwise.empty());
   EXPECT_NE(all[0].otherwise[0].method.find("ln ln(1 + w)"), std::string::npos);
+}
+
+// Of the three primed people, whose thin fluid comes in two blocks; the fit by hand.
+TEST(PlannedContrasts, TakeTheAnswersOfBothBlocksOfAConditionTogether) {
+  const ContrastTest found =
+      of_six(fluid_contrast("", "primed",
+                            R"({"fluid": {"thin": 1, "thick": -1}, "priming": {"primed": 1}})"))
+          .at(0)
+          .test;
+  std::vector<ParticipantAnswers> answers;
+  for (const auto& [name, thin_right, thick_right] :
+       {std::tuple("P01", 7, 9), {"P03", 8, 9}, {"P05", 6, 9}}) {
+    const auto rows = [](double reference, int num_right, int num_trials) {
+      return std::vector<AnswerCount>{
+          {.intensity = reference / 1.5,
+           .num_yes = num_trials - num_right,
+           .num_trials = num_trials},
+          {.intensity = reference * 1.5, .num_yes = num_right, .num_trials = num_trials}};
+    };
+    answers.push_back({name, "thin", 4.0, rows(4.0, 2 * thin_right, 20)});
+    answers.push_back({name, "thick", 16.0, rows(16.0, thick_right, 10)});
+  }
+  const HierarchicalFit fit = fit_hierarchical(answers, {.lapse_profile = false});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  const double thin = fit.conditions[0].weber_fraction.value();
+  const double thick = fit.conditions[1].weber_fraction.value();
+  EXPECT_NEAR(found.effect.value(), thin / thick, 1e-3 * thin / thick);
+  EXPECT_EQ(found.num_participants, 3);
+}
+
+TEST(HierarchicalContrast, HasTheErrorOfTheSlopesByTheDeltaMethod) {
+  std::vector<ParticipantAnswers> answers;
+  int person = 0;
+  for (const int right : {6, 7, 8, 9}) {
+    answers.push_back({"P" + std::to_string(++person),
+                       "",
+                       1.0,
+                       {{.intensity = 0.5, .num_yes = 10 - right, .num_trials = 10},
+                        {.intensity = 2.0, .num_yes = right, .num_trials = 10}}});
+  }
+  const HierarchicalFit fit =
+      fit_hierarchical(answers, {.pse = HierarchicalPse::kReference, .lapse_profile = false});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  std::map<std::string, int> groups;
+  for (const ParticipantAnswers& one : answers) groups[one.participant] = 0;
+  const auto contrast = hierarchical_contrast(fit, HierarchicalLink::kLogSlope,
+                                              HierarchicalNumber::kLogWeberFraction,
+                                              {{"", 1.0}}, groups, {{0, 4}});
+  ASSERT_TRUE(contrast);
+  const auto log_fraction = [](double slope_number) {
+    return std::log(std::expm1(std::exp(-slope_number)));
+  };
+  const double at = fit.conditions[0].slope_number;
+  constexpr double kStep = 1e-5;
+  const double slope = (log_fraction(at + kStep) - log_fraction(at - kStep)) / (2.0 * kStep);
+  const double variance = slope * slope * fit.influence.row(0).squaredNorm() * 4.0 / 3.0;
+  EXPECT_GT(fit.conditions[0].weber_fraction.value(), 0.5) << "not a small one";
+  EXPECT_NEAR(contrast->effect, log_fraction(at), 1e-9);
+  EXPECT_NEAR(contrast->standard_error, std::sqrt(variance), 1e-6 * std::sqrt(variance));
+  EXPECT_NEAR(contrast->degrees_of_freedom, 3.0, 1e-9);
 }
 
 TEST(PlannedContrasts, WhoLacksAConditionIsNamed) {

@@ -90,7 +90,7 @@ TEST_F(ContrastsCommandTest, HavePowerForAnEffectAndTheirLevelWithoutOne) {
     }
     throw std::out_of_range("no test " + name);
   };
-  const auto with = power({"--effect", "priming=primed:pse_factor=1.4"});
+  const auto with = power({"--effect", "priming=primed:pse_factor=1.8"});
   EXPECT_TRUE(with["compare"].is_null()) << "the study plans what is compared";
   EXPECT_GT(test_of(with, "primed_against_unprimed")["power"], 0.8);
   EXPECT_EQ(test_of(with, "primed_against_unprimed")["planned"], true);

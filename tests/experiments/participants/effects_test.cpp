@@ -120,7 +120,8 @@ TEST(Effects, ThatAreWrittenWronglyAreToldInOneSentence) {
             std::string::npos);
   EXPECT_NE(refused({"fluid=thin:weber_fraction_factor=two"}).find("`two` is no number"),
             std::string::npos);
-  EXPECT_NE(refused({"fluid=thin:weber_factor=2"}).find("/effects/0/weber_factor: unknown key"),
+  EXPECT_NE(refused({"fluid=thin:pse_facto=2"})
+                .find("of which `pse_facto` is no amount; did you mean `pse_factor`?"),
             std::string::npos);
   EXPECT_NE(refused({"fluid=thin:weber_fraction_factor=0"})
                 .find("/effects/0/weber_fraction_factor: expected a number from 0.001 to 1000"),

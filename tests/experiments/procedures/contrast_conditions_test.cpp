@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "experiments/designed_study.h"
 #include "experiments/protocol/study_reader.h"
 
@@ -53,6 +55,28 @@ TEST(ContrastConditions, APeoplesFactorComparesThemOverAllBlocks) {
   ASSERT_EQ(found.conditions.size(), 2U);
   EXPECT_EQ(found.weights[0], (std::vector<double>{0.5, 0.5}));
   EXPECT_EQ(found.weights[1], (std::vector<double>{-0.5, -0.5}));
+}
+
+TEST(ContrastConditions, BlocksFactorsThatAreNotNamedAreAveraged) {
+  std::string text = designed_study(fluid_contrast());
+  const auto replace = [&](const std::string& from, const std::string& to, std::size_t at) {
+    text.replace(text.find(from, at), from.size(), to);
+  };
+  replace(R"([{"name": "fluid")",
+          R"([{"name": "vision", "levels": ["on", "off"]}, {"name": "fluid")", 0);
+  for (const auto& [block, fluid, vision] : {std::tuple("thin_a", "thin", "on"),
+                                             {"thick_b", "thick", "on"},
+                                             {"thin_c", "thin", "off"}}) {
+    const std::string level = std::string(R"({"fluid": ")") + fluid + "\"}";
+    replace(level, std::string(R"({"fluid": ")") + fluid + R"(", "vision": ")" + vision + "\"}",
+            text.find(std::string("\"name\": \"") + block));
+  }
+  const Study study = read_study_text(text, "x.json");
+  const ContrastConditions found = contrast_conditions(study, study.contrasts.front());
+  ASSERT_EQ(found.conditions.size(), 3U);
+  EXPECT_EQ(found.conditions[0].name, "thin, on");
+  // Half for each group of people, and half of that for either of the thin ones.
+  EXPECT_EQ(found.weights[0], (std::vector<double>{0.25, -0.5, 0.25}));
 }
 
 TEST(ContrastConditions, BlocksCanBeComparedByName) {
