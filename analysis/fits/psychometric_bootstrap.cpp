@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/fits/bootstrap_ends.h"
 #include "analysis/fits/psychometric_redraw.h"
-#include "analysis/statistics/summary.h"
-#include "core/psychometric_function.h"
+#include "analysis/fits/psychometric_refit.h"
 #include "core/random_stream.h"
 #include "core/require.h"
 
@@ -14,14 +14,12 @@ namespace jnd::analysis {
 namespace {
 
 using core::kInfinity;
-constexpr double kBootstrapTail = 0.025;
 
 /// The refit's Weber fraction or, without an optimum, the limit it tends to; absent if the
 /// answers identify nothing.
-std::optional<double> fraction_or_limit(const PsychometricSearch& search,
-                                        const PsychometricLevels& levels,
-                                        const PsychometricCurve& fitted, int& num_degenerate) {
-  const PsychometricSearchResult found = search.find(levels, minimised_by_newton, &fitted);
+std::optional<double> fraction_or_limit(const PsychometricRefit& refit,
+                                        const PsychometricLevels& levels, int& num_degenerate) {
+  const PsychometricSearchResult found = refit.find(levels);
   if (found.supremum == PsychometricSupremum::kAttained) {
     return found.optimum.curve.weber_fraction(levels);
   }
@@ -31,28 +29,16 @@ std::optional<double> fraction_or_limit(const PsychometricSearch& search,
   return std::nullopt;
 }
 
-std::optional<double> end_at(const std::vector<double>& ascending, double probability) {
-  const double value = percentile(ascending, probability);
-  return std::isfinite(value) && value > 0.0 ? std::optional<double>(value) : std::nullopt;
-}
-
-/// Whether the interval was refused, because it would miss the estimate.
-bool refused(Interval& interval, double estimate) {
-  if (estimate >= interval.low.value_or(0.0) && estimate <= interval.high.value_or(kInfinity)) {
-    return false;
-  }
-  interval = {};
-  return true;
+/// A Weber fraction of 0 is that of a refit without an optimum.
+void open_at_zero(Interval& interval) {
+  if (interval.low && !(*interval.low > 0.0)) interval.low.reset();
+  if (interval.high && !(*interval.high > 0.0)) interval.high.reset();
 }
 
 /// Skewness of the influence of single answers, over 6. Absent where leaving one answer out
 /// leaves no fit.
-std::optional<double> acceleration_of(const PsychometricSearch& search,
-                                      const PsychometricLevels& levels,
-                                      const PsychometricCurve& fitted) {
-  struct LeftOut {
-    double value, num_answers;
-  };
+std::optional<double> acceleration_by(const PsychometricRefit& refit,
+                                      const PsychometricLevels& levels) {
   std::vector<LeftOut> all;
   PsychometricLevels without = levels;
   for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -63,58 +49,14 @@ std::optional<double> acceleration_of(const PsychometricSearch& search,
       without.num_yes[level] -= yes;
       without.num_trials[level] -= 1.0;
       int num_degenerate = 0;
-      const auto value = fraction_or_limit(search, without, fitted, num_degenerate);
+      const auto value = fraction_or_limit(refit, without, num_degenerate);
       without.num_yes[level] += yes;
       without.num_trials[level] += 1.0;
       if (num_degenerate > 0 || !value || !std::isfinite(*value)) return std::nullopt;
       all.push_back({*value, num_answers});
     }
   }
-  double sum = 0.0, num_answers = 0.0, squares = 0.0, cubes = 0.0;
-  for (const LeftOut& one : all) {
-    sum += one.num_answers * one.value;
-    num_answers += one.num_answers;
-  }
-  for (const LeftOut& one : all) {
-    const double influence = sum / num_answers - one.value;
-    squares += one.num_answers * influence * influence;
-    cubes += one.num_answers * influence * influence * influence;
-  }
-  if (!(squares > 0.0)) return std::nullopt;
-  return cubes / (6.0 * std::pow(squares, 1.5));
-}
-
-/// BCa's place for a tail of the percentile interval.
-double corrected_probability(double tail_z, double bias, double acceleration) {
-  const double shifted = bias + tail_z;
-  return core::standard_normal_cdf(bias + shifted / (1.0 - acceleration * shifted));
-}
-
-void add_bca(BootstrapInterval& result, const std::vector<double>& ascending, double estimate,
-             std::optional<double> acceleration) {
-  double below = 0.0;
-  for (const double value : ascending) below += value < estimate ? 1.0 : 0.0;
-  for (const double value : ascending) below += value == estimate ? 0.5 : 0.0;
-  const double share = below / static_cast<double>(ascending.size());
-  if (!(share > 0.0 && share < 1.0)) {
-    result.bca_reason = "all refits lie on one side of the estimate";
-    return;
-  }
-  if (!acceleration) {
-    result.bca_reason = "without one of the answers there is no fit: no acceleration";
-    return;
-  }
-  const double bias = core::standard_normal_quantile(share);
-  const double z = core::standard_normal_quantile(kBootstrapTail);
-  const double low = corrected_probability(z, bias, *acceleration);
-  const double high = corrected_probability(-z, bias, *acceleration);
-  result.bias_correction = bias;
-  result.acceleration = acceleration;
-  result.bca_ci95 = {.low = end_at(ascending, low), .high = end_at(ascending, high)};
-  if (!(low < high) || refused(result.bca_ci95, estimate)) {
-    result.bca_ci95 = {};
-    result.bca_reason = "refused, because it would miss the estimate";
-  }
+  return acceleration_of(all);
 }
 
 }  // namespace
@@ -125,27 +67,31 @@ BootstrapInterval bootstrapped_weber_fraction(const PsychometricSearch& search,
                                               const BootstrapOptions& options) {
   const bool parametric = options.kind == BootstrapKind::kParametric;
   const AnswerRedraw redraw = parametric ? AnswerRedraw(levels, fitted) : AnswerRedraw(levels);
+  const PsychometricRefit refit(search, levels, fitted);
   core::RandomStream random(options.seed, "bootstrap of a psychometric function");
   PsychometricLevels redrawn = levels;
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(options.num_refits));
   BootstrapInterval result;
   result.n = options.num_refits;
-  for (int refit = 0; refit < options.num_refits; ++refit) {
+  for (int draw = 0; draw < options.num_refits; ++draw) {
     redraw.draw(random, redrawn);
-    const auto value = fraction_or_limit(search, redrawn, fitted, result.num_degenerate);
+    const auto value = fraction_or_limit(refit, redrawn, result.num_degenerate);
     if (value) values.push_back(*value);
   }
   result.method = parametric ? "parametric, percentile" : "nonparametric, percentile";
   if (values.empty()) return result;
   std::sort(values.begin(), values.end());
-  result.ci95 = {.low = end_at(values, kBootstrapTail),
-                 .high = end_at(values, 1.0 - kBootstrapTail)};
-  const double estimate = fitted.weber_fraction(levels);
-  if (refused(result.ci95, estimate)) {
-    result.method += "; refused, because it would miss the estimate";
-  }
-  add_bca(result, values, estimate, acceleration_of(search, levels, fitted));
+  const std::optional<double> acceleration = acceleration_by(refit, levels);
+  BootstrapEnds ends = bootstrap_ends(values, fitted.weber_fraction(levels), acceleration);
+  open_at_zero(ends.ci95);
+  open_at_zero(ends.bca_ci95);
+  result.ci95 = ends.ci95;
+  if (ends.is_refused) result.method += "; refused, because it would miss the estimate";
+  result.bca_ci95 = ends.bca_ci95;
+  result.bca_reason = ends.bca_reason;
+  result.bias_correction = ends.bias_correction;
+  if (ends.bias_correction) result.acceleration = acceleration;
   return result;
 }
 

@@ -83,7 +83,7 @@ PsychometricCurve most_likely(const PsychometricLevels& levels, const FreeParame
     const PsychometricCost here =
         psychometric_cost(levels, PsychometricMethod::kMaximumLikelihood, curve);
     value = here.value;
-    vector.chain(x, here.gradient, gradient);
+    vector.chain(x, here.gradient.head<3>(), gradient);
     return std::isfinite(value) && std::all_of(gradient.begin(), gradient.end(),
                                                [](double part) { return std::isfinite(part); });
   };
@@ -91,7 +91,8 @@ PsychometricCurve most_likely(const PsychometricLevels& levels, const FreeParame
   // On its bound the lapse has next to no gradient left, but still a share in every step.
   const bool on_bound = free[2] && !(found.lapse > kNoLapse);
   if (!on_bound) return found;
-  return most_likely(levels, {free[0], free[1], false}, {found.slope, found.offset, 0.0});
+  return most_likely(levels, {free[0], free[1], false, false},
+                     {found.slope, found.offset, 0.0});
 }
 
 PsychometricCurve least_squares(const PsychometricLevels& levels, const FreeParameters& free,
@@ -132,7 +133,8 @@ PsychometricCurve least_squares(const PsychometricLevels& levels, const FreePara
   // On a bound Ceres crawls, for its steps take no account of it: go on along the bound.
   const bool on_bound = free[2] && !(found.lapse > kNoLapse);
   if (!on_bound) return found;
-  return least_squares(levels, {free[0], free[1], false}, {found.slope, found.offset, 0.0});
+  return least_squares(levels, {free[0], free[1], false, false},
+                       {found.slope, found.offset, 0.0});
 }
 
 /// Whether Newton's method, starting at `found`, stayed there: nearby, or where the cost is so

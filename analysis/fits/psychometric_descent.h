@@ -6,9 +6,9 @@
 
 namespace jnd::analysis {
 
-/// Which of slope, offset and lapse a descent may move. A fixed pse is offset 0, because the
-/// log ratios are then those to the reference.
-using FreeParameters = std::array<bool, 3>;
+/// Which of slope, offset, lapse and guess a descent may move. A fixed pse is offset 0, because
+/// the log ratios are then those to the reference.
+using FreeParameters = std::array<bool, 4>;
 
 /// A stationary point of the cost.
 struct PsychometricOptimum {
@@ -24,8 +24,8 @@ using PsychometricDescent = PsychometricOptimum (*)(const PsychometricLevels& le
                                                     const PsychometricCurve& start);
 
 /// Newton's method with the exact Hessian, made positive definite where it is not, a step that
-/// keeps the slope > 0 and the lapse within its limits, and backtracking: some microseconds,
-/// for the many refits of a bootstrap and a profile.
+/// keeps the slope > 0 and lapse and guess within their limits, and backtracking: some
+/// microseconds, for the many refits of a bootstrap and a profile.
 [[nodiscard]] PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
                                                       PsychometricMethod method,
                                                       const FreeParameters& free,
@@ -33,7 +33,7 @@ using PsychometricDescent = PsychometricOptimum (*)(const PsychometricLevels& le
 
 /// Ceres, over ln slope, offset and lapse: BFGS for the likelihood, Levenberg and Marquardt for
 /// least squares. Newton's method then mends the last digits; not `converged` where it comes to
-/// rest elsewhere. For the fit that is reported.
+/// rest elsewhere. For the fit that is reported, of a guess rate that is known.
 [[nodiscard]] PsychometricOptimum minimised_by_ceres(const PsychometricLevels& levels,
                                                      PsychometricMethod method,
                                                      const FreeParameters& free,

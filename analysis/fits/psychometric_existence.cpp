@@ -14,6 +14,9 @@ using core::kInfinity;
 constexpr std::string_view kNoTrials = "too few rows: no level has an answer";
 constexpr std::string_view kTooFewForLapse =
     "too few rows: slope, pse and lapse rate cannot be told apart with so few levels";
+constexpr std::string_view kTooFewForGuess =
+    "too few rows: slope, pse, guess rate and lapse rate cannot be told apart with so few "
+    "levels";
 constexpr std::string_view kTooFewForSlopeAndLapse =
     "too few rows: slope and lapse rate cannot be told apart with so few levels";
 constexpr std::string_view kNoOther =
@@ -73,7 +76,8 @@ PsychometricExistence flat_or_inverted(const PsychometricLevels& levels, bool fr
     return {PsychometricSupremum::kFlat, kAllAlikeAtReference};
   }
   const double rise = rise_of_answers(levels, free_pse);
-  if (levels.ends.guess > 0.0 && !(rise < 0.0)) return {PsychometricSupremum::kFlat, kAtChance};
+  if ((levels.ends.guess > 0.0 || levels.ends.free_guess) && !(rise < 0.0))
+    return {PsychometricSupremum::kFlat, kAtChance};
   return {PsychometricSupremum::kFlat, rise < 0.0 ? kInverted : kFlat};
 }
 
@@ -99,10 +103,12 @@ std::string_view why_unidentified(const PsychometricLevels& levels, bool free_ps
                                   bool free_lapse) {
   if (levels.size() == 0 && !(levels.zero_trials > 0.0)) return kNoTrials;
   // Intensity 0 tells the lower end, which guesses alone have fixed.
-  const int at_zero = levels.zero_trials > 0.0 && levels.ends.symmetric ? 1 : 0;
+  const bool has_free_low = levels.ends.symmetric || levels.ends.free_guess;
+  const int at_zero = levels.zero_trials > 0.0 && has_free_low ? 1 : 0;
   if (free_pse) {
     if (levels.size() < 2) return kOneIntensity;
     const int num_levels = static_cast<int>(levels.size()) + at_zero;
+    if (levels.ends.free_guess && num_levels < (free_lapse ? 4 : 3)) return kTooFewForGuess;
     return free_lapse && num_levels < 3 ? kTooFewForLapse : std::string_view();
   }
   std::vector<double> distances;

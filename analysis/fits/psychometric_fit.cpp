@@ -115,8 +115,8 @@ void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
       fit.overdispersion.factor = scale;
       drop = pse_drop = 0.5 * scale * fisher_quantile(degrees_of_freedom);
     }
-    fit.standard_error =
-        standard_error(levels, optimum.curve, free, optimum.cost.hessian, scale);
+    fit.standard_error = standard_error(levels, optimum.curve, free,
+                                        optimum.cost.hessian.topLeftCorner<3, 3>(), scale);
   } else {
     const int degrees_of_freedom = fit.num_levels - 1 - free[1] - free[2];
     if (free_pse) fit.pse_ci95 = Interval{};
@@ -154,7 +154,7 @@ void add_uncertainty(PsychometricFit& fit, const BetaBinomialFit& scattered) {
 /// The curve in the family's own words.
 void add_parameters(PsychometricFit& fit, const PsychometricLevels& levels,
                     const PsychometricCurve& curve) {
-  switch (levels.family) {
+  switch (fit.family) {
     case PsychometricFamily::kWeber:
       break;
     case PsychometricFamily::kGauss:

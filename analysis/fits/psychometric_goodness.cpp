@@ -6,6 +6,7 @@
 #include "analysis/fits/answer_scatter.h"
 #include "analysis/fits/psychometric_limits.h"
 #include "analysis/fits/psychometric_redraw.h"
+#include "analysis/fits/psychometric_refit.h"
 #include "core/random_stream.h"
 
 namespace jnd::analysis {
@@ -141,12 +142,13 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
 
   const double deviance = deviance_of(levels, log_likelihood(levels, fitted));
   const AnswerRedraw redraw(levels, fitted);
+  const PsychometricRefit refit(search, levels, fitted);
   core::RandomStream random(seed, "goodness of fit of a psychometric function");
   PsychometricLevels redrawn = levels;
   int num_as_far = 0, num_as_correlated = 0, num_correlations = 0;
   for (int draw = 0; draw < num_redraws; ++draw) {
     redraw.draw(random, redrawn);
-    const PsychometricSearchResult found = search.find(redrawn, minimised_by_newton, &fitted);
+    const PsychometricSearchResult found = refit.find(redrawn);
     const bool attained = found.supremum == PsychometricSupremum::kAttained;
     const double value = attained
                              ? log_likelihood(redrawn, found.optimum.curve)

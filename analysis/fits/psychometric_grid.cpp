@@ -13,13 +13,14 @@ namespace {
 
 using core::kInfinity;
 
-/// Where to try the pse at one slope, ascending: every 0.7 z within 6 z of a level, and in the
-/// middle of wider gaps.
-std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope) {
-  constexpr double kReachZ = 6.0, kSpacingZ = 0.7, kMostPlaces = 400.0;
+/// Where to try the pse at one slope, ascending: every so many z within 6 z of a level, and in
+/// the middle of wider gaps.
+std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope,
+                                  double spacing_z) {
+  constexpr double kReachZ = 6.0, kMostPlaces = 400.0;
   const double reach = kReachZ / slope;
   const double range = levels.abscissa.back() - levels.abscissa.front();
-  const double spacing = std::max(kSpacingZ / slope, range / kMostPlaces);
+  const double spacing = std::max(spacing_z / slope, range / kMostPlaces);
   std::vector<double> places;
   double next = levels.abscissa.front() - reach;
   for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -70,19 +71,21 @@ PsychometricLevels grouped(const PsychometricLevels& levels) {
 
 }  // namespace
 
-PsychometricGrid::PsychometricGrid(const PsychometricLevels& every_level, bool free_pse) {
+PsychometricGrid::PsychometricGrid(const PsychometricLevels& every_level, bool free_pse,
+                                   const GridSpacing& spacing) {
   const PsychometricLevels levels = grouped(every_level);
   // A search may leave this range.
-  constexpr double kFlattest = 0.002, kRatio = 1.2, kSmallestGap = 1e-3;
+  constexpr double kSmallestGap = 1e-3;
   const double steepest_z = 2.25 * sigmoid_reach(levels.sigmoid);
   const double steepest = steepest_z / std::max(levels.smallest_gap(free_pse), kSmallestGap);
-  for (double slope = kFlattest; slope < steepest * kRatio; slope *= kRatio) {
+  for (double slope = spacing.flattest; slope < steepest * spacing.ratio;
+       slope *= spacing.ratio) {
     slope_begin_.push_back(points_.size());
     if (!free_pse) {
       add(levels, free_pse, slope, 0.0);
       continue;
     }
-    for (const double place : places_of_pse(levels, slope)) {
+    for (const double place : places_of_pse(levels, slope, spacing.place_z)) {
       add(levels, free_pse, slope, place);
     }
   }
@@ -129,15 +132,28 @@ std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels
                                                         bool free_lapse) const {
   const PsychometricLevels levels = grouped(every_level);
   const double largest_lapse = 0.98 * levels.ends.lapse_limit();
-  std::vector<double> cost, lapse;
+  std::vector<double> cost, lapse, guess;
   cost.reserve(points_.size());
   lapse.reserve(points_.size());
+  guess.reserve(points_.size());
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const BestLapse best =
         best_lapse(levels, method, free_lapse, &lower_tail_[point * levels.size()]);
     cost.push_back(best.cost);
-    lapse.push_back(std::min(best.lapse, largest_lapse));
+    lapse.push_back(free_lapse ? std::min(best.lapse, largest_lapse) : best.lapse);
+    guess.push_back(best.guess);
   }
+  constexpr std::size_t kMostMinima = 12;
+  std::vector<PsychometricCurve> curves;
+  for (const std::size_t point : lowest_points(cost, kMostMinima)) {
+    const Point& at = points_[point];
+    curves.push_back({at.slope, -at.slope * at.place, lapse[point], guess[point]});
+  }
+  return curves;
+}
+
+std::vector<std::size_t> PsychometricGrid::lowest_points(const std::vector<double>& cost,
+                                                         std::size_t most) const {
   std::vector<std::pair<double, std::size_t>> lowest;
   for (std::size_t slope = 0; slope + 1 < slope_begin_.size(); ++slope) {
     for (std::size_t point = slope_begin_[slope]; point < slope_begin_[slope + 1]; ++point) {
@@ -146,13 +162,56 @@ std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels
       }
     }
   }
-  constexpr std::size_t kMostMinima = 12;
   std::sort(lowest.begin(), lowest.end());
-  if (lowest.size() > kMostMinima) lowest.resize(kMostMinima);
+  if (lowest.size() > most) lowest.resize(most);
+  std::vector<std::size_t> points;
+  for (const auto& [value, point] : lowest) points.push_back(point);
+  return points;
+}
+
+std::vector<double> PsychometricGrid::log_likelihoods(const PsychometricLevels& every_level,
+                                                      double lapse, double guess) const {
+  // A probability of 0 or 1 must not spoil the sum where the count is 0.
+  constexpr double kLeast = -1e6;
+  const PsychometricLevels levels = grouped(every_level);
+  const double low = levels.ends.low(lapse, guess), rise = levels.ends.rise(lapse, guess);
+  std::vector<double> logs;
+  logs.reserve(2 * lower_tail_.size());
+  for (const double lower : lower_tail_) {
+    const double f = low + rise * lower;
+    logs.push_back(std::max(kLeast, std::log(f)));
+    logs.push_back(std::max(kLeast, std::log1p(-f)));
+  }
+  return logs;
+}
+
+std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels& every_level,
+                                                        const std::vector<double>& logs,
+                                                        double lapse, double guess,
+                                                        std::size_t most) const {
+  std::vector<double> counts;  // Yes and no of each level.
+  const auto add = [&](const PsychometricLevels& levels) {
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      counts.push_back(levels.num_yes[level]);
+      counts.push_back(levels.num_trials[level] - levels.num_yes[level]);
+    }
+  };
+  if (every_level.size() > kMostLevels) {
+    add(grouped(every_level));
+  } else {
+    add(every_level);
+  }
+  std::vector<double> cost(points_.size());
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    const double* const its = &logs[point * counts.size()];
+    double sum = 0.0;
+    for (std::size_t i = 0; i < counts.size(); ++i) sum -= counts[i] * its[i];
+    cost[point] = sum;
+  }
   std::vector<PsychometricCurve> curves;
-  for (const auto& [value, point] : lowest) {
+  for (const std::size_t point : lowest_points(cost, most)) {
     const Point& at = points_[point];
-    curves.push_back({at.slope, -at.slope * at.place, lapse[point]});
+    curves.push_back({at.slope, -at.slope * at.place, lapse, guess});
   }
   return curves;
 }

@@ -1,11 +1,11 @@
 #include "analysis/fits/psychometric_interval.h"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>
 
+#include "analysis/fits/profile_crossing.h"
 #include "analysis/fits/psychometric_limits.h"
 
 namespace jnd::analysis {
@@ -17,34 +17,6 @@ constexpr double kStepZ = 40.0;        ///< Neighbouring levels this many z apar
 constexpr double kFlattestLinear = 1e-6;
 /// A linear curve's Weber fraction beyond this is none: its pse is all but 0.
 constexpr double kLargestLinearFraction = 1e6;
-
-/// Where `excess`, < 0 at `from`, first is 0 when going by growing steps toward `limit`; absent
-/// if it is not by then.
-std::optional<double> crossing(const std::function<double(double)>& excess, double from,
-                               double first_step, double limit) {
-  double inside = from;
-  double excess_inside = excess(inside);
-  for (double step = first_step; inside != limit; step *= 1.6) {
-    const bool beyond = std::fabs(limit - inside) <= step;
-    const double outside = beyond ? limit : inside + std::copysign(step, limit - inside);
-    const double excess_outside = excess(outside);
-    if (excess_outside >= 0.0 && excess_inside < 0.0) {
-      const auto close_enough = [](double a, double b) {
-        return std::fabs(b - a) <= 1e-13 * std::max(std::fabs(a), std::fabs(b)) + 1e-300;
-      };
-      const bool rising = outside > inside;
-      std::uintmax_t num_iterations = 200;
-      const auto [low, high] = boost::math::tools::toms748_solve(
-          excess, rising ? inside : outside, rising ? outside : inside,
-          rising ? excess_inside : excess_outside, rising ? excess_outside : excess_inside,
-          close_enough, num_iterations);
-      return 0.5 * (low + high);
-    }
-    inside = outside;
-    excess_inside = excess_outside;
-  }
-  return std::nullopt;
-}
 
 /// Newton's method from one curve and, where there can be several minima, from others: with a
 /// lapse rate that is free from a larger one; between ends of their own, where the likelihood

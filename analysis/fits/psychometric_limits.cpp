@@ -36,6 +36,11 @@ struct Pool {
   [[nodiscard]] double mean() const noexcept { return total > 0.0 ? yes / total : 0.0; }
 };
 
+/// A probability that is at least 0 and at most 1, whatever rounding makes of it.
+double within(double value, double low, double high) noexcept {
+  return std::min(std::max(value, low), std::max(low, high));
+}
+
 /// f without lapses, and its derivative in the lapse, where F = `lower`.
 double without_lapses(const PsychometricEnds& ends, double lower) noexcept {
   return ends.guess == 0.0 ? lower : ends.guess + (1.0 - ends.guess) * lower;
@@ -132,18 +137,28 @@ bool pool_as_errors(const PsychometricEnds& ends, bool free_lapse) noexcept {
 double step_between_ends(const PsychometricLevels& levels, PsychometricMethod method,
                          std::size_t num_below, bool level_at, bool free_pse, bool free_lapse) {
   const Pool zero = pool_at_zero(levels, method);
-  Pool below, at, above;
+  Pool below = zero, at, above;
   for (std::size_t level = 0; level < levels.size(); ++level) {
     Pool& pool = level < num_below ? below : level_at && level == num_below ? at : above;
     pool.add(levels.num_yes[level], levels.num_trials[level], method);
   }
   const PsychometricEnds& ends = levels.ends;
+  if (!ends.symmetric && free_pse) {
+    // Each end has levels of its own, so each is best at their mean.
+    const double least_high = ends.free_guess ? 1.0 - ends.lapse_limit() : ends.guess;
+    double high = 1.0 - ends.known_lapse;
+    if (free_lapse) high = above.total > 0.0 ? within(above.mean(), least_high, 1.0) : 1.0;
+    const double low = ends.free_guess
+                           ? within(below.mean(), 0.0, std::min(ends.guess_limit(), high))
+                           : ends.guess;
+    return below.cost(low, method) + at.cost(within(at.mean(), low, high), method) +
+           above.cost(high, method);
+  }
   const auto cost = [&](double lapse) {
     const double low = ends.low(lapse), high = low + ends.rise(lapse);
     const double at_threshold =
         free_pse ? std::clamp(at.mean(), low, std::max(low, high)) : ends.middle(lapse);
-    return zero.cost(low, method) + below.cost(low, method) + at.cost(at_threshold, method) +
-           above.cost(high, method);
+    return below.cost(low, method) + at.cost(at_threshold, method) + above.cost(high, method);
   };
   return free_lapse ? least_over_lapse(ends, cost) : cost(ends.known_lapse);
 }
@@ -156,6 +171,15 @@ double flat_between_ends(const PsychometricLevels& levels, PsychometricMethod me
     rest.add(levels.num_yes[level], levels.num_trials[level], method);
   }
   const PsychometricEnds& ends = levels.ends;
+  if (!ends.symmetric && free_pse) {
+    const double high = free_lapse ? 1.0 : 1.0 - ends.known_lapse;
+    double low = ends.guess;
+    if (ends.free_guess) {
+      low =
+          zero.total > 0.0 ? within(zero.mean(), 0.0, std::min(ends.guess_limit(), high)) : 0.0;
+    }
+    return zero.cost(low, method) + rest.cost(within(rest.mean(), low, high), method);
+  }
   const auto cost = [&](double lapse) {
     const double low = ends.low(lapse), high = low + ends.rise(lapse);
     const double f =
@@ -165,11 +189,57 @@ double flat_between_ends(const PsychometricLevels& levels, PsychometricMethod me
   return free_lapse ? least_over_lapse(ends, cost) : cost(ends.known_lapse);
 }
 
+/// The ends that are best for given F(z) at each level, by the EM algorithm: an answer is that
+/// of the upper end with probability F, else of the lower one. A start for Newton: close will
+/// do.
+BestLapse best_ends(const PsychometricLevels& levels, bool free_lapse,
+                    const double* lower_tail) noexcept {
+  constexpr int kNumSteps = 12;
+  constexpr double kSmallest = 1e-4;
+  const PsychometricEnds& ends = levels.ends;
+  double low = std::min(0.1, 0.5 * ends.guess_limit());
+  double high = free_lapse ? 0.95 : 1.0 - ends.known_lapse;
+  double cost = 0.0;
+  for (int step = 0; step <= kNumSteps; ++step) {
+    double low_yes = levels.zero_yes, low_all = levels.zero_trials, high_yes = 0.0,
+           high_all = 0.0;
+    cost = 0.0;
+    if (levels.zero_yes > 0.0) cost -= levels.zero_yes * std::log(low);
+    cost -= (levels.zero_trials - levels.zero_yes) * std::log1p(-low);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      const double upper_share = lower_tail[level];
+      const double f = low + (high - low) * upper_share;
+      const double yes = levels.num_yes[level], no = levels.num_trials[level] - yes;
+      if (yes > 0.0) {
+        const double of_high = yes * high * upper_share / f;
+        cost -= yes * std::log(f);
+        high_yes += of_high;
+        high_all += of_high;
+        low_yes += yes - of_high;
+        low_all += yes - of_high;
+      }
+      if (no > 0.0) {
+        const double of_high = no * (1.0 - high) * upper_share / (1.0 - f);
+        cost -= no * std::log(1.0 - f);
+        high_all += of_high;
+        low_all += no - of_high;
+      }
+    }
+    if (step == kNumSteps) break;
+    if (low_all > 0.0) low = within(low_yes / low_all, kSmallest, ends.guess_limit() - 0.01);
+    if (free_lapse && high_all > 0.0) {
+      high = within(high_yes / high_all, 1.01 - ends.lapse_limit(), 1.0 - kSmallest);
+    }
+  }
+  return {free_lapse ? 1.0 - high : ends.known_lapse, cost, low};
+}
+
 }  // namespace
 
 BestLapse best_lapse(const PsychometricLevels& levels, PsychometricMethod method,
                      bool free_lapse, const double* lower_tail) noexcept {
   const PsychometricEnds& ends = levels.ends;
+  if (ends.free_guess) return best_ends(levels, free_lapse, lower_tail);
   double lapse = ends.known_lapse;
   if (free_lapse) {
     lapse = method == kMaximumLikelihood ? likelihood_lapse(levels, lower_tail)
@@ -189,7 +259,7 @@ BestLapse best_lapse(const PsychometricLevels& levels, PsychometricMethod method
       cost += residual * residual;
     }
   }
-  return {lapse, cost};
+  return {lapse, cost, 0.0};
 }
 
 double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod method,

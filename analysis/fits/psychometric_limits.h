@@ -17,9 +17,10 @@ namespace jnd::analysis {
                                      PsychometricMethod method, bool free_pse, bool free_lapse);
 
 /// The lapse, from 0 to its limit, that is best for given F(z) at each level, and its cost. The
-/// cost is convex in the lapse. `lower_tail` has levels.size() entries.
+/// cost is convex in the lapse. With a guess rate that is free, nearly the best of both, a
+/// little off their bounds. `lower_tail` has levels.size() entries.
 struct BestLapse {
-  double lapse, cost;
+  double lapse, cost, guess;
 };
 [[nodiscard]] BestLapse best_lapse(const PsychometricLevels& levels, PsychometricMethod method,
                                    bool free_lapse, const double* lower_tail) noexcept;

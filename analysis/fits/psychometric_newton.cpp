@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "analysis/fits/psychometric_descent.h"
@@ -9,25 +10,36 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kMaxSteps = 500;
-constexpr double kLapseScale = 0.1;  ///< A step of the lapse as large as one of ln slope.
+constexpr double kRateScale = 0.1;  ///< A step of a rate as large as one of ln slope.
 constexpr double kLargestRadius = 1e3;
 /// Newton's last step is at most this, so that the error left is about its square.
 constexpr double kSmallStep = 1e-8;
 
-/// The cost about one curve in steps of like size: of ln slope, z, and lapse / 0.1. Parameters
+/// So many parameters may move: with `kSize` 3 the guess rate is known.
+template <int kSize>
+using Steps = Eigen::Matrix<double, kSize, 1>;
+template <int kSize>
+using Curvatures = Eigen::Matrix<double, kSize, kSize>;
+
+/// The cost about one curve in steps of like size: of ln slope, z, and rates / 0.1. Parameters
 /// that do not move have no gradient and curvature 1.
+template <int kSize>
 struct ScaledCost {
-  Eigen::Vector3d scale, gradient;
-  Eigen::Matrix3d hessian;
+  Steps<kSize> scale, gradient;
+  Curvatures<kSize> hessian;
 };
 
-ScaledCost scaled(const PsychometricCurve& curve, const PsychometricCost& cost,
-                  const FreeParameters& moving) noexcept {
-  ScaledCost here;
-  here.scale << curve.slope, 1.0, kLapseScale;
-  here.gradient = here.scale.cwiseProduct(cost.gradient);
-  here.hessian = here.scale.asDiagonal() * cost.hessian * here.scale.asDiagonal();
-  for (int parameter = 0; parameter < 3; ++parameter) {
+template <int kSize>
+ScaledCost<kSize> scaled(const PsychometricCurve& curve, const Steps<kSize>& gradient,
+                         const Curvatures<kSize>& hessian,
+                         const FreeParameters& moving) noexcept {
+  ScaledCost<kSize> here;
+  here.scale.setConstant(kRateScale);
+  here.scale(0) = curve.slope;
+  here.scale(1) = 1.0;
+  here.gradient = here.scale.cwiseProduct(gradient);
+  here.hessian = here.scale.asDiagonal() * hessian * here.scale.asDiagonal();
+  for (int parameter = 0; parameter < kSize; ++parameter) {
     if (moving[static_cast<std::size_t>(parameter)]) continue;
     here.hessian.row(parameter).setZero();
     here.hessian.col(parameter).setZero();
@@ -40,16 +52,17 @@ ScaledCost scaled(const PsychometricCurve& curve, const PsychometricCost& cost,
 /// Newton's step where the Hessian is positive definite and the step within the radius;
 /// otherwise, in the Hessian's own axes, by the magnitude of each curvature, damped until it is
 /// within: downhill along every axis.
-Eigen::Vector3d trusted_step(const ScaledCost& here, double radius) noexcept {
-  const Eigen::LLT<Eigen::Matrix3d> cholesky(here.hessian);
+template <int kSize>
+Steps<kSize> trusted_step(const ScaledCost<kSize>& here, double radius) noexcept {
+  const Eigen::LLT<Curvatures<kSize>> cholesky(here.hessian);
   if (cholesky.info() == Eigen::Success) {
-    Eigen::Vector3d step = -cholesky.solve(here.gradient);
+    Steps<kSize> step = -cholesky.solve(here.gradient);
     if (step.norm() <= radius) return step;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(here.hessian);
-  const Eigen::Vector3d along = eigen.eigenvectors().transpose() * here.gradient;
-  const Eigen::Vector3d curvature = eigen.eigenvalues().cwiseAbs().array() + 1e-300;
-  const auto damped = [&](double damping) -> Eigen::Vector3d {
+  const Eigen::SelfAdjointEigenSolver<Curvatures<kSize>> eigen(here.hessian);
+  const Steps<kSize> along = eigen.eigenvectors().transpose() * here.gradient;
+  const Steps<kSize> curvature = eigen.eigenvalues().cwiseAbs().array() + 1e-300;
+  const auto damped = [&](double damping) -> Steps<kSize> {
     return -along.cwiseQuotient((curvature.array() + damping).matrix());
   };
   double low = 0.0, high = along.norm() / radius;  // Within the radius at `high`.
@@ -71,46 +84,62 @@ double feasible_fraction(double step_of_slope) noexcept {
   return 1.0;
 }
 
-}  // namespace
-
-PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
-                                        PsychometricMethod method, const FreeParameters& free,
-                                        const PsychometricCurve& start) noexcept {
+template <int kSize>
+PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMethod method,
+                              const FreeParameters& free,
+                              const PsychometricCurve& start) noexcept {
   PsychometricOptimum best{start, psychometric_cost(levels, method, start), false};
-  const double largest_lapse = levels.ends.largest_lapse();
+  const std::array<double, 4> largest = {0.0, 0.0, levels.ends.largest_lapse(),
+                                         levels.ends.largest_guess()};
   double radius = 2.0;
   for (int iteration = 0; iteration < kMaxSteps; ++iteration) {
     const PsychometricCurve& curve = best.curve;
+    const std::array<double, 4> at = {curve.slope, curve.offset, curve.lapse, curve.guess};
+    Steps<kSize> gradient = best.cost.gradient.template head<kSize>();
+    const Curvatures<kSize> hessian = best.cost.hessian.template topLeftCorner<kSize, kSize>();
     FreeParameters moving = free;
-    // On a bound that the cost presses against, the lapse stays.
-    if (curve.lapse <= 0.0 && best.cost.gradient(2) >= 0.0) moving[2] = false;
-    if (curve.lapse >= largest_lapse && best.cost.gradient(2) <= 0.0) moving[2] = false;
-    ScaledCost here = scaled(curve, best.cost, moving);
-    Eigen::Vector3d step = trusted_step(here, radius);
-    const double wanted_lapse = curve.lapse + step(2) * kLapseScale;
-    const bool onto_bound = moving[2] && (wanted_lapse < 0.0 || wanted_lapse > largest_lapse);
-    if (onto_bound) {
+    for (std::size_t rate = 2; rate < kSize; ++rate) {
+      // On a bound that the cost presses against, a rate stays.
+      const double by_rate = gradient(static_cast<int>(rate));
+      if (at[rate] <= 0.0 && by_rate >= 0.0) moving[rate] = false;
+      if (at[rate] >= largest[rate] && by_rate <= 0.0) moving[rate] = false;
+    }
+    ScaledCost<kSize> here = scaled<kSize>(curve, gradient, hessian, moving);
+    Steps<kSize> step = trusted_step<kSize>(here, radius);
+    std::array<double, 4> onto = {};  // What the rates that meet a bound go by.
+    std::array<bool, 4> onto_bound = {};
+    for (std::size_t rate = kSize - 1; rate >= 2; --rate) {
+      const int place = static_cast<int>(rate);
+      const double wanted = at[rate] + step(place) * kRateScale;
+      if (!moving[rate] || (wanted >= 0.0 && wanted <= largest[rate])) continue;
       // Go onto the bound, and with the others to where they are best there.
-      const double onto = std::clamp(wanted_lapse, 0.0, largest_lapse) - curve.lapse;
-      PsychometricCost shifted = best.cost;
-      shifted.gradient += best.cost.hessian.col(2) * onto;
-      moving[2] = false;
-      here = scaled(curve, shifted, moving);
-      step = trusted_step(here, radius);
-      step(2) = onto / kLapseScale;
+      onto_bound[rate] = true;
+      onto[rate] = std::clamp(wanted, 0.0, largest[rate]) - at[rate];
+      gradient += hessian.col(place) * onto[rate];
+      moving[rate] = false;
+      here = scaled<kSize>(curve, gradient, hessian, moving);
+      step = trusted_step<kSize>(here, radius);
+      for (std::size_t other = rate; other < kSize; ++other) {
+        if (onto_bound[other]) step(static_cast<int>(other)) = onto[other] / kRateScale;
+      }
     }
     const double fraction = feasible_fraction(step(0));
     step *= fraction;
-    const Eigen::Vector3d change = here.scale.cwiseProduct(step);
-    PsychometricCurve next = {curve.slope + change(0), curve.offset + change(1),
-                              std::max(0.0, curve.lapse + change(2))};
-    if (!free[2]) next.lapse = curve.lapse;
-    if (onto_bound && fraction == 1.0) next.lapse = wanted_lapse < 0.0 ? 0.0 : largest_lapse;
+    const Steps<kSize> change = here.scale.cwiseProduct(step);
+    PsychometricCurve next = {curve.slope + change(0), curve.offset + change(1), curve.lapse,
+                              curve.guess};
+    for (std::size_t rate = 2; rate < kSize; ++rate) {
+      if (!free[rate]) continue;
+      double value = std::clamp(at[rate] + change(static_cast<int>(rate)), 0.0,
+                                std::max(at[rate], largest[rate]));
+      if (onto_bound[rate] && fraction == 1.0) value = onto[rate] < 0.0 ? 0.0 : largest[rate];
+      (rate == 2 ? next.lapse : next.guess) = value;
+    }
 
     const PsychometricCost cost = psychometric_cost(levels, method, next);
     const double gain = best.cost.value - cost.value;
-    const double expected =
-        -(change.dot(best.cost.gradient) + 0.5 * change.dot(best.cost.hessian * change));
+    const double expected = -(change.dot(best.cost.gradient.template head<kSize>()) +
+                              0.5 * change.dot(hessian * change));
     // Rounding of the cost must not stop the last, small steps; the root is for that of small
     // residuals, which are differences of numbers near 1.
     const double here_cost = std::fabs(best.cost.value);
@@ -140,6 +169,15 @@ PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
     }
   }
   return best;
+}
+
+}  // namespace
+
+PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
+                                        PsychometricMethod method, const FreeParameters& free,
+                                        const PsychometricCurve& start) noexcept {
+  return free[3] ? minimised<4>(levels, method, free, start)
+                 : minimised<3>(levels, method, free, start);
 }
 
 }  // namespace jnd::analysis

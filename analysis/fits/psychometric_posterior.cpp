@@ -18,8 +18,9 @@ constexpr double kTail = 0.025;           ///< On either side of an interval.
 constexpr double kLapsePriorPower = 9.0;  ///< Beta(1, 10): (1 - lapse)^9.
 
 using Axis = PosteriorAxis;
-using Axes = std::array<Axis, 3>;  ///< ln(1 / slope), place of the pse, lapse rate.
-using Marginals = std::array<std::vector<double>, 3>;
+using Axes = PosteriorGrid::Axes;
+using Marginals = std::array<std::vector<double>, 4>;
+constexpr std::size_t kNumAxes = 4;
 
 /// Where the priors are not 0.
 Axes prior_axes(const PsychometricLevels& levels, const FreeParameters& free) {
@@ -28,22 +29,30 @@ Axes prior_axes(const PsychometricLevels& levels, const FreeParameters& free) {
               : std::max(std::fabs(levels.abscissa.front()), std::fabs(levels.abscissa.back()));
   const double gap = levels.smallest_gap(free[1]);
   Axes axes;
-  axes[0] = {std::log(gap / 4.0), std::log(4.0 * range), free[2] ? 101U : 201U};
+  // Two rates leave fewer values for each parameter.
+  const bool both = free[2] && free[3];
+  axes[0] = {std::log(gap / 4.0), std::log(4.0 * range),
+             both                 ? 51U
+             : free[2] || free[3] ? 101U
+                                  : 201U};
   if (free[1]) {
     axes[1] = {levels.abscissa.front() - 0.5 * range, levels.abscissa.back() + 0.5 * range,
-               121};
+               both ? 51U : 121U};
   }
+  const std::size_t num_rates = both ? 17 : 31;
   axes[2] = {levels.ends.known_lapse, levels.ends.known_lapse, 1};
-  if (free[2]) axes[2] = {0.0, std::min(0.5, levels.ends.lapse_limit()) - 1e-9, 31};
+  if (free[2]) axes[2] = {0.0, std::min(0.5, levels.ends.lapse_limit()) - 1e-9, num_rates};
+  axes[3] = {0.0, 0.0, 1};
+  if (free[3]) axes[3] = {0.0, levels.ends.largest_guess(), num_rates};
   return axes;
 }
 
 double log_likelihood_of(const PsychometricLevels& levels, const std::vector<double>& tail,
-                         const std::vector<double>& upper, double lapse) {
+                         const std::vector<double>& upper, double lapse, double guess) {
   const auto term = [](double count, double probability) {
     return count > 0.0 ? count * std::log(probability) : 0.0;
   };
-  const double low = levels.ends.low(lapse), rise = levels.ends.rise(lapse);
+  const double low = levels.ends.low(lapse, guess), rise = levels.ends.rise(lapse, guess);
   double sum = 0.0;
   for (std::size_t level = 0; level < levels.size(); ++level) {
     sum += term(levels.num_yes[level], low + rise * tail[level]);
@@ -53,10 +62,10 @@ double log_likelihood_of(const PsychometricLevels& levels, const std::vector<dou
          term(levels.zero_trials - levels.zero_yes, 1.0 - low);
 }
 
-/// Posterior over the grid, up to a factor: slope, place, lapse, the last fastest.
+/// Posterior over the grid, up to a factor: slope, place, lapse, guess, the last fastest.
 std::vector<double> density_over(const PsychometricLevels& levels, const Axes& axes) {
   std::vector<double> density;
-  density.reserve(axes[0].size * axes[1].size * axes[2].size);
+  density.reserve(axes[0].size * axes[1].size * axes[2].size * axes[3].size);
   std::vector<double> lower(levels.size()), upper(levels.size());
   double largest = -kInfinity;
   for (std::size_t i = 0; i < axes[0].size; ++i) {
@@ -70,9 +79,13 @@ std::vector<double> density_over(const PsychometricLevels& levels, const Axes& a
       }
       for (std::size_t k = 0; k < axes[2].size; ++k) {
         const double lapse = axes[2].at(k);
-        density.push_back(log_likelihood_of(levels, lower, upper, lapse) +
-                          kLapsePriorPower * std::log1p(-lapse));
-        largest = std::max(largest, density.back());
+        for (std::size_t l = 0; l < axes[3].size; ++l) {
+          const double guess = axes[3].at(l);
+          density.push_back(log_likelihood_of(levels, lower, upper, lapse, guess) +
+                            kLapsePriorPower * std::log1p(-lapse) +
+                            kLapsePriorPower * std::log1p(-guess));
+          largest = std::max(largest, density.back());
+        }
       }
     }
   }
@@ -80,25 +93,41 @@ std::vector<double> density_over(const PsychometricLevels& levels, const Axes& a
   return density;
 }
 
-/// Calls `visit(i, j, k, density)` for every point of the grid.
+/// Calls `visit(at, density)` for every point of the grid, `at` being its places on the axes.
 template <typename Visit>
 void over_grid(const Axes& axes, const std::vector<double>& density, const Visit& visit) {
   std::size_t place = 0;
   for (std::size_t i = 0; i < axes[0].size; ++i) {
     for (std::size_t j = 0; j < axes[1].size; ++j) {
-      for (std::size_t k = 0; k < axes[2].size; ++k) visit(i, j, k, density[place++]);
+      for (std::size_t k = 0; k < axes[2].size; ++k) {
+        for (std::size_t l = 0; l < axes[3].size; ++l) {
+          visit(std::array{i, j, k, l}, density[place++]);
+        }
+      }
     }
   }
+}
+
+/// Weight of a point of the grid, over all axes but those that are named.
+double weight_but(const Axes& axes, const std::array<std::size_t, kNumAxes>& at,
+                  std::size_t but, std::size_t but_too = kNumAxes) {
+  double weight = 1.0;
+  for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
+    if (axis != but && axis != but_too) weight *= axes[axis].weight(at[axis]);
+  }
+  return weight;
 }
 
 /// Integrated over all but one parameter, for each.
 Marginals marginals_of(const Axes& axes, const std::vector<double>& density) {
   Marginals marginals;
-  for (std::size_t axis = 0; axis < 3; ++axis) marginals[axis].assign(axes[axis].size, 0.0);
-  over_grid(axes, density, [&](std::size_t i, std::size_t j, std::size_t k, double value) {
-    marginals[0][i] += value * axes[1].weight(j) * axes[2].weight(k);
-    marginals[1][j] += value * axes[0].weight(i) * axes[2].weight(k);
-    marginals[2][k] += value * axes[0].weight(i) * axes[1].weight(j);
+  for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
+    marginals[axis].assign(axes[axis].size, 0.0);
+  }
+  over_grid(axes, density, [&](const auto& at, double value) {
+    for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
+      marginals[axis][at[axis]] += value * weight_but(axes, at, axis);
+    }
   });
   return marginals;
 }
@@ -111,8 +140,8 @@ class LinearFraction {
                  const std::vector<double>& density)
       : axis_(axes[0]) {
     std::vector<double> joint(axes[0].size * axes[1].size, 0.0);
-    over_grid(axes, density, [&](std::size_t i, std::size_t j, std::size_t k, double value) {
-      joint[i * axes[1].size + j] += value * axes[2].weight(k);
+    over_grid(axes, density, [&](const auto& at, double value) {
+      joint[at[0] * axes[1].size + at[1]] += value * weight_but(axes, at, 0, 1);
     });
     for (std::size_t j = 0; j < axes[1].size; ++j) {
       Column column;
@@ -173,6 +202,7 @@ std::string words_of_priors(const PsychometricLevels& levels, const FreeParamete
     words += "; lapse rate Beta(1, 10) below " +
              std::string(halved ? "where the curve no longer rises" : "0.5");
   }
+  if (free[3]) words += "; guess rate Beta(1, 10) below 0.5";
   return words;
 }
 
@@ -190,10 +220,11 @@ MassBeyond beyond_the_prior(const PsychometricLevels& levels, const Axes& prior,
                             const Marginals& marginals,
                             const PsychometricPosterior& posterior) {
   MassBeyond all;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
     if (axes[axis].size == 1) continue;
     for (const bool at_high : {false, true}) {
       if (axis == 2 && (!at_high || prior[2].high > levels.ends.lapse_limit() - 1e-6)) continue;
+      if (axis == 3 && !at_high) continue;
       const double near = 0.5 * axes[axis].step();
       const bool reaches = at_high ? axes[axis].high > prior[axis].high - near
                                    : axes[axis].low < prior[axis].low + near;
@@ -205,13 +236,11 @@ MassBeyond beyond_the_prior(const PsychometricLevels& levels, const Axes& prior,
           mass_beyond(axes[axis], marginals[axis], at_high, std::fabs(median - end));
       const std::size_t at = at_high ? axes[axis].size - 1 : 0;
       double sum = 0.0, fraction_below = 0.0, pse_below = 0.0;
-      over_grid(axes, density, [&](std::size_t i, std::size_t j, std::size_t k, double value) {
-        if (std::array{i, j, k}[axis] != at) return;
-        const double weight = value * (axis == 0 ? 1.0 : axes[0].weight(i)) *
-                              (axis == 1 ? 1.0 : axes[1].weight(j)) *
-                              (axis == 2 ? 1.0 : axes[2].weight(k));
-        const double pse = levels.intensity_at(axes[1].at(j));
-        const double fraction = levels.weber_fraction_at(std::exp(-axes[0].at(i)), pse);
+      over_grid(axes, density, [&](const auto& places, double value) {
+        if (places[axis] != at) return;
+        const double weight = value * weight_but(axes, places, axis);
+        const double pse = levels.intensity_at(axes[1].at(places[1]));
+        const double fraction = levels.weber_fraction_at(std::exp(-axes[0].at(places[0])), pse);
         sum += weight;
         if (fraction < posterior.weber_fraction.value_or(kInfinity)) fraction_below += weight;
         if (pse < posterior.pse.value_or(0.0)) pse_below += weight;
@@ -249,32 +278,82 @@ void open_ends(PsychometricPosterior& posterior, const MassBeyond& beyond) {
 
 }  // namespace
 
+PosteriorGrid posterior_grid(const PsychometricLevels& levels, const FreeParameters& free) {
+  PosteriorGrid grid;
+  grid.reason = why_unidentified(levels, free[1], free[2]);
+  if (grid.reason.empty() && levels.zero_yes > 0.0 && !levels.ends.low_is_possible(free[2])) {
+    grid.reason = kYesAtZero;
+  }
+  if (!grid.reason.empty()) return grid;
+  grid.priors = words_of_priors(levels, free);
+  grid.prior = prior_axes(levels, free);
+  grid.axes = grid.prior;
+  grid.density = density_over(levels, grid.axes);
+  grid.marginals = marginals_of(grid.axes, grid.density);
+  for (int narrowing = 0; narrowing < 3; ++narrowing) {
+    for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
+      grid.axes[axis] = narrowed(grid.axes[axis], grid.marginals[axis]);
+    }
+    grid.density = density_over(levels, grid.axes);
+    grid.marginals = marginals_of(grid.axes, grid.density);
+  }
+  return grid;
+}
+
+std::array<double, 3> PosteriorGrid::quantiles(
+    const std::function<double(const PsychometricCurve&)>& value_of) const {
+  struct Point {
+    double value, mass;
+  };
+  std::vector<Point> points;
+  points.reserve(density.size());
+  double all = 0.0;
+  over_grid(axes, density, [&](const auto& at, double dense) {
+    const double mass = dense * weight_but(axes, at, kNumAxes);
+    if (!(mass > 0.0)) return;
+    const double slope = std::exp(-axes[0].at(at[0]));
+    const double value =
+        value_of({slope, -slope * axes[1].at(at[1]), axes[2].at(at[2]), axes[3].at(at[3])});
+    if (std::isnan(value)) return;
+    points.push_back({value, mass});
+    all += mass;
+  });
+  std::ranges::sort(points, {}, &Point::value);
+  // Half of a point's mass lies below it.
+  const auto at = [&](double probability) {
+    double below = 0.0, last = points.front().value, reached = 0.0;
+    for (const Point& point : points) {
+      const double here = (below + 0.5 * point.mass) / all;
+      if (here >= probability) {
+        const double share = here > reached ? (probability - reached) / (here - reached) : 1.0;
+        return std::isfinite(last) && std::isfinite(point.value)
+                   ? last + share * (point.value - last)
+                   : point.value;
+      }
+      below += point.mass;
+      last = point.value;
+      reached = here;
+    }
+    return points.back().value;
+  };
+  if (points.empty()) return {std::nan(""), std::nan(""), std::nan("")};
+  return {at(0.5), at(kTail), at(1.0 - kTail)};
+}
+
 PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
                                         const FreeParameters& free) {
   PsychometricPosterior posterior;
   posterior.status = FitStatus::kDegenerate;
-  posterior.reason = why_unidentified(levels, free[1], free[2]);
-  if (posterior.reason.empty() && levels.zero_yes > 0.0 &&
-      !levels.ends.low_is_possible(free[2])) {
-    posterior.reason = kYesAtZero;
-  }
+  const PosteriorGrid grid = posterior_grid(levels, free);
+  posterior.reason = grid.reason;
   if (!posterior.reason.empty()) return posterior;
-  const Axes prior = prior_axes(levels, free);
-  Axes axes = prior;
-  std::vector<double> density = density_over(levels, axes);
-  Marginals marginals = marginals_of(axes, density);
-  for (int narrowing = 0; narrowing < 3; ++narrowing) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      axes[axis] = narrowed(axes[axis], marginals[axis]);
-    }
-    density = density_over(levels, axes);
-    marginals = marginals_of(axes, density);
-  }
+  const Axes& axes = grid.axes;
+  const std::vector<double>& density = grid.density;
   const auto quantile = [&](std::size_t axis, double probability) {
-    return quantile_of(axes[axis], marginals[axis], probability);
+    return quantile_of(axes[axis], grid.marginals[axis], probability);
   };
   posterior.status = FitStatus::kOk;
-  posterior.priors = words_of_priors(levels, free);
+  posterior.priors = grid.priors;
   if (levels.logarithmic()) {
     const auto fraction = [&](double probability) {
       return levels.weber_fraction_at(std::exp(-quantile(0, probability)), levels.origin);
@@ -292,7 +371,8 @@ PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
                                   levels.intensity_at(quantile(1, 0.975))};
   }
   if (free[2]) posterior.lapse_rate = quantile(2, 0.5);
-  open_ends(posterior, beyond_the_prior(levels, prior, axes, density, marginals, posterior));
+  open_ends(posterior,
+            beyond_the_prior(levels, grid.prior, axes, density, grid.marginals, posterior));
   return posterior;
 }
 

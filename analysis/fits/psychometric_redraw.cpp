@@ -33,7 +33,7 @@ AnswerRedraw::AnswerRedraw(const PsychometricLevels& levels, const PsychometricC
   for (std::size_t level = 0; level < levels.size(); ++level) {
     tables_.emplace_back(levels.num_trials[level], curve.probability(levels, level));
   }
-  tables_.emplace_back(levels.zero_trials, levels.ends.low(curve.lapse));
+  tables_.emplace_back(levels.zero_trials, levels.ends.low(curve.lapse, curve.guess));
 }
 
 AnswerRedraw::AnswerRedraw(const PsychometricLevels& levels) {

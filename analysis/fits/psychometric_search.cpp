@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -40,13 +41,16 @@ PsychometricCurve concave_start(const PsychometricLevels& levels, bool free_pse)
 }
 
 /// Whether the Hessian tells the moving parameters apart: by its scaled smallest eigenvalue.
+template <int kSize>
 bool is_ridge(const PsychometricOptimum& optimum, const FreeParameters& free) {
+  using Square = Eigen::Matrix<double, kSize, kSize>;
   FreeParameters moving = free;
   if (optimum.curve.lapse <= 0.0) moving[2] = false;
-  Eigen::Matrix3d scaled = Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d& hessian = optimum.cost.hessian;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
+  if (optimum.curve.guess <= 0.0) moving[3] = false;
+  Square scaled = Square::Identity();
+  const Square hessian = optimum.cost.hessian.template topLeftCorner<kSize, kSize>();
+  for (int row = 0; row < kSize; ++row) {
+    for (int column = 0; column < kSize; ++column) {
       if (row == column || !moving[static_cast<std::size_t>(row)] ||
           !moving[static_cast<std::size_t>(column)]) {
         continue;
@@ -55,8 +59,12 @@ bool is_ridge(const PsychometricOptimum& optimum, const FreeParameters& free) {
           hessian(row, column) / std::sqrt(hessian(row, row) * hessian(column, column));
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scaled, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(scaled, Eigen::EigenvaluesOnly);
   return !(eigen.eigenvalues()(0) > 1e-12);
+}
+
+bool is_ridge(const PsychometricOptimum& optimum, const FreeParameters& free) {
+  return free[3] ? is_ridge<4>(optimum, free) : is_ridge<3>(optimum, free);
 }
 
 }  // namespace
@@ -67,20 +75,18 @@ PsychometricSearch::PsychometricSearch(const PsychometricLevels& levels,
     : method_(method),
       free_pse_(free_pse),
       free_lapse_(free_lapse),
-      free_{true, free_pse, free_lapse} {
+      free_{true, free_pse, free_lapse, levels.ends.free_guess} {
   if (method == kMaximumLikelihood && levels.ends.are_bare(free_lapse)) return;
   if (why_unidentified(levels, free_pse, free_lapse).empty()) grid_.emplace(levels, free_pse);
 }
 
-PsychometricOptimum PsychometricSearch::lowest_minimum(const PsychometricLevels& levels,
-                                                       PsychometricDescent descent,
-                                                       const PsychometricCurve* near) const {
+PsychometricOptimum PsychometricSearch::lowest_minimum(
+    const PsychometricLevels& levels, PsychometricDescent descent,
+    const std::vector<PsychometricCurve>& starts) const {
   struct Scout {
     PsychometricCurve start;
     PsychometricOptimum reached;
   };
-  std::vector<PsychometricCurve> starts = grid_->minima(levels, method_, free_lapse_);
-  if (near != nullptr) starts.insert(starts.begin(), *near);
   std::vector<Scout> scouts;
   for (const PsychometricCurve& start : starts) {
     scouts.push_back({start, minimised_by_newton(levels, method_, free_, start)});
@@ -114,6 +120,22 @@ PsychometricOptimum PsychometricSearch::lowest_minimum(const PsychometricLevels&
 PsychometricSearchResult PsychometricSearch::find(const PsychometricLevels& levels,
                                                   PsychometricDescent descent,
                                                   const PsychometricCurve* near) const {
+  return found(levels, descent, near, [&] {
+    std::vector<PsychometricCurve> starts = grid_->minima(levels, method_, free_lapse_);
+    if (near != nullptr) starts.insert(starts.begin(), *near);
+    return starts;
+  });
+}
+
+PsychometricSearchResult PsychometricSearch::find_from(
+    const PsychometricLevels& levels, const std::vector<PsychometricCurve>& starts) const {
+  return found(levels, minimised_by_newton, starts.data(), [&] { return starts; });
+}
+
+PsychometricSearchResult PsychometricSearch::found(
+    const PsychometricLevels& levels, PsychometricDescent descent,
+    const PsychometricCurve* near,
+    const std::function<std::vector<PsychometricCurve>()>& starts) const {
   const std::string_view why = why_unidentified(levels, free_pse_, free_lapse_);
   if (!why.empty()) return {PsychometricSupremum::kUnidentified, why, {}};
   if (method_ == kMaximumLikelihood && levels.zero_yes > 0.0 &&
@@ -128,7 +150,7 @@ PsychometricSearchResult PsychometricSearch::find(const PsychometricLevels& leve
     }
     found = descent(levels, method_, free_, near ? *near : concave_start(levels, free_pse_));
   } else {
-    found = lowest_minimum(levels, descent, near);
+    found = lowest_minimum(levels, descent, starts());
     const double step = step_limit_cost(levels, method_, free_pse_, free_lapse_);
     const double flat = flat_limit_cost(levels, method_, free_pse_, free_lapse_);
     const double limit_cost = std::min(step, flat);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "analysis/fits/psychometric_descent.h"
 #include "analysis/fits/psychometric_existence.h"
@@ -35,12 +37,25 @@ class PsychometricSearch {
                                               PsychometricDescent descent,
                                               const PsychometricCurve* near = nullptr) const;
 
+  /// By Newton's method from these curves alone, one or more: for answers drawn anew, whose
+  /// optimum is near one of them.
+  [[nodiscard]] PsychometricSearchResult find_from(
+      const PsychometricLevels& levels, const std::vector<PsychometricCurve>& starts) const;
+
+  /// Whether there can be several minima, so that a search needs several starts.
+  [[nodiscard]] bool needs_starts() const noexcept { return grid_.has_value(); }
+  [[nodiscard]] PsychometricMethod method() const noexcept { return method_; }
+
   [[nodiscard]] const FreeParameters& free() const noexcept { return free_; }
 
  private:
-  [[nodiscard]] PsychometricOptimum lowest_minimum(const PsychometricLevels& levels,
-                                                   PsychometricDescent descent,
-                                                   const PsychometricCurve* near) const;
+  [[nodiscard]] PsychometricSearchResult found(
+      const PsychometricLevels& levels, PsychometricDescent descent,
+      const PsychometricCurve* near,
+      const std::function<std::vector<PsychometricCurve>()>& starts) const;
+  [[nodiscard]] PsychometricOptimum lowest_minimum(
+      const PsychometricLevels& levels, PsychometricDescent descent,
+      const std::vector<PsychometricCurve>& starts) const;
 
   PsychometricMethod method_;
   bool free_pse_, free_lapse_;

@@ -5,7 +5,11 @@ namespace jnd::analysis {
 /// The shapes of a psychometric function: F(z) rises from 0 to 1 and F(0) = 0.5.
 enum class Sigmoid {
   kNormal,   ///< Phi(z)
-  kWeibull,  ///< 1 - 2^(-e^z): with z = shape ln(x / median), Weibull's distribution of x.
+  kWeibull,  ///< 1 - 2^(-e^z): with z = shape ln(x / median), Weibull's distribution of x; over
+             ///< x itself Gumbel's of the smallest of many.
+  kLogistic,          ///< 1 / (1 + e^-z)
+  kReversedGumbel,    ///< 2^(-e^-z): Gumbel's distribution of the largest of many.
+  kHyperbolicSecant,  ///< 2 / pi arctan(e^(pi z / 2))
 };
 
 /// Both tails at one z, neither computed as 1 - the other where that would cancel.

@@ -1,0 +1,88 @@
+#include "analysis/fits/bootstrap_ends.h"
+
+#include <cmath>
+
+#include "analysis/statistics/summary.h"
+#include "core/psychometric_function.h"
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+constexpr double kBootstrapTail = 0.025;
+
+std::optional<double> end_at(const std::vector<double>& ascending, double probability) {
+  const double value = percentile(ascending, probability);
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+/// Whether the interval was refused, because it would miss the estimate.
+bool refused(Interval& interval, double estimate) {
+  if (estimate >= interval.low.value_or(-core::kInfinity) &&
+      estimate <= interval.high.value_or(core::kInfinity)) {
+    return false;
+  }
+  interval = {};
+  return true;
+}
+
+/// BCa's place for a tail of the percentile interval.
+double corrected_probability(double tail_z, double bias, double acceleration) {
+  const double shifted = bias + tail_z;
+  return core::standard_normal_cdf(bias + shifted / (1.0 - acceleration * shifted));
+}
+
+void add_bca(BootstrapEnds& result, const std::vector<double>& ascending, double estimate,
+             std::optional<double> acceleration) {
+  double below = 0.0;
+  for (const double value : ascending) below += value < estimate ? 1.0 : 0.0;
+  for (const double value : ascending) below += value == estimate ? 0.5 : 0.0;
+  const double share = below / static_cast<double>(ascending.size());
+  if (!(share > 0.0 && share < 1.0)) {
+    result.bca_reason = "all refits lie on one side of the estimate";
+    return;
+  }
+  if (!acceleration) {
+    result.bca_reason = "without one of the answers there is no fit: no acceleration";
+    return;
+  }
+  const double bias = core::standard_normal_quantile(share);
+  const double z = core::standard_normal_quantile(kBootstrapTail);
+  const double low = corrected_probability(z, bias, *acceleration);
+  const double high = corrected_probability(-z, bias, *acceleration);
+  result.bias_correction = bias;
+  result.bca_ci95 = {.low = end_at(ascending, low), .high = end_at(ascending, high)};
+  if (!(low < high) || refused(result.bca_ci95, estimate)) {
+    result.bca_ci95 = {};
+    result.bca_reason = "refused, because it would miss the estimate";
+  }
+}
+
+}  // namespace
+
+std::optional<double> acceleration_of(const std::vector<LeftOut>& all) {
+  double sum = 0.0, num_answers = 0.0, squares = 0.0, cubes = 0.0;
+  for (const LeftOut& one : all) {
+    sum += one.num_answers * one.value;
+    num_answers += one.num_answers;
+  }
+  for (const LeftOut& one : all) {
+    const double influence = sum / num_answers - one.value;
+    squares += one.num_answers * influence * influence;
+    cubes += one.num_answers * influence * influence * influence;
+  }
+  if (!(squares > 0.0)) return std::nullopt;
+  return cubes / (6.0 * std::pow(squares, 1.5));
+}
+
+BootstrapEnds bootstrap_ends(const std::vector<double>& ascending, double estimate,
+                             std::optional<double> acceleration) {
+  BootstrapEnds result;
+  result.ci95 = {.low = end_at(ascending, kBootstrapTail),
+                 .high = end_at(ascending, 1.0 - kBootstrapTail)};
+  result.is_refused = refused(result.ci95, estimate);
+  add_bca(result, ascending, estimate, acceleration);
+  return result;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,35 @@
+#include "analysis/fits/profile_crossing.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+
+namespace jnd::analysis {
+
+std::optional<double> crossing(const std::function<double(double)>& excess, double from,
+                               double first_step, double limit, double precision) {
+  double inside = from;
+  double excess_inside = excess(inside);
+  for (double step = first_step; inside != limit; step *= 1.6) {
+    const bool beyond = std::fabs(limit - inside) <= step;
+    const double outside = beyond ? limit : inside + std::copysign(step, limit - inside);
+    const double excess_outside = excess(outside);
+    if (excess_outside >= 0.0 && excess_inside < 0.0) {
+      const auto close_enough = [precision](double a, double b) {
+        return std::fabs(b - a) <= precision * std::max(std::fabs(a), std::fabs(b)) + 1e-300;
+      };
+      const bool rising = outside > inside;
+      std::uintmax_t num_iterations = 200;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          excess, rising ? inside : outside, rising ? outside : inside,
+          rising ? excess_inside : excess_outside, rising ? excess_outside : excess_inside,
+          close_enough, num_iterations);
+      return 0.5 * (low + high);
+    }
+    inside = outside;
+    excess_inside = excess_outside;
+  }
+  return std::nullopt;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,38 @@
+#include "analysis/fits/psychometric_refit.h"
+
+#include <algorithm>
+
+namespace jnd::analysis {
+namespace {
+
+/// So far off its bound a rate is held, so that no answer is impossible.
+constexpr double kLeastRate = 0.01;
+constexpr std::size_t kMostStarts = 3;
+
+}  // namespace
+
+PsychometricRefit::PsychometricRefit(const PsychometricSearch& search,
+                                     const PsychometricLevels& levels,
+                                     const PsychometricCurve& fitted)
+    : search_(search), fitted_(fitted), between_(fitted) {
+  if (!search.needs_starts() || search.method() != PsychometricMethod::kMaximumLikelihood) {
+    return;
+  }
+  if (search.free()[2]) between_.lapse = std::max(fitted.lapse, kLeastRate);
+  if (search.free()[3]) between_.guess = std::max(fitted.guess, kLeastRate);
+  grid_.emplace(levels, search.free()[1], kWideSpacing);
+  logs_ = grid_->log_likelihoods(levels, between_.lapse, between_.guess);
+}
+
+PsychometricSearchResult PsychometricRefit::find(const PsychometricLevels& redrawn) const {
+  if (!grid_) return search_.find(redrawn, minimised_by_newton, &fitted_);
+  std::vector<PsychometricCurve> starts =
+      grid_->minima(redrawn, logs_, between_.lapse, between_.guess, kMostStarts);
+  PsychometricCurve near = between_;  // From a bound no descent may lead away.
+  near.slope = fitted_.slope;
+  near.offset = fitted_.offset;
+  starts.insert(starts.begin(), near);
+  return search_.find_from(redrawn, starts);
+}
+
+}  // namespace jnd::analysis
