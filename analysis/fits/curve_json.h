@@ -1,0 +1,14 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "analysis/fits/curve_comparison.h"
+#include "analysis/fits/curve_fit.h"
+
+namespace jnd::analysis {
+
+/// With the keys of the command line's contract. Every number is finite or null.
+[[nodiscard]] nlohmann::ordered_json to_json(const CurveFit& fit);
+[[nodiscard]] nlohmann::ordered_json to_json(const CurveComparison& comparison);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,357 @@
+#include "analysis/fits/curve_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/fits/curve_comparison.h"
+#include "analysis/fits/psychometric_fit.h"
+#include "analysis/fits/psychometric_refit.h"
+#include "core/error.h"
+#include "core/random_stream.h"
+
+namespace jnd::analysis {
+namespace curve_fit_test {
+
+/// Answers as a curve has them on average, of so many trials that rounding is lost.
+std::vector<AnswerCount> expected_answers(const CurveModel& model, double location,
+                                          double scale, double guess, double lapse) {
+  CurveFit curve;
+  curve.model = model;
+  curve.location.value = location;
+  curve.scale.value = scale;
+  curve.guess_rate.value = guess;
+  curve.lapse_rate.value = lapse;
+  constexpr double kNumTrials = 1e9;
+  std::vector<AnswerCount> rows;
+  for (int i = 0; i <= 12; ++i) {
+    const double x = model.is_logarithmic() ? 0.2 * std::exp(0.3 * i) : -3.0 + 0.5 * i;
+    rows.push_back({x, static_cast<std::int64_t>(std::round(kNumTrials * curve.probability(x))),
+                    static_cast<std::int64_t>(kNumTrials)});
+  }
+  return rows;
+}
+
+TEST(CurveFit, TwoLevelsOfALogisticCurveAreWorkedByHand) {
+  // logit(1/4) = -ln 3 at -1 and logit(3/4) = ln 3 at 1.
+  const std::vector<AnswerCount> rows = {{-1.0, 25, 100}, {1.0, 75, 100}};
+  const CurveFit fit = fit_curve(
+      rows, {.model = {.family = CurveFamily::kLogistic}, .at = {0.75}, .jnd_at = 0.75});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.location.value, 0.0, 1e-12);
+  EXPECT_NEAR(*fit.scale.value, 1.0 / std::log(3.0), 1e-12);
+  EXPECT_NEAR(*fit.thresholds[0].intensity.value, 1.0, 1e-12);
+  EXPECT_NEAR(*fit.jnd.value, 1.0, 1e-12);
+  // p (1 - p) / scale
+  EXPECT_NEAR(*fit.thresholds[0].slope.value, 0.1875 * std::log(3.0), 1e-12);
+  const double log_likelihood = 2.0 * (25.0 * std::log(0.25) + 75.0 * std::log(0.75));
+  EXPECT_NEAR(*fit.log_likelihood, log_likelihood, 1e-10);
+  EXPECT_NEAR(*fit.deviance, 0.0, 1e-10);
+  EXPECT_NEAR(*fit.aic, 4.0 - 2.0 * log_likelihood, 1e-10);
+  EXPECT_NEAR(*fit.bic, 2.0 * std::log(200.0) - 2.0 * log_likelihood, 1e-10);
+}
+
+TEST(CurveFit, TwoLevelsOfEachFamilyGiveLocationAndScaleOfItsFormula) {
+  // F at location 0.4 and scale 0.8, at x = 0 and 1, by each formula of the help.
+  const double low = -0.5, high = 0.75;  // (x - location) / scale
+  struct Case {
+    CurveFamily family;
+    double at_low, at_high;
+  };
+  const auto phi = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+  const auto secant = [](double z) { return 2.0 / M_PI * std::atan(std::exp(0.5 * M_PI * z)); };
+  for (const Case& one :
+       {Case{CurveFamily::kNormal, phi(low), phi(high)},
+        {CurveFamily::kLogistic, 1.0 / (1.0 + std::exp(-low)), 1.0 / (1.0 + std::exp(-high))},
+        {CurveFamily::kGumbel, 1.0 - std::exp(-std::exp(low)), 1.0 - std::exp(-std::exp(high))},
+        {CurveFamily::kReversedGumbel, std::exp(-std::exp(-low)), std::exp(-std::exp(-high))},
+        {CurveFamily::kHyperbolicSecant, secant(low), secant(high)}}) {
+    constexpr double kNum = 1e9;
+    const std::vector<AnswerCount> rows = {
+        {0.0, static_cast<std::int64_t>(kNum * one.at_low), static_cast<std::int64_t>(kNum)},
+        {1.0, static_cast<std::int64_t>(kNum * one.at_high), static_cast<std::int64_t>(kNum)}};
+    const CurveFit fit = fit_curve(rows, {.model = {.family = one.family}, .intervals = false});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    EXPECT_NEAR(*fit.location.value, 0.4, 1e-7) << traits_of(one.family).name;
+    EXPECT_NEAR(*fit.scale.value, 0.8, 1e-7) << traits_of(one.family).name;
+    EXPECT_NEAR(fit.probability(1.0), one.at_high, 1e-7) << traits_of(one.family).name;
+  }
+}
+
+TEST(CurveFit, EveryModelFindsTheCurveThatTheAnswersAreOf) {
+  for (const CurveFamilyTraits& family : curve_families()) {
+    for (const bool falling : {false, true}) {
+      for (const bool free_guess : {false, true}) {
+        for (const bool free_lapse : {false, true}) {
+          const CurveModel model = {.family = family.family,
+                                    .guess_rate = 0.25,
+                                    .lapse_rate = 0.0,
+                                    .free_guess = free_guess,
+                                    .free_lapse = free_lapse,
+                                    .falling = falling};
+          const double guess = free_guess ? 0.11 : 0.25, lapse = free_lapse ? 0.04 : 0.0;
+          const double location = model.is_logarithmic() ? 1.3 : 0.2;
+          const double scale = model.family == CurveFamily::kWeibull ? 2.1 : 0.7;
+          const CurveFit fit = fit_curve(expected_answers(model, location, scale, guess, lapse),
+                                         {.model = model, .intervals = false});
+          ASSERT_EQ(fit.status, FitStatus::kOk) << family.name << fit.reason;
+          EXPECT_NEAR(*fit.location.value, location, 1e-5) << family.name << falling;
+          EXPECT_NEAR(*fit.scale.value, scale, 1e-5) << family.name << falling;
+          EXPECT_NEAR(*fit.guess_rate.value, guess, 1e-6) << family.name << falling;
+          EXPECT_NEAR(*fit.lapse_rate.value, lapse, 1e-6) << family.name << falling;
+        }
+      }
+    }
+  }
+}
+
+TEST(CurveFit, ThresholdsAreAtLevelsOfTheCurveBetweenItsEnds) {
+  const CurveModel model = {.family = CurveFamily::kNormal, .guess_rate = 0.5};
+  const CurveFit fit = fit_curve(expected_answers(model, 0.2, 0.7, 0.5, 0.0),
+                                 {.model = model, .at = {0.75, 0.5}});
+  ASSERT_EQ(fit.status, FitStatus::kOk);
+  EXPECT_NEAR(fit.thresholds[0].proportion, 0.875, 1e-12);
+  EXPECT_NEAR(*fit.thresholds[0].intensity.value, 0.2 + 0.7 * 0.6744897501960817, 1e-5);
+  EXPECT_NEAR(fit.probability(*fit.thresholds[0].intensity.value), 0.875, 1e-9);
+  EXPECT_NEAR(*fit.thresholds[1].intensity.value, *fit.pse.value, 1e-12);
+  EXPECT_NEAR(*fit.jnd.value, 0.7, 1e-5);
+}
+
+TEST(CurveFit, AFallingCurveIsTheRisingOneOfTheMirroredAxis) {
+  const std::vector<AnswerCount> rows = {{-2, 28, 30}, {-1, 25, 30}, {0, 17, 30},
+                                         {1, 8, 30},   {2, 3, 30},   {3, 2, 30}};
+  std::vector<AnswerCount> mirrored = rows;
+  for (AnswerCount& row : mirrored) row.intensity = -row.intensity;
+  const CurveModel rising = {.family = CurveFamily::kLogistic, .free_lapse = true};
+  CurveModel falling = rising;
+  falling.falling = true;
+  const CurveFit fit = fit_curve(rows, {.model = falling, .at = {0.75}});
+  const CurveFit other = fit_curve(mirrored, {.model = rising, .at = {0.75}});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  ASSERT_EQ(other.status, FitStatus::kOk) << other.reason;
+  EXPECT_NEAR(*fit.log_likelihood, *other.log_likelihood, 1e-9);
+  EXPECT_NEAR(*fit.lapse_rate.value, *other.lapse_rate.value, 1e-8);
+  const CurveThreshold &one = fit.thresholds[0], &mirror = other.thresholds[0];
+  EXPECT_NEAR(*one.intensity.value, -*mirror.intensity.value, 1e-7);
+  EXPECT_NEAR(*one.intensity.ci95.low, -*mirror.intensity.ci95.high, 1e-5);
+  EXPECT_NEAR(*one.slope.value, -*mirror.slope.value, 1e-7);
+  EXPECT_NEAR(*one.slope.ci95.low, -*mirror.slope.ci95.high, 1e-4);
+  EXPECT_TRUE(answers_fall({rows}));
+  EXPECT_FALSE(answers_fall({mirrored}));
+}
+
+const std::vector<AnswerCount> kSix = {{1.0, 2, 30},  {1.5, 6, 30},  {2.0, 13, 30},
+                                       {2.5, 21, 30}, {3.0, 26, 30}, {4.0, 29, 30}};
+
+TEST(CurveFit, IntervalsOfANormalCurveAreThoseOfTheWeberFit) {
+  const CurveFit fit = fit_curve(kSix, {.model = {.family = CurveFamily::kNormal}});
+  const PsychometricFit weber =
+      fit_psychometric(kSix, {.reference = 2.0, .family = PsychometricFamily::kGauss});
+  ASSERT_EQ(fit.status, FitStatus::kOk);
+  EXPECT_NEAR(*fit.pse.value, *weber.pse, 1e-9);
+  EXPECT_NEAR(*fit.pse.ci95.low, *weber.pse_ci95->low, 1e-7);
+  EXPECT_NEAR(*fit.pse.ci95.high, *weber.pse_ci95->high, 1e-7);
+  EXPECT_NEAR(*fit.location.ci95.low, *fit.pse.ci95.low, 1e-9);
+  EXPECT_NEAR(*fit.jnd.ci95.low, *fit.scale.ci95.low, 1e-9);
+  const PsychometricFit weibull =
+      fit_psychometric(kSix, {.reference = 2.0, .family = PsychometricFamily::kWeibull});
+  const CurveFit own = fit_curve(kSix, {.model = {.family = CurveFamily::kWeibull}});
+  EXPECT_NEAR(*own.location.value, weibull.parameters[0].value, 1e-8);
+  EXPECT_NEAR(*own.scale.value, weibull.parameters[1].value, 1e-8);
+}
+
+/// Minus the log-likelihood of a curve over ln x whose JND is `jnd`, least over its PSE.
+double least_cost_at_jnd(const std::vector<AnswerCount>& rows, double jnd) {
+  const auto cost = [&](double pse) {
+    const double scale = std::log1p(jnd / pse);
+    double sum = 0.0;
+    for (const AnswerCount& row : rows) {
+      const double z = (std::log(row.intensity) - std::log(pse)) / scale;
+      sum -= static_cast<double>(row.num_yes) * std::log(0.5 * std::erfc(-z / std::sqrt(2.0)));
+      sum -= static_cast<double>(row.num_trials - row.num_yes) *
+             std::log(0.5 * std::erfc(z / std::sqrt(2.0)));
+    }
+    return sum;
+  };
+  double low = 1.0, high = 4.0;
+  for (int i = 0; i < 200; ++i) {
+    const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
+    (cost(a) < cost(b) ? high : low) = cost(a) < cost(b) ? b : a;
+  }
+  return cost(0.5 * (low + high));
+}
+
+TEST(CurveFit, TheJndOfALogarithmicAxisHasTheIntervalOfItsProfile) {
+  const CurveFit fit =
+      fit_curve(kSix, {.model = {.family = CurveFamily::kNormal, .log_axis = true}});
+  ASSERT_EQ(fit.status, FitStatus::kOk);
+  const double least = -*fit.log_likelihood;
+  EXPECT_NEAR(least_cost_at_jnd(kSix, *fit.jnd.value), least, 1e-8);
+  for (const auto& end : {fit.jnd.ci95.low, fit.jnd.ci95.high}) {
+    ASSERT_TRUE(end.has_value());
+    EXPECT_NEAR(least_cost_at_jnd(kSix, *end) - least, 1.9207294103470617, 1e-4);
+  }
+  // At level 0.84 the threshold is a JND above the PSE.
+  EXPECT_NEAR(*fit.pse.value * std::exp(*fit.scale.value) - *fit.pse.value, *fit.jnd.value,
+              1e-9);
+}
+
+TEST(CurveFit, BootstrapAndPosteriorAreNearTheLikelihoodRatio) {
+  std::vector<AnswerCount> many = kSix;
+  for (AnswerCount& row : many) {
+    row.num_yes *= 10;
+    row.num_trials *= 10;
+  }
+  const CurveFit fit = fit_curve(
+      many, {.model = {.family = CurveFamily::kLogistic, .guess_rate = 0.0, .free_lapse = true},
+             .at = {0.75},
+             .num_bootstrap = 1000,
+             .posterior = true});
+  ASSERT_EQ(fit.status, FitStatus::kOk);
+  for (const CurveValue* value : {&fit.pse, &fit.thresholds[0].intensity, &fit.location}) {
+    const double width = *value->ci95.high - *value->ci95.low;
+    for (const Interval& other :
+         {value->bootstrap_ci95, value->bca_ci95, value->posterior_ci95}) {
+      ASSERT_TRUE(other.low && other.high);
+      EXPECT_NEAR(*other.low, *value->ci95.low, 0.25 * width);
+      EXPECT_NEAR(*other.high, *value->ci95.high, 0.25 * width);
+    }
+    EXPECT_NEAR(*value->posterior_median, *value->value, 0.25 * width);
+  }
+}
+
+TEST(CurveFit, AnswersWithoutACurveSayWhy) {
+  const std::vector<AnswerCount> step = {{1, 0, 10}, {2, 0, 10}, {3, 10, 10}};
+  const CurveFit separated = fit_curve(step, {});
+  EXPECT_EQ(separated.status, FitStatus::kDegenerate);
+  EXPECT_NE(separated.reason.find("separated"), std::string::npos);
+  EXPECT_FALSE(separated.location.value.has_value());
+  const std::vector<AnswerCount> flat = {{1, 5, 10}, {2, 5, 10}, {3, 5, 10}};
+  EXPECT_NE(fit_curve(flat, {}).reason.find("flat"), std::string::npos);
+  EXPECT_EQ(fit_curve({}, {}).status, FitStatus::kDegenerate);
+  EXPECT_NE(fit_curve({{1, 5, 10}, {2, 6, 10}, {3, 9, 10}},
+                      {.model = {.free_guess = true, .free_lapse = true}})
+                .reason.find("too few"),
+            std::string::npos);
+  EXPECT_THROW((void)fit_curve(flat, {.model = {.free_guess = true, .symmetric = true}}),
+               core::Error);
+  EXPECT_THROW((void)fit_curve({{-1, 5, 10}}, {.model = {.log_axis = true}}), core::Error);
+  EXPECT_THROW((void)fit_curve(flat, {.at = {1.0}}), core::Error);
+}
+
+TEST(CurveFit, ManyLevelsAreFittedAsTheyAre) {
+  core::RandomStream random(7, "many levels");
+  std::vector<AnswerCount> rows;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.uniform(-2.0, 2.0);
+    const double p = 0.5 * std::erfc(-(x - 0.3) / 0.8 / std::sqrt(2.0));
+    rows.push_back({x, random.with_probability(p) ? 1 : 0, 1});
+  }
+  const CurveFit fit = fit_curve(rows, {});
+  ASSERT_EQ(fit.status, FitStatus::kOk);
+  EXPECT_EQ(fit.num_levels, 20000);
+  EXPECT_NEAR(*fit.location.value, 0.3, 0.03);
+  EXPECT_NEAR(*fit.scale.value, 0.8, 0.03);
+  EXPECT_LT(*fit.location.ci95.low, *fit.location.value);
+  EXPECT_GT(*fit.location.ci95.high, *fit.location.value);
+  EXPECT_LE(fit.points.size(), 201U);
+  // The optimum is that of all levels, not of the bins.
+  const FoundCurve found = found_curve(rows, {});
+  EXPECT_LT(found.found.optimum.cost.gradient.head<2>().cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(PsychometricRefit, FindsWhatTheWholeSearchFinds) {
+  core::RandomStream random(3, "refits");
+  int num_worse = 0, num_compared = 0;
+  for (const bool free_guess : {false, true}) {
+    const CurveModel model = {.family = CurveFamily::kLogistic,
+                              .guess_rate = 0.5,
+                              .free_guess = free_guess,
+                              .free_lapse = true};
+    const std::vector<AnswerCount> rows = {{-2, 11, 20},  {-1, 12, 20}, {-0.3, 13, 20},
+                                           {0.3, 16, 20}, {1, 18, 20},  {2, 19, 20}};
+    const FoundCurve fit = found_curve(rows, model);
+    ASSERT_EQ(fit.found.supremum, PsychometricSupremum::kAttained);
+    const PsychometricSearch search(fit.levels, PsychometricMethod::kMaximumLikelihood, true,
+                                    true);
+    const PsychometricRefit refit(search, fit.levels, fit.found.optimum.curve);
+    PsychometricLevels redrawn = fit.levels;
+    for (int draw = 0; draw < 150; ++draw) {
+      for (std::size_t i = 0; i < redrawn.size(); ++i) {
+        double yes = 0.0;
+        for (int trial = 0; trial < 20; ++trial) {
+          yes += random.with_probability(fit.found.optimum.curve.probability(fit.levels, i))
+                     ? 1.0
+                     : 0.0;
+        }
+        redrawn.num_yes[i] = yes;
+      }
+      const auto whole = search.find(redrawn, minimised_by_newton);
+      const auto quick = refit.find(redrawn);
+      if (whole.supremum != PsychometricSupremum::kAttained) continue;
+      ++num_compared;
+      const bool same = quick.supremum == PsychometricSupremum::kAttained &&
+                        quick.optimum.cost.value <= whole.optimum.cost.value + 1e-7;
+      if (!same) ++num_worse;
+    }
+  }
+  EXPECT_GT(num_compared, 100);
+  EXPECT_LE(num_worse, num_compared / 50);
+}
+
+TEST(CurveComparison, FindsWhichParameterDiffers) {
+  const CurveModel model = {.family = CurveFamily::kNormal};
+  const auto rows_at = [&](double location, double scale) {
+    std::vector<AnswerCount> rows = expected_answers(model, location, scale, 0.0, 0.0);
+    for (AnswerCount& row : rows) {
+      row.num_yes =
+          static_cast<std::int64_t>(std::round(static_cast<double>(row.num_yes) / 1e7));
+      row.num_trials = 100;
+    }
+    return rows;
+  };
+  const CurveComparison found = compare_curves(
+      {{"a", rows_at(0.0, 0.6)}, {"b", rows_at(0.5, 0.6)}}, {.model = model, .at = {0.5}});
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  ASSERT_EQ(found.models.size(), 4U);
+  ASSERT_EQ(found.tests.size(), 3U);
+  EXPECT_EQ(found.best_by_bic, "different location, same scale");
+  for (const ComparisonTest& test : found.tests) {
+    if (test.name == "scale") {
+      EXPECT_GT(test.p_value, 0.5);
+      EXPECT_EQ(test.degrees_of_freedom, 1);
+    } else {
+      EXPECT_LT(test.p_value, 1e-6) << test.name;
+    }
+  }
+  ASSERT_EQ(found.contrasts.size(), 1U);
+  const CurveContrast& contrast = found.contrasts[0];
+  EXPECT_NEAR(*contrast.difference.value, 0.5, 0.02);
+  EXPECT_LT(*contrast.difference.ci95.low, 0.5);
+  EXPECT_GT(*contrast.difference.ci95.high, 0.5);
+  EXPECT_LT(*contrast.p_value, 1e-6);
+  EXPECT_EQ(*contrast.p_value, *contrast.p_value_holm);
+}
+
+TEST(CurveComparison, TheLikelihoodRatioIsThatOfTheModelsWorkedByHand) {
+  // Two saturated groups of two levels, whose joint models with the same scale are symmetric:
+  // logits -+ln 3 and -+ln 9 at -+1, so that the same slope b solves
+  // 25 + 10 = 100 (1 - f(b)) of both, the location being 0.
+  const CurveModel model = {.family = CurveFamily::kLogistic};
+  const CurveComparison found = compare_curves(
+      {{"a", {{-1.0, 25, 100}, {1.0, 75, 100}}}, {"b", {{-1.0, 10, 100}, {1.0, 90, 100}}}},
+      {.model = model});
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  const auto term = [](double k, double p) {
+    return k * std::log(p) + (100.0 - k) * std::log(1.0 - p);
+  };
+  const double different = 2.0 * (term(25, 0.25) + term(10, 0.1));
+  const double same = 2.0 * (term(25, 0.175) + term(10, 0.175));
+  for (const ComparisonTest& test : found.tests) {
+    const double gain = test.name == "location" ? 0.0 : 2.0 * (different - same);
+    EXPECT_NEAR(test.statistic, gain, 1e-6) << test.name;
+  }
+}
+
+}  // namespace curve_fit_test
+}  // namespace jnd::analysis
