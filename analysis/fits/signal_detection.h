@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 namespace jnd::analysis {
 
@@ -21,6 +22,14 @@ struct SignalDetection {
   double hit_rate = 0.0, false_alarm_rate = 0.0;  ///< Corrected, in (0, 1).
   double d_prime = 0.0;
   double criterion = 0.0;  ///< c: > 0 is reluctant to say "yes".
+  /// Of d' and c, each rate being a binomial proportion (Gourevitch and Galanter 1967).
+  double d_prime_standard_error = 0.0, criterion_standard_error = 0.0;
+  /// A' of the rates without correction (Pollack and Norman 1964; Grier 1971), 0.5 where they
+  /// are equal: no distribution is assumed, but it is no area under a curve either.
+  double a_prime = 0.5;
+
+  [[nodiscard]] std::pair<double, double> d_prime_ci95() const noexcept;
+  [[nodiscard]] std::pair<double, double> criterion_ci95() const noexcept;
 };
 
 /// Throws `core::Error` for counts that cannot be.
