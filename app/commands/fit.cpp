@@ -12,7 +12,9 @@
 #include "analysis/fits/fit_json.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
+#include "app/commands/fit_detection.h"
 #include "app/commands/fit_group.h"
+#include "app/commands/fit_psychometric.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_weber.h"
 #include "app/commands/fit_words.h"
@@ -134,8 +136,10 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   CLI::App& fit = *program.add_subcommand("fit", "Fit a curve to a table of answers");
   fit.require_subcommand(1);
 
+  add_fit_psychometric(fit, invocation);
   add_fit_weber(fit, invocation);
   add_fit_group(fit, invocation);
+  add_fit_detection(fit, invocation);
 
   CLI::App& power = *fit.add_subcommand("power", "Power law from magnitudes");
   add_table_options(power, *options, "intensity,magnitude");

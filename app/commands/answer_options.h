@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/data/answer_file.h"
+#include "analysis/fits/curve_fit.h"
+
+namespace CLI {
+class App;
+}
+
+namespace jnd::app {
+
+/// Which file, and which of its columns are what: shared by the fits of anybody's tables.
+struct AnswerOptions {
+  std::string csv, intensity = "intensity", yes, yes_value, trials;
+  std::vector<std::string> group_by, where;
+  bool json = false;
+};
+
+void add_answer_options(CLI::App& command, AnswerOptions& options);
+
+/// The groups of the file. Where no column of answers is named they are num_yes and num_trials.
+/// Throws `UsageError` for a --where that is no COLUMN=VALUE, `core::Error` as
+/// `read_answer_file`.
+[[nodiscard]] analysis::AnswerFile read_answers(const AnswerOptions& options,
+                                                bool signed_intensities);
+
+[[nodiscard]] std::vector<analysis::AnswerCount> rows_of(const analysis::AnswerGroup& group);
+
+/// "condition A, block 2"; "" for a group of all rows.
+[[nodiscard]] std::string words_of(const analysis::AnswerGroup& group);
+
+/// What was left out and what was added up, a sentence each.
+[[nodiscard]] std::vector<std::string> notes_of(const analysis::AnswerFile& file,
+                                                const AnswerOptions& options);
+
+}  // namespace jnd::app

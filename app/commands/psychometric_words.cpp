@@ -1,0 +1,190 @@
+#include "app/commands/psychometric_words.h"
+
+#include <fmt/format.h>
+
+#include "app/commands/fit_words.h"
+
+namespace jnd::app {
+namespace {
+
+using analysis::CurveFit;
+using analysis::CurveValue;
+using analysis::FitStatus;
+
+void print_value(const std::string& name, const CurveValue& value, const CurveFit& fit,
+                 const std::string& remark = "") {
+  fmt::print("  {:<15} {:<9} 95 % {}{}\n", name, number(value.value), whole_range(value.ci95),
+             remark.empty() ? "" : "  " + remark);
+  if (fit.num_bootstrap > 0) {
+    fmt::print(
+        "    bootstrap               95 % {}; corrected (BCa) {}\n",
+        whole_range(value.bootstrap_ci95),
+        value.bca_reason.empty() ? whole_range(value.bca_ci95) : "none: " + value.bca_reason);
+  }
+  if (value.posterior_median) {
+    fmt::print("    posterior     {:<9} 95 % {}\n", number(value.posterior_median),
+               whole_range(value.posterior_ci95));
+  }
+}
+
+void print_rate(const std::string& name, const CurveValue& value, bool is_free,
+                const CurveFit& fit) {
+  if (is_free) {
+    print_value(name, value, fit);
+  } else {
+    fmt::print("  {:<15} {:<9} known\n", name, number(value.value));
+  }
+}
+
+void print_curve(const CurveFit& fit) {
+  fmt::print(
+      "  {} curve {}, {} level{}, {} trial{}\n", fit.model.falling ? "falling" : "rising",
+      analysis::formula_words(fit.model.family, fit.model.is_logarithmic()), fit.num_levels,
+      fit.num_levels == 1 ? "" : "s", fit.num_trials, fit.num_trials == 1 ? "" : "s");
+  if (fit.status != FitStatus::kOk) {
+    fmt::print("  no curve: {}\n", fit.reason);
+  } else {
+    print_value("location", fit.location, fit);
+    print_value("scale", fit.scale, fit);
+    print_rate("guess rate", fit.guess_rate, fit.model.free_guess, fit);
+    print_rate("lapse rate", fit.lapse_rate, fit.model.free_lapse, fit);
+    print_value("PSE", fit.pse, fit, "where the curve is half way up");
+    print_value("JND", fit.jnd, fit, fmt::format("from 50 to {:.4g} %", 100.0 * fit.jnd_at));
+    for (const analysis::CurveThreshold& one : fit.thresholds) {
+      print_value(fmt::format("threshold {:.4g}", one.at), one.intensity, fit,
+                  fmt::format("{:.4g} % answered", 100.0 * one.proportion));
+      print_value("  slope there", one.slope, fit);
+    }
+    fmt::print("  log-likelihood  {:<9} deviance {}, AIC {}, BIC {}\n",
+               number(fit.log_likelihood), number(fit.deviance), number(fit.aic),
+               number(fit.bic));
+    if (fit.overdispersion) {
+      fmt::print("  overdispersion  {:<9} Pearson's chi-squared over its degrees of freedom\n",
+                 number(fit.overdispersion));
+    }
+    if (fit.goodness_p_value) {
+      fmt::print("  goodness of fit {}\n", p_value_words(fit.goodness_p_value));
+    }
+    if (!fit.goodness_reason.empty()) {
+      fmt::print("  goodness of fit not tested: {}\n", fit.goodness_reason);
+    }
+    if (fit.num_bootstrap > 0) {
+      fmt::print("  bootstrap: {} refits, {}, {} without an optimum\n", fit.num_bootstrap,
+                 fit.bootstrap_kind == analysis::BootstrapKind::kParametric
+                     ? "answers drawn from the curve"
+                     : "answers drawn from the answers",
+                 fit.num_bootstrap_degenerate);
+    }
+  }
+  if (!fit.posterior_priors.empty()) fmt::print("  priors: {}\n", fit.posterior_priors);
+  if (!fit.posterior_note.empty()) fmt::print("  note: {}\n", fit.posterior_note);
+  for (const std::string& warning : fit.warnings) fmt::print("  note: {}\n", warning);
+}
+
+/// "differs", of several things "differ"; where nothing is found, no more than that.
+std::string verdict_of(const analysis::ComparisonTest& test) {
+  const bool are_several = test.name == "all" || test.name == "rates";
+  if (test.p_value < 0.05) return are_several ? "differ" : "differs";
+  return are_several ? "are not seen to differ" : "is not seen to differ";
+}
+
+/// A cell of a table: a text with commas or quotes in quotes, no number as nothing.
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+  return quoted + "\"";
+}
+std::string csv_number(const std::optional<double>& value) {
+  return value ? fmt::format(",{:.17g}", *value) : ",";
+}
+std::string csv_value(const CurveValue& value) {
+  return csv_number(value.value) + csv_number(value.ci95.low) + csv_number(value.ci95.high);
+}
+
+}  // namespace
+
+void print_curves(const std::vector<std::string>& names, const std::vector<CurveFit>& fits,
+                  const std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!names[i].empty()) fmt::print("{}\n", names[i]);
+    print_curve(fits[i]);
+  }
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+}
+
+void print_comparison(const analysis::CurveComparison& comparison) {
+  fmt::print("comparison\n");
+  if (comparison.status != FitStatus::kOk) {
+    fmt::print("  none: {}\n", comparison.reason);
+    return;
+  }
+  fmt::print("  {:<52} {:>10} {:>14} {:>10} {:>10}\n", "model", "parameters", "log-likelihood",
+             "AIC", "BIC");
+  for (const analysis::ComparedModel& one : comparison.models) {
+    fmt::print("  {:<52} {:>10} {:>14} {:>10} {:>10}\n", one.name, one.num_parameters,
+               number(one.log_likelihood), number(one.aic), number(one.bic));
+  }
+  fmt::print("  least AIC: {}; least BIC: {}\n", comparison.best_by_aic,
+             comparison.best_by_bic);
+  for (const analysis::ComparisonTest& one : comparison.tests) {
+    fmt::print("  {:<10} {}: chi-squared {:.4g}, {} degree{} of freedom, {}\n",
+               one.name == "rates" ? "the rates"
+               : one.name == "all" ? "the curves"
+                                   : one.name,
+               verdict_of(one), one.statistic, one.degrees_of_freedom,
+               one.degrees_of_freedom == 1 ? "" : "s", p_value_words(one.p_value));
+  }
+  for (const analysis::CurveContrast& one : comparison.contrasts) {
+    fmt::print("  threshold {:.4g}, {} less {}: {}, 95 % {}; {} (Holm: {})\n", one.at,
+               one.other, one.one, number(one.difference.value),
+               whole_range(one.difference.ci95), p_value_words(one.p_value),
+               number(one.p_value_holm));
+    if (one.difference.bootstrap_ci95.low || one.difference.bootstrap_ci95.high) {
+      fmt::print("    bootstrap 95 % {}\n", whole_range(one.difference.bootstrap_ci95));
+    }
+    if (one.ratio.value) {
+      fmt::print("    ratio {}, 95 % {}\n", number(one.ratio.value),
+                 whole_range(one.ratio.ci95));
+    }
+  }
+  if (!comparison.reason.empty()) fmt::print("  note: {}\n", comparison.reason);
+}
+
+void print_curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
+                         const std::vector<CurveFit>& fits) {
+  std::string text;
+  if (!groups.empty()) {
+    for (const auto& [column, value] : groups.front().key) text += csv_text(column) + ",";
+  }
+  text +=
+      "status,reason,num_trials,location,location_low,location_high,scale,scale_low,"
+      "scale_high,guess_rate,guess_rate_low,guess_rate_high,lapse_rate,lapse_rate_low,"
+      "lapse_rate_high,pse,pse_low,pse_high,jnd,jnd_low,jnd_high,log_likelihood,deviance,aic,"
+      "bic,overdispersion,at,proportion,threshold,threshold_low,threshold_high,slope,slope_low,"
+      "slope_high\n";
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const CurveFit& fit = fits[i];
+    std::string before;
+    for (const auto& [column, value] : groups[i].key) before += csv_text(value) + ",";
+    before += fmt::format("{},{},{}", analysis::to_string(fit.status), csv_text(fit.reason),
+                          fit.num_trials);
+    for (const CurveValue* value :
+         {&fit.location, &fit.scale, &fit.guess_rate, &fit.lapse_rate, &fit.pse, &fit.jnd}) {
+      before += csv_value(*value);
+    }
+    for (const auto& value :
+         {fit.log_likelihood, fit.deviance, fit.aic, fit.bic, fit.overdispersion}) {
+      before += csv_number(value);
+    }
+    for (const analysis::CurveThreshold& one : fit.thresholds) {
+      const bool is_ok = fit.status == FitStatus::kOk;
+      text += before + csv_number(one.at) +
+              csv_number(is_ok ? std::optional(one.proportion) : std::nullopt) +
+              csv_value(one.intensity) + csv_value(one.slope) + "\n";
+    }
+  }
+  fmt::print("{}", text);
+}
+
+}  // namespace jnd::app

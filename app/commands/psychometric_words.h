@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/data/answer_file.h"
+#include "analysis/fits/curve_comparison.h"
+#include "analysis/fits/curve_fit.h"
+
+namespace jnd::app {
+
+/// Fits as people read them on stdout. `names`: of the groups, "" for all rows.
+void print_curves(const std::vector<std::string>& names,
+                  const std::vector<analysis::CurveFit>& fits,
+                  const std::vector<std::string>& notes);
+
+void print_comparison(const analysis::CurveComparison& comparison);
+
+/// A header, and a row for each threshold of each group.
+void print_curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
+                         const std::vector<analysis::CurveFit>& fits);
+
+}  // namespace jnd::app
