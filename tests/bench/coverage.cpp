@@ -167,6 +167,7 @@ int main(int argc, char** argv) {
       {"own_values", [=] { cover_own_values(num_sets, kSeed); }},
       {"groups", [=] { cover_groups(num_sets, kSeed); }},
       {"difference", [=] { cover_difference(few, kSeed); }},
+      {"curves", [=] { cover_curves(num_sets, kSeed); }},
       {"contrasts", [=] { cover_contrasts(num_sets, kSeed); }}};
   const std::string wanted = argc > 2 ? argv[2] : "";
   const bool is_known = wanted.empty() || std::ranges::any_of(sections, [&](const auto& one) {
@@ -175,8 +176,8 @@ int main(int argc, char** argv) {
   if (!is_known) {
     std::fprintf(
         stderr,
-        "coverage: expected person, own_values, groups, difference or contrasts as the "
-        "section, found %s\n",
+        "coverage: expected person, own_values, groups, difference, curves or contrasts as "
+        "the section, found %s\n",
         argv[2]);
     return 2;
   }

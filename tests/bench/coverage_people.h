@@ -137,6 +137,7 @@ inline std::string percent(double value) {
 }
 
 /// Markdown sections on stdout.
+void cover_curves(int num_sets, std::uint64_t seed);
 void cover_groups(int num_sets, std::uint64_t seed);
 void cover_contrasts(int num_sets, std::uint64_t seed);
 void cover_difference(int num_sets, std::uint64_t seed);

@@ -1,5 +1,7 @@
 #include <benchmark/benchmark.h>
 
+#include "analysis/data/answer_file.h"
+#include "analysis/fits/curve_fit.h"
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
 
@@ -65,6 +67,32 @@ void bootstrap_1000_free_lapse(benchmark::State& state) {
   }
 }
 BENCHMARK(bootstrap_1000_free_lapse)->Unit(benchmark::kMillisecond);
+
+/// 1000 refits of `jnd fit psychometric`: plain, with a free lapse rate, with both rates free.
+void curve_refits_1000(benchmark::State& state) {
+  const CurveModel model = {.family = CurveFamily::kLogistic,
+                            .free_guess = state.range(0) > 1,
+                            .free_lapse = state.range(0) > 0};
+  const FoundCurve fit = found_curve(kNineLevels, model);
+  const std::vector<CurveQuantity> threshold = {{CurveQuantity::Kind::kThreshold, 0.75}};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        resampled(fit, model, threshold, 1000, BootstrapKind::kParametric, 1));
+  }
+}
+BENCHMARK(curve_refits_1000)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+
+/// A million trials read and added up; of nine intensities, or each of its own.
+void answers_1e6_rows(benchmark::State& state) {
+  std::string text = "x,r\n";
+  for (int i = 0; i < 1'000'000; ++i) {
+    const int x = state.range(0) > 0 ? (i * 7919) % 1'000'003 : i % 9;
+    text += std::to_string(x) + (x * 31 % 7 < 3 ? ",1\n" : ",0\n");
+  }
+  const AnswerColumns columns = {.intensity = "x", .yes = "r"};
+  for (auto _ : state) benchmark::DoNotOptimize(parse_answers(text, "bench", columns));
+}
+BENCHMARK(answers_1e6_rows)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace jnd::analysis
