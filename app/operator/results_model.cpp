@@ -18,6 +18,7 @@
 #include "app/language/words.h"
 #include "app/operator/study_folder.h"
 #include "app/operator/study_words.h"
+#include "app/preregistration/deviations.h"
 #include "app/results/published_words.h"
 #include "app/results/results_output.h"
 #include "app/results/statistic_words.h"
@@ -152,6 +153,18 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
   }
   std::stable_partition(model.comparisons.begin(), model.comparisons.end(),
                         [](const ComparisonLine& line) { return line.is_primary; });
+  // What was planned comes before everything else.
+  std::vector<ComparisonLine> planned;
+  for (const analysis::ContrastResult& one : source.results.contrasts) {
+    std::string name = one.plan.name;
+    std::ranges::replace(name, '_', ' ');
+    planned.push_back(
+        {.name = one.plan.primary ? tr("Planned, primary: {}", name) : tr("Planned: {}", name),
+         .estimate = one.test.effect,
+         .detail = one.sentence.empty() ? one.test.reason : one.sentence,
+         .is_primary = one.plan.primary});
+  }
+  model.comparisons.insert(model.comparisons.begin(), planned.begin(), planned.end());
 }
 
 /// Trials of every block of a session that should have answers, whether drawn yet or not;
@@ -204,6 +217,14 @@ class Quality {
       chips.push_back({results.laboratory_changed ? tr("simulated data, laboratory changed")
                                                   : tr("simulated data"),
                        Tone::kWarning});
+    }
+    const analysis::PreregisteredStudy& plan = results.preregistration;
+    if (!plan.registered_on.empty()) {
+      const std::size_t num = plan.deviations.size();
+      chips.push_back(num == 0 ? QualityChip{tr("as preregistered"), Tone::kGood}
+                               : QualityChip{trn("{} deviation from the preregistration",
+                                                 "{} deviations from the preregistration", num),
+                                             Tone::kWarning});
     }
     chips.push_back({tr("{} of {} answers", answers_, expected_),
                      answers_ >= expected_ ? Tone::kGood : Tone::kWarning});
@@ -324,7 +345,8 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
   const experiments::Study study = study_in(store);
   control.progress(0.1);
   control.stop_if_cancelled();
-  const analysis::StudyResults results = results_of_data(data);
+  analysis::StudyResults results = results_of_data(data);
+  results.preregistration = preregistered_study(store, data);
   control.progress(0.8);
   control.stop_if_cancelled();
   const ResultsSource source{data, results, titles_of(study, data.blocks)};
