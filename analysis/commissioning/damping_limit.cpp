@@ -110,7 +110,7 @@ Crossing crossing_of(const std::vector<MatrixXcd>& response, const Eigen::Vector
   Crossing first;
   VectorXcd last;
   for (std::size_t line = 0; line < response.size(); ++line) {
-    const MatrixXcd loop = response[line] * (0.0 * share_ratio.array() + 1.0).matrix().cast<Complex>().asDiagonal();
+    const MatrixXcd loop = response[line] * share_ratio.cast<Complex>().asDiagonal();
     VectorXcd now = loop.eigenvalues();
     const double angle = angle_per_line * static_cast<double>(line + 1);
     const auto take = [&](double size, double at_angle) {
