@@ -30,7 +30,7 @@ class OperatedDeviceTest : public ::testing::Test {
   ~OperatedDeviceTest() override { fs::current_path(before_); }
 
   void wait_until(const std::function<bool(const DeviceView&)>& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!holds(device_.view())) {
       ASSERT_LT(std::chrono::steady_clock::now(), end) << device_.view().outcome;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
