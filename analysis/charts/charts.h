@@ -25,8 +25,8 @@ namespace jnd::analysis {
 
 /// In the order of report and window. A new kind is a file of its own and a place here.
 inline constexpr std::vector<ChartSet> (*kChartKinds[])(const FigureSource&) = {
-    magnitude_charts, psychometric_charts, matching_charts, threshold_charts, track_charts,
-    response_time_charts};
+    magnitude_charts, psychometric_charts, matching_charts,
+    threshold_charts, track_charts,        response_time_charts};
 
 /// Every chart that there are data for. Not real time.
 [[nodiscard]] std::vector<ChartSet> charts_of(const FigureSource& source);

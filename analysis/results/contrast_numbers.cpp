@@ -142,7 +142,7 @@ std::vector<DiscriminationAnswers> condition_answers(
 }
 
 ConditionNumbers condition_numbers(const StudyData& data, ContrastMeasure measure,
-                       const experiments::ContrastConditions& conditions) {
+                                   const experiments::ContrastConditions& conditions) {
   const bool is_fitted =
       measure == ContrastMeasure::kWeberFraction || measure == ContrastMeasure::kPse;
   std::vector<std::vector<DiscriminationAnswers>> answers;

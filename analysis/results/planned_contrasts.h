@@ -35,7 +35,7 @@ struct ContrastTest {
 /// What came of a contrast that the study file plans.
 struct ContrastResult {
   experiments::PlannedContrast plan;
-  std::string hypothesis{};             ///< In the study's first language; may be empty.
+  std::string hypothesis{};                ///< In the study's first language; may be empty.
   std::vector<std::string> conditions;     ///< "thin (+1)", in the order of their weights.
   ContrastTest test;                       ///< The answer.
   std::optional<double> p_value_adjusted;  ///< Within the family; absent without a p value.
@@ -57,9 +57,9 @@ struct ConditionNumbers {
 };
 
 /// Everybody's own numbers in the conditions of a contrast. Not real time.
-[[nodiscard]] ConditionNumbers condition_numbers(const StudyData& data,
-                                     experiments::ContrastMeasure measure,
-                                     const experiments::ContrastConditions& conditions);
+[[nodiscard]] ConditionNumbers condition_numbers(
+    const StudyData& data, experiments::ContrastMeasure measure,
+    const experiments::ContrastConditions& conditions);
 
 /// The contrasts that the study plans, each by its answer and otherwise:
 /// - a Weber fraction or a point of subjective equality by the hierarchical fit of all of its

@@ -135,7 +135,7 @@ struct StudyResults {
   int num_participants = 0;
   MissingSessions sessions;
   std::vector<LevelLoss> losses;          ///< Losses at every level of every block.
-  PreregisteredStudy preregistration;  ///< Filled by whoever has the study folder.
+  PreregisteredStudy preregistration;     ///< Filled by whoever has the study folder.
   std::vector<ContrastResult> contrasts;  ///< That the study file plans, in its order.
   std::vector<ResultsSection> sections;
   Predictive predictive;  ///< What published values are compared with.

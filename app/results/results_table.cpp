@@ -269,11 +269,10 @@ std::string planned(const analysis::StudyResults& results) {
 /// What deviates from what was planned; "" where nothing was registered.
 std::string deviations(const analysis::PreregisteredStudy& plan) {
   if (plan.registered_on.empty()) return "";
-  std::string table = fmt::format("\npreregistered on {}: {}\n", plan.registered_on,
-                                  plan.deviations.empty()
-                                      ? "nothing deviates from it"
-                                      : counted_words(std::ssize(plan.deviations),
-                                                      "deviation"));
+  std::string table = fmt::format(
+      "\npreregistered on {}: {}\n", plan.registered_on,
+      plan.deviations.empty() ? "nothing deviates from it"
+                              : counted_words(std::ssize(plan.deviations), "deviation"));
   for (const analysis::Deviation& one : plan.deviations) {
     table += fmt::format("  {}: planned {}, found {}\n", one.topic, one.planned, one.found);
   }
@@ -393,7 +392,8 @@ std::string note_of(const std::string& table) {
 
 std::string to_table(const analysis::StudyResults& results) {
   const int width = name_width(results);
-  std::string table = heading(results) + deviations(results.preregistration) + planned(results) + in_short(results, width) +
+  std::string table = heading(results) + deviations(results.preregistration) +
+                      planned(results) + in_short(results, width) +
                       losses_table(results.losses, width);
   for (const analysis::ResultsSection& section : results.sections) {
     table += fmt::format("\n{}\n", section.name);

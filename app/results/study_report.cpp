@@ -1,5 +1,5 @@
-#include "app/preregistration/deviations.h"
 #include "app/results/study_report.h"
+#include "app/preregistration/deviations.h"
 
 #include <optional>
 
@@ -53,10 +53,8 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   if (request.leaves_out_inverted) analysis::leave_out_inverted(data);
   reading(0.2);
   StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};
-  report.results.preregistration =
-      preregistered_study(store, data,
-                          {.inverted_out = request.leaves_out_inverted,
-                           .with_pilots = request.pilot});
+  report.results.preregistration = preregistered_study(
+      store, data, {.inverted_out = request.leaves_out_inverted, .with_pilots = request.pilot});
   reading(1.0);
   const analysis::MovementAnalysis movement =
       analysis::analyse_movement(store, {.pilot = request.pilot,

@@ -39,8 +39,9 @@ TEST(Share, WhatIsNearlyAShippedNameIsToldThatName) {
     (void)user_or_shipped("short_tou", "protocols");
     ADD_FAILURE() << "taken";
   } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(), "short_tou: expected a file or the name of a shipped one, found "
-                               "neither; did you mean `short_tour`?");
+    EXPECT_STREQ(error.what(),
+                 "short_tou: expected a file or the name of a shipped one, found "
+                 "neither; did you mean `short_tour`?");
   }
   EXPECT_EQ(user_or_shipped("short_tou", "protocols", /*keep_near=*/true), "short_tou");
   EXPECT_EQ(user_or_shipped("folder/short_tou", "protocols"), "folder/short_tou");
