@@ -1,23 +1,41 @@
 #include "experiments/study/design.h"
 
+#include <algorithm>
+
 namespace jnd::experiments {
 
-std::string to_string(ContrastMeasure measure) {
-  switch (measure) {
-    case ContrastMeasure::kWeberFraction:
-      return "weber_fraction";
-    case ContrastMeasure::kPse:
-      return "pse";
-    case ContrastMeasure::kExponent:
-      return "exponent";
-    case ContrastMeasure::kMagnitude:
-      return "magnitude";
-    case ContrastMeasure::kMatch:
-      return "match";
-    case ContrastMeasure::kResponseTime:
-      return "response_time";
-  }
-  return "";
+namespace {
+
+struct MeasureWords {
+  ContrastMeasure measure;
+  const char *key, *words;  ///< In the study file; in a sentence.
+};
+
+constexpr MeasureWords kMeasures[] = {
+    {ContrastMeasure::kWeberFraction, "weber_fraction", "Weber fraction"},
+    {ContrastMeasure::kPse, "pse", "point of subjective equality"},
+    {ContrastMeasure::kExponent, "exponent", "exponent"},
+    {ContrastMeasure::kMagnitude, "magnitude", "magnitude"},
+    {ContrastMeasure::kMatch, "match", "match"},
+    {ContrastMeasure::kResponseTime, "response_time", "response time"}};
+
+const MeasureWords& words_of(ContrastMeasure measure) {
+  return *std::ranges::find(kMeasures, measure, &MeasureWords::measure);
+}
+
+}  // namespace
+
+std::string to_string(ContrastMeasure measure) { return words_of(measure).key; }
+
+std::string measure_words(ContrastMeasure measure) { return words_of(measure).words; }
+
+const std::vector<ContrastMeasure>& contrast_measures() {
+  static const std::vector<ContrastMeasure> kAll = [] {
+    std::vector<ContrastMeasure> all;
+    for (const MeasureWords& one : kMeasures) all.push_back(one.measure);
+    return all;
+  }();
+  return kAll;
 }
 
 std::string to_string(Correction correction) {
@@ -30,31 +48,6 @@ std::string to_string(ContrastDirection direction) {
   return direction == ContrastDirection::kGreater ? "greater"
          : direction == ContrastDirection::kLess  ? "less"
                                                   : "either";
-}
-
-std::string measure_words(ContrastMeasure measure) {
-  switch (measure) {
-    case ContrastMeasure::kWeberFraction:
-      return "Weber fraction";
-    case ContrastMeasure::kPse:
-      return "point of subjective equality";
-    case ContrastMeasure::kExponent:
-      return "exponent";
-    case ContrastMeasure::kMagnitude:
-      return "magnitude";
-    case ContrastMeasure::kMatch:
-      return "match";
-    case ContrastMeasure::kResponseTime:
-      return "response time";
-  }
-  return "";
-}
-
-const std::vector<ContrastMeasure>& contrast_measures() {
-  static const std::vector<ContrastMeasure> kAll = {
-      ContrastMeasure::kWeberFraction, ContrastMeasure::kPse,   ContrastMeasure::kExponent,
-      ContrastMeasure::kMagnitude,     ContrastMeasure::kMatch, ContrastMeasure::kResponseTime};
-  return kAll;
 }
 
 bool is_ratio(ContrastMeasure measure) noexcept {

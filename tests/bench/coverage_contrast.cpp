@@ -53,7 +53,7 @@ struct Count {
   }
 };
 
-/// ln w of one person by their own fit, with half an answer added where there is none.
+/// ln ln(1 + w) of one person by their own fit, with half an answer added where there is none.
 std::optional<double> own_number(const std::vector<AnswerCount>& rows) {
   for (const bool corrected : {false, true}) {
     const PsychometricFit fit = fit_psychometric(corrected ? with_half_an_answer(rows) : rows,
