@@ -536,6 +536,7 @@ void HapticLoop::report() noexcept {
   telemetry_.command_sequence = command.sequence;
   telemetry_.fault = fault_;
   telemetry_.arming = arming();
+  telemetry_.enabled = state_.enabled;
   telemetry_.limited = limited_;
   telemetry_.warning = guards_.warning();
   telemetry_.guards = guards_.counts();

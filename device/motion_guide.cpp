@@ -33,13 +33,42 @@ void MotionGuide::take_order(const core::HapticState& state) noexcept {
   const bool was_held = orders_.value().is_on && orders_.value().stiffness_n_per_m > 0.0;
   if (!orders_.fetch()) return;
   num_ticks_ = 0;
-  if (was_held && has_reference_) return;
-  // From where it is, so that nothing jumps.
-  reference_m_ = mean_m(state);
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    from_mean_m_[i] = state.tip_position_m[i] - reference_m_;
+  if (!was_held || !has_reference_) {
+    // From where it is, so that nothing jumps.
+    reference_m_ = mean_m(state);
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      from_mean_m_[i] = state.tip_position_m[i] - reference_m_;
+    }
+    has_reference_ = true;
   }
-  has_reference_ = true;
+  begun_m_ = reference_m_;
+}
+
+Eigen::Vector3d MotionGuide::move_reference(double period_s) noexcept {
+  const Order& order = orders_.value();
+  Eigen::Vector3d speed_m_per_s = Eigen::Vector3d::Zero();
+  if (!(order.stiffness_n_per_m > 0.0)) return speed_m_per_s;
+  const Eigen::Vector3d to_m = vector_of(order.to_m);
+  if (order.is_smooth) {
+    const Eigen::Vector3d whole_m = to_m - begun_m_;
+    const double duration_s = whole_m.norm() / order.speed_m_per_s;
+    if (!(duration_s > period_s)) {
+      if (duration_s <= period_s) reference_m_ = to_m;
+      return speed_m_per_s;
+    }
+    const double s = std::min(1.0, static_cast<double>(num_ticks_ + 1) * period_s / duration_s);
+    reference_m_ = begun_m_ + s * s * s * (10.0 + s * (6.0 * s - 15.0)) * whole_m;
+    speed_m_per_s = 30.0 * s * s * (1.0 - s) * (1.0 - s) / duration_s * whole_m;
+    return speed_m_per_s;
+  }
+  const Eigen::Vector3d way_m = to_m - reference_m_;
+  const double way_left_m = way_m.norm();
+  const double step_m = std::min(way_left_m, order.speed_m_per_s * period_s);
+  if (step_m > 0.0) {
+    reference_m_ += way_m * (step_m / way_left_m);
+    speed_m_per_s = way_m * (step_m / (way_left_m * period_s));
+  }
+  return speed_m_per_s;
 }
 
 core::PointVectors MotionGuide::force_n(const core::HapticState& state,
@@ -49,16 +78,7 @@ core::PointVectors MotionGuide::force_n(const core::HapticState& state,
   const Order& order = orders_.value();
   if (!order.is_on || !has_reference_) return force_n;
 
-  const Eigen::Vector3d way_m = order.stiffness_n_per_m > 0.0
-                                    ? Eigen::Vector3d(vector_of(order.to_m) - reference_m_)
-                                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  const double way_left_m = way_m.norm();
-  const double step_m = std::min(way_left_m, order.speed_m_per_s * period_s);
-  Eigen::Vector3d speed_m_per_s = Eigen::Vector3d::Zero();
-  if (step_m > 0.0) {
-    reference_m_ += way_m * (step_m / way_left_m);
-    speed_m_per_s = way_m * (step_m / (way_left_m * period_s));
-  }
+  const Eigen::Vector3d speed_m_per_s = move_reference(period_s);
   Eigen::Vector3d pulse_n = Eigen::Vector3d::Zero();
   if (order.pulse_period_s > 0.0) {
     const double phase = static_cast<double>(num_ticks_) * period_s / order.pulse_period_s;

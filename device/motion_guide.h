@@ -21,16 +21,20 @@ namespace jnd::device {
 ///     force = share (k (reference - position) + d (reference velocity - velocity) + pulse)
 ///             + sweep at one point,
 ///
-/// where the whole reference moves at a constant speed and then rests, where a pulse is a
-/// square wave, one half of its period along a vector, the other half against it, and where a
-/// sweep is a sine that rises from rest to half the rate of the loop in each of its periods
+/// where the whole reference moves at a constant speed or smoothly and then rests, where a
+/// pulse is a square wave, one half of its period along a vector, the other half against it,
+/// and where a sweep is a sine that rises from rest to half the rate of the loop in each of its
+/// periods
 /// (`sweep_at`). Everything is in the frame of the device that its loop drives.
 class MotionGuide final : public Guide {
  public:
   /// What to do from the next tick on. Trivially copyable.
   struct Order {
-    std::array<double, 3> to_m{};     ///< Of the mean of the points that the device has.
-    double speed_m_per_s = 0.1;       ///< > 0.
+    std::array<double, 3> to_m{};  ///< Of the mean of the points that the device has.
+    double speed_m_per_s = 0.1;    ///< > 0; of a smooth way its mean.
+    /// From rest to rest with the least jerk (Flash and Hogan 1985), so that nothing inside the
+    /// device begins to sway; its highest speed is 1.875 of the mean.
+    bool is_smooth = false;
     double stiffness_n_per_m = 0.0;   ///< Of all points together, >= 0; 0: no way.
     double damping_n_s_per_m = 0.0;   ///< Likewise.
     std::array<double, 3> pulse_n{};  ///< Of all points together.
@@ -52,6 +56,8 @@ class MotionGuide final : public Guide {
                                            double period_s) noexcept override;
 
  private:
+  /// To where it is due in the next tick; its speed.
+  [[nodiscard]] Eigen::Vector3d move_reference(double period_s) noexcept;
   void take_order(const core::HapticState& state) noexcept;
   [[nodiscard]] Eigen::Vector3d mean_m(const core::HapticState& state) const noexcept;
 
@@ -59,6 +65,7 @@ class MotionGuide final : public Guide {
   core::LatestValue<Order> orders_;
   bool has_reference_ = false;
   Eigen::Vector3d reference_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d begun_m_ = Eigen::Vector3d::Zero();  ///< Where it was when this order came.
   core::PointVectors from_mean_m_ = core::zero_vectors();  ///< Of each point.
   std::int64_t num_ticks_ = 0;                             ///< Of this order.
 };

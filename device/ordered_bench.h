@@ -13,6 +13,7 @@ namespace jnd::device {
 struct BenchState {
   bool has_hand = true;
   double load_kg = 0.0;
+  std::uint32_t num_homings = 0;
   std::uint32_t num_holds = 0;  ///< How often it was clamped or brought to a mark so far.
   bool is_clamped = false;
   bool is_touching = false;
@@ -24,6 +25,10 @@ class OrderedBench final : public Bench {
  public:
   void take_hand_out() override {
     done_.has_hand = false;
+    told_.publish(done_);
+  }
+  void home() override {
+    ++done_.num_homings;
     told_.publish(done_);
   }
   void clamp() override {
@@ -44,15 +49,17 @@ class OrderedBench final : public Bench {
     done_.is_touching = false;
     told_.publish(done_);
   }
+  void let_go_without_force() override { let_go(); }
   void hang(double load_kg) override {
     core::require_not_negative(load_kg, "load_kg");
     done_.load_kg = load_kg;
     told_.publish(done_);
   }
 
-  /// Of a device that is opened anew: a hand in it, nothing done. Not while anything else is.
+  /// Of a device that is opened anew: a hand in it, nothing done but its homing. Not while
+  /// anything else is.
   void reset() {
-    done_ = {};
+    done_ = {.num_homings = done_.num_homings};
     told_.publish(done_);
   }
   /// The loop's thread. Real time.

@@ -96,7 +96,8 @@ enum LoadCoefficient : Eigen::Index { kUpwards, kLoad, kOpposing, kOpposingSpeed
 /// `num_coefficients` as the regression has.
 Eigen::RowVectorXd load_row(const GuidedWay& way, const Eigen::Vector3d& up,
                             Eigen::Index num_coefficients) {
-  Eigen::RowVector4d row(-way.direction.dot(up), load_along_n(way, up), 1.0, way.speed_m_per_s);
+  Eigen::RowVector4d row(-way.direction.dot(up), load_along_n(way, up), way.path_ratio,
+                         way.speed_m_per_s);
   return row.head(num_coefficients);
 }
 
@@ -173,7 +174,7 @@ Opposing opposing_of(const std::vector<GuidedWay>& ways, double mass_per_gain_kg
       regression_over(unloaded, kNumCommon, mass_per_gain_kg,
                       [](const GuidedWay& way) -> Eigen::Matrix<double, 1, kNumCommon> {
                         return {-way.direction.x(), -way.direction.y(), -way.direction.z(),
-                                way.speed_m_per_s, 1.0};
+                                way.speed_m_per_s, way.path_ratio};
                       });
   if (!common) refuse_ways();
   const auto measured_at = [](const Regression& fit, Eigen::Index i) {
@@ -190,7 +191,7 @@ Opposing opposing_of(const std::vector<GuidedWay>& ways, double mass_per_gain_kg
     const Eigen::Vector3d along = line.front().direction;
     const auto fit = regression_over(
         line, 3, mass_per_gain_kg, [&](const GuidedWay& way) -> Eigen::Matrix<double, 1, 3> {
-          return {-way.direction.dot(along), way.speed_m_per_s, 1.0};
+          return {-way.direction.dot(along), way.speed_m_per_s, way.path_ratio};
         });
     if (!fit) refuse_ways();
     squares += fit->squares;
@@ -218,6 +219,8 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
                      const std::vector<double>& commanded_n, double period_s, double load_n,
                      int pose) {
   constexpr std::size_t kFewest = 60, kReach = 8;
+  // Going back slower than this may be noise of positions.
+  constexpr double kMoving_m_per_s = 0.0025;
   const std::size_t n = position_m.size();
   if (n < kFewest || commanded_n.size() != n) {
     throw core::Error("guided way: expected at least 60 ticks, found " + std::to_string(n));
@@ -226,11 +229,13 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
     return (position_m[tick + kReach] - position_m[tick - kReach]) / (2.0 * kReach * period_s);
   };
   const std::size_t first = kReach, last = n - 1 - kReach;
-  double way_m = 0.0, work_j = 0.0, squares = 0.0;
+  double way_m = 0.0, path_m = 0.0, work_j = 0.0, squares = 0.0;
   for (std::size_t i = first; i <= last; ++i) {
     const double speed_m_per_s = speed_at(i);
     way_m += speed_m_per_s * period_s;
-    work_j += commanded_n[i] * speed_m_per_s * period_s;
+    path_m += (speed_m_per_s < -kMoving_m_per_s ? -speed_m_per_s : speed_m_per_s) * period_s;
+    // A mean of speeds would miss how fast it starts and stops, where the force is largest.
+    work_j += commanded_n[i] * 0.5 * (position_m[i + 1] - position_m[i - 1]);
     squares += speed_m_per_s * speed_m_per_s * period_s;
   }
   if (!(way_m > 0.0)) {
@@ -246,7 +251,8 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
               (end_m_per_s * end_m_per_s - begin_m_per_s * begin_m_per_s) / (2.0 * way_m),
           .commanded_n = work_j / way_m,
           .load_n = load_n,
-          .pose = pose};
+          .pose = pose,
+          .path_ratio = path_m / way_m};
 }
 
 ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up,
@@ -318,8 +324,11 @@ double fitted_n(const ForceFit& fit, const GuidedWay& way) {
   const double balanced_n =
       (load_along_n(fit, way) - fit.offset_n.dot(way.direction)) / fit.gain.value;
   // Loads have a fit of their own, for axes may be damped differently.
-  if (way.load_n != 0.0 && fit.lifting_opposed_n) return balanced_n + *fit.lifting_opposed_n;
-  return balanced_n + (fit.damping_n_s_per_m.value * way.speed_m_per_s + fit.friction_n.value) /
+  if (way.load_n != 0.0 && fit.lifting_opposed_n) {
+    return balanced_n + way.path_ratio * *fit.lifting_opposed_n;
+  }
+  return balanced_n + (fit.damping_n_s_per_m.value * way.speed_m_per_s +
+                       fit.friction_n.value * way.path_ratio) /
                           fit.gain.value;
 }
 

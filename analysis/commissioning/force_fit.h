@@ -8,7 +8,7 @@
 
 namespace jnd::analysis {
 
-/// What one way along a straight line at nearly constant speed came to.
+/// What one way along a straight line came to.
 struct GuidedWay {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< Of the motion, of length 1.
   double speed_m_per_s = 0.0;                            ///< Along it, > 0.
@@ -16,12 +16,17 @@ struct GuidedWay {
   double commanded_n = 0.0;  ///< Mean of the force that was sent, along it.
   double load_n = 0.0;       ///< That hung from the tool, downwards.
   int pose = 0;              ///< Which of the places where loads were hung.
+  /// All that it went, to and fro, over how far it came, >= 1: it may have gone beyond and
+  /// back.
+  double path_ratio = 1.0;
 };
 
-/// A way as it was recorded: position along it [m], commanded force along it [N], one each
-/// tick. Means over the way, for of these the balance is one of energy, which holds however the
-/// speed changed; and cogging gives back what it took, but not as much of the time as it took
-/// it. Fewer than sixty ticks, or a motion against the direction: throws `core::Error`.
+/// A way as it was recorded, best from rest to rest: position along it [m], commanded force
+/// along it [N], one each tick. Means over the way, for of these the balance is one of energy,
+/// which holds however the speed changed; and cogging gives back what it took, but not as much
+/// of the time as it took it. From rest to rest it holds also for a device whose links sway
+/// behind its tool, for then no energy is left in them. Fewer than sixty ticks, or a motion
+/// against the direction: throws `core::Error`.
 [[nodiscard]] GuidedWay guided_way(const Eigen::Vector3d& direction,
                                    const std::vector<double>& position_m,
                                    const std::vector<double>& commanded_n, double period_s,
@@ -54,8 +59,9 @@ struct ForceFit {
 
 /// For unit directions e and `up` every way comes to
 ///
-///     gain u = load (up . e + a / g) + mass a + damping v + friction - offset . e.
+///     gain u = load (up . e + a / g) + mass a + damping v + friction p - offset . e,
 ///
+/// p being the path over how far it came, 1 for a way that is not gone beyond.
 /// Known loads, lifted and lowered at one slow speed, tell the gain and what acts up or down;
 /// ways without loads at several speeds tell damping and friction, and the gain turns these
 /// into newtons. The mass is not estimated here, for the little acceleration that there is has

@@ -172,7 +172,9 @@ int run_session(const RunOptions& options, core::StudyStore& store,
       }
     }
   } catch (const core::Error& error) {
-    throw core::Error(std::string(error.what()) + "; " + how_to_go_on(options, session));
+    std::string what = error.what();
+    if (what.ends_with('.')) what.pop_back();
+    throw core::Error(what + "; " + how_to_go_on(options, session));
   }
   const std::string unheard =
       "stdout: expected a reader of --acknowledge, found that it takes no more lines; ";

@@ -6,6 +6,13 @@ namespace jnd::app {
 
 void AskedBench::take_hand_out() { ask_("Take every hand out of the device."); }
 
+void AskedBench::home() {
+  ask_(
+      "Home the device as its maker says, by its maker's program if that takes one: nothing "
+      "here "
+      "holds the device meanwhile. Then rest its tool where it rested before.");
+}
+
 void AskedBench::clamp() {
   if (!is_held_) ask_("Hold the tool where it is, or let it rest on something.");
   is_held_ = true;
@@ -20,6 +27,14 @@ void AskedBench::touch(const Eigen::Vector3d& mark_m) {
 
 void AskedBench::let_go() {
   if (is_held_) ask_("The device holds the tool by its own force now: let go of it.");
+  is_held_ = false;
+}
+
+void AskedBench::let_go_without_force() {
+  ask_(
+      "The device has no force now: take the support away, let go of the tool for a moment, "
+      "and "
+      "be ready to catch it.");
   is_held_ = false;
 }
 

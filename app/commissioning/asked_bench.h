@@ -17,9 +17,11 @@ class AskedBench final : public device::Bench {
   explicit AskedBench(Ask ask) : ask_(std::move(ask)) {}
 
   void take_hand_out() override;
+  void home() override;
   void clamp() override;
   void touch(const Eigen::Vector3d& mark_m) override;
   void let_go() override;
+  void let_go_without_force() override;
   void hang(double load_kg) override;
 
  private:

@@ -122,6 +122,9 @@ void Commissioning::measure(CommissioningStep step, device::HapticDevice& device
   CommissioningResults measured = results_;
   try {
     switch (step) {
+      case CommissioningStep::kHoming:
+        measured.homing = measure_homing(device, bench, plan_, progress);
+        break;
       case CommissioningStep::kNoise:
         measured.noise = measure_noise(device, bench, plan_, progress);
         break;

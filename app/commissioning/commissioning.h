@@ -13,11 +13,11 @@
 namespace jnd::app {
 
 /// What is measured of a device before a hand is in it, in this order.
-enum class CommissioningStep { kNoise, kFrame, kForce, kDelay, kStability };
+enum class CommissioningStep { kHoming, kNoise, kFrame, kForce, kDelay, kStability };
 
 inline constexpr std::array kCommissioningSteps = {
-    CommissioningStep::kNoise, CommissioningStep::kFrame, CommissioningStep::kForce,
-    CommissioningStep::kDelay, CommissioningStep::kStability};
+    CommissioningStep::kHoming, CommissioningStep::kNoise, CommissioningStep::kFrame,
+    CommissioningStep::kForce,  CommissioningStep::kDelay, CommissioningStep::kStability};
 
 /// How a step is called and what somebody has to do for it.
 struct StepWords {
@@ -40,6 +40,7 @@ struct CommissionedDevice {
 
 /// What was measured so far, by the newest measurement of each step.
 struct CommissioningResults {
+  std::optional<analysis::HomingFit> homing;
   std::optional<analysis::NoiseFit> noise;
   std::optional<analysis::FrameFit> frame;
   std::optional<analysis::DelayFit> delay;

@@ -29,6 +29,12 @@ Eigen::Vector3d vector_in(const json& found) {
   return {found.at(0).get<double>(), found.at(1).get<double>(), found.at(2).get<double>()};
 }
 
+ordered_json json_of(const analysis::HomingFit& fit) {
+  return {{"spread_m", fit.spread_m},
+          {"moved_m", fit.moved_m},
+          {"num_homings", fit.homed_m.size()}};
+}
+
 ordered_json json_of(const analysis::NoiseFit& fit) {
   return {{"position_sd_m", measured_json(fit.position_sd_m)},
           {"position_resolution_m", fit.position_resolution_m},
@@ -159,7 +165,8 @@ ordered_json points_of(const analysis::ForceFit& fit) {
                     {"acceleration_m_per_s2", way.acceleration_m_per_s2},
                     {"commanded_n", way.commanded_n},
                     {"load_n", way.load_n},
-                    {"pose", way.pose}});
+                    {"pose", way.pose},
+                    {"path_ratio", way.path_ratio}});
   }
   return {{"up", vector_json(fit.up)},
           {"mass_per_gain_kg", fit.mass_per_gain_kg},
@@ -180,13 +187,16 @@ analysis::GuidedWay guided_way_in(const json& found) {
           .acceleration_m_per_s2 = found.at("acceleration_m_per_s2").get<double>(),
           .commanded_n = found.at("commanded_n").get<double>(),
           .load_n = found.at("load_n").get<double>(),
-          .pose = found.at("pose").get<int>()};
+          .pose = found.at("pose").get<int>(),
+          .path_ratio = found.value("path_ratio", 1.0)};
 }
 
 }  // namespace
 
 ordered_json points_json(CommissioningStep step, const CommissioningResults& results) {
   switch (step) {
+    case CommissioningStep::kHoming:
+      return {{"homed_m", vectors_json(results.homing.value().homed_m)}};
     case CommissioningStep::kNoise:
       return {{"first_readings_m", vectors_json(results.noise.value().first_readings_m)}};
     case CommissioningStep::kFrame:
@@ -204,6 +214,11 @@ ordered_json points_json(CommissioningStep step, const CommissioningResults& res
 void read_points_json(CommissioningStep step, const json& points,
                       CommissioningResults& results) {
   switch (step) {
+    case CommissioningStep::kHoming:
+      for (const json& one : points.at("homed_m")) {
+        results.homing.value().homed_m.push_back(vector_in(one));
+      }
+      return;
     case CommissioningStep::kNoise:
       for (const json& one : points.at("first_readings_m")) {
         results.noise.value().first_readings_m.push_back(vector_in(one));
@@ -264,6 +279,8 @@ MeasuringConditions conditions_in(const json& conditions) {
 
 ordered_json step_json(CommissioningStep step, const CommissioningResults& results) {
   switch (step) {
+    case CommissioningStep::kHoming:
+      return json_of(results.homing.value());
     case CommissioningStep::kNoise:
       return json_of(results.noise.value());
     case CommissioningStep::kFrame:
@@ -282,6 +299,9 @@ void read_step_json(CommissioningStep step, const json& found, CommissioningResu
   const auto number = [&](const char* key) { return found.at(key).get<double>(); };
   const auto value = [&](const char* key) { return measured_in(found.at(key)); };
   switch (step) {
+    case CommissioningStep::kHoming:
+      results.homing = {.spread_m = number("spread_m"), .moved_m = number("moved_m")};
+      return;
     case CommissioningStep::kNoise:
       results.noise = {.position_sd_m = value("position_sd_m"),
                        .position_resolution_m = number("position_resolution_m"),

@@ -11,9 +11,13 @@ namespace jnd::app {
 namespace {
 
 constexpr std::array<StepWords, kCommissioningSteps.size()> kWords = {{
+    {"homing", tr_later("Homing and brakes"),
+     tr_later("Take every hand out and rest the tool on something that does not move. You are "
+              "asked to home the device three times and to put the tool back there, then to "
+              "take the support away: the device has no force in this step.")},
     {"noise", tr_later("Noise and resolution"),
-     tr_later("Home the device as its maker says, take every hand out, and rest its tool on "
-              "something that does not move, brakes on.")},
+     tr_later("Take every hand out, and rest the tool on something that does not move, brakes "
+              "on.")},
     {"frame", tr_later("Frame, by touching marks"),
      tr_later(
          "Bring the tool's first contact point to each mark in turn, and hold it there for "
@@ -77,6 +81,16 @@ std::vector<CommissioningStep> steps_before(CommissioningStep step) {
 std::vector<FoundLine> found_in(CommissioningStep step, const CommissioningResults& results) {
   if (!results.has(step)) return {};
   switch (step) {
+    case CommissioningStep::kHoming:
+      return {{tr_later("Places after homing, furthest apart"),
+               fmt::format("{:.3g}", 1e3 * results.homing->spread_m), "mm"},
+              {tr_later("Moved when let go of without force"),
+               fmt::format("{:.2g}", 1e3 * results.homing->moved_m), "mm"},
+              {tr_later("Without force its tool"),
+               results.homing->moved_m < analysis::kHeld_m
+                   ? tr_later("stays where it is")
+                   : tr_later("moves by itself: support it whenever its force may end"),
+               ""}};
     case CommissioningStep::kNoise:
       return {{tr_later("Noise of a position, one axis"),
                with_interval(results.noise->position_sd_m, 1e6), "µm"},

@@ -90,10 +90,10 @@ class DailyMeasurement {
   [[nodiscard]] analysis::ForceFit force(const DeviceProfile& profile,
                                          const analysis::FrameFit& frame,
                                          const Eigen::Vector3d& middle_m, double load_kg) {
-    constexpr std::array kSpeeds_m_per_s = {0.05, 0.15, 0.3};
+    constexpr std::array kSpeeds_m_per_s = {0.035, 0.1, 0.21};
     // Along x most often: where axes are damped differently, that one counts alone.
     constexpr std::array kRounds = {3, 1, 1};
-    constexpr double kLoadedSpeed_m_per_s = 0.05;
+    constexpr double kLoadedSpeed_m_per_s = 0.035;
     constexpr double kHalfWay_m = 0.08, kLoadedHalfWay_m = 0.05;
     constexpr int kLoadedRounds = 6;
 
@@ -101,7 +101,7 @@ class DailyMeasurement {
     const Eigen::Matrix3d to_device = frame.rotation.transpose();
     const Eigen::Vector3d home_m = to_device * (middle_m - frame.offset_m);
     const analysis::DelayFit roughly = how_it_moves(profile, home_m);
-    GuidedWays ways(started_, plan_, roughly);
+    GuidedWays ways(started_, plan_, roughly.mass_per_gain_kg.value);
     for (int axis = 0; axis < 3; ++axis) {
       progress_(0.5 + 0.1 * axis, tr_later("The device goes to and fro, with nothing on it."));
       for (int round = 0; round < kRounds.at(static_cast<std::size_t>(axis)); ++round) {
@@ -119,8 +119,8 @@ class DailyMeasurement {
     started_.run().stop();  // No force while the load is taken off.
     bench_.hang(0.0);
     progress_(1.0, "");
-    return analysis::fit_force(ways.ways(), to_device.col(2), roughly.mass_per_gain_kg.value,
-                               plan_.load_uncertainty_ratio);
+    return analysis::fit_force(ways.ways(roughly.delay_s.value), to_device.col(2),
+                               roughly.mass_per_gain_kg.value, plan_.load_uncertainty_ratio);
   }
 
  private:

@@ -1,5 +1,7 @@
 #include "app/commissioning/device_on_bench.h"
 
+#include <Eigen/Geometry>
+
 namespace jnd::app {
 
 Eigen::Vector3d vector_of(const core::PlainVector& plain) noexcept {
@@ -70,7 +72,20 @@ void DeviceOnBench::go_to(const Eigen::Vector3d& place_m, GuideOrder order) {
   order.to_m = plain_of(place_m);
   order.speed_m_per_s = kPace_m_per_s;
   run_.order(order);
-  run_.run_for(way_m / kPace_m_per_s + 0.5);
+  run_.run_for(way_m / kPace_m_per_s + 0.3);
+  come_to_rest();
+}
+
+void DeviceOnBench::come_to_rest(const std::function<void(const core::Sample&)>& take) {
+  constexpr double kAtRest_m = 0.0003, kPart_s = 0.2, kLongestSway_s = 4.0;
+  for (double waited_s = 0.0; waited_s < kLongestSway_s; waited_s += kPart_s) {
+    Eigen::AlignedBox3d been_m;
+    run_.run_for(kPart_s, [&](const core::Sample& sample) {
+      been_m.extend(hand_m(sample, can_));
+      if (take) take(sample);
+    });
+    if (been_m.sizes().norm() < kAtRest_m) return;
+  }
 }
 
 }  // namespace jnd::app

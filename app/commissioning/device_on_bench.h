@@ -50,6 +50,10 @@ class DeviceOnBench {
   /// Goes there and waits until it is there.
   void go_to(const Eigen::Vector3d& place_m, GuideOrder order);
 
+  /// Waits until it moves no more than 0.3 mm in 0.2 s, at most 4 s, for links may sway behind
+  /// the tool for long. `take` gets what happens meanwhile.
+  void come_to_rest(const std::function<void(const core::Sample&)>& take = {});
+
  private:
   device::Bench& bench_;
   device::DeviceCapabilities can_;

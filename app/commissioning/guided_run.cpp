@@ -196,6 +196,11 @@ void GuidedRun::run_for(double duration_s,
   }
 }
 
+const core::Telemetry& GuidedRun::telemetry() {
+  (void)implementation_->telemetry.fetch();
+  return implementation_->telemetry.value();
+}
+
 void GuidedRun::stop() noexcept { implementation_->end(); }
 
 }  // namespace jnd::app

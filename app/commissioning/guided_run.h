@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/exchange/telemetry.h"
 #include "core/media/medium.h"
 #include "core/safety/emergency_stop.h"
 #include "core/safety/fault.h"
@@ -64,6 +65,8 @@ class GuidedRun {
   /// until `arm`.
   [[nodiscard]] core::Fault try_for(double duration_s,
                                     const std::function<void(const core::Sample&)>& take = {});
+  /// Of the last tick.
+  [[nodiscard]] const core::Telemetry& telemetry();
   /// No force, motors off, the device closed.
   void stop() noexcept;
 

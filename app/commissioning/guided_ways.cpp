@@ -16,15 +16,24 @@ GuideOrder holding(double mass_per_gain_kg) {
           .is_on = true};
 }
 
+/// As it acted, at the time of each position.
+std::vector<double> delayed(const std::vector<double>& force_n, double delay_ticks) {
+  const auto whole = static_cast<std::size_t>(delay_ticks);
+  const double part = delay_ticks - static_cast<double>(whole);
+  std::vector<double> acting_n(force_n.size(), 0.0);
+  for (std::size_t i = whole + 1; i < force_n.size(); ++i) {
+    acting_n[i] = (1.0 - part) * force_n[i - whole] + part * force_n[i - whole - 1];
+  }
+  return acting_n;
+}
+
 }  // namespace
 
 GuidedWays::GuidedWays(DeviceOnBench& started, const MeasuringPlan& plan,
-                       const analysis::DelayFit& roughly)
+                       double mass_per_gain_kg)
     : started_(started),
       period_s_(1.0 / plan.rate_hz),
-      order_(holding(roughly.mass_per_gain_kg.value)),
-      // A force stands for a tick, so it acts half a tick later on the whole.
-      delay_ticks_(0.5 + std::max(0.0, roughly.delay_s.value) * plan.rate_hz),
+      order_(holding(mass_per_gain_kg)),
       random_(plan.seed, "commissioning ways") {}
 
 void GuidedWays::go(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& direction,
@@ -41,34 +50,27 @@ void GuidedWays::one_way(const Eigen::Vector3d& end_m, const Eigen::Vector3d& al
                          double half_way_m, double speed_m_per_s, const WaySetting& setting) {
   order_.to_m = plain_of(end_m);
   order_.speed_m_per_s = speed_m_per_s;
+  order_.is_smooth = true;
   started_.run().order(order_);
-  const double duration_s = 2.0 * half_way_m / speed_m_per_s;
-  std::vector<double> position_m, force_n;
-  started_.run().run_for(duration_s, [&](const core::Sample& sample) {
-    position_m.push_back(hand_m(sample, started_.can()).dot(along));
-    force_n.push_back(commanded_n(sample).dot(along));
-  });
-  // Speed is gathered in the first part, and lost again at the end.
-  const auto part = [&](double ratio) {
-    return static_cast<std::ptrdiff_t>(ratio * static_cast<double>(position_m.size()));
+  Recorded& way = ways_.emplace_back(Recorded{.along = along, .setting = setting});
+  const auto record = [&](const core::Sample& sample) {
+    way.position_m.push_back(hand_m(sample, started_.can()).dot(along));
+    way.commanded_n.push_back(commanded_n(sample).dot(along));
   };
-  const auto within = [&](const std::vector<double>& all) {
-    return std::vector<double>(all.begin() + part(0.45), all.begin() + part(0.97));
-  };
-  ways_.push_back(analysis::guided_way(along, within(position_m), within(delayed(force_n)),
-                                       period_s_, setting.load_kg * kGravity_m_per_s2,
-                                       setting.pose));
-  started_.run().run_for(0.2);  // To rest.
+  started_.run().run_for(2.0 * half_way_m / speed_m_per_s, record);
+  started_.come_to_rest(record);
 }
 
-std::vector<double> GuidedWays::delayed(const std::vector<double>& force_n) const {
-  const auto whole = static_cast<std::size_t>(delay_ticks_);
-  const double part = delay_ticks_ - static_cast<double>(whole);
-  std::vector<double> acting_n(force_n.size(), 0.0);
-  for (std::size_t i = whole + 1; i < force_n.size(); ++i) {
-    acting_n[i] = (1.0 - part) * force_n[i - whole] + part * force_n[i - whole - 1];
+std::vector<analysis::GuidedWay> GuidedWays::ways(double delay_s) const {
+  // A force stands for a tick, so it acts half a tick later on the whole.
+  const double delay_ticks = 0.5 + std::max(0.0, delay_s) / period_s_;
+  std::vector<analysis::GuidedWay> all;
+  for (const Recorded& way : ways_) {
+    all.push_back(analysis::guided_way(
+        way.along, way.position_m, delayed(way.commanded_n, delay_ticks), period_s_,
+        way.setting.load_kg * kGravity_m_per_s2, way.setting.pose));
   }
-  return acting_n;
+  return all;
 }
 
 }  // namespace jnd::app

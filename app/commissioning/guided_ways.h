@@ -18,27 +18,30 @@ struct WaySetting {
 /// Along a line, about a middle that is drawn anew for each, so that cogging averages out.
 class GuidedWays {
  public:
-  GuidedWays(DeviceOnBench& started, const MeasuringPlan& plan,
-             const analysis::DelayFit& roughly);
+  /// `mass_per_gain_kg`: roughly, of the device, by which it is held firmly enough.
+  GuidedWays(DeviceOnBench& started, const MeasuringPlan& plan, double mass_per_gain_kg);
 
   void go(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& direction, double half_way_m,
           double speed_m_per_s, const WaySetting& setting);
 
-  [[nodiscard]] const std::vector<analysis::GuidedWay>& ways() const noexcept { return ways_; }
+  /// What they come to where a force acts this long after its command.
+  [[nodiscard]] std::vector<analysis::GuidedWay> ways(double delay_s) const;
 
  private:
   void one_way(const Eigen::Vector3d& end_m, const Eigen::Vector3d& along, double half_way_m,
                double speed_m_per_s, const WaySetting& setting);
 
-  /// As it acted, at the time of each position.
-  [[nodiscard]] std::vector<double> delayed(const std::vector<double>& force_n) const;
+  struct Recorded {
+    Eigen::Vector3d along;
+    std::vector<double> position_m, commanded_n;  ///< Along it, one each tick.
+    WaySetting setting;
+  };
 
   DeviceOnBench& started_;
   double period_s_;
   GuideOrder order_;
-  double delay_ticks_;
   core::RandomStream random_;
-  std::vector<analysis::GuidedWay> ways_;
+  std::vector<Recorded> ways_;
 };
 
 }  // namespace jnd::app

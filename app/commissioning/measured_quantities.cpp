@@ -39,6 +39,13 @@ std::string with_interval_words(const Measured& measured, double scale = 1.0) {
   return words.estimate + " (" + words.interval + ")";
 }
 
+std::vector<MeasuredQuantity> homing_quantities(const analysis::HomingFit& fit) {
+  return {{"Places of the tool after each homing, the furthest apart",
+           fmt::format("{:.3f}", 1e3 * fit.spread_m), "–", "mm"},
+          {"Way of the tool when it was let go of without force",
+           fmt::format("{:.1f}", 1e3 * fit.moved_m), "–", "mm"}};
+}
+
 std::vector<MeasuredQuantity> noise_quantities(const analysis::NoiseFit& fit) {
   return {
       quantity("Noise of a position on one axis, standard deviation", fit.position_sd_m, "µm",
@@ -150,6 +157,8 @@ std::vector<MeasuredQuantity> quantities_in(CommissioningStep step,
                                             const CommissioningResults& results) {
   if (!results.has(step)) return {};
   switch (step) {
+    case CommissioningStep::kHoming:
+      return homing_quantities(*results.homing);
     case CommissioningStep::kNoise:
       return noise_quantities(*results.noise);
     case CommissioningStep::kFrame:
@@ -210,6 +219,14 @@ std::vector<std::string> main_findings(const CommissioningResults& results) {
   if (results.has(CommissioningStep::kNoise)) {
     found.push_back(fmt::format("At rest a position has {} µm of noise on an axis.",
                                 with_interval_words(results.noise->position_sd_m, 1e6)));
+  }
+  if (results.has(CommissioningStep::kHoming)) {
+    const analysis::HomingFit& homing = *results.homing;
+    found.push_back(fmt::format(
+        "It finds its zero again within {:.2f} mm. {}", 1e3 * homing.spread_m,
+        homing.moved_m < analysis::kHeld_m ? "Without force its tool stays where it is."
+                                           : "WITHOUT FORCE ITS TOOL MOVES BY ITSELF: support "
+                                             "it whenever the force may end."));
   }
   return found;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/commissioning/single_mass.h"
@@ -63,6 +64,61 @@ analysis::TouchedMark touched_mark(DeviceOnBench& started, device::Bench& bench,
   return {.device_m = sum_m / num_readings, .workspace_m = mark_m};
 }
 
+analysis::HomingFit measure_homing(device::HapticDevice& device, device::Bench& bench,
+                                   const MeasuringPlan& plan, const StepProgress& progress) {
+  constexpr int kHomings = 3;
+  constexpr double kParts = kHomings + 1;
+  const GuidedRun::Parameters how{.rate_hz = plan.rate_hz,
+                                  .allow_no_realtime = plan.allow_no_realtime,
+                                  .emergency_stop = plan.emergency_stop,
+                                  .watcher = plan.watcher};
+  const device::DeviceCapabilities can = device.capabilities();
+  bench.take_hand_out();
+  bench.clamp();
+  // A simulated device opens with a hand in it.
+  const auto as_before = [&](GuidedRun& run) {
+    device::Bench* const simulated = device.bench();
+    if (simulated == nullptr) return;
+    run.while_asking([simulated] {
+      simulated->take_hand_out();
+      simulated->clamp();
+    });
+  };
+  const auto place_for = [&](GuidedRun& run, double duration_s) {
+    Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+    double num_readings = 0.0;
+    run.run_for(duration_s, [&](const core::Sample& sample) {
+      sum_m += hand_m(sample, can);
+      ++num_readings;
+    });
+    return Eigen::Vector3d(sum_m / num_readings);
+  };
+  std::vector<Eigen::Vector3d> homed_m;
+  double moved_m = 0.0;
+  for (int i = 0; i < kHomings; ++i) {
+    progress(i / kParts,
+             tr_later("The device is homed, and its tool rests where it did before."));
+    // Nobody holds the device meanwhile: its maker's own program may have to.
+    bench.home();
+    GuidedRun run(device, how);
+    as_before(run);
+    run.run_for(0.5);
+    homed_m.push_back(place_for(run, 0.3));
+    if (i + 1 < kHomings) continue;
+    progress(kHomings / kParts, tr_later("The tool is let go of without force."));
+    run.while_asking([&] { bench.let_go_without_force(); });
+    // No longer than it takes to see that it falls.
+    constexpr double kLook_s = 0.05, kLongest_s = 1.0, kFalls_m = 0.05;
+    for (double looked_s = 0.0; looked_s < kLongest_s && moved_m < kFalls_m;
+         looked_s += kLook_s) {
+      moved_m = std::max(moved_m, (place_for(run, kLook_s) - homed_m.back()).norm());
+    }
+    run.while_asking([&] { bench.clamp(); });
+  }
+  progress(1.0, "");
+  return analysis::fit_homing(std::move(homed_m), moved_m);
+}
+
 analysis::NoiseFit measure_noise(device::HapticDevice& device, device::Bench& bench,
                                  const MeasuringPlan& plan, const StepProgress& progress) {
   DeviceOnBench started(device, bench, plan);
@@ -105,11 +161,25 @@ analysis::DelayFit measure_delay(device::HapticDevice& device, device::Bench& be
   return pushes.fit(force.damping_n_s_per_m.value / force.gain.value);
 }
 
+analysis::ForceFit fit_ways(const GuidedWays& ways, const GuidedPushes& pushes,
+                            const Eigen::Vector3d& up, double load_uncertainty_ratio) {
+  const auto fitted = [&](double damping_per_gain) {
+    const analysis::DelayFit roughly = pushes.fit(damping_per_gain);
+    return analysis::fit_force(ways.ways(roughly.delay_s.value), up,
+                               roughly.mass_per_gain_kg.value, load_uncertainty_ratio);
+  };
+  // How late a force acts is read off better once it is known what opposes the pushes, and so
+  // is what opposes the ways once that is.
+  const analysis::ForceFit first = fitted(0.0);
+  return fitted(std::max(0.0, first.damping_n_s_per_m.value / first.gain.value));
+}
+
 analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& bench,
                                  const MeasuringPlan& plan, const analysis::FrameFit& frame,
                                  const StepProgress& progress) {
-  constexpr std::array kSpeeds_m_per_s = {0.05, 0.1, 0.2, 0.3};
-  constexpr double kLoadedSpeed_m_per_s = 0.05;
+  // Means of smooth ways; the highest is nearly twice as fast.
+  constexpr std::array kSpeeds_m_per_s = {0.035, 0.07, 0.14, 0.21};
+  constexpr double kLoadedSpeed_m_per_s = 0.035;
   constexpr std::array kHeights_m = {-0.04, 0.0, 0.04};
   constexpr double kHalfWay_m = 0.08, kLoadedHalfWay_m = 0.05;
   constexpr int kRounds = 2;
@@ -124,8 +194,7 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   // Along the axes of the workspace, as the device has them.
   const Eigen::Matrix3d to_device = frame.rotation.transpose();
   const Eigen::Vector3d up = to_device.col(2);
-  const analysis::DelayFit roughly = pushes.fit(0.0);
-  GuidedWays ways(started, plan, roughly);
+  GuidedWays ways(started, plan, pushes.fit(0.0).mass_per_gain_kg.value);
   const double num_parts = kRounds * 3.0 + static_cast<double>(plan.loads_kg.size() + 1);
   double done = 0.0;
   for (int round = 0; round < kRounds; ++round) {
@@ -152,8 +221,7 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   started.run().stop();  // No force while the last load is taken off.
   bench.hang(0.0);
   progress(1.0, "");
-  return analysis::fit_force(ways.ways(), up, roughly.mass_per_gain_kg.value,
-                             plan.load_uncertainty_ratio);
+  return fit_ways(ways, pushes, up, plan.load_uncertainty_ratio);
 }
 
 namespace {

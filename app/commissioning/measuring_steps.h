@@ -8,9 +8,12 @@
 #include "analysis/commissioning/delay_fit.h"
 #include "analysis/commissioning/force_fit.h"
 #include "analysis/commissioning/frame_fit.h"
+#include "analysis/commissioning/homing_fit.h"
 #include "analysis/commissioning/noise_fit.h"
 #include "analysis/commissioning/stability_fit.h"
 #include "app/commissioning/device_on_bench.h"
+#include "app/commissioning/guided_pushes.h"
+#include "app/commissioning/guided_ways.h"
 #include "app/commissioning/measuring_plan.h"
 #include "app/language/words.h"
 #include "device/bench.h"
@@ -37,6 +40,10 @@ using StepProgress = std::function<void(double done, const std::string& now)>;
 /// them throws `core::Error` in a sentence: the device cannot be started, it stopped with a
 /// fault, or what came of it is no measurement. The device is closed afterwards, and what was
 /// found before is not touched. Not real time.
+[[nodiscard]] analysis::HomingFit measure_homing(device::HapticDevice& device,
+                                                 device::Bench& bench,
+                                                 const MeasuringPlan& plan,
+                                                 const StepProgress& progress);
 [[nodiscard]] analysis::NoiseFit measure_noise(device::HapticDevice& device,
                                                device::Bench& bench, const MeasuringPlan& plan,
                                                const StepProgress& progress);
@@ -49,6 +56,10 @@ using StepProgress = std::function<void(double done, const std::string& now)>;
                                                device::Bench& bench, const MeasuringPlan& plan,
                                                const analysis::FrameFit& frame,
                                                const StepProgress& progress);
+/// The same of ways and pushes that were made; throws as `analysis::fit_force` does.
+[[nodiscard]] analysis::ForceFit fit_ways(const GuidedWays& ways, const GuidedPushes& pushes,
+                                          const Eigen::Vector3d& up,
+                                          double load_uncertainty_ratio);
 /// Delay and mass, by pushes to and fro as the device moves on; `force` says how it is damped.
 [[nodiscard]] analysis::DelayFit measure_delay(device::HapticDevice& device,
                                                device::Bench& bench, const MeasuringPlan& plan,

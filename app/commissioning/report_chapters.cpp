@@ -140,6 +140,13 @@ void write_quantities(HtmlText& html, const CommissioningResults& results) {
 }
 
 void write_commissioning_methods(HtmlText& html, const CommissioningResults& results) {
+  if (results.has(Step::kHoming)) {
+    html.paragraph_about(
+        "Homing and brakes",
+        "The device is homed three times and its tool rests on the same firm place after each. "
+        "Then somebody takes the support away and lets go of the tool for a moment, the device "
+        "without force.");
+  }
   if (results.has(Step::kNoise)) {
     html.paragraph_about(
         "Noise",
@@ -164,10 +171,11 @@ void write_commissioning_methods(HtmlText& html, const CommissioningResults& res
         "The device goes to and fro along three axes at four speeds, and up and down with each "
         "load at three heights. On each way, along the unit vector e, the balance of energy is "
         "divided by the length of the way:");
-    html.paragraph("g u = L (n · e + a / 9.80665 m/s²) + m a + b v + F − c · e", "equation");
+    html.paragraph("g u = L (n · e + a / 9.80665 m/s²) + m a + b v + F p − c · e", "equation");
     html.paragraph(
         "Here u is the work of the commanded force a metre, L the load, n the unit vector "
-        "upwards, m the mass, v and a the means of speed and acceleration over the way. "
+        "upwards, m the mass, v and a the means of speed and acceleration over the way, p all "
+        "that it went over how far it came. Each way is smooth and counts from rest to rest. "
         "Estimated by least squares are the gain g, the own damping b, the dry friction F and "
         "the constant force c, whose part downwards is the weight that is not carried. The "
         "known loads, lifted and lowered at one slow speed, tell the gain and the weight; the "

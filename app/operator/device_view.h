@@ -18,7 +18,7 @@ struct DeviceLine {
 
 /// What somebody at the device is asked to do.
 struct DeviceQuestion {
-  enum class Act { kTakeHandOut, kHold, kTouch, kLetGo, kHang, kTakeLoadOff };
+  enum class Act { kTakeHandOut, kHome, kHold, kTouch, kLetGo, kHang, kTakeLoadOff };
   Act act = Act::kTakeHandOut;
   std::string words;
   double load_kg = 0.0;             ///< Of `kHang`.
@@ -27,7 +27,15 @@ struct DeviceQuestion {
 };
 
 /// What goes on at the device, one thing at a time.
-enum class DeviceWork { kNone, kLooking, kMeasuring, kChecking, kTryingForce, kWriting };
+enum class DeviceWork {
+  kNone,
+  kLooking,
+  kMeasuring,
+  kChecking,
+  kTryingForce,
+  kWatching,
+  kWriting
+};
 
 /// All that the window shows of a device, in words.
 struct DeviceView {
@@ -77,6 +85,8 @@ struct DeviceView {
   };
   std::vector<CheckedLine> checked;  ///< Of the last daily check.
   std::optional<bool> check_passed;
+  /// What the device tells at this moment, while it is watched.
+  std::vector<DeviceLine> live;
 };
 
 }  // namespace jnd::app

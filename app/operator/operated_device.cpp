@@ -1,12 +1,16 @@
 #include "app/operator/operated_device.h"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include "app/commissioning/commissioning_report.h"
 #include "app/commissioning/daily_check.h"
+#include "app/commissioning/device_watch.h"
 #include "app/commissioning/force_test.h"
+#include "app/commissioning/guided_run.h"
 #include "app/language/words.h"
 #include "app/operator/device_look.h"
 #include "app/profile/profile_choice.h"
@@ -87,6 +91,22 @@ class OperatedDevice::WindowBench final : public device::Bench {
     is_held_ = true;
     if (simulated_ != nullptr) simulated_->clamp();
   }
+  void home() override {
+    of_.ask(
+        {.act = Act::kHome,
+         .words = tr("Home the device as its maker says, by its maker's program if that takes "
+                     "one: nothing here holds the device meanwhile. Then rest its tool where "
+                     "it rested before.")});
+    if (simulated_ != nullptr) simulated_->home();
+  }
+  void let_go_without_force() override {
+    of_.ask(
+        {.act = Act::kLetGo,
+         .words = tr("The device has no force now: take the support away, let go of the tool "
+                     "for a moment, and be ready to catch it.")});
+    is_held_ = false;
+    if (simulated_ != nullptr) simulated_->let_go_without_force();
+  }
   void touch(const Eigen::Vector3d& mark_m) override {
     of_.ask({.act = Act::kTouch,
              .words = mark_words(mark_m),
@@ -141,7 +161,7 @@ bool OperatedDevice::is_live() const noexcept {
   if (!works()) return false;
   const std::lock_guard lock(mutex_);
   return view_.work == DeviceWork::kMeasuring || view_.work == DeviceWork::kChecking ||
-         view_.work == DeviceWork::kTryingForce;
+         view_.work == DeviceWork::kTryingForce || view_.work == DeviceWork::kWatching;
 }
 
 bool OperatedDevice::may_begin() const noexcept {
@@ -316,6 +336,35 @@ void OperatedDevice::try_force(int axis) {
           axis);
     });
     return words;
+  });
+}
+
+void OperatedDevice::watch() {
+  if (!may_begin()) return;
+  begin(DeviceWork::kWatching, [this] {
+    const auto made = device::make_device(device_, kDeviceRate_hz);
+    // Never armed: whoever moves the tool about or presses its switch feels no force.
+    GuidedRun run(*made, {.rate_hz = kDeviceRate_hz,
+                          .allow_no_realtime = allow_no_realtime_,
+                          .emergency_stop = &emergency_stop_,
+                          .watcher = &watcher_});
+    constexpr double kLook_s = 0.05;
+    while (true) {
+      const core::Fault found = run.try_for(kLook_s);
+      std::vector<DeviceLine> live;
+      for (WatchedLine& line : watched_lines(made->capabilities(), run.telemetry())) {
+        live.push_back({std::move(line.what), std::move(line.value)});
+      }
+      {
+        const std::lock_guard lock(mutex_);
+        if (leaves_off_) return std::string();
+        view_.live = std::move(live);
+      }
+      if (wake_) wake_();
+      if (core::is_failure(found)) throw core::Error(std::string(core::words(found)));
+      // A simulated device runs as fast as it can.
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
   });
 }
 

@@ -41,6 +41,8 @@ class OperatedDevice {
   void check_daily();
   /// Along this axis of the workspace, 0 to 2, by half a newton.
   void try_force(int axis);
+  /// Shows what the device tells until `leave_off`. It has no force meanwhile.
+  void watch();
 
   /// What was asked is done.
   void answer();

@@ -23,6 +23,7 @@ struct Telemetry {
   std::uint64_t command_sequence = 0;  ///< Sequence number of the command in force.
   Fault fault = Fault::kNone;
   Arming arming = Arming::kDisarmed;
+  bool enabled = true;   ///< Of the device's own enabling switch: closed, or it has none.
   bool limited = false;  ///< The limiter changed the force in this tick.
   /// A guard is close to its fault, or takes a force away until the hand moves.
   Fault warning = Fault::kNone;

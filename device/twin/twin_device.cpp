@@ -44,6 +44,7 @@ TwinDevice::TwinDevice(const Parameters& parameters)
   require_not_negative(parameters.position_resolution_m, "position_resolution_m");
   require_not_negative(parameters.velocity_sd_m_per_s, "velocity_sd_m_per_s");
   require_not_negative(parameters.touch_sd_m, "touch_sd_m");
+  require_not_negative(parameters.homing_sd_m, "homing_sd_m");
   require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
   require_positive(parameters.max_total_force_n, "max_total_force_n");
   // As exactly as its steps tell it.
@@ -91,7 +92,7 @@ bool TwinDevice::read(core::HapticState& state) noexcept {
   const core::PointVectors& tips_m = lumped_hand_tips_m();
   state.device_time_ns = num_writes_ * period_ns_;
   for (int i = 0; i < kNumContactPoints; ++i) {
-    const Eigen::Vector3d place_m = own(position_m_ + tips_m[i]) + place_noise_m;
+    const Eigen::Vector3d place_m = own(position_m_ + tips_m[i]) + homed_m_ + place_noise_m;
     for (int axis = 0; axis < 3; ++axis) {
       state.tip_position_m[i][axis] =
           at_resolution(place_m[axis], parameters_.position_resolution_m);
@@ -126,6 +127,10 @@ Eigen::Vector3d TwinDevice::cogging_n() const noexcept {
 bool TwinDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   arm_.follow_orders();
   const BenchState& done = bench_.newest();
+  if (done.num_homings != last_homing_) {
+    last_homing_ = done.num_homings;
+    homed_m_ = noise(parameters_.homing_sd_m);
+  }
   core::PointVectors& written_n =
       written_n_[static_cast<std::size_t>(num_writes_) % kNumWrites];
   const bool is_withheld = halt_.withholds(force_on_hand_n);

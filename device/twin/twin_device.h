@@ -47,7 +47,8 @@ class TwinDevice final : public HapticDevice {
     double position_sd_m = 0.0;          ///< >= 0.
     double position_resolution_m = 0.0;  ///< 0: none.
     double velocity_sd_m_per_s = 0.0;    ///< >= 0.
-    double touch_sd_m = 0.0;  ///< How well somebody meets a mark, on each axis, >= 0.
+    double touch_sd_m = 0.0;   ///< How well somebody meets a mark, on each axis, >= 0.
+    double homing_sd_m = 0.0;  ///< How well it finds its zero again, on each axis, >= 0.
     std::uint64_t noise_seed = 1;
     StrokingArm::Parameters arm;
     double max_force_per_point_n = 10.0;  ///< > 0.
@@ -102,6 +103,8 @@ class TwinDevice final : public HapticDevice {
   core::ContactSums sums_;
   core::RandomStream noise_;
   std::uint32_t last_hold_ = 0;
+  std::uint32_t last_homing_ = 0;
+  Eigen::Vector3d homed_m_ = Eigen::Vector3d::Zero();  ///< By how much its zero is off.
   Eigen::Vector3d touched_m_ = Eigen::Vector3d::Zero();
 };
 

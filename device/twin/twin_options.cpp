@@ -27,7 +27,8 @@ constexpr struct {
                 {"position_sd_m", &Parameters::position_sd_m},
                 {"position_resolution_m", &Parameters::position_resolution_m},
                 {"velocity_sd_m_per_s", &Parameters::velocity_sd_m_per_s},
-                {"touch_sd_m", &Parameters::touch_sd_m}};
+                {"touch_sd_m", &Parameters::touch_sd_m},
+                {"homing_sd_m", &Parameters::homing_sd_m}};
 
 /// What has changed of the device since somebody measured it: it is the same one, with the same
 /// serial.
@@ -85,6 +86,7 @@ Parameters drawn_twin(std::uint64_t seed) {
   twin.position_resolution_m = random.uniform(1e-6, 2e-5);
   twin.velocity_sd_m_per_s = random.uniform(0.0005, 0.003);
   twin.touch_sd_m = random.uniform(0.0001, 0.0004);
+  twin.homing_sd_m = core::RandomStream(seed, "twin homes").uniform(0.00002, 0.0002);
   return twin;
 }
 

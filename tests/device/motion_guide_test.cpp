@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 namespace jnd::device {
 namespace motion_guide_test {
@@ -73,6 +74,39 @@ TEST(MotionGuide, ASweepOfNoTicksIsNone) {
     guide.order({.sweep_n = 3.0, .sweep_ticks = num_ticks, .is_on = true});
     for (const Eigen::Vector3d& force_n : guide.force_n(at_rest(), kPeriod_s)) {
       EXPECT_EQ(force_n, Eigen::Vector3d(Eigen::Vector3d::Zero())) << num_ticks;
+    }
+  }
+}
+
+TEST(MotionGuide, ASmoothWayBeginsAndEndsAtRestAndIsHalfDoneAtHalfTime) {
+  MotionGuide guide(core::kAreaShareRatio);
+  const core::HapticState state = at_rest();
+  // A spring alone, then a damper alone: where the reference is, and how fast. 0.1 m in 0.5 s.
+  for (const bool is_spring : {true, false}) {
+    guide.order({.is_on = true});
+    (void)guide.force_n(state, kPeriod_s);
+    guide.order({.to_m = {0.1, 0.0, 0.0},
+                 .speed_m_per_s = 0.2,
+                 .is_smooth = true,
+                 .stiffness_n_per_m = is_spring ? 100.0 : 1e-9,
+                 .damping_n_s_per_m = is_spring ? 0.0 : 10.0,
+                 .is_on = true});
+    std::vector<double> force_n;
+    for (int tick = 0; tick < 600; ++tick) {
+      double whole_n = 0.0;
+      for (const Eigen::Vector3d& at_point : guide.force_n(state, kPeriod_s)) {
+        whole_n += at_point.x();
+      }
+      force_n.push_back(whole_n);
+    }
+    if (is_spring) {
+      EXPECT_LT(force_n[0], 1e-6);
+      EXPECT_NEAR(force_n[249], 100.0 * 0.05, 1e-9);
+      EXPECT_NEAR(force_n[599], 100.0 * 0.1, 1e-9);
+    } else {
+      EXPECT_NEAR(force_n[249], 10.0 * 1.875 * 0.2, 1e-6) << "1.875 of the mean";
+      EXPECT_NEAR(force_n[499], 0.0, 1e-6);
+      EXPECT_NEAR(force_n[599], 0.0, 1e-6);
     }
   }
 }

@@ -67,6 +67,7 @@ void DeviceScreen::act(const BenchViewResult& result) {
   if (result.write_profile) device_.write_profile();
   if (result.check) device_.check_daily();
   if (result.push) device_.try_force(state_.axis);
+  if (result.watch) device_.watch();
   if (result.tab != StudyTab::kNone) host_.go_to(result.tab);
 }
 

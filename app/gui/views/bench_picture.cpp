@@ -265,6 +265,7 @@ void draw_bench_picture(Ui& ui, const Rect& place, const BenchPicture& picture) 
 
 BenchPicture picture_of_step(const DeviceView& view, std::size_t step) {
   switch (static_cast<CommissioningStep>(step)) {
+    case CommissioningStep::kHoming:
     case CommissioningStep::kNoise:
       return {.scene = Scene::kRest};
     case CommissioningStep::kFrame:
@@ -286,6 +287,7 @@ BenchPicture picture_of_question(const std::vector<Eigen::Vector3d>& marks_m,
     case Act::kTakeHandOut:
       picture.scene = Scene::kHandOut;
       break;
+    case Act::kHome:
     case Act::kHold:
       picture.scene = Scene::kRest;
       break;

@@ -21,7 +21,11 @@ void draw_header(Ui& ui, const Rect& place, const BenchModel& model, bool may_mo
   ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
           {.font = Font::kLarge});
   if (may_move) {
-    ui.text(strip, tr("The device may move: keep clear of it."), {.colour = Colour::kAmber});
+    ui.text(strip,
+            model.device.work == DeviceWork::kWatching
+                ? tr("The device is watched and has no force.")
+                : tr("The device may move: keep clear of it."),
+            {.colour = Colour::kAmber});
     return;
   }
   for (const StudyTabLook& tab : kStudyTabs) {
@@ -44,7 +48,7 @@ BenchViewResult draw_bench_view(Ui& ui, const BenchModel& model, BenchViewState&
   BenchViewResult result;
   const DeviceWork work = model.device.work;
   const bool may_move = work == DeviceWork::kMeasuring || work == DeviceWork::kChecking ||
-                        work == DeviceWork::kTryingForce;
+                        work == DeviceWork::kTryingForce || work == DeviceWork::kWatching;
   Rect rest = ui.screen();
   draw_header(ui, rest.take_top(kHeaderHeight), model, may_move, result);
   const Rect footer = rest.take_bottom(kFooterHeight);

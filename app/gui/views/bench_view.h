@@ -24,7 +24,7 @@ struct BenchModel {
 };
 
 struct BenchViewState {
-  enum class Page { kCommission, kDaily, kForce };
+  enum class Page { kCommission, kDaily, kForce, kWatch };
   Page page = Page::kCommission;
   enum class Dialog { kNone, kChoose, kPush };
   Dialog dialog = Dialog::kNone;
@@ -40,7 +40,7 @@ struct BenchViewResult {
   StudyTab tab = StudyTab::kNone;
   std::optional<std::string> choose;  ///< A device.
   std::optional<CommissioningStep> measure, undo;
-  bool write_profile = false, check = false, push = false, look_again = false;
+  bool write_profile = false, check = false, push = false, watch = false, look_again = false;
   bool answer = false, leave_off = false;
   bool stop = false, release_stop = false;
 };

@@ -16,8 +16,9 @@ using Page = BenchViewState::Page;
 constexpr float kButtons = 48;
 /// A drawing, however large the window.
 constexpr float kTallest = 440;
-constexpr std::array kStepNames = {tr_later("Noise"), tr_later("Frame"), tr_later("Force"),
-                                   tr_later("Delay"), tr_later("Stability")};
+constexpr std::array kStepNames = {tr_later("Homing"), tr_later("Noise"),
+                                   tr_later("Frame"),  tr_later("Force"),
+                                   tr_later("Delay"),  tr_later("Stability")};
 static_assert(kStepNames.size() == kCommissioningSteps.size());
 
 bool is_busy(const DeviceView& device) { return device.work != DeviceWork::kNone; }
@@ -35,7 +36,8 @@ void draw_pages(Ui& ui, Rect strip, const DeviceView& device, BenchViewState& st
   };
   const Look looks[] = {{Page::kCommission, "page_commission", tr("Commission"), '1'},
                         {Page::kDaily, "page_daily", tr("Daily check"), '2'},
-                        {Page::kForce, "page_force", tr("Try a force"), '3'}};
+                        {Page::kForce, "page_force", tr("Try a force"), '3'},
+                        {Page::kWatch, "page_watch", tr("Watch"), '4'}};
   for (const Look& look : looks) {
     const ButtonStyle style{.tone = Tone::kQuiet,
                             .key = {letter(look.key)},
@@ -118,7 +120,8 @@ void draw_under_way(Ui& ui, const Rect& place, const DeviceView& device,
   }
   const bool rests =
       device.work == DeviceWork::kMeasuring &&
-      (device.working_step == static_cast<std::size_t>(CommissioningStep::kNoise) ||
+      (device.working_step == static_cast<std::size_t>(CommissioningStep::kHoming) ||
+       device.working_step == static_cast<std::size_t>(CommissioningStep::kNoise) ||
        device.working_step == static_cast<std::size_t>(CommissioningStep::kFrame));
   BenchPicture picture;
   if (device.work == DeviceWork::kTryingForce) {
@@ -136,6 +139,7 @@ void draw_under_way(Ui& ui, const Rect& place, const DeviceView& device,
 void draw_outcome(Ui& ui, Rect& inside, const DeviceView& device, Page page) {
   const Page its = device.outcome_of == DeviceWork::kChecking      ? Page::kDaily
                    : device.outcome_of == DeviceWork::kTryingForce ? Page::kForce
+                   : device.outcome_of == DeviceWork::kWatching    ? Page::kWatch
                                                                    : Page::kCommission;
   if (device.outcome.empty() || is_busy(device) || its != page) return;
   const TextStyle style{.font = Font::kSmall,
@@ -163,7 +167,9 @@ void draw_busy_buttons(Ui& ui, Rect bottom, const DeviceView& device, BenchViewR
                 tr("Stop"), stop)) {
     result.leave_off = true;
   }
-  ui.progress(bottom.middle(bottom.width, 8), device.progress);
+  if (device.work != DeviceWork::kWatching) {
+    ui.progress(bottom.middle(bottom.width, 8), device.progress);
+  }
 }
 
 void draw_release(Ui& ui, Rect bottom, BenchViewResult& result) {
@@ -345,6 +351,29 @@ void draw_force(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& s
              tr("Look whether it moves that way first."));
 }
 
+/// What the device tells now, a large line each.
+void draw_watch(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& state) {
+  draw_outcome(ui, inside, device, state.page);
+  const bool watches = device.work == DeviceWork::kWatching;
+  const TextStyle large{.font = Font::kLarge, .wrap = true};
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const std::string title = tr("What does the device tell?");
+  const std::string words =
+      watches
+          ? tr("It has no force. Move its tool, press its switch and its buttons.")
+          : tr("Its enabling switch, its buttons, its places and its sensors, as they are at "
+               "each moment. It has no force meanwhile, so a hand may move it.");
+  ui.text(inside.take_top(ui.text_height(inside.width, title, large), 10), title, large);
+  ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 18), words, soft);
+  if (!watches) return;
+  for (const DeviceLine& line : device.live) {
+    Rect its = inside.take_top(34);
+    ui.fill({its.x, its.y + its.height - 1, its.width, 1}, Colour::kLine, 0);
+    ui.text(its.take_left(its.width * 0.5f, 12), line.what, {.colour = Colour::kSoft});
+    ui.text(its, line.value, {.font = Font::kStrong, .align = Align::kRight});
+  }
+}
+
 }  // namespace
 
 void draw_work_card(Ui& ui, const Rect& place, const BenchModel& model, BenchViewState& state,
@@ -363,11 +392,25 @@ void draw_work_card(Ui& ui, const Rect& place, const BenchModel& model, BenchVie
     case Page::kForce:
       draw_force(ui, inside, device, state);
       break;
+    case Page::kWatch:
+      draw_watch(ui, inside, device, state);
+      break;
   }
   if (is_busy(device)) return draw_busy_buttons(ui, bottom, device, result);
   if (device.stop_is_pressed) return draw_release(ui, bottom, result);
   if (state.page == Page::kCommission) {
     return draw_commission_buttons(ui, bottom, device, state, result);
+  }
+  if (state.page == Page::kWatch) {
+    const ButtonStyle style{
+        .tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = device.is_known};
+    const char* label = tr("Watch");
+    if (ui.button("watch",
+                  bottom.take_right(std::max(140.0f, ui.button_width(label, style)), 12), label,
+                  style)) {
+      result.watch = true;
+    }
+    return;
   }
   const bool checks = state.page == Page::kDaily;
   const ButtonStyle style{

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -181,6 +182,40 @@ TEST(GuidedWay, IsTheBalanceOfEnergyAlongTheWay) {
   const std::vector<double> still(401, 0.1);
   EXPECT_THROW((void)guided_way(Eigen::Vector3d::UnitY(), still, force_n, 0.001, 0.0, 0),
                core::Error);
+}
+
+TEST(GuidedWay, FromRestToRestCountsTheWholePathAndNothingOfWhatLinksGaveBack) {
+  // A tool of 1 kg with a link of 2 kg on a spring behind it goes 10 cm, some beyond, and comes
+  // to rest: what was put in is what both dampers took, wherever it was meanwhile. Its own
+  // equations in steps of 0.02 ms, told once a millisecond.
+  constexpr double kStep_s = 2e-5, kTick_s = 1e-3;
+  double x_m = 0.0, v = 0.0, link_m = 0.0, link_v = 0.0, taken_j = 0.0, path_m = 0.0;
+  std::vector<double> position_m, force_n;
+  for (int tick = 0; tick < 8000; ++tick) {
+    const double s = std::min(1.0, tick * kTick_s / 0.8);
+    const double to_m = 0.1 * s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    const double force = 150.0 * (to_m - x_m) - 20.0 * v;
+    // At the middle of the time in which the force stands.
+    double middle_m = x_m;
+    for (int step = 0; step < 50; ++step) {
+      const double link_n = 80.0 * (link_m - x_m) + 4.0 * (link_v - v);
+      taken_j += kStep_s * (3.0 * v * v + 4.0 * (link_v - v) * (link_v - v));
+      link_v -= kStep_s * link_n / 2.0;
+      v += kStep_s * (force + link_n - 3.0 * v);
+      x_m += kStep_s * v;
+      path_m += kStep_s * std::abs(v);
+      link_m += kStep_s * link_v;
+      if (step == 24) middle_m = x_m;
+    }
+    position_m.push_back(middle_m);
+    force_n.push_back(force);
+  }
+  ASSERT_GT(path_m, 1.05 * x_m) << "it goes beyond, or the test is none";
+  const GuidedWay way =
+      guided_way(Eigen::Vector3d::UnitX(), position_m, force_n, kTick_s, 0.0, 0);
+  EXPECT_NEAR(way.acceleration_m_per_s2, 0.0, 1e-4);
+  EXPECT_NEAR(way.path_ratio, path_m / x_m, 0.03) << "the last swings are too slow to be told";
+  EXPECT_NEAR(way.commanded_n, taken_j / x_m, 0.01 * taken_j / x_m);
 }
 
 }  // namespace force_fit_test

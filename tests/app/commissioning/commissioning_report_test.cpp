@@ -102,7 +102,7 @@ TEST_F(CommissioningReportTest, HasEveryQuantityAndWhatItRestsOn) {
   EXPECT_TRUE(has(html, "Report of 2026-12-01, by jnd 1.2.3."));
   EXPECT_TRUE(has(html, "100, 200, 400 g"));
   EXPECT_TRUE(has(html, "at most 10 N at a point and 15 N in all"));
-  EXPECT_TRUE(has(html, "g u = L (n · e + a / 9.80665 m/s²) + m a + b v + F − c · e"));
+  EXPECT_TRUE(has(html, "g u = L (n · e + a / 9.80665 m/s²) + m a + b v + F p − c · e"));
   EXPECT_TRUE(has(html, "Kabsch, W. (1976)"));
   EXPECT_TRUE(has(html, "class=\"signatures\""));
   EXPECT_TRUE(has(html, "Table 2.")) << "tables are numbered through";
@@ -169,7 +169,7 @@ TEST_F(CommissioningReportTest, OfARecordThatIsNotCompleteItIsWrittenAsWell) {
     measure(commissioning, Step::kFrame);
   }
   const std::string html = report();
-  EXPECT_TRUE(has(html, "Not measured: noise, force, delay, stability."));
+  EXPECT_TRUE(has(html, "Not measured: homing, noise, force, delay, stability."));
   EXPECT_TRUE(has(html, "measured anew later"));
   EXPECT_FALSE(has(html, "Own damping"));
   EXPECT_FALSE(has(html, "Jury"));

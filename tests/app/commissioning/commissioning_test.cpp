@@ -45,8 +45,10 @@ TEST_F(CommissioningTest, GoesOnWhereItWasInterrupted) {
   double gain = 0.0;
   {
     Commissioning first = begun();
-    EXPECT_EQ(first.next_step(), Step::kNoise);
-    for (const Step step : {Step::kNoise, Step::kFrame, Step::kForce}) measure(first, step);
+    EXPECT_EQ(first.next_step(), Step::kHoming);
+    for (const Step step : {Step::kHoming, Step::kNoise, Step::kFrame, Step::kForce}) {
+      measure(first, step);
+    }
     gain = first.results().force->gain.value;
   }
   Commissioning second = begun();
@@ -60,8 +62,7 @@ TEST_F(CommissioningTest, GoesOnWhereItWasInterrupted) {
 TEST_F(CommissioningTest, ALineThatTheProgramDiedInIsNoMeasurementAndDoesNoHarm) {
   {
     Commissioning first = begun();
-    measure(first, Step::kNoise);
-    measure(first, Step::kFrame);
+    for (const Step step : {Step::kHoming, Step::kNoise, Step::kFrame}) measure(first, step);
   }
   const std::string whole = text();
   std::ofstream(record_, std::ios::trunc) << whole.substr(0, whole.size() - 40);

@@ -40,8 +40,8 @@ const DeviceProfile& profile_of_twin(int seed) {
         .name = "twin", .identity = twin.identity(), .can = twin.capabilities()};
     Commissioning commissioning(record, device, {});
     for (const CommissioningStep step :
-         {CommissioningStep::kNoise, CommissioningStep::kFrame, CommissioningStep::kForce,
-          CommissioningStep::kDelay}) {
+         {CommissioningStep::kHoming, CommissioningStep::kNoise, CommissioningStep::kFrame,
+          CommissioningStep::kForce, CommissioningStep::kDelay}) {
       commissioning.measure(step, twin, *twin.bench(), kQuiet);
     }
     // The check looks at everything but stability, which takes as long as all the rest.

@@ -47,6 +47,12 @@ class SlowBench final : public device::Bench {
   void take_hand_out() override {
     slowly([this] { bench_.take_hand_out(); });
   }
+  void home() override {
+    slowly([this] { bench_.home(); });
+  }
+  void let_go_without_force() override {
+    slowly([this] { bench_.let_go_without_force(); });
+  }
   void clamp() override {
     slowly([this] { bench_.clamp(); });
   }

@@ -68,6 +68,22 @@ TEST(MeasuringSteps, RecoverWhatTwinsWereMadeWith) {
   for (const auto& [name, held] : tally.counts()) EXPECT_GE(held, kFewestHeld) << name;
 }
 
+TEST(MeasuringSteps, HomingTellsHowFarTheZeroIsOffAndWhetherTheToolStays) {
+  TwinDevice exact({.friction_n = 1.0, .weight_n = 0.5});
+  const analysis::HomingFit held = measure_homing(exact, *exact.bench(), {}, kQuiet);
+  EXPECT_EQ(held.spread_m, 0.0);
+  EXPECT_LT(held.moved_m, 1e-9) << "its friction is more than its weight";
+
+  TwinDevice sinks({.friction_n = 0.5, .weight_n = 1.5, .homing_sd_m = 0.001});
+  const analysis::HomingFit fell = measure_homing(sinks, *sinks.bench(), {}, kQuiet);
+  EXPECT_EQ(fell.homed_m.size(), 3U);
+  EXPECT_GT(fell.spread_m, 0.0003);
+  EXPECT_LT(fell.spread_m, 0.01);
+  // Half a kilogram with a newton left over falls by a quarter of a metre in half a second.
+  EXPECT_GT(fell.moved_m, 0.05);
+  EXPECT_LT(fell.moved_m, 0.1) << "it is held again as soon as it is seen to fall";
+}
+
 /// The damping or the stiffness from which on a twin without noise, friction and cogging swings
 /// ever further, worked out from its own steps of motion and nothing else.
 double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {

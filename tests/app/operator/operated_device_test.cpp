@@ -64,7 +64,7 @@ TEST_F(OperatedDeviceTest, TellsOfADeviceBeforeItIsOpen) {
   EXPECT_TRUE(view.is_simulated);
   EXPECT_EQ(view.profile.status, PreflightLine::Status::kOk);
   EXPECT_EQ(view.next_step, 0U);
-  EXPECT_TRUE(view.steps[2].waits) << "for the frame";
+  EXPECT_TRUE(view.steps[3].waits) << "for the frame";
   EXPECT_FALSE(fs::exists(view.record)) << "whoever only looks writes nothing";
   choose("plugin:/nowhere/none.so:real");
   EXPECT_FALSE(device_.view().is_known);
@@ -75,25 +75,27 @@ TEST_F(OperatedDeviceTest, TellsOfADeviceBeforeItIsOpen) {
 
 TEST_F(OperatedDeviceTest, MeasuresStepByStepAndGoesOnWithTheTerminalsRecord) {
   choose();
-  measure(Step::kNoise);
+  measure(Step::kHoming);
   EXPECT_EQ(device_.view().next_step, 1U);
   EXPECT_FALSE(device_.view().steps[0].found.empty());
+  measure(Step::kNoise);
+  EXPECT_EQ(device_.view().next_step, 2U);
   EXPECT_TRUE(device_.view().outcome_is_good) << device_.view().outcome;
   EXPECT_TRUE(fs::exists("twin_seed_7.commissioning.jsonl"));
   measure(Step::kForce);
   EXPECT_FALSE(device_.view().outcome_is_good) << "its frame comes first";
   for (const Step step : {Step::kFrame, Step::kForce, Step::kDelay}) measure(step);
-  EXPECT_EQ(device_.view().next_step, 4U);
+  EXPECT_EQ(device_.view().next_step, 5U);
   {
     OperatedDevice another([] {});
     another.choose("twin:seed=7", "");
     while (another.works()) std::this_thread::yield();
-    EXPECT_EQ(another.view().next_step, 4U) << "what was measured is on disk";
+    EXPECT_EQ(another.view().next_step, 5U) << "what was measured is on disk";
   }
   device_.undo(Step::kFrame);
   wait();
-  EXPECT_EQ(device_.view().next_step, 1U);
-  EXPECT_TRUE(device_.view().steps[3].measured_at.empty()) << "it rests on the frame";
+  EXPECT_EQ(device_.view().next_step, 2U);
+  EXPECT_TRUE(device_.view().steps[4].measured_at.empty()) << "it rests on the frame";
 }
 
 TEST_F(OperatedDeviceTest, WritesTheProfileAndChecksItDaily) {
@@ -143,13 +145,14 @@ TEST_F(OperatedDeviceTest, AsksForEveryThingThatIsToBeDoneAndWaits) {
     }
     EXPECT_TRUE(device_.view().outcome_is_good) << device_.view().outcome;
   }
-  EXPECT_EQ(asked.size(), 6U);
+  EXPECT_EQ(asked.size(), 7U);
   EXPECT_GE(num_marks, 8);
   EXPECT_FALSE(device_.view().next_step);
 }
 
 TEST_F(OperatedDeviceTest, WhoLeavesOffKeepsWhatWasMeasured) {
   choose();
+  measure(Step::kHoming);
   measure(Step::kNoise);
   device_.set_rehearsing(true);
   device_.measure(Step::kFrame);
@@ -158,7 +161,7 @@ TEST_F(OperatedDeviceTest, WhoLeavesOffKeepsWhatWasMeasured) {
   wait();
   EXPECT_FALSE(device_.view().outcome_is_good);
   EXPECT_NE(device_.view().outcome.find("kept"), std::string::npos) << device_.view().outcome;
-  EXPECT_EQ(device_.view().next_step, 1U);
+  EXPECT_EQ(device_.view().next_step, 2U);
   EXPECT_FALSE(device_.view().stop_is_pressed) << "nobody pressed the emergency stop";
   device_.set_rehearsing(false);
   measure(Step::kFrame);
@@ -175,10 +178,10 @@ TEST_F(OperatedDeviceTest, TheEmergencyStopEndsAStepAndKeepsTheNextFromBeginning
   EXPECT_FALSE(device_.view().outcome_is_good);
   EXPECT_TRUE(device_.view().stop_is_pressed);
   device_.set_rehearsing(false);
-  measure(Step::kNoise);
+  measure(Step::kHoming);
   EXPECT_EQ(device_.view().next_step, 0U);
   device_.release_stop();
-  measure(Step::kNoise);
+  measure(Step::kHoming);
   EXPECT_EQ(device_.view().next_step, 1U);
 }
 
@@ -205,6 +208,31 @@ TEST_F(OperatedDeviceTest, TriesASmallForce) {
   wait();
   EXPECT_NE(device_.view().outcome.find("did not move it"), std::string::npos)
       << device_.view().outcome;
+}
+
+TEST_F(OperatedDeviceTest, ShowsWhatTheDeviceTellsUntilItIsLeft) {
+  choose();
+  device_.watch();
+  wait_until([](const DeviceView& now) { return !now.live.empty(); });
+  EXPECT_EQ(device_.view().live.front().what, "Enabling switch");
+  EXPECT_EQ(device_.view().work, DeviceWork::kWatching);
+  EXPECT_TRUE(device_.is_live()) << "nothing leads away from a device that is open";
+  device_.leave_off();
+  wait();
+  EXPECT_TRUE(device_.view().outcome_is_good) << device_.view().outcome;
+  EXPECT_EQ(device_.view().outcome, "");
+  EXPECT_FALSE(device_.view().stop_is_pressed);
+  measure(Step::kHoming);
+  EXPECT_TRUE(device_.view().outcome_is_good) << "the device is free again";
+}
+
+TEST_F(OperatedDeviceTest, TheEmergencyStopEndsTheWatchingToo) {
+  choose();
+  device_.watch();
+  wait_until([](const DeviceView& now) { return !now.live.empty(); });
+  device_.press_stop();
+  wait();
+  EXPECT_TRUE(device_.view().stop_is_pressed);
 }
 
 TEST_F(OperatedDeviceTest, EndsAtOnceWhileItAsks) {

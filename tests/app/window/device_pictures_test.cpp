@@ -19,8 +19,10 @@ TEST_F(DevicePicturesTest, OfADeviceThatIsCommissionedCheckedAndTried) {
   window_->wait_for_text("twin:seed=7");
   window_->wait_for("measure");
   take("device-first");
-  window_->use("measure");
-  window_->wait_for_text("Frame, by touching marks");
+  for (const char* next : {"Noise and resolution", "Frame, by touching marks"}) {
+    window_->use("measure");
+    window_->wait_for_text(next);
+  }
   window_->use("rehearse");
   window_->use("measure");
   int num_asked = 0;
@@ -55,6 +57,13 @@ TEST_F(DevicePicturesTest, OfADeviceThatIsCommissionedCheckedAndTried) {
   window_->use("push");
   window_->wait_for_text("moved it there");
   take("device-force");
+  window_->use("page_watch");
+  window_->use("watch");
+  window_->wait_for_text("Enabling switch");
+  take("device-watch");
+  window_->use("leave_off");
+  window_->wait_for("page_force");
+  window_->use("page_force");
   window_->press("Escape");
   window_->wait_for("release_stop");
   take("device-stopped");

@@ -47,6 +47,7 @@ class BenchViewTest : public ::testing::Test {
       all.write_profile |= one.write_profile;
       all.check |= one.check;
       all.push |= one.push;
+      all.watch |= one.watch;
       all.answer |= one.answer;
       all.leave_off |= one.leave_off;
       all.stop |= one.stop;
@@ -77,21 +78,20 @@ class BenchViewTest : public ::testing::Test {
 };
 
 TEST_F(BenchViewTest, EnterMeasuresTheStepThatComesNext) {
-  EXPECT_EQ(after({Key::kEnter}).measure, CommissioningStep::kNoise);
+  EXPECT_EQ(after({Key::kEnter}).measure, CommissioningStep::kHoming);
   EXPECT_TRUE(ui_.drawn().shows("no force: it has no profile"));
-  measure_up_to(2);
+  measure_up_to(3);
   EXPECT_EQ(after({Key::kEnter}).measure, CommissioningStep::kForce);
 }
 
 TEST_F(BenchViewTest, AStepThatWaitsForAnotherCannotBeMeasured) {
-  (void)after({Key::kRight});
-  (void)after({Key::kRight});
+  for (int i = 0; i < 3; ++i) (void)after({Key::kRight});
   EXPECT_FALSE(after({Key::kEnter}).measure);
   EXPECT_TRUE(ui_.drawn().shows("A step before it has to be measured first."));
 }
 
 TEST_F(BenchViewTest, AMeasuredStepShowsWhatWasFoundAndIsMeasuredAgainOrUndone) {
-  measure_up_to(2);
+  measure_up_to(3);
   (void)after({Key::kLeft});
   EXPECT_TRUE(ui_.drawn().shows("0.902 N/N"));
   EXPECT_EQ(after({letter('M')}).measure, CommissioningStep::kFrame);
@@ -117,8 +117,8 @@ TEST_F(BenchViewTest, WhatIsAskedIsAnsweredByEnterOrLeftByF2) {
 
 TEST_F(BenchViewTest, WhileItMovesNothingLeadsAwayFromTheStop) {
   has_study_ = true;
-  for (const DeviceWork work :
-       {DeviceWork::kMeasuring, DeviceWork::kChecking, DeviceWork::kTryingForce}) {
+  for (const DeviceWork work : {DeviceWork::kMeasuring, DeviceWork::kChecking,
+                                DeviceWork::kTryingForce, DeviceWork::kWatching}) {
     device_.work = work;
     (void)draw(ui_);
     EXPECT_EQ(ui_.drawn().find("tab_start"), nullptr);
@@ -145,6 +145,18 @@ TEST_F(BenchViewTest, OfARealDeviceAForceIsConfirmedFirst) {
   EXPECT_FALSE(after({Key::kF2}).push);
   device_.is_simulated = true;
   EXPECT_TRUE(after({Key::kEnter}).push) << "nobody can be hurt";
+}
+
+TEST_F(BenchViewTest, WatchingShowsWhatTheDeviceTellsUntilF2) {
+  (void)after({letter('4')});
+  EXPECT_TRUE(after({Key::kEnter}).watch);
+  device_.work = DeviceWork::kWatching;
+  device_.live = {{"Enabling switch", "open: no force"}, {"Buttons", "1 pressed"}};
+  (void)draw(ui_);
+  EXPECT_TRUE(ui_.drawn().shows("open: no force"));
+  EXPECT_TRUE(ui_.drawn().shows("1 pressed"));
+  EXPECT_TRUE(ui_.drawn().shows("has no force"));
+  EXPECT_TRUE(after({Key::kF2}).leave_off);
 }
 
 TEST_F(BenchViewTest, AStopThatIsPressedIsReleasedBeforeAnythingBegins) {
@@ -179,7 +191,7 @@ TEST_F(BenchViewTest, EveryPageFitsOnASmallScreen) {
   HeadlessUi small(1024, 640);
   device_.is_simulated = true;
   measure_up_to(4);
-  for (const Page page : {Page::kCommission, Page::kDaily, Page::kForce}) {
+  for (const Page page : {Page::kCommission, Page::kDaily, Page::kForce, Page::kWatch}) {
     state_.page = page;
     (void)draw(small);
     for (const Drawn::Widget& widget : small.drawn().widgets) {
