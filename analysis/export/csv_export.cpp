@@ -55,6 +55,7 @@ struct SessionRows {
   std::vector<core::EventRow> events;
   std::vector<core::AnswerRow> answers;
   std::vector<QuestionnaireItem> questions;
+  std::vector<ExportedAnswer> question_answers;
 };
 
 class CsvExport {
@@ -105,6 +106,7 @@ class CsvExport {
     CsvTableWriter events = table("events.csv", event_columns());
     CsvTableWriter answers = table("answers.csv", answer_columns());
     CsvTableWriter questionnaires = table("questionnaires.csv", questionnaire_columns());
+    CsvTableWriter after_trials = table("questions.csv", question_columns());
     StudyQuestions questions(store_);
     const auto read_ahead = [&](std::size_t i) {
       return std::async(std::launch::async, [this, &questions, i] {
@@ -124,10 +126,11 @@ class CsvExport {
       write_events(events, session, rows.events);
       write_answers(answers, session, rows.answers);
       write_questionnaire(questionnaires, session, rows.answers, rows.questions);
+      write_questions(after_trials, session, rows.question_answers);
       count(session, rows);
     }
-    for (CsvTableWriter* one :
-         {&sessions, &trials, &presentations, &events, &answers, &questionnaires}) {
+    for (CsvTableWriter* one : {&sessions, &trials, &presentations, &events, &answers,
+                                &questionnaires, &after_trials}) {
       one->finish();
     }
   }
@@ -140,6 +143,7 @@ class CsvExport {
                      .answers = store_.answers(session.session),
                      .questions = questions.of(session)};
     rows.presentations = exported_presentations(store_, session.session, rows.trials);
+    rows.question_answers = exported_question_answers(store_, session.session, rows.trials);
     return rows;
   }
 
@@ -218,6 +222,7 @@ class CsvExport {
         {"events.csv", &event_columns()},
         {"answers.csv", &answer_columns()},
         {"questionnaires.csv", &questionnaire_columns()},
+        {"questions.csv", &question_columns()},
         {"codebook.csv", &codebook_columns()}};
     if (options_.recordings) tables.emplace_back("recordings/gaps.csv", &gap_columns());
     write_codebook(rows, tables);

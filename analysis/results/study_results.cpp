@@ -29,11 +29,14 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
                             const BlockDesign& block, const ResultsOptions& options) {
   if (block.detects()) sections.push_back(detection_results(data, block, options));
   if (block.tells_apart()) sections.push_back(same_different_results(data, block));
+  if (block.identifies()) sections.push_back(identification_results(data, block));
   if (block.is_adaptive()) sections.push_back(adaptive_results(data, block));
   if (block.compares() && has_intervals(data, block)) {
     sections.push_back(interval_results(data, block));
   }
-  if (has_catch_trials(data, block)) sections.push_back(catch_results(data, block));
+  // Of three equal intervals none is a false alarm; which are chosen is told anyway.
+  if (!block.identifies() && has_catch_trials(data, block))
+    sections.push_back(catch_results(data, block));
 }
 
 /// The laboratory names an estimate alone, or with its study before a slash where two studies
@@ -100,6 +103,9 @@ StudyResults results_of(const StudyData& data, const Published& published,
   for (const BlockDesign& block : blocks_that(&BlockDesign::matches, data)) {
     results.sections.push_back(matching_results(data, block, options));
   }
+  for (const BlockDesign& block : blocks_that(&BlockDesign::rates, data)) {
+    results.sections.push_back(rating_results(data, block));
+  }
   if (estimations.size() == 1 && productions.size() == 1 &&
       estimations[0].quantity == productions[0].quantity && estimations[0].counts_in_water()) {
     results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
@@ -109,6 +115,10 @@ StudyResults results_of(const StudyData& data, const Published& published,
   }
   for (const BlockDesign& block : data.blocks) {
     add_threshold_sections(results.sections, data, block, options);
+  }
+  for (const BlockDesign& block : data.blocks) {
+    if (block.written.questions.empty()) continue;
+    results.sections.push_back(question_results(data, block));
   }
   add_blocks_set_aside(results.sections, data);
   for (const ComparedBlocks& pair : compared_blocks(discriminations, options.compared)) {

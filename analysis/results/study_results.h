@@ -160,6 +160,12 @@ struct ResultsOptions {
                                                 const ResultsOptions& options);
 [[nodiscard]] ResultsSection matching_results(const StudyData& data, const BlockDesign& design,
                                               const ResultsOptions& options);
+/// Of blocks that rate: mean and median at each stimulus, rank correlation and trend.
+[[nodiscard]] ResultsSection rating_results(const StudyData& data, const BlockDesign& block);
+/// What was answered to the questions after the trials of a block, section BLOCK_questions; see
+/// `add_rated` for scales, numbers and yes or no. Choices have shares of trials, words stand in
+/// `free_answers`. Who left answers out is named.
+[[nodiscard]] ResultsSection question_results(const StudyData& data, const BlockDesign& block);
 [[nodiscard]] ResultsSection combined_results(const StudyData& data,
                                               const BlockDesign& estimation,
                                               const BlockDesign& production,

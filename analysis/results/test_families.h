@@ -24,6 +24,8 @@ inline constexpr char kAskedNote[] =
     "was "
     "made before anybody saw the data.";
 inline constexpr char kMovementFamily[] = "exploratory, movement";
+/// What ratings and answers to questions go with.
+inline constexpr char kQuestionsFamily[] = "exploratory, ratings and questions";
 
 /// Puts the paired tests of how people moved into one family; the unpaired ones, of the same
 /// hypotheses, are named sensitivity.

@@ -138,8 +138,10 @@ class SimulatedSession {
   }
 
   void run_stage(const Block& block) {
+    player_.answer_questions(block);
     while (session_.state().current_trial()) {
       player_.run_trial(block);
+      player_.answer_questions(block);
       trial_progress();
     }
     const std::string caution =

@@ -1,5 +1,6 @@
 #include "app/session/replay_check.h"
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -24,6 +25,7 @@ class ReplayCheck {
     check_design();
     check_trials();
     check_presentations();
+    check_questions();
   }
 
  private:
@@ -97,6 +99,18 @@ class ReplayCheck {
           row.first_tick != presented.first_tick || row.last_tick != presented.last_tick) {
         problem(row.trial, "presentation");
       }
+    }
+  }
+
+  void check_questions() {
+    std::map<std::int64_t, std::map<std::string, std::string>> rows;
+    for (const core::QuestionAnswerRow& row :
+         store_.question_answers(session_, /*include_excluded=*/true)) {
+      rows[row.trial][row.question] = row.answer;
+    }
+    for (std::size_t i = 0; i < state_.trials.size(); ++i) {
+      const auto number = static_cast<std::int64_t>(i) + 1;
+      if (rows[number] != state_.trials[i].question_answers) problem(number, "questions");
     }
   }
 

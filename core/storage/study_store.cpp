@@ -71,6 +71,7 @@ struct StudyStore::Implementation {
     insert_presentation.emplace(database, insert_into<PresentationRow>("presentation"));
     insert_trial.emplace(database, insert_into<TrialRow>("trial"));
     insert_answer.emplace(database, insert_into<AnswerRow>("answer"));
+    insert_question_answer.emplace(database, insert_into<QuestionAnswerRow>("question_answer"));
     last_sequence.emplace(database,
                           "SELECT COALESCE(MAX(sequence), 0) FROM event WHERE session = ?");
   }
@@ -82,7 +83,7 @@ struct StudyStore::Implementation {
   std::unique_ptr<Database> owner;
   Database& database;
   std::optional<Statement> insert_event, insert_design, insert_presentation, insert_trial,
-      insert_answer, last_sequence;
+      insert_answer, insert_question_answer, last_sequence;
 };
 
 StudyStore::StudyStore(fs::path folder, Mode mode, Durability durability)
@@ -218,6 +219,9 @@ void StudyStore::append(const Commit& commit) {
   for (const AnswerRow& row : commit.answers) {
     insert(row, *my.insert_answer);
   }
+  if (commit.question_answer) {
+    insert(*commit.question_answer, *my.insert_question_answer);
+  }
   transaction.commit();
 }
 
@@ -311,6 +315,19 @@ std::vector<AnswerRow> StudyStore::answers(std::int64_t session) const {
                                                 " WHERE session = ? ORDER BY sequence, item");
   rows.bind(session);
   return read_rows<AnswerRow>(rows);
+}
+
+std::vector<QuestionAnswerRow> StudyStore::question_answers(std::int64_t session,
+                                                            bool include_excluded) const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 select_from<QuestionAnswerRow>("question_answer") +
+                     // As in question_answer_in_force, the trials listed once.
+                     " WHERE session = ?1 AND (trial, attempt) IN"
+                     " (SELECT trial, attempt FROM trial_in_force WHERE session = ?1" +
+                     (include_excluded ? "" : " AND NOT excluded") + ") ORDER BY sequence");
+  rows.bind(session);
+  return read_rows<QuestionAnswerRow>(rows);
 }
 
 bool StudyStore::completed(std::int64_t session) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/participants/perceiver.h"
+#include "experiments/participants/trial_feeling.h"
 #include "experiments/study/study.h"
 
 namespace jnd::experiments {
@@ -39,9 +40,13 @@ class SimulatedParticipant {
 
   [[nodiscard]] const Person& person() const noexcept { return person_; }
   /// In this block: of a solid what is felt is its stiffness, else a damping.
-  [[nodiscard]] const Perceiver& perceiver(const Block& block) const {
-    return block.is_pressed() ? pressing_perceiver_.value() : perceiver_;
+  [[nodiscard]] const Perceiver& perceiver(const Block& block,
+                                           std::string_view interval = "test") const {
+    return block.is_pressed_in(interval) ? pressing_perceiver_.value() : perceiver_;
   }
+  /// A reading of the standard as one of the test: what feels as strong, where one of them is
+  /// pressed and the other is stroked through; else the reading itself.
+  [[nodiscard]] double standard_as_test_ln(const Block& block, double standard_ln) const;
 
   /// Where the hand rests, workspace frame.
   [[nodiscard]] double home_height_m() const;
@@ -57,6 +62,10 @@ class SimulatedParticipant {
   /// Answers to questions on paper.
   [[nodiscard]] std::string answer(const QuestionnaireItem& item) const;
   [[nodiscard]] std::string answer(const PostExperimentItem& item) const;
+  /// To a question after a trial that was felt so, as the laboratory's `Question` of its name
+  /// has it: the share of the way from its least to its greatest answer.
+  [[nodiscard]] std::string answer(const QuestionnaireItem& item,
+                                   const TrialFeeling& feeling) const;
 
  private:
   const Laboratory& laboratory_;

@@ -58,6 +58,27 @@ void check_side(double target, double reference, const StaircaseRule& rule) {
   }
 }
 
+/// Where the right one is found by guessing as well, a rule has to aim higher than that, and
+/// a higher level has to be an easier one.
+void check_identification(double target, double reference, const StaircaseRule& rule,
+                          int num_choices) {
+  constexpr double kRounding = 1e-9;
+  const auto percent = [](double share) {
+    return plain_number(std::round(1000.0 * share) / 10.0) + " %";
+  };
+  if (target < 1.0 / num_choices + kRounding) {
+    throw core::Error("staircase.num_down: expected a rule that aims above " +
+                      percent(1.0 / num_choices) +
+                      ", the share of right answers by guessing, found " + up_down_words(rule) +
+                      ", which aim at " + percent(target) + "; 1 up and 2 down aim at 70.7 %");
+  }
+  if (rule.lowest <= reference) {
+    throw core::Error(
+        "staircase.lowest: expected a level above the reference (" + plain_number(reference) +
+        "), as a lower level has to be a harder one, found " + plain_number(rule.lowest));
+  }
+}
+
 /// Whom the number of trials is reckoned with.
 struct Observer {
   double threshold = 0.0;  ///< Where half of the answers are "yes", unit of the quantity.
@@ -192,6 +213,9 @@ void StaircaseProcedure::check(const Block& block) const {
         "staircase.num_down: expected a rule that aims above or below 50 %, as by chance the "
         "test is chosen in 50 % of two-interval trials, found " +
         up_down_words(rule) + "; 1 up and 2 down aim at 70.7 %");
+  }
+  if (const int num_choices = num_choices_to_guess(task_of(block)); num_choices > 0) {
+    return check_identification(target, *block.reference_intensity, rule, num_choices);
   }
   if (block.reference_intensity) check_side(target, *block.reference_intensity, rule);
 }

@@ -76,6 +76,44 @@ TEST_F(StudyStoreTest, KeepsEventsAcrossReopeningColumnByColumn) {
   EXPECT_EQ(store.sessions()[0].seed, ~0ULL);
 }
 
+TEST_F(StudyStoreTest, AnAnswerToAQuestionStandsAsLongAsThatToItsTrial) {
+  const auto store = with_session();
+  const auto said = [](std::int64_t sequence, std::int64_t trial, std::int64_t attempt) {
+    Commit commit = event(sequence, "question_answered");
+    commit.question_answer = QuestionAnswerRow{.session = 1,
+                                               .trial = trial,
+                                               .attempt = attempt,
+                                               .sequence = sequence,
+                                               .block = "group_d",
+                                               .question = "confidence",
+                                               .answer = std::to_string(sequence)};
+    return commit;
+  };
+  store->append(answered(1, 1, 1.0));
+  store->append(said(2, 1, 1));
+  store->append(answered(3, 2, 1.0));
+  store->append(said(4, 2, 1));
+  ASSERT_EQ(store->question_answers(1).size(), 2U);
+  EXPECT_EQ(store->question_answers(1)[1].answer, "4");
+  EXPECT_EQ(store->question_answers(1)[1].block, "group_d");
+  Commit undone = event(5, "answer_undone");
+  undone.event.trial = 2;
+  undone.event.supersedes = 3;
+  store->append(undone);
+  ASSERT_EQ(store->question_answers(1).size(), 1U) << "gone with the answer to its trial";
+  Commit again = answered(6, 2, 0.0);
+  again.trial->attempt = 2;
+  store->append(again);
+  EXPECT_EQ(store->question_answers(1).size(), 1U) << "that of the first attempt stays gone";
+  store->append(said(7, 2, 2));
+  EXPECT_EQ(store->question_answers(1).size(), 2U);
+  Commit excluded = event(8, "trial_excluded");
+  excluded.event.trial = 1;
+  store->append(excluded);
+  EXPECT_EQ(store->question_answers(1).size(), 1U);
+  EXPECT_EQ(store->question_answers(1, /*include_excluded=*/true).size(), 2U);
+}
+
 TEST_F(StudyStoreTest, TakesAnEventAndItsRowsTogetherOrNotAtAll) {
   const auto store = with_session();
   Commit commit = answered(1, 1, 1.0);
