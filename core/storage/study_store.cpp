@@ -56,6 +56,23 @@ std::unique_ptr<Database> opened(const fs::path& file, StudyStore::Mode mode,
   return database;
 }
 
+/// The rows of the view design_in_force, found in an order that the view leaves open: for each
+/// drawn trial first the answers that were taken back, mostly none, by the index of their kind
+/// (hence the +, which forbids the one of sequences: all events of a session), and the trial's
+/// own answers only where it was drawn for such a one.
+constexpr char kDesignInForce[] =
+    "(SELECT d.* FROM design AS d WHERE NOT EXISTS"
+    " (SELECT 1 FROM event AS undone CROSS JOIN design AS its"
+    "  WHERE its.session = undone.session AND its.trial = undone.trial"
+    "   AND undone.session = d.session AND undone.kind = 'answer_undone'"
+    "   AND +undone.sequence > d.sequence"
+    "   AND CASE WHEN its.sequence < d.sequence THEN NOT EXISTS"
+    "    (SELECT 1 FROM trial AS t"
+    "     WHERE t.session = d.session AND t.trial = d.trial AND t.sequence < undone.sequence"
+    "      AND NOT EXISTS (SELECT 1 FROM event AS later"
+    "       WHERE later.session = t.session AND later.supersedes = t.sequence"
+    "        AND later.sequence < undone.sequence)) END))";
+
 }  // namespace
 
 struct StudyStore::Implementation {
@@ -242,15 +259,19 @@ std::vector<SessionOverview> StudyStore::overview() const {
   Statement rows(
       implementation_->database,
       "SELECT session,"
-      " (SELECT COUNT(*) FROM design_in_force AS d WHERE d.session = s.session),"
-      " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = s.session),"
-      " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
-      "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT 1),"
-      " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
-      "         AND e.kind = 'session_completed'),"
-      " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
-      "         AND e.kind = 'session_ended_early')"
-      " FROM session AS s ORDER BY session");
+      " (SELECT COUNT(*) FROM " +
+          std::string(kDesignInForce) +
+          " AS d WHERE d.session = s.session),"
+          " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = "
+          "s.session),"
+          " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
+          "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT "
+          "1),"
+          " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
+          "         AND e.kind = 'session_completed'),"
+          " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
+          "         AND e.kind = 'session_ended_early')"
+          " FROM session AS s ORDER BY session");
   std::vector<SessionOverview> all;
   while (rows.step()) {
     all.push_back({.session = rows.integer(0),
@@ -274,7 +295,7 @@ std::vector<EventRow> StudyStore::events(std::int64_t session) const {
 std::vector<DesignRow> StudyStore::design(std::int64_t session, bool include_voided) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 select_from<DesignRow>(include_voided ? "design" : "design_in_force") +
+                 select_from<DesignRow>(include_voided ? "design" : kDesignInForce) +
                      " WHERE session = ? ORDER BY trial");
   rows.bind(session);
   return read_rows<DesignRow>(rows);

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "core/random_stream.h"
 #include "core/storage/database.h"
 #include "support/temporary_folder.h"
 
@@ -323,6 +324,35 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnWithTheTrialStays) {
   answer(1);
   undo(1);
   EXPECT_EQ(in_force(), (Trials{1, 2, 3}));
+}
+
+/// The store looks for them in another order than the view does.
+TEST_F(AdaptiveTrialsTest, WhatIsInForceIsWhatTheViewSays) {
+  RandomStream random(7, "acts of a session");
+  std::int64_t num_trials = 0;
+  int num_undone = 0, num_voided = 0;
+  for (int act = 0; act < 400; ++act) {
+    const std::int64_t next = static_cast<std::int64_t>(store_->trials(1).size()) + 1;
+    const std::vector<std::int64_t> drawn = in_force();
+    if (next > 1 && random.with_probability(0.35)) {
+      undo(store_->trials(1).back().trial);
+      ++num_undone;
+    } else if (static_cast<std::size_t>(next) <= drawn.size()) {
+      answer(drawn[static_cast<std::size_t>(next) - 1]);
+    } else {
+      draw(++num_trials);
+    }
+    Trials by_view;
+    Database database(folder() / "study.sqlite", Database::Mode::kReadOnly,
+                      Durability::kEveryCommit);
+    Statement rows(database, "SELECT trial FROM design_in_force WHERE session = 1 ORDER BY 1");
+    while (rows.step()) by_view.push_back(rows.integer(0));
+    ASSERT_EQ(in_force(), by_view) << "after act " << act;
+    num_voided = static_cast<int>(num_trials) - static_cast<int>(by_view.size());
+    ASSERT_EQ(store_->overview().front().num_trials, std::ssize(by_view));
+  }
+  EXPECT_GT(num_undone, 50);
+  EXPECT_GT(num_voided, 10) << "the comparison has to be of something";
 }
 
 TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {
